@@ -1,0 +1,5 @@
+//! Exact proofs of where self-similar shapes have tangents.
+#![warn(clippy::float_arithmetic)]
+
+pub mod arith;
+pub mod linalg;
