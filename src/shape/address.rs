@@ -1,0 +1,210 @@
+use super::Shape;
+use crate::linalg::Matrix;
+use std::fmt;
+use thiserror::Error;
+
+/// An eventually periodic address `prefix (cycle)^ω` (theory §1, §3).
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Address {
+    /// Letters before the cycle.
+    pub prefix: Vec<usize>,
+    /// The repeated letters; not empty.
+    pub cycle: Vec<usize>,
+}
+
+/// Why an address cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum AddressError {
+    /// Not of the form `01(10)`.
+    #[error(
+        "`{0}` is not an address; write the letters and then the repeated ones in brackets, as in `0(1)` or `3,12(0,4)`"
+    )]
+    Malformed(String),
+    /// A letter that the state does not have.
+    #[error("letter {letter} at position {position} does not exist: state `{state}` has pieces 0 to {last}")]
+    Letter {
+        /// The letter.
+        letter: usize,
+        /// Its position, from 0.
+        position: usize,
+        /// The state in which it was read.
+        state: String,
+        /// The last letter of that state.
+        last: usize,
+    },
+}
+
+impl Address {
+    /// The address `(cycle)^ω`.
+    #[must_use]
+    pub fn periodic(cycle: Vec<usize>) -> Self {
+        Self { prefix: Vec::new(), cycle }
+    }
+
+    /// Reads `01(10)`: one digit a letter, or letters separated by commas.
+    ///
+    /// # Errors
+    /// [`AddressError::Malformed`].
+    pub fn parse(text: &str) -> Result<Self, AddressError> {
+        let malformed = || AddressError::Malformed(text.to_owned());
+        let body = text.trim().strip_suffix(')').ok_or_else(malformed)?;
+        let (prefix, cycle) = body.split_once('(').ok_or_else(malformed)?;
+        let commas = body.contains(',');
+        let word = |part: &str| -> Option<Vec<usize>> {
+            let part = part.trim().trim_end_matches(',');
+            if part.is_empty() {
+                return Some(Vec::new());
+            }
+            if commas {
+                part.split(',').map(|s| s.trim().parse().ok()).collect()
+            } else {
+                part.chars().map(|c| c.to_digit(10).map(|d| d as usize)).collect()
+            }
+        };
+        let (prefix, cycle) = (word(prefix).ok_or_else(malformed)?, word(cycle).ok_or_else(malformed)?);
+        if cycle.is_empty() || prefix.len() + cycle.len() > 10_000 {
+            return Err(malformed());
+        }
+        Ok(Self { prefix, cycle })
+    }
+
+    /// The same address, written so that the cycle returns to its own state: the cycle is a true loop of the
+    /// automaton from `start`, as short as possible, and the prefix as short as possible.
+    ///
+    /// # Errors
+    /// [`AddressError::Letter`] where a letter does not exist.
+    pub fn normalise(&self, shape: &Shape, start: usize) -> Result<Self, AddressError> {
+        let letter = |k: usize| {
+            if k < self.prefix.len() { self.prefix[k] } else { self.cycle[(k - self.prefix.len()) % self.cycle.len()] }
+        };
+        let mut state = start;
+        let mut seen: Vec<(usize, usize)> = Vec::new();
+        let mut letters = Vec::new();
+        let loop_start = loop {
+            let k = letters.len();
+            if k >= self.prefix.len() {
+                let key = (state, (k - self.prefix.len()) % self.cycle.len());
+                if let Some(at) = seen.iter().position(|s| *s == key) {
+                    break self.prefix.len() + at;
+                }
+                seen.push(key);
+            }
+            let i = letter(k);
+            let pieces = &shape.states[state].pieces;
+            if i >= pieces.len() {
+                let state = shape.states[state].name.clone();
+                return Err(AddressError::Letter { letter: i, position: k, state, last: pieces.len() - 1 });
+            }
+            letters.push(i);
+            state = pieces[i].target;
+        };
+        let states = shape.path(start, &letters);
+        let cycle = &letters[loop_start..];
+        let period = (1..=cycle.len())
+            .find(|&p| {
+                cycle.len() % p == 0
+                    && (0..cycle.len()).all(|k| {
+                        cycle[k] == cycle[(k + p) % cycle.len()]
+                            && states[loop_start + k] == states[loop_start + (k + p) % cycle.len()]
+                    })
+            })
+            .unwrap_or(cycle.len());
+        let mut cycle = cycle[..period].to_vec();
+        let mut prefix = letters[..loop_start].to_vec();
+        // Fold trailing prefix letters into the cycle while both the letter and the state agree.
+        while let Some(&last) = prefix.last() {
+            let before = states[prefix.len() - 1];
+            let in_cycle = states[prefix.len() - 1 + period];
+            if last == cycle[period - 1] && before == in_cycle {
+                prefix.pop();
+                cycle.rotate_right(1);
+            } else {
+                break;
+            }
+        }
+        Ok(Self { prefix, cycle })
+    }
+}
+
+impl fmt::Display for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let commas = self.prefix.iter().chain(&self.cycle).any(|&i| i > 9);
+        if commas {
+            let join = |w: &[usize]| w.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+            let sep = if self.prefix.is_empty() { "" } else { "," };
+            let tail = if self.prefix.len() + self.cycle.len() == 1 { "," } else { "" };
+            write!(f, "{}{sep}({}{tail})", join(&self.prefix), join(&self.cycle))
+        } else {
+            write!(f, "{}({})", word_text(&self.prefix), word_text(&self.cycle))
+        }
+    }
+}
+
+/// A word written as one digit a letter, or with commas where a letter needs two digits.
+#[must_use]
+pub fn word_text(word: &[usize]) -> String {
+    let sep = if word.iter().any(|&i| i > 9) { "," } else { "" };
+    word.iter().map(ToString::to_string).collect::<Vec<_>>().join(sep)
+}
+
+impl Shape {
+    /// The states passed when `word` is read from `start`: `word.len() + 1` of them.
+    ///
+    /// # Panics
+    /// If a letter does not exist.
+    #[must_use]
+    pub fn path(&self, start: usize, word: &[usize]) -> Vec<usize> {
+        let mut states = vec![start];
+        for &i in word {
+            let state = states[states.len() - 1];
+            states.push(self.states[state].pieces[i].target);
+        }
+        states
+    }
+
+    /// The product `T_{w1} … T_{wk}` read from `start`, and the state where the word ends.
+    ///
+    /// # Panics
+    /// If a letter does not exist.
+    #[must_use]
+    pub fn product(&self, start: usize, word: &[usize]) -> (Matrix, usize) {
+        let mut state = start;
+        let mut product = Matrix::identity(self.states[start].dim);
+        for &i in word {
+            let piece = &self.states[state].pieces[i];
+            product = &product * &piece.op;
+            state = piece.target;
+        }
+        (product, state)
+    }
+
+    /// The point with a normalised address: `T_prefix q` with `q` the fixed point of `T_cycle`.
+    ///
+    /// Returns `None` where the fixed point is not unique (the system does not contract).
+    ///
+    /// # Panics
+    /// If a letter does not exist.
+    #[must_use]
+    pub fn point(&self, start: usize, address: &Address) -> Option<Vec<crate::arith::Rational>> {
+        let (prefix, state) = self.product(start, &address.prefix);
+        let (cycle, _) = self.product(state, &address.cycle);
+        Some(prefix.apply(&fixed_point(&cycle)?))
+    }
+}
+
+/// The unique fixed point with coordinate sum 1 of a square operator with column sums 1, if unique.
+#[must_use]
+pub fn fixed_point(operator: &Matrix) -> Option<Vec<crate::arith::Rational>> {
+    use crate::arith::Rational;
+    let n = operator.rows();
+    let kernel = (operator - &Matrix::identity(n)).kernel();
+    if kernel.cols() != 1 {
+        return None;
+    }
+    let v = kernel.column(0);
+    let sum = v.iter().fold(Rational::from(0), |s, x| s + x);
+    if sum == 0 {
+        return None;
+    }
+    Some(v.into_iter().map(|x| x / &sum).collect())
+}
