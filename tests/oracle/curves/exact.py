@@ -120,21 +120,27 @@ class Branch:
         out.sort(key=lambda t: -t[0])
         return out, chi
 
-    def enclose(self, rows, prefix_states, depth=40, most=60000):
+    def enclose(self, rows, prefix_states, depth=400, most=40000):
         """Branch and bound: signs of the single functional, or 'no zero' for several rows, on a ring part."""
-        centre, ops, rad = self.balls.centre, self.balls.ops, self.balls.radius
+        hull, ops = self.balls.hull, self.balls.ops
         q = np.array([float(x) for x in self.q])
         signs, todo, steps = set(), [(m, s, 0) for m, s in prefix_states], 0
+        if len(rows) == 1 and self.case.edge:  # both signs at points far from zero settle it
+            for m, s in prefix_states:
+                values = (rows @ m @ self.samples(s)).ravel() - (rows @ q)[0]
+                signs |= {int(np.sign(v)) for v in values if abs(v) > 1e-6 * np.abs(values).max()}
+            if {1, -1} <= signs:
+                return signs
         scale = np.abs(rows).sum(axis=1) + 1e-300
         while todo:
             m, s, d = todo.pop()
             steps += 1
             t = rows @ m
-            mid = t @ centre[s] - rows @ q
-            half = 0.5 * (t.max(axis=1) - t.min(axis=1)) * rad
-            ok = np.abs(mid) > half + 1e-13 * scale
+            ext = t @ hull[s] - (rows @ q)[:, None]
+            lo, hi = ext.min(axis=1), ext.max(axis=1)
+            ok = (lo > 1e-13 * scale) | (hi < -1e-13 * scale)
             if ok.any():
-                signs.add(int(np.sign(mid[0])) if len(rows) == 1 else 1)
+                signs.add((1 if lo[0] > 0 else -1) if len(rows) == 1 else 1)
             elif d >= depth or steps > most:
                 signs.add(None)
                 if steps > most:
@@ -144,6 +150,18 @@ class Branch:
             if len(rows) == 1 and {1, -1} <= signs:
                 break
         return signs
+
+    def samples(self, s):
+        """Points of A_s at random words, as columns."""
+        rng = np.random.default_rng(1)
+        pts = {e: self.balls.centre[e].reshape(-1, 1) for e in self.case.states}
+        for _ in range(9):
+            new = {}
+            for e in pts:
+                all_ = np.hstack([op @ pts[t] for op, t in self.balls.ops[e]])
+                new[e] = all_[:, rng.permutation(all_.shape[1])[:600]]
+            pts = new
+        return pts[s]
 
     def ring(self):
         """The parts before and after, as (matrix, state) lists."""
@@ -415,6 +433,8 @@ def certify(case):
         bad = spectral_refutation(case)
         return None, ("error", "secant::shape::contraction", str(bad)), balls
     spaces = relevant_spaces(case)
+    if len(case.states) == 1 and len(spaces[case.start]) == 2 and balls.tau > 0.6:
+        balls.sharpen(case.start, spaces[case.start], Branch(case, spaces, balls, *normalise(case, case.start, [], [0])).samples(case.start))
     rows = []
     for label, branches in points(case, spaces):
         sides = {}

@@ -200,27 +200,66 @@ def tau(m):
 class Balls:
     """1-norm balls B(c_e, r_e) that hold the attractors (floating point, for the oracle only)."""
 
-    def __init__(self, case, deepest=120, most=20000, bound=0.98):
+    def __init__(self, case):
         self.case = case
         self.ops = {e: [(np.array([[float(x) for x in r] for r in p.op]), p.target) for p in st.pieces]
                     for e, st in case.states.items()}
         self.centre = {e: np.array([float(x) for x in point(case, e, *normalise(case, e, [], [0]))])
                        for e in case.states}
         self.length = self.tau = None
+        for bound in (0.5, 0.8, 0.98):
+            if self.cover(case, bound):
+                break
+
+    def cover(self, case, bound, deepest=160, most=4000):
+        """A complete prefix code of words with tau < bound, and the radius that follows."""
         longest, worst, radius, code = 0, 0.0, 0.0, 0
         todo = [(np.eye(case.states[e].dim), e, e, 0) for e in case.states]
-        while todo:  # a complete prefix code of words that contract
+        while todo:
             m, s, e, k = todo.pop()
             if k and (t := tau(m)) < bound:
                 code += 1
                 longest, worst = max(longest, k), max(worst, t)
                 radius = max(radius, np.abs(m @ self.centre[s] - self.centre[e]).sum() / (1 - t))
-            elif k >= deepest or len(todo) > most:
-                return
+            elif k >= deepest or code > most:
+                return False
             else:
                 todo += [(m @ op, t, e, k + 1) for op, t in self.ops[s]]
         self.length, self.tau, self.words = longest, worst, code
         self.radius = radius * 1.000001 + 1e-12
+        self.hull = {}
+        for e in case.states:
+            n, c = case.states[e].dim, self.centre[e]
+            cols = [c + self.radius / 2 * (np.eye(n)[i] - np.eye(n)[j]) for i in range(n) for j in range(n) if i != j]
+            self.hull[e] = np.array(cols or [c]).T
+        return True
+
+    def sharpen(self, e, basis, samples):
+        """One state, plane V: a ball in the norm of the polygon of conv(A - A), taken from samples, in place of the
+        1-norm. Any symmetric polygon gives a valid norm; this one makes the maps contract at once."""
+        b = np.array([[float(x) for x in v] for v in basis]).T
+        coords = np.linalg.pinv(b)
+        pts = coords @ (samples - self.centre[e][:, None])
+        ang = np.pi * np.arange(24) / 24
+        normals = np.stack([np.cos(ang), np.sin(ang)])
+        ext = normals.T @ pts
+        width = ext.max(axis=1) - ext.min(axis=1)
+        normals = np.hstack([normals, -normals]) / np.hstack([width, width])
+        verts = np.array([np.linalg.solve(normals[:, [k, (k + 1) % 48]].T, [1, 1]) for k in range(48)]).T
+        norm = lambda x: (normals.T @ x).max()
+        radius, todo, code = 0.0, [(np.eye(len(samples)), 0)], 0
+        while todo:
+            m, k = todo.pop()
+            t = norm(coords @ m @ b @ verts)
+            if k and t < 0.7:
+                code += 1
+                radius = max(radius, norm(coords @ (m @ self.centre[e] - self.centre[e])) / (1 - t))
+            elif k > 200 or code > 2000:
+                radius = 1.1  # slow contraction: the sampled hull with a margin of a tenth (not rigorous)
+                break
+            else:
+                todo += [(m @ op, k + 1) for op, _ in self.ops[e]]
+        self.hull[e] = self.centre[e][:, None] + b @ verts * radius * 1.000001
 
 
 def spectral_refutation(case, longest=8):
