@@ -13,7 +13,7 @@ import sympy as sp
 import casefile
 from linear import apply, kernel, matmul, rank, rref, solve, transpose
 from model import (Balls, adjacency_errors, edge_ends, end_address, joint_branches, moving, normalise, operator,
-                   orientation, path, point, reachable, relevant_spaces, spectral_refutation)
+                   orientation, path, point, reachable, relevant_spaces, spectral_refutation, words)
 
 mpmath.mp.dps = 50
 X = sp.Symbol("x")
@@ -111,8 +111,7 @@ class Branch:
             deg = pf.degree()
             steps = [s // deg for s in steps]
             longest, count = len(steps), steps[-1]
-            roots = [mpmath.mpmathify(str(sp.N(z, 50)).replace("*I", "j").replace(" ", "")) if False else
-                     mpmath.mpc(*[mpmath.mpf(str(t)) for t in sp.N(z, 50).as_real_imag()]) for z in pf.nroots(n=50, maxsteps=500)]
+            roots = [mpmath.mpc(*[mpmath.mpf(str(t)) for t in sp.N(z, 50).as_real_imag()]) for z in pf.nroots(n=50, maxsteps=500)]
             for z in roots:
                 if abs(z.imag) < mpmath.mpf(10) ** -40:
                     z = mpmath.mpc(z.real, 0)
@@ -225,6 +224,7 @@ class Branch:
         lam = lam.real
         v, row = self.leading(f, mult, lam, ell, chi)
         info = dict(direction=self.image(v, lam), poly=poly_text(f))
+        self.row = row
         if info["direction"] is None:
             return same("unknown", "G kills the dominant direction", poly=poly_text(f))
         rows = np.array([[float(x) for x in self.covector(row)]])
@@ -237,9 +237,11 @@ class Branch:
         what = f"lambda = {mpmath.nstr(lam, 8)}, block {ell}; signs " + str(
             {("left", "right")[flip(s) > 0] if curve else "all": sorted(map(str, sg[s])) for s in present})
         if not clean:
+            if not mixed and self.dim > 1 and isolated and full and ell == 1 and (wit := self.witness()):
+                return same("plane", what + f"; null component at the ring point {wit} (Theorem 4)", poly=poly_text(f))
             if self.dim == 1:
                 return same("line", what + "; dimension 1 trivially, rays not decided", **info)
-            if mixed and isolated and full and (ell == 1 or (ell == 2 and len(top) == 2)):
+            if mixed and isolated and full and (ell == 1 or (ell == 2 and len(top) == 1 and top[0][3] == 2)):
                 return same("plane", what + "; null component in the ring (sign change), isolated", poly=poly_text(f))
             return same("unknown", what + f"; ring condition fails or is open; isolated: {isolated}", poly=poly_text(f))
         d = info["direction"]
@@ -267,12 +269,26 @@ class Branch:
                 out[s] = [pick(sig[s])] if one else [d, neg]
         return {flip(s): Side("line", f"{text}; {what}", out[s], **info) for s in present}
 
+    def witness(self):
+        """A ring point, given by a short address, where the dominant functional vanishes exactly."""
+        g = self.covector(self.row)
+        if not isinstance(g[0], Fraction) or len(self.cycle) > 1:
+            return None
+        n = len(self.case.states[self.state].pieces)
+        for w in words(self.case, self.state, 3):
+            if w[0][0] == self.cycle[0]:
+                continue
+            for tail in (0, n - 1):
+                a = normalise(self.case, self.state, list(w[0]), [tail])
+                x = point(self.case, self.state, *a)
+                if sum(c * (u - v) for c, u, v in zip(g, x, self.q)) == 0:
+                    return casefile.show_address(*a)
+        return None
+
     def isolated(self, parts):
         """0 is not in the image of the ring under the functionals of the nonzero eigenvalues (floating enclosures)."""
         red, _ = rref(power(self.l, self.dim))
         rows = np.array([[float(x) for x in r] for r in matmul(red, self.f)])
-        if len(rows) == 1:
-            return None not in self.enclose(rows, parts) if False else None not in self.enclose_any(rows, parts)
         return None not in self.enclose_any(rows, parts)
 
     def enclose_any(self, rows, parts):
@@ -286,7 +302,7 @@ class Branch:
             lm = np.array([[complex(float(x)) for x in r] for r in self.l]) - complex(z) * np.eye(n)
             p = np.linalg.matrix_power(lm, ell - 1)
             ns = np.linalg.svd(np.linalg.matrix_power(lm, ell))
-            null = ns[2].conj().T[:, ns[1] < 1e-9 * max(ns[1][0], 1)] if True else None
+            null = ns[2].conj().T[:, ns[1] < 1e-9 * max(ns[1][0], 1)]
             im = p @ null
             cols += [im.real, im.imag]
         return np.hstack(cols)
@@ -304,13 +320,10 @@ class Branch:
         else:
             n = self.dim
             a = mpmath.matrix([[mpmath.mpf(x.numerator) / x.denominator for x in r] for r in self.l])
-            h = sp.Poly(chi, X).all_roots if False else None
-            spec, _ = self.spectrum()
             m = mpmath.eye(n)
             c = lam ** (ell - 1)
             for _ in range(ell - 1):
                 m = m * (a - lam * mpmath.eye(n))
-            skipped = 0
             for _, z, _, _, _, _ in self.full_spectrum(chi):
                 if abs(z - lam) < mpmath.mpf(10) ** -30:
                     continue
@@ -439,7 +452,6 @@ def certify(case):
     for label, branches in points(case, spaces):
         sides = {}
         for b in branches:
-            local = not (label.startswith("joint") and case.states[case.start].kind == "edge" and False)
             for s, side in Branch(case, spaces, balls, *b).analyse().items():
                 sides[s] = side
         left, right = sides.get(-1), sides.get(1)
