@@ -2,5 +2,7 @@
 #![warn(clippy::float_arithmetic)]
 
 pub mod arith;
+pub mod case;
+pub mod diagnostic;
 pub mod linalg;
 pub mod shape;
