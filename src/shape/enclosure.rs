@@ -1,0 +1,80 @@
+//! Balls that hold the attractors, and what a functional does on a cell (theory §7).
+
+use super::contraction::{Contracting, norm1};
+use super::{Shape, Spaces, difference};
+use crate::arith::{Interval, Rational};
+use crate::linalg::dot;
+
+/// For every reachable state a ball `B(base, radius)` of the 1-norm that holds its attractor.
+#[derive(Debug, Clone)]
+pub struct Balls {
+    radius: Vec<Rational>,
+}
+
+impl Balls {
+    /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
+    #[must_use]
+    pub fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
+        let mut shifts: Vec<Vec<(Rational, &Rational, usize)>> = Vec::new();
+        for (e, code) in proof.codes.iter().enumerate() {
+            let shift = |c: &super::ContractingWord| {
+                let (op, _) = shape.product(e, &c.word);
+                norm1(&difference(&op.apply(&spaces.of(c.end).base), &spaces.of(e).base))
+            };
+            shifts.push(code.iter().map(|c| (shift(c), &c.tau, c.end)).collect());
+        }
+        let common = shifts
+            .iter()
+            .flatten()
+            .map(|(shift, tau, _)| shift / (Rational::from(1) - *tau))
+            .max()
+            .unwrap_or_else(|| Rational::from(0));
+        let mut radius = vec![round_up(&common); shape.states.len()];
+        // Each round starts from valid radii and is therefore valid itself.
+        for _ in 0..8 {
+            radius = shifts
+                .iter()
+                .zip(&radius)
+                .map(|(words, old)| {
+                    let bound = words.iter().map(|(shift, tau, end)| shift + *tau * &radius[*end]).max();
+                    bound.map_or_else(|| Rational::from(0), |b| round_up(&b)).min(old.clone())
+                })
+                .collect();
+        }
+        Self { radius }
+    }
+
+    /// The radius at a state.
+    #[must_use]
+    pub fn radius(&self, state: usize) -> &Rational {
+        &self.radius[state]
+    }
+
+    /// A bound of the 1-norm of all points of the attractor.
+    #[must_use]
+    pub fn norm_bound(&self, spaces: &Spaces, state: usize) -> Rational {
+        norm1(&spaces.of(state).base) + &self.radius[state]
+    }
+
+    /// Encloses `row · a` for all `a` in the attractor of `state`; `row` is already multiplied by the operator of the cell.
+    #[must_use]
+    pub fn enclose(&self, spaces: &Spaces, state: usize, row: &[Rational]) -> Interval {
+        let centre = dot(row, &spaces.of(state).base);
+        let spread = oscillation(row) / Rational::from(2) * &self.radius[state];
+        Interval { lo: &centre - &spread, hi: centre + spread }
+    }
+}
+
+/// `max − min` of the entries.
+#[must_use]
+pub fn oscillation(row: &[Rational]) -> Rational {
+    match (row.iter().max(), row.iter().min()) {
+        (Some(hi), Some(lo)) => hi - lo,
+        _ => Rational::from(0),
+    }
+}
+
+/// The next multiple of 2^-16, so that radii stay short.
+fn round_up(x: &Rational) -> Rational {
+    Interval::point(x.clone()).outward(16).hi
+}

@@ -1,0 +1,347 @@
+//! What the program says: verdicts, points, rays, and the evidence for each.
+
+use super::direction::Direction;
+use super::ring::{RingPiece, RingProof, Witness};
+use crate::arith::Rational;
+use crate::jordan::Spectrum;
+use crate::linalg::Matrix;
+use crate::shape::{Address, Contraction};
+
+/// The three answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Verdict {
+    /// The claim holds, by a numbered statement whose hypotheses were decided exactly.
+    Proved,
+    /// The claim fails, with a witness.
+    Refuted,
+    /// Not decided; the reason and the place are given.
+    Undetermined,
+}
+
+impl Verdict {
+    /// `proved`, `refuted` or `undetermined`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::Refuted => "refuted",
+            Self::Undetermined => "undetermined",
+        }
+    }
+
+    /// The verdict on "both": refuted if one is refuted, proved if both are.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Refuted, _) | (_, Self::Refuted) => Self::Refuted,
+            (Self::Proved, Self::Proved) => Self::Proved,
+            _ => Self::Undetermined,
+        }
+    }
+}
+
+/// The statement of `docs/theory.md` that was applied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Statement {
+    /// Theorem 2, complete set of eigenvectors.
+    Theorem2,
+    /// Theorem 3, incomplete set (Jordan blocks).
+    Theorem3,
+    /// Theorem 4, null component.
+    Theorem4,
+    /// The corollary: `U ⊂ D*` with no ring condition.
+    Corollary,
+    /// The corollary where the visible relevant space is a line: `U ⊂ D* ⊂ V`.
+    CorollaryLine,
+    /// The precise statement of §6 for one real block of length 2.
+    Section6,
+    /// The joint rule of §9.
+    Joint,
+    /// Theorem 5, a dense set by finitely many checks.
+    Theorem5,
+}
+
+/// Kinds of points (theory §2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// An end point with one ray.
+    HalfTangent,
+    /// One ray on each side, opposite.
+    Regular,
+    /// One ray on each side, equal.
+    Cusp,
+    /// Both rays on a side; the line exists.
+    Oscillating,
+    /// One ray on each side, on different lines.
+    Corner,
+    /// No tangent line, or none known.
+    None,
+}
+
+impl Kind {
+    /// The kind's name.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::HalfTangent => "half-tangent",
+            Self::Regular => "regular",
+            Self::Cusp => "cusp",
+            Self::Oscillating => "oscillating",
+            Self::Corner => "corner",
+            Self::None => "none",
+        }
+    }
+}
+
+/// Where a point sits in its curve.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Role {
+    /// The left end of the start state.
+    LeftEnd,
+    /// The right end of the start state.
+    RightEnd,
+    /// The joint between pieces `left` and `right` of the state reached by `path` from the start state.
+    Joint {
+        /// The path to the state.
+        path: Vec<usize>,
+        /// The state.
+        state: usize,
+        /// The piece that ends there.
+        left: usize,
+        /// The piece that begins there.
+        right: usize,
+    },
+    /// A point inside a curve with a periodic address.
+    Interior,
+    /// A point of a shape that is no curve.
+    SetPoint,
+}
+
+/// The dimension of the tangent subspace `D*`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Dimension {
+    /// A proved lower bound.
+    pub at_least: usize,
+    /// Whether the bound is the dimension.
+    pub exact: bool,
+}
+
+/// Which parts of the curve a branch describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// Points with smaller parameters.
+    Left,
+    /// Points with larger parameters.
+    Right,
+    /// Both.
+    Both,
+}
+
+/// The rays of a branch, per side of the point in the start curve; each list has at most two entries.
+#[derive(Debug, Clone)]
+pub struct Rays {
+    /// Limit rays of points before.
+    pub left: Vec<Direction>,
+    /// Limit rays of points after.
+    pub right: Vec<Direction>,
+}
+
+/// How fast secants turn towards the tangent (theory §5, Rates), per turn of the cycle.
+#[derive(Debug, Clone)]
+pub enum Rate {
+    /// `O(m^power (ρ_2/ρ_1)^m)`; the classes are those of the branch's spectrum, in order.
+    Geometric {
+        /// `ρ_2/ρ_1`, as the two eigenvalues whose moduli are compared.
+        slower: crate::algebraic::Root,
+        /// The dominant eigenvalue.
+        dominant: crate::algebraic::Root,
+        /// One less than the longest block of modulus `ρ_2`.
+        power: usize,
+    },
+    /// `O(1/m)`: a Jordan block at the top.
+    Harmonic,
+    /// The cell lies on the line.
+    Exact,
+}
+
+/// The local Hölder exponent `ln ρ / ln s` (theory §8).
+#[derive(Debug, Clone)]
+pub struct Holder {
+    /// The dominant eigenvalue, whose modulus is `ρ`.
+    pub eigenvalue: crate::algebraic::Root,
+    /// The parameter contraction `s` of one turn of the cycle.
+    pub scale: Rational,
+    /// `ℓ`: with a longest block of size `ℓ+1 > 1` the quotient diverges like `m^ℓ`.
+    pub power: usize,
+}
+
+/// What was found at a branch.
+#[derive(Debug, Clone)]
+pub enum Outcome {
+    /// The tangent subspace is a line.
+    Line {
+        /// The statement applied.
+        statement: Statement,
+        /// Indices of the eigenvalue: factor and root of the branch's spectrum.
+        eigenvalue: (usize, usize),
+        /// Length of the longest block of the top modulus.
+        block: usize,
+        /// The functional of the ring condition on the visible quotient (entries in Q(λ)).
+        functional: Vec<crate::algebraic::Elem>,
+        /// The proof of the ring condition; `None` for [`Statement::CorollaryLine`] where rays could not be settled.
+        proof: Option<RingProof>,
+        /// The direction `G v` in the space where the shape is looked at.
+        direction: Direction,
+        /// Its rays; empty lists on both sides where they are not settled.
+        rays: Rays,
+        /// Rate of convergence.
+        rate: Rate,
+        /// Local Hölder exponent.
+        holder: Holder,
+    },
+    /// `D*` has more dimensions than a line.
+    AtLeast {
+        /// Lower bound of the dimension.
+        dimension: usize,
+        /// The statement applied.
+        statement: Statement,
+        /// Eigenvalues that span the part of `D*` found: factor and root of the branch's spectrum.
+        eigenvalues: Vec<(usize, usize)>,
+        /// The proof that the branch is isolated, where the statement needs it.
+        isolation: Option<RingProof>,
+        /// The point or sign change that refutes the ring condition, where the statement needs it.
+        witness: Option<Witness>,
+    },
+    /// There are no points of the shape near the point on this branch.
+    NoGerm {
+        /// Why.
+        reason: String,
+    },
+    /// Not decided.
+    Open {
+        /// Why.
+        reason: String,
+        /// The smallest unresolved cell or the obstacle found, as a word from the branch's state.
+        place: Option<Vec<usize>>,
+        /// A proved lower bound of `dim D*`.
+        at_least: usize,
+    },
+}
+
+/// One branch `u w^ω` and all that was computed for it.
+#[derive(Debug, Clone)]
+pub struct BranchReport {
+    /// Which side of the point it describes.
+    pub side: Side,
+    /// Its address from the start state.
+    pub address: Address,
+    /// The state of the cycle.
+    pub state: usize,
+    /// `+1` or `-1`: the product of orientation signs along the prefix.
+    pub prefix_sign: i32,
+    /// `+1` or `-1`: the product of orientation signs along the cycle.
+    pub cycle_sign: i32,
+    /// `M = T_w`.
+    pub cycle_operator: Matrix,
+    /// The fixed point `q` of `M`.
+    pub fixed: Vec<Rational>,
+    /// `G = P T_u`, from the state's space to the space where the shape is looked at.
+    pub transport: Matrix,
+    /// Dimension of `V`, the relevant space of the state.
+    pub relevant: usize,
+    /// Coordinates on the visible quotient `Y = V/N_G`: `Y`-coordinates of `x` are `chart (x − q)`.
+    pub chart: Matrix,
+    /// `L` on `Y`.
+    pub linear: Matrix,
+    /// `G` on `Y`.
+    pub view: Matrix,
+    /// The spectrum of `L` on `Y`.
+    pub spectrum: Spectrum,
+    /// The ring.
+    pub ring: Vec<RingPiece>,
+    /// What follows.
+    pub outcome: Outcome,
+}
+
+/// One examined point.
+#[derive(Debug, Clone)]
+pub struct PointReport {
+    /// Where it sits.
+    pub role: Role,
+    /// The point in the barycentric space of the start state.
+    pub position: Vec<Rational>,
+    /// Its image under the control points.
+    pub image: Option<Vec<Rational>>,
+    /// Its branches; of a joint the left one first.
+    pub branches: Vec<BranchReport>,
+    /// Whether the shape is differentiable of dimension 1 there.
+    pub verdict: Verdict,
+    /// The kind.
+    pub kind: Kind,
+    /// Dimension of `D*`.
+    pub dimension: Dimension,
+    /// The tangent line, where it exists.
+    pub tangent: Option<Direction>,
+    /// Rays on the left side (none at a left end or where they are not settled).
+    pub left: Vec<Direction>,
+    /// Rays on the right side.
+    pub right: Vec<Direction>,
+    /// Why, in words, where the verdict is not `Proved`.
+    pub reason: Option<String>,
+}
+
+/// One claim with its verdict.
+#[derive(Debug, Clone)]
+pub struct Claim {
+    /// The claim in words.
+    pub text: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// The statement that gives it.
+    pub statement: Option<Statement>,
+    /// The reason where it is not proved; what exactly is claimed where it is.
+    pub reason: Option<String>,
+}
+
+/// The hypotheses of Theorem 5 as found.
+#[derive(Debug, Clone)]
+pub struct DenseSet {
+    /// For every piece of a reachable state: state, letter, and whether the operator is injective on the visible quotient of `V`.
+    pub injective: Vec<(usize, usize, bool)>,
+    /// Whether the control points (or the identity) are injective on the visible quotient of the start state.
+    pub view_injective: bool,
+    /// Indices, in [`Certified::points`], of the first-level joints of all reachable edge states.
+    pub joints: Vec<usize>,
+}
+
+/// What is known of the relevant space of one reachable state.
+#[derive(Debug, Clone)]
+pub struct StateReport {
+    /// Index of the state.
+    pub state: usize,
+    /// `dim V_e`.
+    pub relevant: usize,
+    /// Dimension of its visible quotient.
+    pub visible: usize,
+    /// The base point.
+    pub base: Vec<Rational>,
+    /// Radius of the 1-norm ball around the base point that holds the attractor.
+    pub radius: Rational,
+}
+
+/// Everything `certify` found.
+#[derive(Debug, Clone)]
+pub struct Certified {
+    /// The claims; the first is the main one.
+    pub claims: Vec<Claim>,
+    /// The verdict on all claims together.
+    pub verdict: Verdict,
+    /// Contraction.
+    pub contraction: Contraction,
+    /// The reachable states.
+    pub states: Vec<StateReport>,
+    /// The examined points.
+    pub points: Vec<PointReport>,
+    /// The evidence for the dense set; `None` for shapes that are no curves.
+    pub dense: Option<DenseSet>,
+}
