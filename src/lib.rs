@@ -5,4 +5,5 @@ pub mod arith;
 pub mod case;
 pub mod diagnostic;
 pub mod linalg;
+pub mod report;
 pub mod shape;
