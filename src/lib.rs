@@ -5,5 +5,6 @@ pub mod arith;
 pub mod case;
 pub mod diagnostic;
 pub mod linalg;
+pub mod picture;
 pub mod report;
 pub mod shape;
