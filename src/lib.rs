@@ -4,8 +4,12 @@
 pub mod algebraic;
 pub mod approx;
 pub mod arith;
+pub mod case;
+pub mod diagnostic;
 pub mod jordan;
 pub mod linalg;
+pub mod picture;
 pub mod poly;
+pub mod report;
 pub mod shape;
 pub mod theorem;
