@@ -111,7 +111,7 @@ fn shown<'a>(rays: impl Iterator<Item = &'a Direction>) -> String {
 fn parallel(direction: &Direction, wanted: &[Rational]) -> i32 {
     let wanted = Direction {
         root: direction.root.clone(),
-        coords: wanted.iter().cloned().map(secant::algebraic::Elem::from_rational).collect(),
+        coords: wanted.iter().map(secant::algebraic::Elem::from_rational).collect(),
     };
     direction.same_line(&wanted).unwrap_or(0)
 }
