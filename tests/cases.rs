@@ -31,7 +31,7 @@ fn mistakes(path: &Path) -> Vec<String> {
     let text = std::fs::read_to_string(path).unwrap();
     let label = path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().display().to_string();
     let code = match Case::read(path) {
-        Err(problem) => Some(problem.code().to_owned()),
+        Err(problem) => miette::Diagnostic::code(&problem).map(|c| c.to_string()),
         Ok(case) => match certify(&case.shape, &case.examine) {
             Err(error) => Some(error.code().to_owned()),
             Ok(found) => {
