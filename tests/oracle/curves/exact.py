@@ -240,8 +240,9 @@ class Branch:
         self.row = row
         if info["direction"] is None:
             return same("unknown", "G kills the dominant direction", poly=poly_text(f))
-        rows = np.array([[float(x) for x in self.covector(row)]])
-        rows /= np.abs(rows).max()
+        g = self.covector(row)
+        big = max(abs(x) for x in g)
+        rows = np.array([[float(x / big) for x in g]])
         sg = {s: self.enclose(rows, parts[s]) for s in present}
         isolated = self.isolated([x for s in present for x in parts[s]])
         allsigns = set().union(*sg.values())
