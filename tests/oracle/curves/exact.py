@@ -12,7 +12,7 @@ import sympy as sp
 
 import casefile
 from linear import apply, kernel, matmul, rank, rref, solve, transpose
-from model import (Balls, adjacency_errors, edge_ends, end_address, joint_branches, moving, normalise, operator,
+from model import (Balls, NotUnique, adjacency_errors, edge_ends, end_address, joint_branches, moving, normalise, operator,
                    orientation, path, point, reachable, relevant_spaces, spectral_refutation, words)
 
 mpmath.mp.dps = 50
@@ -452,6 +452,13 @@ def word_to(case, e):
 
 
 def certify(case):
+    try:
+        return derive(case)
+    except NotUnique:
+        return None, ("error", "secant::shape::contraction", "an operator has several fixed points"), None
+
+
+def derive(case):
     """Everything: list of (label, branches, left, right, verdict, kind) and the top verdict with its reason."""
     if case.edge and (bad := adjacency_errors(case)):
         return None, ("error", "secant::shape::adjacency", "; ".join(bad)), None
@@ -583,7 +590,10 @@ def main():
             case = casefile.load(f)
         except (casefile.Bad, ValueError) as err:
             code = getattr(err, "code", "unreadable")
-            print(f"== {f.parent.name}/{f.stem}: refused, {code}")
+            print(f"== {f.parent.name}/{f.stem}: refused, {code} ({str(err)[:80]})")
+            if code != "secant::case::empty" and f'error = "{code}"' not in f.read_text():
+                bad += 1
+                print("   DIFFERS")
             continue
         rows, top = report(case)
         for d in compare(case, rows, top):

@@ -57,20 +57,34 @@ def imul(a, b):
     return [[sum(x * y for x, y in zip(r, c)) for c in cols] for r in a]
 
 
-def samples(case, e, most=100):
-    """(parameter, point) for words of the greatest length that gives at most `most` of them, two tails each."""
+def samples(case, e, most=260):
+    """Sorted (parameter, point): the seeds of every state carried by all words of two lengths."""
+    level = {}
+    for s, st in case.states.items():
+        level[s] = {}
+        if st.kind == "vertex":
+            continue
+        for tail in ([0], [len(st.pieces) - 1], [0, 1], [0, 0, 1], [1, 0]):
+            try:
+                head, cyc = normalise(case, s, [], tail)
+            except IndexError:
+                continue
+            level[s][parameter(case, s, head, cyc)] = point(case, s, head, cyc)
     length = 1
     while len(words(case, e, length + 1)) <= most:
         length += 1
     out = {}
-    for n in (length, max(1, length // 2)):
-        for w, _ in words(case, e, n):
-            for tail in ([0], [len(case.states[e].pieces) - 1], [0, 1][: len(case.states[e].pieces)]):
-                try:
-                    head, cyc = normalise(case, e, list(w), tail)
-                except IndexError:
-                    continue
-                out[parameter(case, e, head, cyc)] = point(case, e, head, cyc)
+    for n in range(1, length + 1):
+        step = {}
+        for s, st in case.states.items():
+            step[s] = {}
+            for i, p in enumerate(st.pieces):
+                for t, x in level[p.target].items():
+                    t = (i + 1 - t) / len(st.pieces) if p.reversed else (i + t) / len(st.pieces)
+                    step[s][t] = apply(p.op, x)
+        level = step
+        if n in (length // 2, length):
+            out.update(level[e])
     return sorted(out.items())
 
 
@@ -93,7 +107,7 @@ def angle(dirs, rays):
 
 
 def between(case, e, gm, q, tcyc):
-    """Secants met on the way between two samples that point in opposite directions (bisection over cells)."""
+    """Secants met in a cell whose two ends are seen in opposite directions, by bisection over its cells."""
     found = []
 
     def secant(a):
@@ -101,30 +115,32 @@ def between(case, e, gm, q, tcyc):
         v = [sum(r * (c - d) for r, c, d in zip(row, x, q)) for row in gm]
         return v
 
-    # walk down the cells whose two ends have opposite directions
-    none = {s: [] for s in case.states}
-    word = []
-    for _ in range(700):
+    def ends(word):
+        """Directions at the two ends of a cell, or None where the cell holds the point itself."""
         s = path(case, e, word)[-1]
-        hit = None
-        for i, p in enumerate(case.states[s].pieces):
-            ends = []
-            for side in (0, 1):
-                h, c = end_address(case, none, p.target, side)
-                ends.append(normalise(case, e, word + [i] + h, c))
-            ts = [parameter(case, e, *a) for a in ends]
-            if min(ts) <= tcyc <= max(ts):
-                continue
-            a, b = (secant(x) for x in ends)
-            if not any(a) or not any(b):
-                continue
-            ua, ub = unit(integers([a])[0]), unit(integers([b])[0])
-            found += [ua, ub]
-            if ua @ ub < 0 and hit is None:
-                hit = i
-        if hit is None or any(abs(x @ y) < 0.9 for x in found for y in found[:1]):
+        at = [normalise(case, e, list(word) + h, c) for h, c in (end_address(case, none, s, side) for side in (0, 1))]
+        ts = [parameter(case, e, *a) for a in at]
+        if min(ts) <= tcyc <= max(ts):
+            return None
+        ab = [secant(a) for a in at]
+        return [unit(integers([v])[0]) for v in ab] if all(map(any, ab)) else None
+
+    none = {s: [] for s in case.states}
+    length = 1
+    while len(words(case, e, length + 1)) <= 130:
+        length += 1
+    word = None
+    for w, _ in words(case, e, length):
+        d = ends(w)
+        if d and d[0] @ d[1] < 0:
+            word = list(w)
             break
-        word.append(hit)
+    while word is not None and len(word) < 700:
+        down = [(i, ends(word + [i])) for i in range(len(case.states[path(case, e, word)[-1]].pieces))]
+        found += [x for _, d in down if d for x in d]
+        if any(abs(x @ found[0]) < 0.9 for x in found):
+            break
+        word = next((word + [i] for i, d in down if d and d[0] @ d[1] < 0), None)
     return found
 
 
@@ -134,7 +150,7 @@ def secants(case, prefix, cycle, ms):
     g = matmul(case.control, u) if case.control else u
     q = point(case, e, [], cycle)
     mat, _ = operator(case, e, cycle)
-    cloud = samples(case, e, 100 if len(g[0]) > 4 else 520)
+    cloud = samples(case, e, 60 if len(g[0]) > 4 else 130)
     diffs = integers([[a - b for a, b in zip(x, q)] for _, x in cloud])
     mi, gi = integers(mat), integers(g)
     curve = case.states[e].kind == "edge"
