@@ -54,7 +54,7 @@ def poly_at(f, m):
 def set_precision(case):
     """50 digits, or many more where the case itself has long numbers."""
     longest = max(len(str(x)) for st in case.states.values() for p in st.pieces for r in p.op for x in r)
-    PRECISION["digits"] = 50 if longest < 100 else 1200
+    PRECISION["digits"] = 50 if longest < 20 else 200 if longest < 100 else 1200
     mpmath.mp.dps = PRECISION["digits"]
 
 
