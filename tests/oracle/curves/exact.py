@@ -257,7 +257,8 @@ class Branch:
                 return same("line", what + "; dimension 1 trivially, rays not decided", **info)
             if mixed and isolated and full and (ell == 1 or (ell == 2 and len(top) == 1 and top[0][3] == 2)):
                 return same("plane", what + "; null component in the ring (sign change), isolated", poly=poly_text(f))
-            return same("unknown", what + f"; ring condition fails or is open; isolated: {isolated}", poly=poly_text(f))
+            return same("unknown", what + f"; ring condition fails or is open, isolated: {isolated}; D* contains the line",
+                        direction=info["direction"])
         d = info["direction"]
         neg = [-x for x in d]
         out = {}
@@ -392,6 +393,9 @@ def judge(left, right):
     sides = [s for s in (left, right) if s is not None]
     if any(s.status == "plane" for s in sides):
         return "refuted", "none"
+    if len(sides) == 2 and any(s.status == "unknown" for s in sides) and all(s.direction for s in sides) \
+            and parallel(left.direction, right.direction) == 0:
+        return "refuted", "none"  # the lower bounds of the two sides already span a plane
     if any(s.status == "point" for s in sides) or any(s.status == "unknown" for s in sides):
         return "undetermined", None
     if len(sides) == 2 and parallel(left.direction, right.direction) == 0:
