@@ -31,7 +31,12 @@ class Side:
 
 
 def poly_text(f):
-    return str(sp.Poly(f, X).monic().as_expr()).replace("**", "^").replace("*", " ").replace("  ", " ")
+    out = ""
+    for (k,), c in sp.Poly(f, X).monic().terms():
+        power = {0: "", 1: "x"}.get(k, f"x^{k}")
+        body = power if abs(c) == 1 and power else f"{abs(c)} {power}".strip()
+        out += (" - " if c < 0 else " + ") * bool(out) + ("-" if c < 0 and not out else "") + body
+    return out
 
 
 def power(m, k):
