@@ -7,7 +7,7 @@ use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
-use crate::shape::{Address, Balls, CellKind, Shape, Spaces};
+use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
 
 /// What all branches of a shape share.
 pub struct Context<'a> {
@@ -17,6 +17,10 @@ pub struct Context<'a> {
     pub spaces: &'a Spaces,
     /// Balls that hold its attractors.
     pub balls: &'a Balls,
+    /// The state from which addresses are read.
+    pub root: usize,
+    /// The map from that state into the space where the shape is looked at: control points, identity, or a quotient.
+    pub view: Matrix,
 }
 
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
@@ -37,23 +41,22 @@ impl Quotient {
             }
             rows = grown;
         }
-        let lift = Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| {
-            Rational::from(u8::from(rows.pivots[k] == i))
-        });
+        let lift =
+            Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| Rational::from(u8::from(rows.pivots[k] == i)));
         Self { chart: rows.rows, lift }
     }
 }
 
-/// Examines the branch `address` from the start state; `side` says which part of the curve it describes there.
+/// Examines the branch `address` from the root state; `side` says which part of the curve it describes there.
 ///
 /// Returns `None` where the fixed point of the cycle is not unique.
 #[must_use]
 pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchReport> {
     let shape = cx.shape;
-    let (prefix, state) = shape.product(shape.start, &address.prefix);
+    let (prefix, state) = shape.product(cx.root, &address.prefix);
     let (cycle_operator, _) = shape.product(state, &address.cycle);
     let fixed = crate::shape::fixed_point(&cycle_operator)?;
-    let transport = &shape.view() * &prefix;
+    let transport = &cx.view * &prefix;
     let space = cx.spaces.of(state);
     let on_v = &transport * &space.basis;
     let linear_v = cx.spaces.linear(&cycle_operator, state, state);
@@ -62,7 +65,8 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
     let view = &on_v * &quotient.lift;
     let chart = &quotient.chart * &space.coordinates;
     let spectrum = Spectrum::of(&linear);
-    let ring = standard_ring(shape, cx.spaces, state, &address.cycle, &fixed);
+    let mut ring = standard_ring(shape, cx.spaces, state, &address.cycle, &fixed);
+    mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
     let sign_along = |from: usize, word: &[usize]| -> i32 {
         let states = shape.path(from, word);
         word.iter().zip(&states).map(|(&i, &e)| if shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
@@ -71,7 +75,7 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         side,
         address: address.clone(),
         state,
-        prefix_sign: sign_along(shape.start, &address.prefix),
+        prefix_sign: sign_along(cx.root, &address.prefix),
         cycle_sign: sign_along(state, &address.cycle),
         cycle_operator,
         fixed,
@@ -84,13 +88,30 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         ring,
         outcome: Outcome::NoGerm { reason: String::new() },
     };
-    report.outcome = Analysis { cx, branch: &report }.outcome();
+    let seen: Vec<RingPiece> = report.ring.iter().filter(|p| !p.collapses).cloned().collect();
+    report.outcome = Analysis { cx, branch: &report, seen: &seen }.outcome();
     Some(report)
+}
+
+/// Marks the pieces that fall into `q` as a whole (Lemma 2).
+fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
+    let falls = &power(linear, linear.rows()) * chart;
+    for piece in ring {
+        let space = cx.spaces.of(piece.end);
+        let point = falls.apply(&difference(&piece.op.apply(&space.base), fixed));
+        piece.collapses = point.iter().all(|x| *x == 0) && (&falls * &(&piece.op * &space.basis)).is_zero();
+    }
+}
+
+fn power(m: &Matrix, exponent: usize) -> Matrix {
+    (0..exponent).fold(Matrix::identity(m.rows()), |p, _| &p * m)
 }
 
 struct Analysis<'a> {
     cx: &'a Context<'a>,
     branch: &'a BranchReport,
+    /// The ring without the pieces that collapse.
+    seen: &'a [RingPiece],
 }
 
 /// The part of the spectrum with the largest modulus.
@@ -130,7 +151,7 @@ impl Analysis<'_> {
             state: self.branch.state,
             fixed: &self.branch.fixed,
             chart: &self.branch.chart,
-            pieces: &self.branch.ring,
+            pieces: self.seen,
         }
     }
 
@@ -156,9 +177,11 @@ impl Analysis<'_> {
         let coordinates: Vec<Functional> = (0..self.branch.linear.rows())
             .map(|k| Functional::rational(Matrix::identity(self.branch.linear.rows()).row(k)))
             .collect();
-        let mut power = self.branch.ring.clone();
-        for _ in 0..=self.branch.linear.rows() {
-            let ring = Ring { pieces: &power, ..self.ring() };
+        let mut images = self.branch.ring.clone();
+        let mut turns = 0;
+        // From the index of nilpotency on, the images of the ring are the point itself.
+        while !power(&self.branch.linear, turns).is_zero() {
+            let ring = Ring { pieces: &images, ..self.ring() };
             match ring.decide(&coordinates) {
                 RingAnswer::Holds(_) => {}
                 RingAnswer::Fails(_) => {
@@ -170,12 +193,11 @@ impl Analysis<'_> {
                     return Outcome::Open { reason: reason.to_owned(), place: Some(place), at_least: 0 };
                 }
             }
-            for piece in &mut power {
+            for piece in &mut images {
                 piece.op = &self.branch.cycle_operator * &piece.op;
-                let mut word = self.branch.address.cycle.clone();
-                word.append(&mut piece.word);
-                piece.word = word;
+                piece.word.splice(0..0, self.branch.address.cycle.iter().copied());
             }
+            turns += 1;
         }
         Outcome::NoGerm { reason: "the point is isolated in the shape: no tangent question arises".to_owned() }
     }
@@ -244,7 +266,10 @@ impl Analysis<'_> {
             RingAnswer::Fails(Witness::Point { address, .. }) => {
                 let mut place = address.prefix;
                 place.extend(address.cycle);
-                return open("the branch is not isolated: a point of the ring falls into the generalised kernel", Some(place));
+                return open(
+                    "the branch is not isolated: a point of the ring falls into the generalised kernel",
+                    Some(place),
+                );
             }
             RingAnswer::Fails(_) => return open("the branch is not isolated", None),
             RingAnswer::Open { place } => return open("it is not decided whether the branch is isolated", Some(place)),
@@ -378,11 +403,7 @@ impl Analysis<'_> {
 
 /// The rows that vanish on the generalised kernel of `linear` (theory §3, Isolation): all coordinates where it is invertible.
 fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
-    let mut power = linear.clone();
-    for _ in 1..linear.rows() {
-        power = &power * linear;
-    }
-    let rows = power.echelon().rows;
+    let rows = power(linear, linear.rows()).echelon().rows;
     (0..rows.rows()).map(|k| Functional::rational(rows.row(k))).collect()
 }
 

@@ -28,6 +28,8 @@ pub struct RingPiece {
     pub op: Matrix,
     /// Its place.
     pub position: Position,
+    /// Whether the whole piece falls into `q` after finitely many turns (Lemma 2), so that the germ does not see it.
+    pub collapses: bool,
 }
 
 /// Which real functional of an algebraic one is meant.
@@ -189,7 +191,13 @@ const WITNESS_NODES: usize = 400;
 
 /// The standard ring of the cycle `w` at `state`, without pieces that lie in `M A_e` or repeat a kept one (theory §3).
 #[must_use]
-pub fn standard_ring(shape: &Shape, spaces: &Spaces, state: usize, cycle: &[usize], fixed: &[Rational]) -> Vec<RingPiece> {
+pub fn standard_ring(
+    shape: &Shape,
+    spaces: &Spaces,
+    state: usize,
+    cycle: &[usize],
+    fixed: &[Rational],
+) -> Vec<RingPiece> {
     let mut ring: Vec<RingPiece> = Vec::new();
     let mut product = Matrix::identity(shape.states[state].dim);
     let (mut at, mut orientation) = (state, 1);
@@ -213,7 +221,7 @@ pub fn standard_ring(shape: &Shape, spaces: &Spaces, state: usize, cycle: &[usiz
             if !repeated && !is_fixed_point {
                 let mut word = cycle[..i].to_vec();
                 word.push(letter);
-                ring.push(RingPiece { word, end: piece.target, op, position });
+                ring.push(RingPiece { word, end: piece.target, op, position, collapses: false });
             }
         }
         product = &product * &pieces[turn].op;
@@ -257,8 +265,7 @@ impl Ring<'_> {
 
     fn attempt(&self, functionals: &[Functional], bits: u64) -> Attempt {
         let bound = self.chart_bound();
-        let approximations: Vec<(Vec<Rational>, Rational)> =
-            functionals.iter().map(|f| f.approximate(bits)).collect();
+        let approximations: Vec<(Vec<Rational>, Rational)> = functionals.iter().map(|f| f.approximate(bits)).collect();
         let errors: Vec<Rational> = approximations.iter().map(|(_, e)| e * &bound).collect();
         let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| self.row_on_points(row)).collect();
         let mut queue: VecDeque<Node> = self
