@@ -27,6 +27,7 @@ fn element(math: &Math) -> String {
                 (None, None) => base,
             }
         }
+        Math::Root(inner) => format!("<msqrt>{}</msqrt>", element(inner)),
         Math::Matrix(rows) => {
             let cell = |m: &Math| format!("<mtd>{}</mtd>", element(m));
             let row = |cells: &Vec<Math>| format!("<mtr>{}</mtr>", cells.iter().map(cell).collect::<String>());

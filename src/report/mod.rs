@@ -8,3 +8,5 @@ pub mod mathml;
 mod symbols;
 pub mod tex;
 pub mod text;
+pub mod theorems;
+pub mod values;

@@ -29,6 +29,7 @@ pub fn math_tex(math: &Math) -> String {
             let sup = sup.as_ref().map(|s| format!("^{{{}}}", math_tex(s).trim_end())).unwrap_or_default();
             format!("{base}{sub}{sup}")
         }
+        Math::Root(inner) => format!("\\sqrt{{{}}}", math_tex(inner)),
         Math::Matrix(rows) => {
             let row = |cells: &Vec<Math>| cells.iter().map(math_tex).collect::<Vec<_>>().join(" & ");
             let body = rows.iter().map(row).collect::<Vec<_>>().join(" \\\\ ");

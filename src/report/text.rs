@@ -300,6 +300,7 @@ pub fn math_line(math: &Math) -> String {
         Math::Letter(c) | Math::Symbol(c) => c.to_string(),
         Math::Row(parts) => row_text(parts),
         Math::Script { base, sub, sup } => script_text(base, sub.as_deref(), sup.as_deref()),
+        Math::Root(inner) => format!("√{}", math_line(inner)),
         Math::Matrix(rows) => {
             let row = |cells: &Vec<Math>| cells.iter().map(math_line).collect::<Vec<_>>().join(", ");
             format!("[{}]", rows.iter().map(row).collect::<Vec<_>>().join("; "))
@@ -322,7 +323,7 @@ fn row_text(parts: &[Math]) -> String {
 fn gaps(parts: &[Math]) -> Vec<bool> {
     let kind = |m: &Math| if let Math::Symbol(c) = m { spacing(*c) } else { Spacing::Tight };
     let symbol = |m: &Math| matches!(m, Math::Symbol(_));
-    let apart = |m: &Math| matches!(m, Math::Number(_) | Math::Digits(_) | Math::Word(_));
+    let apart = |m: &Math| matches!(m, Math::Number(_) | Math::Digits(_) | Math::Word(_) | Math::Root(_));
     let mut gaps = vec![false; parts.len()];
     let mut sign = false;
     for k in 0..parts.len() {
