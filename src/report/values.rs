@@ -205,7 +205,7 @@ mod tests {
         assert!(shown(&[-2, 0, 0, 1]).iter().any(|r| r == "≈ 1.259921"), "{:?}", shown(&[-2, 0, 0, 1]));
         let mut imaginary = shown(&[3, 0, 1]);
         imaginary.sort();
-        assert_eq!(imaginary, ["√3 i", "−√3 i"]);
+        assert_eq!(imaginary, ["−√3 i", "√3 i"]);
     }
 
     #[test]
