@@ -355,7 +355,7 @@ impl Analysis<'_> {
         let chain = longest_chain(&top.factor.right, top.block);
         let row = leading_functional(top.factor, top.block);
         let last = &chain.vectors[top.block - 1];
-        let zero = Elem::from_rational(Rational::from(0));
+        let zero = Elem::from_rational(&Rational::from(0));
         let pairing = row.iter().zip(last).fold(zero, |s, (a, b)| s.add(&a.mul(b, f)));
         let orientation = self.direction(top).same_line(direction).unwrap_or(0);
         // λ^{-ℓ} in the leading coefficient u.
@@ -423,7 +423,7 @@ fn second_functional(factor: &Factor) -> Vec<Elem> {
 }
 
 fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
-    let zero = Elem::from_rational(Rational::from(0));
+    let zero = Elem::from_rational(&Rational::from(0));
     (0..matrix.rows())
         .map(|i| {
             let terms = matrix.row(i).iter().zip(v).filter(|(a, _)| **a != 0);

@@ -56,7 +56,7 @@ impl Functional {
     /// A rational functional.
     #[must_use]
     pub fn rational(row: &[Rational]) -> Self {
-        Self { row: row.iter().cloned().map(Elem::from_rational).collect(), root: None, part: Part::Real }
+        Self { row: row.iter().map(Elem::from_rational).collect(), root: None, part: Part::Real }
     }
 
     /// A dyadic approximation of the entries and a bound of its error in each.
@@ -82,7 +82,7 @@ impl Functional {
     /// Whether the algebraic functional vanishes at a rational vector of `Y`, exactly.
     #[must_use]
     pub fn vanishes(&self, y: &[Rational]) -> bool {
-        let zero = Elem::from_rational(Rational::from(0));
+        let zero = Elem::from_rational(&Rational::from(0));
         self.row.iter().zip(y).fold(zero, |s, (e, x)| s.add(&e.scale(x))).is_zero()
     }
 }
