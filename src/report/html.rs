@@ -35,6 +35,11 @@ fn write_block(out: &mut String, block: &Block) {
             let items: String = items.iter().map(|i| format!("<li>{}</li>\n", inline(i))).collect();
             out.push_str(&format!("<ul>\n{items}</ul>\n"));
         }
+        Block::Facts(facts) => {
+            let facts: String =
+                facts.iter().map(|(t, d)| format!("<dt>{}</dt><dd>{}</dd>\n", escaped(t), inline(d))).collect();
+            out.push_str(&format!("<dl>\n{facts}</dl>\n"));
+        }
         Block::Checks(checks) => {
             out.push_str("<ul class=\"checks\">\n");
             for check in checks {

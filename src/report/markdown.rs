@@ -28,6 +28,11 @@ fn write_block(out: &mut String, block: &Block) {
                 out.push_str(&format!("- {}\n", inline(item)));
             }
         }
+        Block::Facts(facts) => {
+            for (term, text) in facts {
+                out.push_str(&format!("- **{}:** {}\n", escaped(term), inline(text)));
+            }
+        }
         Block::Checks(checks) => {
             for Check { tone, text } in checks {
                 let mark = match tone {

@@ -65,6 +65,14 @@ impl Writer {
                     self.paragraph(item, &format!("{pad}  - "), &format!("{pad}    "));
                 }
             }
+            Block::Facts(facts) => {
+                let width = facts.iter().map(|(term, _)| term.width()).max().unwrap_or(0);
+                for (term, text) in facts {
+                    let gap = " ".repeat(width - term.width() + 2);
+                    let first = format!("{pad}    {}{gap}", self.painted("2", term));
+                    self.paragraph(text, &first, &format!("{pad}    {}", " ".repeat(width + 2)));
+                }
+            }
             Block::Checks(checks) => {
                 for Check { tone, text } in checks {
                     let mark = self.painted(tone_style(*tone), tone_mark(*tone));
