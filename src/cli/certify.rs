@@ -7,7 +7,7 @@ use crate::case::{Case, MAX_LETTERS};
 use crate::diagnostic::Problem;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, markdown, proof, summary, text};
-use crate::shape::{Address, CurveError, word_text};
+use crate::shape::{Address, CurveError, Frame, word_text};
 use crate::theorem::{Certified, ModelError, Verdict, certify};
 use std::path::Path;
 
@@ -98,7 +98,9 @@ fn model_problem(case: &Case, error: &ModelError) -> Problem {
     let code = error.code();
     match error {
         ModelError::Curve(CurveError::Apart { state, index, piece, ends, begins }) => {
-            let tuple = |v: &[Rational]| text::math_line(&Math::vector(v));
+            // Affine maps are read as operators on the simplex 0, e_1, …; the user knows the coordinates after the first.
+            let skip = usize::from(case.shape.frame == Frame::Affine);
+            let tuple = |v: &[Rational]| text::math_line(&Math::vector(v.get(skip..).unwrap_or_default()));
             let place = if case.shape.states.len() > 1 { format!(" of state `{state}`") } else { String::new() };
             let before = piece.saturating_sub(1);
             let (begins, ends) = (tuple(begins), tuple(ends));

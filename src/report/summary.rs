@@ -8,7 +8,7 @@ use super::words::{
 };
 use crate::case::Case;
 use crate::shape::{CellKind, Frame};
-use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Verdict};
+use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Side, Verdict};
 
 /// How many classes of eigenvalues are shown without `--verbose`.
 const CLASSES: usize = 3;
@@ -117,8 +117,9 @@ fn point_blocks(case: &Case, point: &PointReport, verbose: bool) -> Vec<Block> {
     if !rays.is_empty() {
         facts.push(("rays".to_owned(), rays));
     }
-    for branch in shown_branches(point) {
-        facts.extend(branch_facts(point, branch, verbose));
+    let branches = shown_branches(point);
+    for branch in &branches {
+        facts.extend(branch_facts(branches.len() > 1, branch, verbose));
     }
     vec![Block::Heading(3, head), Block::Facts(facts)]
 }
@@ -153,15 +154,14 @@ fn shown_branches(point: &PointReport) -> Vec<&BranchReport> {
     out
 }
 
-fn branch_facts(point: &PointReport, branch: &BranchReport, verbose: bool) -> Vec<(String, Line)> {
-    let several = point.branches.len() > 1;
-    let name = |text: &str| {
-        if several {
-            format!("{text} of ({})", crate::shape::word_text(&branch.address.cycle))
-        } else {
-            text.to_owned()
-        }
+fn branch_facts(several: bool, branch: &BranchReport, verbose: bool) -> Vec<(String, Line)> {
+    let side = match branch.side {
+        Side::Left => " (left)",
+        Side::Right => " (right)",
+        Side::Both => "",
     };
+    let side = if several { side } else { "" };
+    let name = |text: &str| format!("{text}{side}");
     let most = if verbose { usize::MAX } else { CLASSES };
     let mut facts = vec![(name("spectrum"), spectrum_line(&branch.spectrum, most)), (name("theorem"), outcome(branch))];
     if let Outcome::Line { rate: r, holder: h, .. } = &branch.outcome {

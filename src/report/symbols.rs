@@ -49,7 +49,7 @@ pub(super) fn latex(c: char) -> Option<&'static str> {
         '∖' => "\\setminus",
         '±' => "\\pm",
         '‖' => "\\|",
-        '√' => "\\surd",
+        '∑' => "\\sum",
         '∼' => "\\sim",
         '…' => "\\dots",
         '′' => "'",

@@ -18,6 +18,9 @@ pub fn math_tex(math: &Math) -> String {
         Math::Digits(text) => text.replace('−', "-").replace('…', "\\ldots "),
         Math::Letter('|') | Math::Symbol('|') => "\\vert ".to_owned(),
         Math::Letter(c) | Math::Symbol(c) => latex(*c).map_or_else(|| plain(*c), |s| spaced(s)),
+        Math::Word(word) if matches!(word.as_str(), "dim" | "ln" | "max" | "min" | "ker" | "det") => {
+            format!("\\{word} ")
+        }
         Math::Word(word) => format!("\\operatorname{{{}}}", word.chars().map(plain).collect::<String>()),
         Math::Row(parts) => join(parts.iter().map(math_tex)),
         Math::Script { base, sub, sup } => {
@@ -68,6 +71,6 @@ mod tests {
     fn control_words_do_not_swallow_letters() {
         assert_eq!(math_tex(&Math::of("λx∈ρ_{i+1}")), "\\lambda x \\in \\rho_{i+1}");
         assert_eq!(math_tex(&Math::number(&ratio(-3, 4))), "-\\frac{3}{4}");
-        assert_eq!(math_tex(&Math::of("\\dim D^*")), "\\operatorname{dim}D^{*}");
+        assert_eq!(math_tex(&Math::of("\\dim D^*")), "\\dim D^{*}");
     }
 }

@@ -329,7 +329,14 @@ fn row_text(parts: &[Math]) -> String {
 
 /// For every part of a row, whether a space stands before it.
 fn gaps(parts: &[Math]) -> Vec<bool> {
-    let kind = |m: &Math| if let Math::Symbol(c) = m { spacing(*c) } else { Spacing::Tight };
+    let kind = |m: &Math| match m {
+        Math::Symbol(c) => spacing(*c),
+        Math::Script { base, .. } => match base.as_ref() {
+            Math::Symbol(c) => spacing(*c),
+            _ => Spacing::Tight,
+        },
+        _ => Spacing::Tight,
+    };
     let symbol = |m: &Math| matches!(m, Math::Symbol(_));
     let apart = |m: &Math| matches!(m, Math::Number(_) | Math::Digits(_) | Math::Word(_) | Math::Root(_));
     let mut gaps = vec![false; parts.len()];

@@ -25,7 +25,7 @@ pub const THEOREMS: [Theorem; 13] = [
         id: "lemma-1",
         name: "Lemma 1 (contraction by prefix codes)",
         body: "Let every state have a finite complete prefix code of admissible words with $τ(T_w)≤c<1$ for all its words, where \
-               $τ(T)=\\max_{i,j} 1/2 Σ_k |t_{ki}-t_{kj}|$ is the norm of $T$ on vectors of sum 0. Then the system contracts and its \
+               $τ(T)=\\max_{i,j} {1/2}∑_k |t_{ki}-t_{kj}|$ is the norm of $T$ on vectors of sum 0. Then the system contracts and its \
                attractors exist.",
         proof: "Cut a long word into code words, each read from the state where the one before ended, and a rest shorter than the \
                 longest code word. $τ$ is submultiplicative and there are finitely many rests, so $τ(T_w)$ decreases geometrically \
@@ -64,7 +64,7 @@ pub const THEOREMS: [Theorem; 13] = [
         id: "theorem-3",
         name: "Theorem 3 (incomplete set of eigenvectors)",
         body: "Let $ℓ+1$ be the length of the longest Jordan block of the largest modulus $ρ_1>0$, and \
-               $u(x)=Σ_{|λ|=ρ_1} λ^{-ℓ}(L-λ)^ℓ x_λ$ the leading coefficient, with values in $U$, the span of the eigenvectors that end \
+               $u(x)=∑_{|λ|=ρ_1} λ^{-ℓ}(L-λ)^ℓ x_λ$ the leading coefficient, with values in $U$, the span of the eigenvectors that end \
                the longest chains. If $u(x)≠0$ for all $x∈X$, then $D^*=U$.",
         proof: "$L^m x=C(m,ℓ)·(L^m u(x)+O(ρ_1^m/m))$ uniformly on $X$, and $u$ is a polynomial in $L$.",
         reference: SOURCE,
