@@ -239,3 +239,13 @@ fn statements_are_explained() {
     assert!(output(&["explain"], 0).0.contains("theorem-5"));
     output(&["explain", "theorem-99"], 2);
 }
+
+#[test]
+fn the_float_fallback_is_labelled_and_never_a_success() {
+    let (out, _) = output(&["certify", "--approx", HALF], 3);
+    assert!(out.contains("approximate") && out.contains("0.75"), "{out}");
+    let (out, _) = output(&["certify", "--approx", "--json", HALF], 3);
+    let value: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&value["approximate"], &value["verdict"]), (&Value::Bool(true), &Value::String("undetermined".into())));
+    output(&["certify", "--approx", "cases/refused/empty.toml"], 2);
+}

@@ -1,7 +1,7 @@
 //! `secant certify` of a single case.
 
 use super::output::{complain, print, stdout_colour, write_file};
-use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, many};
+use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::arith::Rational;
 use crate::case::{Case, MAX_LETTERS};
 use crate::diagnostic::Problem;
@@ -26,6 +26,9 @@ pub fn run(args: &CertifyArgs) -> u8 {
     if let Err(problem) = check_arguments(args) {
         complain(&problem);
         return BAD_INPUT;
+    }
+    if args.approx {
+        return approximate::run(args);
     }
     let [path] = args.cases.as_slice() else { return many::run(args) };
     let done = one(path, args).and_then(|(case, found)| {
@@ -71,13 +74,22 @@ fn extension(path: &Path) -> String {
 /// # Errors
 /// The [`Problem`] of the file, of an address, or of the model.
 pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified), Problem> {
+    let (case, addresses) = read(path, args)?;
+    let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
+    Ok((case, found))
+}
+
+/// Reads a case and the addresses asked for.
+///
+/// # Errors
+/// The [`Problem`] of the file or of an address.
+pub fn read(path: &Path, args: &CertifyArgs) -> Result<(Case, Vec<Address>), Problem> {
     let case = Case::read(path)?;
     let mut addresses = case.examine.clone();
     for text in &args.address {
         addresses.push(read_address(&case, text)?);
     }
-    let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
-    Ok((case, found))
+    Ok((case, addresses))
 }
 
 fn read_address(case: &Case, text: &str) -> Result<Address, Problem> {
