@@ -6,8 +6,8 @@ use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, End, Shape, Spaces, difference};
 use nalgebra::{DMatrix, DVector};
 
-/// Turns of the cycle after which directions are compared.
-const TURNS: usize = 60;
+/// Directions are compared after two to this power turns of the cycle.
+const DOUBLINGS: usize = 12;
 /// Most points of the attractor that are followed.
 const SAMPLES: usize = 240;
 /// Largest sine of an angle between directions that are taken for one line.
@@ -74,8 +74,10 @@ fn look_at(shape: &Shape, spaces: &Spaces, address: &Address) -> Option<PointLoo
     let position = shape.view().apply(&prefix.apply(&fixed)).iter().map(to_f64).collect();
     let mut eigenvalues = eigenvalues(&linear);
     eigenvalues.sort_by(|a, b| b.0.hypot(b.1).total_cmp(&a.0.hypot(a.1)));
+    let power = high_power(&linear);
+    let late = samples(shape, spaces, state, &fixed).into_iter().map(|y| &power * y);
     let directions: Vec<DVector<f64>> =
-        samples(shape, spaces, state, &fixed).iter().filter_map(|y| turned(&linear, &view, y)).collect();
+        late.flat_map(|y| [turned(&view, &y), turned(&view, &(&linear * &y))]).flatten().collect();
     let spread = spread(&directions);
     let direction = directions.first().filter(|_| spread < NARROW).map(|d| d.iter().copied().collect());
     Some(PointLook { address: address.clone(), position, eigenvalues, direction, spread })
@@ -118,19 +120,25 @@ fn samples(shape: &Shape, spaces: &Spaces, state: usize, fixed: &[Rational]) -> 
     out
 }
 
-/// The direction of a secant after many turns; `None` for a point that falls into the fixed point.
-fn turned(linear: &DMatrix<f64>, view: &DMatrix<f64>, y: &DVector<f64>) -> Option<DVector<f64>> {
-    let mut y = y.clone();
-    for _ in 0..TURNS {
-        let norm = y.norm();
-        if norm.is_nan() || norm < 1e-12 {
-            return None;
-        }
-        y = linear * (y / norm);
-    }
+/// The direction of a secant; `None` for a point that falls into the fixed point.
+fn turned(view: &DMatrix<f64>, y: &DVector<f64>) -> Option<DVector<f64>> {
     let seen = view * y;
     let norm = seen.norm();
-    (norm > 1e-300).then(|| seen / norm)
+    (norm.is_finite() && norm > 1e-300).then(|| seen / norm)
+}
+
+/// A multiple of the `2^DOUBLINGS`-th power.
+fn high_power(linear: &DMatrix<f64>) -> DMatrix<f64> {
+    let mut power = linear.clone();
+    for _ in 0..DOUBLINGS {
+        let norm = power.norm();
+        if norm > 0.0 {
+            power /= norm;
+        }
+        power = &power * &power;
+    }
+    let norm = power.norm();
+    if norm > 0.0 { power / norm } else { power }
 }
 
 fn spread(directions: &[DVector<f64>]) -> f64 {
