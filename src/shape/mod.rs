@@ -4,6 +4,7 @@ mod address;
 mod contraction;
 mod curve;
 mod enclosure;
+mod hull;
 mod model;
 mod space;
 

@@ -283,5 +283,5 @@ def spectral_refutation(case, longest=8):
                 basis = np.vstack([np.eye(n - 1), -np.ones((1, n - 1))]) if n > 1 else np.zeros((1, 0))
                 lin = np.linalg.lstsq(basis, m @ basis, rcond=None)[0] if n > 1 else np.zeros((0, 0))
                 if lin.size and max(abs(np.linalg.eigvals(lin))) >= 1 - 1e-12:
-                    return e, w, max(abs(np.linalg.eigvals(lin)))
+                    return e, w, round(float(max(abs(np.linalg.eigvals(lin)))), 9)
     return None
