@@ -255,17 +255,16 @@ pub fn witness(w: &Witness) -> Line {
         ),
         Witness::SignChange { positive, above, negative, below } => line(
             &format!(
-                "the functional changes sign on the ring, which is connected: it is positive on the cell {} (between $@$ and $@$) \
-                 and negative on the cell {} (between $@$ and $@$)",
-                cell(positive),
-                cell(negative)
+                "the functional changes sign on a connected part of the ring: it is positive at the point with address `{positive}` \
+                 (between $@$ and $@$) and negative at the one with address `{negative}` (between $@$ and $@$)"
             ),
             [&above.lo, &above.hi, &below.lo, &below.hi].map(|x| decimal_math(x, 6)),
         ),
-        Witness::Crossing { cell: word, sign } => line(
+        Witness::Crossing { sign, positive, negative, cover, .. } => line(
             &format!(
-                "on the cell {} the first coordinate stays {} while the second takes both signs",
-                cell(word),
+                "the coefficient $c_2$ is positive at the point with address `{positive}` and negative at `{negative}` of a connected \
+                 part of the ring, and on {} that cover that part either $c_2$ has a strict sign or $c_1$ is {}",
+                count(cover.discharged.len(), "cell"),
                 if *sign > 0 { "positive" } else { "negative" }
             ),
             [],

@@ -319,7 +319,12 @@ impl Ring<'_> {
             }
             queue.extend(self.children(&node));
         }
-        Attempt::Answer(RingAnswer::Holds(RingProof { functionals: functionals.to_vec(), discharged, bits, polygons: self.balls.hull(self.state).is_some() }))
+        Attempt::Answer(RingAnswer::Holds(RingProof {
+            functionals: functionals.to_vec(),
+            discharged,
+            bits,
+            polygons: self.balls.hull(self.state).is_some(),
+        }))
     }
 
     /// Points of opposite sign of one functional in one connected part, looked for among the ends of the first cells.

@@ -185,7 +185,7 @@ fn statement_blocks(branch: &BranchReport) -> Vec<Block> {
             blocks
         }
         Outcome::NoGerm { reason } => vec![Block::Paragraph(words(format!("There is no germ here: {reason}.")))],
-        Outcome::Open { reason, place, at_least } => {
+        Outcome::Open { reason, place, at_least, .. } => {
             let place = place.as_ref().map(|p| format!(" The smallest cell in which it failed is {}.", cell(p)));
             let text =
                 format!("**Not decided**: {reason}.{} What is proved is $\\dim D^*≥@$.", place.unwrap_or_default());
