@@ -3,12 +3,13 @@
 //! With `N = D A` and `η = D θ` everything is integral: `F` is monic and the vectors have coefficients in `Z[η]`.
 
 use super::Chain;
-use super::generators::Generator;
+use super::generators::{Generator, Part};
 use super::operator::{Operator, add_multiple, content};
 use crate::algebraic::Elem;
 use crate::arith::{Integer, Natural, Rational};
-use crate::poly::Poly;
-use malachite_base::num::arithmetic::traits::Pow;
+use crate::poly::{Poly, ints};
+use malachite_base::num::arithmetic::traits::{DivExactAssign, Gcd, Lcm, Pow};
+use malachite_base::num::logic::traits::SignificantBits;
 
 /// A vector over `Z[η]` as its coefficient vectors: `sum of η^j parts[j]`.
 struct FieldVector {
@@ -16,7 +17,11 @@ struct FieldVector {
 }
 
 /// The chain of one Jordan block.
-pub(super) fn chain(operator: &Operator, f: &[Integer], generator: &Generator) -> Chain {
+pub(super) fn chain(operator: &Operator, part: &Part, generator: &Generator) -> Chain {
+    let f = &part.poly;
+    if generator.size == 1 && operator.denominator.significant_bits() * f.len() as u64 > LONG_DENOMINATORS {
+        return reduced_chain(operator, &part.monic, &generator.vector);
+    }
     // With q = F / (x - η), the vector q(N)^size u is killed by (N - η)^size and by no lower power.
     let mut top = first_quotient(operator, f, &generator.vector);
     for _ in 1..generator.size {
@@ -34,6 +39,64 @@ pub(super) fn chain(operator: &Operator, f: &[Integer], generator: &Generator) -
     let divisor = divisor(&vectors[0], &powers);
     let scaled = |(j, v): (usize, FieldVector)| v.into_elements(&powers[j..], &divisor);
     Chain { vectors: vectors.into_iter().enumerate().map(scaled).collect() }
+}
+
+/// Powers of the common denominator with more bits than this are not carried along.
+const LONG_DENOMINATORS: u64 = 8192;
+
+/// An eigenvector over `Q[x] / (f)`, by the same recursion as [`first_quotient`] for `A` itself, with the common factor
+/// of numerators and denominator removed in every step.
+fn reduced_chain(operator: &Operator, f: &Poly, u: &[Integer]) -> Chain {
+    let d = f.degree().unwrap_or(1);
+    let mut parts = vec![Reduced { vector: u.to_vec(), denominator: Natural::from(1u32) }];
+    for j in (1..d).rev() {
+        let next = parts[parts.len() - 1].step(operator, &f.coeffs()[j], u);
+        parts.push(next);
+    }
+    parts.reverse();
+    let common = parts.iter().fold(Natural::from(1u32), |acc, p| acc.lcm(&p.denominator));
+    for part in &mut parts {
+        let factor = Integer::from(&common / &part.denominator);
+        part.vector.iter_mut().for_each(|x| *x *= &factor);
+    }
+    let divisor = Integer::from(content(parts.iter().flat_map(|p| &p.vector)));
+    if divisor > 1 {
+        parts.iter_mut().flat_map(|p| &mut p.vector).for_each(|x| x.div_exact_assign(&divisor));
+    }
+    let element = |i: usize| Elem(Poly::new(parts.iter().map(|p| Rational::from(&p.vector[i])).collect()));
+    Chain { vectors: vec![(0..u.len()).map(element).collect()] }
+}
+
+/// The rational vector `vector / denominator`.
+struct Reduced {
+    vector: Vec<Integer>,
+    denominator: Natural,
+}
+
+impl Reduced {
+    /// `A self + c u`.
+    fn step(&self, operator: &Operator, c: &Rational, u: &[Integer]) -> Self {
+        let image = Self {
+            vector: operator.apply(&self.vector),
+            denominator: &self.denominator * operator.denominator.unsigned_abs_ref(),
+        }
+        .lowest();
+        let denominator = (&image.denominator).lcm(c.denominator_ref());
+        let factor = Integer::from(&denominator / &image.denominator);
+        let mut vector: Vec<Integer> = image.vector.into_iter().map(|x| x * &factor).collect();
+        add_multiple(&mut vector, &ints::cleared(c, &denominator), u);
+        Self { vector, denominator }.lowest()
+    }
+
+    fn lowest(mut self) -> Self {
+        let g = self.vector.iter().fold(self.denominator.clone(), |g, x| if g == 1 { g } else { g.gcd(x.unsigned_abs_ref()) });
+        if g > 1 {
+            self.denominator /= &g;
+            let g = Integer::from(g);
+            self.vector.iter_mut().for_each(|x| x.div_exact_assign(&g));
+        }
+        self
+    }
 }
 
 /// `q(N) u` for a constant vector: the coefficient of `η^(j-1)` is `N` times that of `η^j`, plus `F_j u`.

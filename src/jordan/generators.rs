@@ -5,7 +5,7 @@ use super::operator::{ModOperator, Operator, make_primitive};
 use super::reconstruct::Residues;
 use crate::arith::Integer;
 use crate::arith::modular::{PrimeField, large_primes};
-use crate::poly::{IntPoly, ints};
+use crate::poly::{IntPoly, Poly, ints};
 
 /// An integer vector with `F(N)^size u = 0`; it generates a cyclic module `Q[x] / (F^size)`, that is one Jordan block
 /// of that size for every root of `F`.
@@ -17,6 +17,7 @@ pub(super) struct Generator {
 
 /// A scaled irreducible factor (see [`Operator::scaled`]) and its exponent in the characteristic polynomial.
 pub(super) struct Part {
+    pub monic: Poly,
     pub poly: IntPoly,
     pub multiplicity: usize,
 }

@@ -87,7 +87,7 @@ struct Task<'a> {
 impl<'a> Task<'a> {
     fn new(side: &'a Side, factors: &[(Poly, usize)]) -> Self {
         let operator = Operator::new(&side.matrix);
-        let part = |(f, m): &(Poly, usize)| Part { poly: operator.scaled(f), multiplicity: *m };
+        let part = |(f, m): &(Poly, usize)| Part { monic: f.clone(), poly: operator.scaled(f), multiplicity: *m };
         let parts = factors.iter().map(part).collect();
         Self { side, operator, parts }
     }
@@ -95,8 +95,8 @@ impl<'a> Task<'a> {
     /// The chains of one factor, in coordinates of the whole space of dimension `size`.
     fn chains(&self, which: usize, size: usize) -> Vec<Chain> {
         let found = generators(&self.operator, &self.parts, which);
-        let poly = &self.parts[which].poly;
-        found.iter().map(|g| self.embed(chains::chain(&self.operator, poly, g), size)).collect()
+        let part = &self.parts[which];
+        found.iter().map(|g| self.embed(chains::chain(&self.operator, part, g), size)).collect()
     }
 
     fn embed(&self, chain: Chain, size: usize) -> Chain {
