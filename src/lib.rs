@@ -3,4 +3,5 @@
 
 pub mod arith;
 pub mod linalg;
+pub mod scheme;
 pub mod shape;

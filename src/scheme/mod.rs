@@ -1,0 +1,20 @@
+//! Schemes turned into shapes: masks, named curves, tensor products, mesh rules at extraordinary vertices, imports.
+
+mod curves;
+mod error;
+mod laurent;
+mod mask;
+mod registry;
+mod univariate;
+
+pub use curves::{
+    PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, fractal_interpolation, hilbert, koch, lebesgue, levy,
+    minkowski_sausage, okamoto, peano, plane_shape, sierpinski, takagi, terdragon,
+};
+pub use error::SchemeError;
+pub use laurent::{Laurent, MAX_WIDTH};
+pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
+pub use registry::{Parameter, SchemeInfo, build, list};
+pub use univariate::{
+    MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
+};
