@@ -110,7 +110,9 @@ fn parameter(arity: usize, word: &[usize]) -> Rational {
 
 #[test]
 fn spline_operators_evaluate_the_spline() {
-    for (degree, arity, depth) in [(1, 2, 5), (2, 2, 5), (3, 2, 4), (4, 2, 3), (5, 2, 3), (2, 3, 3), (3, 3, 2), (3, 5, 2)] {
+    for (degree, arity, depth) in
+        [(1, 2, 5), (2, 2, 5), (3, 2, 4), (4, 2, 3), (5, 2, 3), (2, 3, 3), (3, 3, 2), (3, 5, 2)]
+    {
         let shape = build("bspline", &[("degree", ratio(degree, 1)), ("arity", ratio(arity, 1))]).unwrap();
         let (degree, arity) = (degree as usize, arity as usize);
         assert_eq!(shape.states[0].dim, degree + 1);
@@ -118,8 +120,7 @@ fn spline_operators_evaluate_the_spline() {
         for word in words(arity, depth) {
             let point = shape.product(0, &word).0.apply(&start);
             let t = parameter(arity, &word);
-            let expected: Vec<Rational> =
-                (0..=degree).map(|i| cardinal(degree, &(&t + ratio(i as i64, 1)))).collect();
+            let expected: Vec<Rational> = (0..=degree).map(|i| cardinal(degree, &(&t + ratio(i as i64, 1)))).collect();
             assert_eq!(point, expected, "degree {degree}, arity {arity}, t = {t}");
         }
     }
@@ -152,9 +153,8 @@ fn interpolatory_masks_reproduce_polynomials() {
         let half = points as i64 / 2;
         for k in 0..points {
             let power = |x: Rational| (0..k).fold(ratio(1, 1), |p, _| p * &x);
-            let value = (0..points).fold(ratio(0, 1), |s, i| {
-                s + &mask.coefficients()[2 * i] * power(ratio(i as i64 + 1 - half, 1))
-            });
+            let value = (0..points)
+                .fold(ratio(0, 1), |s, i| s + &mask.coefficients()[2 * i] * power(ratio(i as i64 + 1 - half, 1)));
             assert_eq!(value, power(ratio(1, 2)), "{points} points, degree {k}");
         }
     }
@@ -232,7 +232,10 @@ fn wrong_input_is_named() {
     assert!(matches!(Mask::new(2, vec![ratio(1, 1), ratio(1, 1)]), Err(SchemeError::Short { .. })));
     assert!(matches!(Mask::new(2, vec![]), Err(SchemeError::SumRule { .. })));
     assert!(matches!(Mask::new(1, vec![ratio(1, 1)]), Err(SchemeError::Arity(1))));
-    assert!(matches!(Mask::new(2, vec![ratio(1, 2), ratio(1, 1), ratio(1, 4)]), Err(SchemeError::SumRule { residue: 0, .. })));
+    assert!(matches!(
+        Mask::new(2, vec![ratio(1, 2), ratio(1, 1), ratio(1, 4)]),
+        Err(SchemeError::SumRule { residue: 0, .. })
+    ));
     // φ is the sum of two boxes: the pieces do not meet, or the limit depends on the start.
     let boxes = Mask::new(2, [1, 0, 0, 1].map(|x| ratio(x, 1)).to_vec()).unwrap();
     assert!(boxes.curve().is_err());

@@ -67,11 +67,7 @@ pub fn corner_cutting(a: &Rational, b: &Rational) -> Result<Shape, SchemeError> 
         vec![a.clone(), cb.clone(), ca.clone()],
         vec![o.clone(), o.clone(), a.clone()],
     ];
-    let second = vec![
-        vec![b.clone(), o.clone(), o.clone()],
-        vec![cb.clone(), ca, b.clone()],
-        vec![o, a.clone(), cb],
-    ];
+    let second = vec![vec![b.clone(), o.clone(), o.clone()], vec![cb.clone(), ca, b.clone()], vec![o, a.clone(), cb]];
     let operators = vec![Matrix::from_rows(3, first), Matrix::from_rows(3, second)];
     let shape = Shape::single(CellKind::Edge, operators);
     verify(&shape)?;
@@ -93,9 +89,8 @@ pub struct PlaneMap {
 /// # Errors
 /// [`SchemeError::Curve`] where `kind` is an edge and the pieces do not meet.
 pub fn plane_shape(kind: CellKind, maps: &[PlaneMap]) -> Result<Shape, SchemeError> {
-    let operator = |m: &PlaneMap| {
-        Shape::affine_operator(&Matrix::from_fn(2, 2, |i, j| m.linear[i][j].clone()), &m.shift)
-    };
+    let operator =
+        |m: &PlaneMap| Shape::affine_operator(&Matrix::from_fn(2, 2, |i, j| m.linear[i][j].clone()), &m.shift);
     let mut shape = Shape::single(kind, maps.iter().map(operator).collect());
     for (piece, map) in shape.states[0].pieces.iter_mut().zip(maps) {
         piece.reversed = map.reversed;
@@ -310,7 +305,11 @@ pub fn fern() -> Result<Shape, SchemeError> {
 /// factor is not smaller than 1 in modulus.
 pub fn fractal_interpolation(points: &[[Rational; 2]], alpha: &[Rational]) -> Result<Shape, SchemeError> {
     if points.len() < 3 || points.windows(2).any(|w| w[0][0] >= w[1][0]) {
-        return Err(SchemeError::value("points", &points.len(), "at least 3 points with increasing abscissas are needed"));
+        return Err(SchemeError::value(
+            "points",
+            &points.len(),
+            "at least 3 points with increasing abscissas are needed",
+        ));
     }
     if alpha.len() + 1 != points.len() {
         return Err(SchemeError::value("alpha", &alpha.len(), "one factor for each interval is needed"));

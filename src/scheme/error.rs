@@ -47,7 +47,9 @@ pub enum SchemeError {
     #[error("a mask of arity {0} cannot be used; the arity is an integer from 2 to 64")]
     Arity(usize),
     /// A mask too short for a curve.
-    #[error("the mask gives a constant, not a curve; it needs at least {needed} coefficients between its first and last nonzero one, and has {found}")]
+    #[error(
+        "the mask gives a constant, not a curve; it needs at least {needed} coefficients between its first and last nonzero one, and has {found}"
+    )]
     Short {
         /// Coefficients needed.
         needed: usize,

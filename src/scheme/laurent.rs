@@ -198,7 +198,11 @@ impl Parser {
                     self.at += 1;
                     let divisor = self.factor()?;
                     let quotient = total.divide(&divisor).ok_or_else(|| {
-                        self.error(if divisor.is_zero() { "division by zero" } else { "this division leaves a remainder" })
+                        self.error(if divisor.is_zero() {
+                            "division by zero"
+                        } else {
+                            "this division leaves a remainder"
+                        })
                     })?;
                     total = self.limited(quotient)?;
                 }
@@ -342,7 +346,9 @@ mod tests {
 
     #[test]
     fn refuses_with_a_position() {
-        for (text, at) in [("(1+z", 4), ("1+", 2), ("1/(1-z)", 7), ("1 + y", 4), ("(1+z)^-1", 8), ("z^z", 2), ("1/0", 3)] {
+        for (text, at) in
+            [("(1+z", 4), ("1+", 2), ("1/(1-z)", 7), ("1 + y", 4), ("(1+z)^-1", 8), ("z^z", 2), ("1/0", 3)]
+        {
             let Err(SchemeError::Symbol { position, .. }) = Laurent::parse(text) else { panic!("{text}") };
             assert_eq!(position, at, "{text}");
         }

@@ -5,6 +5,7 @@ mod error;
 mod laurent;
 mod mask;
 mod registry;
+mod tensor;
 mod univariate;
 
 pub use curves::{
@@ -15,6 +16,7 @@ pub use error::SchemeError;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use registry::{Parameter, SchemeInfo, build, list};
+pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };

@@ -135,10 +135,7 @@ const LIST: &[SchemeInfo] = &[
     },
     SchemeInfo {
         name: "corner-cutting",
-        parameters: &[
-            p("a", None, "p'_2i = (1−a) p_i + a p_i+1"),
-            p("b", None, "p'_2i+1 = b p_i + (1−b) p_i+1"),
-        ],
+        parameters: &[p("a", None, "p'_2i = (1−a) p_i + a p_i+1"), p("b", None, "p'_2i+1 = b p_i + (1−b) p_i+1")],
         source: "G. de Rham (1956); J. Gregory, R. Qu, CAGD 13 (1996); S. Podkorytov, thesis (2013), §2.1",
         summary: "corner cutting with two parameters; a = −1/4, b = 1/2 is the thesis's half-tangent",
         build: |v| curves::corner_cutting(v.number("a"), v.number("b")),

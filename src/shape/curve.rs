@@ -49,7 +49,9 @@ pub enum CurveError {
         begins: Vec<Rational>,
     },
     /// A boundary identity fails.
-    #[error("state `{state}`: the identity {identity} fails; entry ({row}, {column}) of the left side minus the right side is {residual}")]
+    #[error(
+        "state `{state}`: the identity {identity} fails; entry ({row}, {column}) of the left side minus the right side is {residual}"
+    )]
     Identity {
         /// Name of the state.
         state: String,
