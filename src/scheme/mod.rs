@@ -4,9 +4,12 @@ mod curves;
 mod error;
 mod laurent;
 mod mask;
+mod mesh;
+mod refine;
 mod registry;
 mod tensor;
 mod univariate;
+mod vertex;
 
 pub use curves::{
     PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, fractal_interpolation, hilbert, koch, lebesgue, levy,
@@ -15,8 +18,11 @@ pub use curves::{
 pub use error::SchemeError;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
+pub use mesh::Sector;
+pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, list};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };
+pub use vertex::{LocalMatrix, MAX_POINTS, MAX_VALENCE, local_matrix, local_matrix_of};
