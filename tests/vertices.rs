@@ -262,3 +262,54 @@ fn limits_are_diagnosed() {
     assert!(matches!(local_matrix(&short, 5, 1), Err(SchemeError::Mesh { .. })));
     assert!(matches!(local_matrix_of(&rule, &[Sector::Triangles; 5], 1), Err(SchemeError::Mesh { .. })));
 }
+
+#[test]
+fn patches_at_extraordinary_vertices_are_complexes() {
+    use secant::scheme::patch;
+    let face_dim = |rule: &MeshRule, n: usize| {
+        let complex = patch(rule, n).unwrap_or_else(|e| panic!("valence {n}: {e}"));
+        assert!(complex.check().unwrap() > 12);
+        complex.shape.states[0].dim
+    };
+    let cc = MeshRule::CatmullClark(None);
+    let warren = MeshRule::Loop(LoopWeights::Warren);
+    assert_eq!([3, 4, 5, 6, 9].map(|n| face_dim(&cc, n)), [14, 16, 18, 20, 26]);
+    assert_eq!([3, 4, 5, 6, 7].map(|n| face_dim(&warren, n)), [9, 10, 11, 12, 13]);
+    let given = MeshRule::Loop(LoopWeights::Given(ratio(1, 20)));
+    assert_eq!(face_dim(&given, 6), 12);
+    assert!(matches!(patch(&MeshRule::FourEight, 5), Err(SchemeError::Mesh { .. })));
+}
+
+#[test]
+fn the_regular_patches_are_the_splines() {
+    use secant::scheme::{bspline, patch, tensor};
+    let complex = patch(&MeshRule::CatmullClark(None), 4).unwrap();
+    let dims: Vec<usize> = complex.shape.states.iter().map(|s| s.dim).collect();
+    assert_eq!(dims, [16, 12, 12, 9]);
+    let curve = bspline(3, 2).unwrap().curve_with_vertices().unwrap();
+    let product = tensor(&curve, &curve).unwrap();
+    for letter in 0..4 {
+        let op = |c: &secant::shape::Complex| characteristic(&c.shape.states[0].pieces[letter].op);
+        assert_eq!(op(&complex), op(&product), "piece {letter}");
+    }
+    let loops = patch(&MeshRule::Loop(LoopWeights::Original), 6).unwrap();
+    let dims: Vec<usize> = loops.shape.states.iter().map(|s| s.dim).collect();
+    assert_eq!(dims, [12, 12, 10, 10, 10, 7]);
+    // Corner pieces: 1, 1/2, 1/2, 1/4, 1/4, 1/4, and 1/8 three times, 1/16 three times.
+    let corner = &loops.shape.states[0].pieces[0].op;
+    for (root, times) in [(1, 1), (2, 2), (4, 3)] {
+        assert_eq!(nullity(corner, &[(-1, root), (1, 1)]), times, "1/{root}");
+    }
+}
+
+#[test]
+fn irregular_patches_keep_the_vertex_spectrum() {
+    use secant::scheme::patch;
+    let rule = MeshRule::CatmullClark(None);
+    let complex = patch(&rule, 5).unwrap();
+    let quartic = [(1, 1), (-19, 1), (121, 1), (-304, 1), (256, 1)];
+    let state = |name: &str| complex.shape.states.iter().find(|s| s.name == name).unwrap();
+    assert_eq!(nullity(&state("vertex*").pieces[0].op, &quartic), 8);
+    assert_eq!(nullity(&state("face*").pieces[0].op, &quartic), 8);
+    assert_eq!(state("vertex*").pieces[0].op, local(&rule, 5, 1).matrix.transpose());
+}

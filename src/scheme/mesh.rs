@@ -1,7 +1,7 @@
 //! Meshes around one vertex or face, and the order of their points.
 
 use crate::arith::Rational;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A control point as a combination of earlier ones.
 pub(super) type Row = BTreeMap<usize, Rational>;
@@ -11,8 +11,21 @@ pub(super) type Row = BTreeMap<usize, Rational>;
 pub(super) enum Centre {
     /// A vertex, and the neighbour with which the order begins.
     Vertex(usize, usize),
+    /// A directed edge.
+    Edge(usize, usize),
     /// A face, and the vertex with which the order begins.
     Face(usize, usize),
+}
+
+/// The points around a centre, in order.
+pub(super) struct Walk {
+    /// The points.
+    pub points: Vec<usize>,
+    /// Number of points up to each ring.
+    pub ends: Vec<usize>,
+    /// How each point after the centre's own was found: from which point, over which edge of its star, how far along the
+    /// face beyond.
+    pub moves: Vec<(usize, usize, usize)>,
 }
 
 /// The kind of the faces between two spokes of a mesh.
@@ -136,49 +149,62 @@ impl Mesh {
     }
 
     /// The points up to a number of rings of faces around the centre, in an order that only depends on the mesh: ring by
-    /// ring, anticlockwise. Also where each ring ends. `None` where the mesh is too small.
-    pub fn walk(&self, centre: Centre, rings: usize) -> Option<(Vec<usize>, Vec<usize>)> {
-        let mut order: Vec<(usize, usize)> = Vec::new();
-        let mut seen: BTreeMap<usize, ()> = BTreeMap::new();
-        let mut ends = Vec::new();
-        match centre {
-            Centre::Vertex(v, first) => {
-                order.push((v, first));
-                seen.insert(v, ());
-                ends.push(1);
-            }
-            Centre::Face(f, first) => {
-                let face = &self.faces[f];
-                let at = face.iter().position(|v| *v == first)?;
-                for k in 0..face.len() {
-                    let (v, next) = (face[(at + k) % face.len()], face[(at + k + 1) % face.len()]);
-                    order.push((v, next));
-                    seen.insert(v, ());
-                }
-                ends.extend([0, order.len()]);
-            }
-        }
+    /// ring, anticlockwise. `None` where the mesh is too small.
+    pub fn walk(&self, centre: Centre, rings: usize) -> Option<Walk> {
+        let mut order = self.beginning(centre)?;
+        let mut seen: BTreeSet<usize> = order.iter().map(|(v, _)| *v).collect();
+        let mut ends = if matches!(centre, Centre::Vertex(..)) { vec![1] } else { vec![0, order.len()] };
+        let mut moves = Vec::new();
         let mut processed = 0;
         while ends.len() <= rings {
             let end = order.len();
             while processed < end {
                 let (v, first) = order[processed];
-                processed += 1;
-                for w in self.star(v, Some(first))? {
-                    let (f, k) = *self.edges.get(&(v, w))?;
-                    let face = &self.faces[f];
-                    for step in 1..face.len() {
-                        let at = (k + step) % face.len();
-                        let (x, next) = (face[at], face[(at + 1) % face.len()]);
-                        if seen.insert(x, ()).is_none() {
-                            order.push((x, next));
+                for (turn, w) in self.star(v, Some(first))?.into_iter().enumerate() {
+                    for step in 1..self.faces[self.left(v, w)?].len() {
+                        let point = self.beyond(v, w, step)?;
+                        if seen.insert(point.0) {
+                            order.push(point);
+                            moves.push((processed, turn, step));
                         }
                     }
                 }
+                processed += 1;
             }
             ends.push(order.len());
         }
-        order.truncate(ends[rings]);
-        Some((order.into_iter().map(|(v, _)| v).collect(), ends))
+        Some(Walk { points: order.into_iter().map(|(v, _)| v).collect(), ends, moves })
+    }
+
+    /// The points that the moves of a walk lead to around another centre; some may coincide.
+    pub fn follow(&self, centre: Centre, moves: &[(usize, usize, usize)]) -> Option<Vec<usize>> {
+        let mut order = self.beginning(centre)?;
+        for (from, turn, step) in moves {
+            let (v, first) = *order.get(*from)?;
+            let w = *self.star(v, Some(first))?.get(*turn)?;
+            order.push(self.beyond(v, w, *step)?);
+        }
+        Some(order.into_iter().map(|(v, _)| v).collect())
+    }
+
+    /// The points of the centre itself, each with the neighbour from which its star is read.
+    fn beginning(&self, centre: Centre) -> Option<Vec<(usize, usize)>> {
+        match centre {
+            Centre::Vertex(v, first) => Some(vec![(v, first)]),
+            Centre::Edge(a, b) => Some(vec![(a, b), (b, a)]),
+            Centre::Face(f, first) => {
+                let face = self.faces.get(f)?;
+                let at = face.iter().position(|v| *v == first)?;
+                let corner = |k: usize| face[(at + k) % face.len()];
+                Some((0..face.len()).map(|k| (corner(k), corner(k + 1))).collect())
+            }
+        }
+    }
+
+    /// The vertex `step` places after `v` in the face on the left of `v -> w`, and the one after it.
+    fn beyond(&self, v: usize, w: usize, step: usize) -> Option<(usize, usize)> {
+        let (f, k) = *self.edges.get(&(v, w))?;
+        let face = &self.faces[f];
+        Some((face[(k + step) % face.len()], face[(k + step + 1) % face.len()]))
     }
 }

@@ -68,20 +68,20 @@ pub fn local_matrix_of(rule: &MeshRule, sectors: &[Sector], rings: usize) -> Res
     let disc = Mesh::disc(sectors, rings + 3);
     let (mesh, centre) =
         if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
-    let (old, old_rings) = mesh.walk(centre, rings).ok_or_else(too_small)?;
+    let old = mesh.walk(centre, rings).ok_or_else(too_small)?;
     let mut current = rule.refine(&mesh, centre, 0)?;
     for turn in 1..rule.steps() {
         let next = rule.refine(&current.mesh, current.centre, turn)?;
         let rows = next.rows.iter().map(|row| substitute(row, &current.rows)).collect();
         current = super::refine::Refined { mesh: next.mesh, centre: next.centre, rows };
     }
-    let (new, new_rings) = current.mesh.walk(current.centre, rings).ok_or_else(too_small)?;
-    if old_rings != new_rings {
+    let new = current.mesh.walk(current.centre, rings).ok_or_else(too_small)?;
+    if old.ends != new.ends {
         let message = "the refined mesh is not a copy of the mesh around its centre".to_owned();
         return Err(SchemeError::Mesh { rule: rule.name().to_owned(), message });
     }
-    let matrix = assemble(rule, &old, new.iter().map(|v| &current.rows[*v]), rings)?;
-    Ok(LocalMatrix { matrix, rings: old_rings, steps: rule.steps() })
+    let matrix = assemble(rule, &old.points, new.points.iter().map(|v| &current.rows[*v]), rings)?;
+    Ok(LocalMatrix { matrix, rings: old.ends, steps: rule.steps() })
 }
 
 /// A combination of points that are combinations themselves.
