@@ -249,3 +249,70 @@ fn wrong_input_is_named() {
     assert!(matches!(build("bezier", &[("split", ratio(1, 1))]), Err(SchemeError::Value { .. })));
     assert!(matches!(build("koch", &[("pieces", ratio(3, 1))]), Err(SchemeError::Value { .. })));
 }
+
+#[test]
+fn fractint_files_are_read_exactly() {
+    let text = "\
+; a collection
+Fern { ; Barnsley
+  0 0 0 .16 0 0 .01
+  .85 .04 -.04 .85 0 1.6 .85
+  .2 -.26 .23 .22 0 1.6 .07
+  -.15 .28 .26 .24 0 .44 .07
+}
+block (3D) { .5 0 0 0 .5 0 0 0 .5 0 0 0
+  .5 0 0, 0 .5 0, 0 0 .5, .5 .5 .5 }
+";
+    let entries = scheme::parse_fractint(text).unwrap();
+    assert_eq!(entries.len(), 2);
+    let named = build("fern", &[]).unwrap();
+    for (a, b) in entries[0].shape.states[0].pieces.iter().zip(&named.states[0].pieces) {
+        assert_eq!(a.op, b.op);
+    }
+    assert_eq!(entries[0].probabilities[0], Some(ratio(1, 100)));
+    assert_eq!((entries[1].name.as_str(), entries[1].dimension, entries[1].shape.states[0].dim), ("block", 3, 4));
+    for (bad, line) in [
+        ("x { 1 2 3 }", 1),
+        ("x {\n 1 0 0 1 0 q\n}", 2),
+        ("x {\n}", 2),
+        ("{ 1 0 0 1 0 0 }", 1),
+        ("x {", 1),
+        ("", 1),
+        ("words", 1),
+    ] {
+        let Err(SchemeError::Import { line: found, .. }) = scheme::parse_fractint(bad) else { panic!("{bad}") };
+        assert_eq!(found, line, "{bad}");
+    }
+}
+
+#[test]
+fn json_states_its_convention() {
+    let columns = r#"{ "convention": "columns", "pieces": [[["3/4", "1/4", 0], ["1/4", "3/4", "0.75"], [0, 0, "1/4"]],
+                       [["1/4", 0, 0], ["3/4", "3/4", "1/4"], [0, "1/4", "3/4"]]] }"#;
+    let shape = scheme::parse_json(columns).unwrap();
+    assert_eq!(shape.states[0].pieces[0].op, build("de-rham", &[("a", ratio(1, 4))]).unwrap().states[0].pieces[0].op);
+    let rows = r#"{ "convention": "rows", "pieces": [[["3/4", "1/4", 0], ["1/4", "3/4", 0], [0, "3/4", "1/4"]],
+                    [["1/4", "3/4", 0], [0, "3/4", "1/4"], [0, "1/4", "3/4"]]] }"#;
+    assert_eq!(scheme::parse_json(rows).unwrap().states[0].pieces[0].op, shape.states[0].pieces[0].op);
+    let maps = r#"{ "maps": [{ "linear": [["1/2", "-1/2"], ["1/2", "1/2"]], "shift": [0, 0] },
+                             { "linear": [["1/2", "1/2"], ["-1/2", "1/2"]], "shift": ["1/2", "1/2"] }] }"#;
+    assert_eq!(
+        scheme::parse_json(maps).unwrap().states[0].pieces[1].op,
+        build("levy", &[]).unwrap().states[0].pieces[1].op
+    );
+    assert!(matches!(scheme::parse_json(&columns.replace("columns", "rows")), Err(SchemeError::Shape(_))));
+    for bad in [
+        "",
+        "{}",
+        "[1]",
+        r#"{ "pieces": [[[1]]] }"#,
+        r#"{ "convention": "columns", "pieces": [[[0.5, 0.5]]] }"#,
+        r#"{ "convention": "columns", "pieces": [[]] }"#,
+        r#"{ "convention": "columns", "pieces": [[[1]]], "reversed": [3] }"#,
+        r#"{ "convention": "columns", "pieces": [[[1]]], "other": 1 }"#,
+        r#"{ "kind": "blob", "maps": [] }"#,
+        r#"{ "maps": [{ "linear": [["1/2"]], "shift": [0, 0] }] }"#,
+    ] {
+        assert!(matches!(scheme::parse_json(bad), Err(SchemeError::Import { .. })), "{bad}");
+    }
+}

@@ -313,3 +313,24 @@ fn irregular_patches_keep_the_vertex_spectrum() {
     assert_eq!(nullity(&state("face*").pieces[0].op, &quartic), 8);
     assert_eq!(state("vertex*").pieces[0].op, local(&rule, 5, 1).matrix.transpose());
 }
+
+#[test]
+fn mesh_rules_have_names() {
+    use secant::scheme::{mesh_rule, mesh_rules};
+    let given: BTreeMap<String, Rational> =
+        [("alpha", ratio(3, 4)), ("beta", ratio(1, 16))].map(|(k, v)| (k.to_owned(), v)).into();
+    assert!(mesh_rules().iter().map(|r| r.name).is_sorted());
+    for info in mesh_rules() {
+        let own: BTreeMap<String, Rational> = given
+            .iter()
+            .filter(|(k, _)| info.parameters.iter().any(|p| p.name == *k))
+            .map(|(k, v)| (k.clone(), v.clone()))
+            .collect();
+        let rule = mesh_rule(info.name, &own).unwrap_or_else(|e| panic!("{}: {e}", info.name));
+        local(&rule, 4, 2);
+    }
+    assert!(matches!(mesh_rule("loop-variant", &BTreeMap::new()), Err(SchemeError::Missing { .. })));
+    assert!(
+        matches!(mesh_rule("catmul-clark", &BTreeMap::new()), Err(SchemeError::Unknown { near, .. }) if near == "catmull-clark")
+    );
+}

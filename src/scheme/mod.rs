@@ -2,12 +2,15 @@
 
 mod curves;
 mod error;
+mod fractint;
+mod json;
 mod laurent;
 mod mask;
 mod mesh;
 mod patch;
 mod refine;
 mod registry;
+mod rules;
 mod tensor;
 mod univariate;
 mod vertex;
@@ -17,12 +20,15 @@ pub use curves::{
     minkowski_sausage, okamoto, peano, plane_shape, sierpinski, takagi, terdragon,
 };
 pub use error::SchemeError;
+pub use fractint::{FractintEntry, parse_fractint};
+pub use json::parse_json;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use mesh::Sector;
 pub use patch::patch;
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, list};
+pub use rules::{RuleInfo, mesh_rule, mesh_rules};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,

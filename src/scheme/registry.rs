@@ -31,10 +31,10 @@ pub struct SchemeInfo {
 }
 
 /// Values of parameters by name, defaults filled in.
-struct Values(BTreeMap<&'static str, Rational>);
+pub(super) struct Values(BTreeMap<&'static str, Rational>);
 
 impl Values {
-    fn number(&self, name: &str) -> &Rational {
+    pub(super) fn number(&self, name: &str) -> &Rational {
         &self.0[name]
     }
 
@@ -47,7 +47,7 @@ impl Values {
     }
 }
 
-const fn p(name: &'static str, default: Option<&'static str>, summary: &'static str) -> Parameter {
+pub(super) const fn p(name: &'static str, default: Option<&'static str>, summary: &'static str) -> Parameter {
     Parameter { name, default, summary }
 }
 
@@ -70,27 +70,40 @@ pub fn list() -> &'static [SchemeInfo] {
 /// # Ok::<(), scheme::SchemeError>(())
 /// ```
 pub fn build(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<Shape, SchemeError> {
-    let Some(info) = LIST.iter().find(|s| s.name == name) else {
-        let near = LIST.iter().map(|s| s.name).min_by_key(|known| distance(name, known)).unwrap_or_default();
-        return Err(SchemeError::Unknown { name: name.to_owned(), near: near.to_owned() });
-    };
-    if let Some(parameter) = parameters.keys().find(|k| info.parameters.iter().all(|p| p.name != k.as_str())) {
-        let names: Vec<&str> = info.parameters.iter().map(|p| p.name).collect();
+    let info = LIST.iter().find(|s| s.name == name);
+    let info = info.ok_or_else(|| unknown(name, LIST.iter().map(|s| s.name)))?;
+    (info.build)(&resolve(name, info.parameters, parameters)?)
+}
+
+/// Fills in the defaults and refuses what the scheme does not have.
+pub(super) fn resolve(
+    scheme: &str,
+    wanted: &'static [Parameter],
+    given: &BTreeMap<String, Rational>,
+) -> Result<Values, SchemeError> {
+    if let Some(parameter) = given.keys().find(|k| wanted.iter().all(|p| p.name != k.as_str())) {
+        let names: Vec<&str> = wanted.iter().map(|p| p.name).collect();
         let known = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-        return Err(SchemeError::Parameter { scheme: name.to_owned(), parameter: parameter.clone(), known });
+        return Err(SchemeError::Parameter { scheme: scheme.to_owned(), parameter: parameter.clone(), known });
     }
     let mut values = BTreeMap::new();
-    for parameter in info.parameters {
-        let given = parameters.get(parameter.name).cloned();
-        let value = given.or_else(|| parameter.default.and_then(|text| parse_rational(text).ok()));
+    for parameter in wanted {
+        let own = given.get(parameter.name).cloned();
+        let value = own.or_else(|| parameter.default.and_then(|text| parse_rational(text).ok()));
         let missing = || SchemeError::Missing {
-            scheme: name.to_owned(),
+            scheme: scheme.to_owned(),
             parameter: parameter.name.to_owned(),
             summary: parameter.summary.to_owned(),
         };
         values.insert(parameter.name, value.ok_or_else(missing)?);
     }
-    (info.build)(&Values(values))
+    Ok(Values(values))
+}
+
+/// The error for a name that is not among `known`.
+pub(super) fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> SchemeError {
+    let near = known.min_by_key(|k| distance(name, k)).unwrap_or_default();
+    SchemeError::Unknown { name: name.to_owned(), near: near.to_owned() }
 }
 
 /// The number of single-letter changes between two words (Levenshtein).
