@@ -12,5 +12,6 @@ pub mod linalg;
 pub mod picture;
 pub mod poly;
 pub mod report;
+pub mod scheme;
 pub mod shape;
 pub mod theorem;
