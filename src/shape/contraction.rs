@@ -91,11 +91,8 @@ pub fn linear_part(op: &Matrix) -> Matrix {
 pub fn contraction(shape: &Shape, mut expands: impl FnMut(&Matrix) -> bool) -> Contraction {
     let mut codes: Vec<Vec<ContractingWord>> = vec![Vec::new(); shape.states.len()];
     let mut constant = Rational::from(0);
-    let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> = shape
-        .reachable()
-        .into_iter()
-        .map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim)))
-        .collect();
+    let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> =
+        shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim))).collect();
     let (mut length, mut count) = (0, 0);
     while !open.is_empty() {
         length += 1;
@@ -141,11 +138,8 @@ mod tests {
             vec![a.clone(), &one - &b, &one - &a],
             vec![o.clone(), o.clone(), a.clone()],
         ];
-        let t1 = vec![
-            vec![b.clone(), o.clone(), o.clone()],
-            vec![&one - &b, &one - &a, b.clone()],
-            vec![o, a, &one - &b],
-        ];
+        let t1 =
+            vec![vec![b.clone(), o.clone(), o.clone()], vec![&one - &b, &one - &a, b.clone()], vec![o, a, &one - &b]];
         Shape::single(CellKind::Edge, vec![Matrix::from_rows(3, t0), Matrix::from_rows(3, t1)])
     }
 

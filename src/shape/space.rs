@@ -162,10 +162,7 @@ mod tests {
     fn states_without_fixed_points_span_the_segment() {
         let op = |shift: i64| Shape::affine_operator(&Matrix::from_fn(1, 1, |_, _| ratio(1, 2)), &[ratio(shift, 2)]);
         let piece = |target, shift| Piece { target, op: op(shift), reversed: false };
-        let states = vec![
-            state("a", 2, vec![piece(1, 0), piece(1, 1)]),
-            state("b", 2, vec![piece(0, 0), piece(0, 1)]),
-        ];
+        let states = vec![state("a", 2, vec![piece(1, 0), piece(1, 1)]), state("b", 2, vec![piece(0, 0), piece(0, 1)])];
         let shape = Shape { states, start: 0, control: None, frame: Frame::Barycentric };
         let spaces = Spaces::new(&shape).unwrap();
         assert_eq!((spaces.of(0).basis.cols(), spaces.of(1).basis.cols()), (1, 1));

@@ -1,0 +1,5 @@
+//! Reports: one document model, and its renderings.
+
+pub mod document;
+pub mod math;
+pub mod text;

@@ -1,0 +1,516 @@
+//! One branch `u w^ω`: its visible quotient, spectrum, ring, and the statement that applies (theory §3–§9).
+
+use super::direction::Direction;
+use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
+use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side, Statement};
+use crate::algebraic::{Elem, Root};
+use crate::arith::Rational;
+use crate::jordan::{Chain, Factor, Spectrum};
+use crate::linalg::Matrix;
+use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
+
+/// What all branches of a shape share.
+pub struct Context<'a> {
+    /// The shape.
+    pub shape: &'a Shape,
+    /// Its relevant spaces.
+    pub spaces: &'a Spaces,
+    /// Balls that hold its attractors.
+    pub balls: &'a Balls,
+    /// The state from which addresses are read.
+    pub root: usize,
+    /// The map from that state into the space where the shape is looked at: control points, identity, or a quotient.
+    pub view: Matrix,
+}
+
+/// The largest `L`-invariant subspace in the kernel of `view`, divided out.
+struct Quotient {
+    /// `Y <- V`, reduced echelon form.
+    chart: Matrix,
+    /// `V <- Y`, a right inverse.
+    lift: Matrix,
+}
+
+impl Quotient {
+    fn new(view: &Matrix, linear: &Matrix) -> Self {
+        let mut rows = view.echelon();
+        loop {
+            let grown = rows.rows.stack(&(&rows.rows * linear)).echelon();
+            if grown.pivots.len() == rows.pivots.len() {
+                break;
+            }
+            rows = grown;
+        }
+        let lift =
+            Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| Rational::from(u8::from(rows.pivots[k] == i)));
+        Self { chart: rows.rows, lift }
+    }
+}
+
+/// Examines the branch `address` from the root state; `side` says which part of the curve it describes there.
+///
+/// Returns `None` where the fixed point of the cycle is not unique.
+#[must_use]
+pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchReport> {
+    let shape = cx.shape;
+    let (prefix, state) = shape.product(cx.root, &address.prefix);
+    let (cycle_operator, _) = shape.product(state, &address.cycle);
+    let fixed = crate::shape::fixed_point(&cycle_operator)?;
+    let transport = &cx.view * &prefix;
+    let space = cx.spaces.of(state);
+    let on_v = &transport * &space.basis;
+    let linear_v = cx.spaces.linear(&cycle_operator, state, state);
+    let quotient = Quotient::new(&on_v, &linear_v);
+    let linear = &(&quotient.chart * &linear_v) * &quotient.lift;
+    let view = &on_v * &quotient.lift;
+    let chart = &quotient.chart * &space.coordinates;
+    let spectrum = Spectrum::of(&linear);
+    let mut ring = standard_ring(shape, cx.spaces, state, &address.cycle, &fixed);
+    mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
+    let sign_along = |from: usize, word: &[usize]| -> i32 {
+        let states = shape.path(from, word);
+        word.iter().zip(&states).map(|(&i, &e)| if shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
+    };
+    let mut report = BranchReport {
+        side,
+        address: address.clone(),
+        state,
+        prefix_sign: sign_along(cx.root, &address.prefix),
+        cycle_sign: sign_along(state, &address.cycle),
+        cycle_operator,
+        fixed,
+        transport,
+        relevant: space.basis.cols(),
+        chart,
+        linear,
+        view,
+        spectrum,
+        ring,
+        outcome: Outcome::NoGerm { reason: String::new() },
+    };
+    let seen: Vec<RingPiece> = report.ring.iter().filter(|p| !p.collapses).cloned().collect();
+    report.outcome = Analysis { cx, branch: &report, seen: &seen }.outcome();
+    Some(report)
+}
+
+/// Marks the pieces that fall into `q` as a whole (Lemma 2).
+fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
+    let falls = &power(linear, linear.rows()) * chart;
+    for piece in ring {
+        let space = cx.spaces.of(piece.end);
+        let point = falls.apply(&difference(&piece.op.apply(&space.base), fixed));
+        piece.collapses = point.iter().all(|x| *x == 0) && (&falls * &(&piece.op * &space.basis)).is_zero();
+    }
+}
+
+fn power(m: &Matrix, exponent: usize) -> Matrix {
+    (0..exponent).fold(Matrix::identity(m.rows()), |p, _| &p * m)
+}
+
+struct Analysis<'a> {
+    cx: &'a Context<'a>,
+    branch: &'a BranchReport,
+    /// The ring without the pieces that collapse.
+    seen: &'a [RingPiece],
+}
+
+/// The part of the spectrum with the largest modulus.
+struct Top<'a> {
+    /// Length of the longest block.
+    block: usize,
+    /// Factor and root of every eigenvalue with a block of that length, once per such block.
+    longest: Vec<(usize, usize)>,
+    /// The factor of the first of them.
+    factor: &'a Factor,
+    /// Its root.
+    root: &'a Root,
+}
+
+fn top(spectrum: &Spectrum) -> Option<Top<'_>> {
+    let class = spectrum.classes.first()?;
+    let block = class.members.iter().map(|m| spectrum.factors[m.factor].blocks[0]).max()?;
+    let longest: Vec<(usize, usize)> = class
+        .members
+        .iter()
+        .flat_map(|m| {
+            let count = spectrum.factors[m.factor].blocks.iter().filter(|&&b| b == block).count();
+            std::iter::repeat_n((m.factor, m.root), count)
+        })
+        .collect();
+    let &(f, r) = longest.first()?;
+    let factor = &spectrum.factors[f];
+    Some(Top { block, longest, factor, root: &factor.roots[r] })
+}
+
+impl Analysis<'_> {
+    fn ring(&self) -> Ring<'_> {
+        Ring {
+            shape: self.cx.shape,
+            spaces: self.cx.spaces,
+            balls: self.cx.balls,
+            state: self.branch.state,
+            fixed: &self.branch.fixed,
+            chart: &self.branch.chart,
+            pieces: self.seen,
+        }
+    }
+
+    fn outcome(&self) -> Outcome {
+        let b = self.branch;
+        if b.linear.rows() == 0 {
+            return Outcome::NoGerm { reason: "the shape is a single point near this address".to_owned() };
+        }
+        let Some(top) = top(&b.spectrum) else {
+            return Outcome::NoGerm { reason: "the relevant space is 0".to_owned() };
+        };
+        if top.root.is_zero() {
+            return self.nilpotent();
+        }
+        if top.longest.len() >= 2 {
+            return self.many_directions(&top);
+        }
+        self.one_direction(&top)
+    }
+
+    /// `L` is nilpotent: the germ is that of the finitely many `M^m K` that contain `q`.
+    fn nilpotent(&self) -> Outcome {
+        let coordinates: Vec<Functional> = (0..self.branch.linear.rows())
+            .map(|k| Functional::rational(Matrix::identity(self.branch.linear.rows()).row(k)))
+            .collect();
+        let mut images = self.branch.ring.clone();
+        let mut turns = 0;
+        // From the index of nilpotency on, the images of the ring are the point itself.
+        while !power(&self.branch.linear, turns).is_zero() {
+            let ring = Ring { pieces: &images, ..self.ring() };
+            match ring.decide(&coordinates) {
+                RingAnswer::Holds(_) => {}
+                RingAnswer::Fails(_) => {
+                    let reason = "L is nilpotent and the ring passes through the point: its germ is that of finitely many pieces";
+                    return Outcome::Open { reason: reason.to_owned(), place: None, at_least: 0 };
+                }
+                RingAnswer::Open { place } => {
+                    let reason = "L is nilpotent and it is not decided whether the ring passes through the point";
+                    return Outcome::Open { reason: reason.to_owned(), place: Some(place), at_least: 0 };
+                }
+            }
+            for piece in &mut images {
+                piece.op = &self.branch.cycle_operator * &piece.op;
+                piece.word.splice(0..0, self.branch.address.cycle.iter().copied());
+            }
+            turns += 1;
+        }
+        Outcome::NoGerm { reason: "the point is isolated in the shape: no tangent question arises".to_owned() }
+    }
+
+    /// `dim U >= 2`: the corollary refutes without the ring, if the view does not fold `U`.
+    fn many_directions(&self, top: &Top) -> Outcome {
+        let spectrum = &self.branch.spectrum;
+        let dimension = visible_dimension(&self.branch.view, spectrum, &top.longest, top.block);
+        if dimension >= 2 {
+            return Outcome::AtLeast {
+                dimension,
+                statement: Statement::Corollary,
+                eigenvalues: top.longest.clone(),
+                isolation: None,
+                witness: None,
+            };
+        }
+        let reason = "several directions of the largest modulus, which the control points may fold into one line";
+        Outcome::Open { reason: reason.to_owned(), place: None, at_least: 1 }
+    }
+
+    /// `dim U = 1`: one real eigenvalue with one longest block.
+    fn one_direction(&self, top: &Top) -> Outcome {
+        let b = self.branch;
+        let (factor, root) = top.longest[0];
+        let functional = Functional {
+            row: leading_functional(top.factor, top.block),
+            root: Some(top.root.clone()),
+            part: Part::Real,
+        };
+        let answer = self.ring().decide(std::slice::from_ref(&functional));
+        let statement = if top.block == 1 { Statement::Theorem2 } else { Statement::Theorem3 };
+        let line = |statement, proof: Option<RingProof>| {
+            let direction = self.direction(top).normalised();
+            let flip = self.sense(top, &direction);
+            let rays = match &proof {
+                Some(proof) => self.rays(top, &direction, flip, proof),
+                None => Rays { left: Vec::new(), right: Vec::new() },
+            };
+            Outcome::Line {
+                statement,
+                eigenvalue: (factor, root),
+                block: top.block,
+                functional: functional.row.clone(),
+                proof,
+                direction,
+                rays,
+                rate: rate(&b.spectrum, top),
+                holder: self.holder(top),
+            }
+        };
+        if let RingAnswer::Holds(proof) = answer {
+            return line(statement, Some(proof));
+        }
+        if b.linear.rows() == 1 {
+            return line(Statement::CorollaryLine, None);
+        }
+        self.ring_fails(top, &functional, answer)
+    }
+
+    /// The ring condition fails or is open: isolation first, then what the witness gives.
+    fn ring_fails(&self, top: &Top, functional: &Functional, answer: RingAnswer) -> Outcome {
+        let open = |reason: &str, place| Outcome::Open { reason: reason.to_owned(), place, at_least: 1 };
+        let isolation = match self.ring().decide(&isolation_functionals(&self.branch.linear)) {
+            RingAnswer::Holds(proof) => proof,
+            RingAnswer::Fails(Witness::Point { address, .. }) => {
+                let mut place = address.prefix;
+                place.extend(address.cycle);
+                return open(
+                    "the branch is not isolated: a point of the ring falls into the generalised kernel",
+                    Some(place),
+                );
+            }
+            RingAnswer::Fails(_) => return open("the branch is not isolated", None),
+            RingAnswer::Open { place } => return open("it is not decided whether the branch is isolated", Some(place)),
+        };
+        let injective = self.branch.view.rank() == self.branch.linear.rows();
+        let refuted = |statement, witness| Outcome::AtLeast {
+            dimension: 2,
+            statement,
+            eigenvalues: top.longest.clone(),
+            isolation: Some(isolation.clone()),
+            witness: Some(witness),
+        };
+        let (place, witness) = match answer {
+            RingAnswer::Open { place } => return open("the ring condition is not decided in this cell", Some(place)),
+            RingAnswer::Fails(witness @ Witness::Point { .. }) => (None, Some(witness)),
+            RingAnswer::Fails(witness) => (None, Some(witness)),
+            RingAnswer::Holds(_) => (None, None),
+        };
+        let Some(witness) = witness else { return open("the ring condition is not decided", place) };
+        if top.block == 1 && injective {
+            return refuted(Statement::Theorem4, witness);
+        }
+        if let Witness::Point { offset, .. } = &witness
+            && self.leaves_line(top, offset)
+        {
+            return refuted(Statement::Theorem4, witness);
+        }
+        if top.block == 2 && injective && self.is_single_block(top) {
+            let c1 = Functional { row: second_functional(top.factor), ..functional.clone() };
+            if let Some(crossing) = self.ring().crossing(&c1, functional) {
+                return refuted(Statement::Section6, crossing);
+            }
+        }
+        let place = match witness {
+            Witness::Point { address, .. } => address.prefix.into_iter().chain(address.cycle).collect(),
+            Witness::SignChange { positive, .. } => positive,
+            Witness::Crossing { cell, .. } => cell,
+        };
+        open("the ring condition fails, but what follows for the tangent is not decided", Some(place))
+    }
+
+    /// Whether `E_1` is exactly one real block.
+    fn is_single_block(&self, top: &Top) -> bool {
+        self.branch.spectrum.classes[0].members.len() == 1 && top.factor.blocks.len() == 1
+    }
+
+    /// Whether the orbit of a witness proves a second visible direction: its cyclic hull has a top of smaller modulus, whose
+    /// directions the view does not send into the line.
+    fn leaves_line(&self, top: &Top, offset: &[Rational]) -> bool {
+        let hull = krylov(&self.branch.linear, offset);
+        let Some(restricted) = restrict(&self.branch.linear, &hull) else { return false };
+        let spectrum = Spectrum::of(&restricted);
+        let Some(own) = self::top(&spectrum) else { return false };
+        if own.root.is_zero() || own.root.cmp_modulus(top.root) != std::cmp::Ordering::Less {
+            return false;
+        }
+        let view = &self.branch.view * &hull;
+        let line = self.direction(top);
+        own.longest.iter().any(|&(f, r)| {
+            let factor = &spectrum.factors[f];
+            let root = &factor.roots[r];
+            let chain = longest_chain(&factor.right, own.block);
+            if root.is_real() {
+                let coords = apply(&view, &chain.vectors[0]);
+                let second = Direction { root: root.clone(), coords };
+                second.coords.iter().any(|c| !c.is_zero()) && line.same_line(&second).is_none()
+            } else {
+                visible_dimension(&view, &spectrum, &[(f, r)], own.block) >= 2
+            }
+        })
+    }
+
+    /// `G v` for the eigenvector `v` at the end of the longest chain.
+    fn direction(&self, top: &Top) -> Direction {
+        let chain = longest_chain(&top.factor.right, top.block);
+        Direction { root: top.root.clone(), coords: apply(&self.branch.view, &chain.vectors[0]) }
+    }
+
+    /// The sign `s` such that points with a positive functional tend to `s` times the given ray: it compares the functional
+    /// with the top of the longest chain, and the normalised direction with `G v`.
+    fn sense(&self, top: &Top, direction: &Direction) -> i32 {
+        let f = &top.factor.poly;
+        let chain = longest_chain(&top.factor.right, top.block);
+        let row = leading_functional(top.factor, top.block);
+        let last = &chain.vectors[top.block - 1];
+        let zero = Elem::from_rational(Rational::from(0));
+        let pairing = row.iter().zip(last).fold(zero, |s, (a, b)| s.add(&a.mul(b, f)));
+        let orientation = self.direction(top).same_line(direction).unwrap_or(0);
+        // λ^{-ℓ} in the leading coefficient u.
+        let parity = if top.block.is_multiple_of(2) { top.root.sign() } else { 1 };
+        pairing.sign(top.root) * orientation * parity
+    }
+
+    /// The limit rays per side of the point: the signs on the ring, closed under the map of one turn.
+    fn rays(&self, top: &Top, direction: &Direction, flip: i32, proof: &RingProof) -> Rays {
+        let ordered = self.cx.shape.states[self.branch.state].kind == CellKind::Edge;
+        let turn = if ordered { self.branch.cycle_sign } else { 1 };
+        let mut pairs: Vec<(i32, i32)> = Vec::new();
+        for cell in &proof.discharged {
+            let side = match cell.position {
+                Position::Before => -1,
+                Position::After | Position::Unordered => 1,
+            };
+            let (mut side, mut sign) = (side, cell.sign * flip);
+            for _ in 0..4 {
+                if !pairs.contains(&(side, sign)) {
+                    pairs.push((side, sign));
+                }
+                side *= turn;
+                sign *= top.root.sign();
+            }
+        }
+        let on = |wanted: i32| -> Vec<Direction> {
+            [1, -1].into_iter().filter(|s| pairs.contains(&(wanted, *s))).map(|s| direction.times(s)).collect()
+        };
+        let (before, after) = (on(-self.branch.prefix_sign), on(self.branch.prefix_sign));
+        match (ordered, self.branch.side) {
+            (false, _) => Rays { left: Vec::new(), right: [before, after].concat() },
+            (true, _) => Rays { left: before, right: after },
+        }
+    }
+
+    fn holder(&self, top: &Top) -> Holder {
+        let shape = self.cx.shape;
+        let states = shape.path(self.branch.state, &self.branch.address.cycle);
+        let turns = states[..self.branch.address.cycle.len()].iter();
+        let scale = turns.fold(Rational::from(1), |s, &e| s / Rational::from(shape.states[e].pieces.len()));
+        Holder { eigenvalue: top.root.clone(), scale, power: top.block - 1 }
+    }
+}
+
+/// The rows that vanish on the generalised kernel of `linear` (theory §3, Isolation): all coordinates where it is invertible.
+fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
+    let rows = power(linear, linear.rows()).echelon().rows;
+    (0..rows.rows()).map(|k| Functional::rational(rows.row(k))).collect()
+}
+
+fn longest_chain(chains: &[Chain], block: usize) -> &Chain {
+    chains.iter().find(|c| c.vectors.len() == block).expect("a chain of every block size")
+}
+
+/// The functional whose value is the coefficient of the last vector of the longest right chain, up to a factor.
+fn leading_functional(factor: &Factor, block: usize) -> Vec<Elem> {
+    longest_chain(&factor.left, block).vectors[0].clone()
+}
+
+/// For a single block of length 2: the functional that reads the coefficient of `v_1` where that of `v_2` vanishes, with the
+/// sign for which `c_1 c_2` is that of the chain.
+fn second_functional(factor: &Factor) -> Vec<Elem> {
+    longest_chain(&factor.left, 2).vectors[1].clone()
+}
+
+fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
+    let zero = Elem::from_rational(Rational::from(0));
+    (0..matrix.rows())
+        .map(|i| {
+            let terms = matrix.row(i).iter().zip(v).filter(|(a, _)| **a != 0);
+            terms.fold(zero.clone(), |s, (a, x)| s.add(&x.scale(a)))
+        })
+        .collect()
+}
+
+/// A lower bound, up to 2, of the dimension of the image under `view` of the real span of the eigenvectors that end the
+/// longest chains.
+///
+/// Exact where the view is injective; otherwise a nonzero 2x2 minor of two spanning vectors is looked for in enclosures.
+fn visible_dimension(view: &Matrix, spectrum: &Spectrum, members: &[(usize, usize)], block: usize) -> usize {
+    if view.rank() == view.cols() {
+        return real_dimension(spectrum, members, block);
+    }
+    let mut vectors: Vec<Vec<crate::arith::Interval>> = Vec::new();
+    let mut done: Vec<(usize, usize)> = Vec::new();
+    for &(f, r) in members {
+        if done.contains(&(f, r)) {
+            continue;
+        }
+        done.push((f, r));
+        let factor = &spectrum.factors[f];
+        for chain in factor.right.iter().filter(|c| c.vectors.len() == block) {
+            let image = apply(view, &chain.vectors[0]);
+            let boxes: Vec<_> = image.iter().map(|e| e.enclosure(&factor.roots[r], 128)).collect();
+            vectors.push(boxes.iter().map(|(re, _)| re.clone()).collect());
+            if !factor.roots[r].is_real() {
+                vectors.push(boxes.into_iter().map(|(_, im)| im).collect());
+            }
+        }
+    }
+    let independent = |a: &[crate::arith::Interval], b: &[crate::arith::Interval]| {
+        (0..a.len()).any(|i| (0..i).any(|j| !(&(&a[i] * &b[j]) - &(&a[j] * &b[i])).contains_zero()))
+    };
+    let found = (0..vectors.len()).any(|i| (0..i).any(|j| independent(&vectors[i], &vectors[j])));
+    if found { 2 } else { 1 }
+}
+
+/// The dimension of `U`: every block counts once per eigenvalue, conjugates included.
+fn real_dimension(spectrum: &Spectrum, members: &[(usize, usize)], block: usize) -> usize {
+    let mut done: Vec<(usize, usize)> = Vec::new();
+    for &m in members {
+        if !done.contains(&m) {
+            done.push(m);
+        }
+    }
+    let per_root = |f: usize| spectrum.factors[f].blocks.iter().filter(|&&b| b == block).count();
+    let listed: usize = done.iter().map(|&(f, _)| per_root(f)).sum();
+    // A complex eigenvalue listed without its conjugate still spans a plane.
+    let lonely = done.iter().filter(|&&(f, r)| {
+        let root = &spectrum.factors[f].roots[r];
+        !root.is_real() && !done.iter().any(|&(g, s)| g == f && spectrum.factors[g].roots[s].same(&root.conjugate()))
+    });
+    listed + lonely.map(|&(f, _)| per_root(f)).sum::<usize>()
+}
+
+/// A basis of the cyclic hull of `x`, as columns.
+fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
+    let mut rows = Matrix::zero(0, x.len());
+    let mut v = x.to_vec();
+    loop {
+        let grown = rows.stack(&Matrix::from_rows(x.len(), vec![v.clone()])).echelon().rows;
+        if grown.rows() == rows.rows() {
+            return rows.transpose();
+        }
+        rows = grown;
+        v = linear.apply(&v);
+    }
+}
+
+/// The matrix of `linear` on an invariant subspace.
+fn restrict(linear: &Matrix, basis: &Matrix) -> Option<Matrix> {
+    basis.solve(&(linear * basis))
+}
+
+fn rate(spectrum: &Spectrum, top: &Top) -> Rate {
+    if top.block > 1 {
+        return Rate::Harmonic;
+    }
+    let Some(next) = spectrum.classes.get(1) else { return Rate::Exact };
+    let root = |m: &crate::jordan::Eigenvalue| &spectrum.factors[m.factor].roots[m.root];
+    let slower = root(&next.members[0]);
+    if slower.is_zero() {
+        return Rate::Exact;
+    }
+    let longest = next.members.iter().map(|m| spectrum.factors[m.factor].blocks[0]).max().unwrap_or(1);
+    Rate::Geometric { slower: slower.clone(), dominant: top.root.clone(), power: longest - 1 }
+}

@@ -1,0 +1,274 @@
+//! The theorem checker: from a shape to verdicts with evidence. Statements and proofs are in `docs/theory.md`.
+
+mod branch;
+mod dense;
+mod direction;
+mod point;
+mod ring;
+mod similarity;
+mod verdict;
+
+pub use branch::Context;
+pub use direction::{Direction, primitive};
+pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
+pub use similarity::Similarities;
+pub use verdict::{
+    BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
+    StateReport, Statement, Verdict,
+};
+
+use crate::algebraic::Root;
+use crate::arith::Rational;
+use crate::jordan::Spectrum;
+use crate::linalg::Matrix;
+use crate::shape::{
+    Address, AddressError, Balls, CellKind, Contraction, CurveError, End, Shape, ShapeError, Spaces, contraction,
+};
+use thiserror::Error;
+
+/// Why a shape cannot be certified at all.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum ModelError {
+    /// Sizes or sums are wrong.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// The pieces of a curve do not meet, or an identity fails.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// An address does not exist.
+    #[error(transparent)]
+    Address(#[from] AddressError),
+    /// The system does not contract.
+    #[error(
+        "the system does not contract: on state `{state}` the cycle {word:?} has a linear part of spectral radius at least 1 \
+         (an attractor inside a smaller invariant space may still exist)"
+    )]
+    Expands {
+        /// Name of the state.
+        state: String,
+        /// Its index.
+        index: usize,
+        /// The cycle.
+        word: Vec<usize>,
+    },
+    /// A fixed point is not unique, so that the system cannot contract.
+    #[error("an operator has no unique fixed point of coordinate sum 1")]
+    FixedPoint,
+}
+
+impl ModelError {
+    /// The diagnostic code, such as `secant::shape::adjacency`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Shape(ShapeError::NoPiece { .. }) => "secant::shape::empty",
+            Self::Shape(ShapeError::Kind { .. }) => "secant::shape::kind",
+            Self::Shape(ShapeError::Size { .. }) => "secant::case::size",
+            Self::Shape(ShapeError::Sum { .. }) => "secant::case::sum",
+            Self::Shape(ShapeError::Control { .. }) => "secant::case::control",
+            Self::Shape(ShapeError::Boundary { .. }) => "secant::case::boundary",
+            Self::Curve(CurveError::Apart { .. }) => "secant::shape::adjacency",
+            Self::Curve(CurveError::Identity { .. }) => "secant::shape::identity",
+            Self::Address(_) => "secant::case::address",
+            Self::Expands { .. } | Self::FixedPoint => "secant::shape::contraction",
+        }
+    }
+}
+
+/// Certifies a shape: end points, first-level joints of all reachable states, further addresses, and the dense set.
+///
+/// # Errors
+/// [`ModelError`] where the shape is not a model, does not contract, or an address does not exist.
+///
+/// # Cost
+/// Dominated by contraction (at most [`crate::shape::MAX_WORDS`] products) and the ring conditions of the branches.
+pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelError> {
+    shape.check()?;
+    let contraction = contraction(shape, expands);
+    let proof = match &contraction {
+        Contraction::Proved(proof) => proof.clone(),
+        Contraction::Refuted { state, word } => {
+            let name = shape.states[*state].name.clone();
+            return Err(ModelError::Expands { state: name, index: *state, word: word.clone() });
+        }
+        Contraction::Undetermined { length, open } => return Ok(without_contraction(&contraction, *length, *open)),
+    };
+    shape.check_curves()?;
+    let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
+    let balls = Balls::new(shape, &spaces, &proof);
+    let cx = Context { shape, spaces: &spaces, balls: &balls, root: shape.start, view: shape.view() };
+    let mut found = Certified {
+        claims: Vec::new(),
+        verdict: Verdict::Undetermined,
+        contraction,
+        states: shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect(),
+        points: Vec::new(),
+        dense: None,
+        similarities: similarity::similarities(&cx),
+    };
+    let mut asked = Vec::new();
+    for address in addresses {
+        asked.push(address.normalise(shape, shape.start)?);
+    }
+    if shape.states[shape.start].kind == CellKind::Edge {
+        certify_curve(&cx, &asked, &mut found);
+    } else {
+        certify_set(&cx, &asked, &mut found);
+    }
+    if found.similarities.is_some() {
+        found.claims.push(Claim {
+            text: "some point of the shape has a tangent line".to_owned(),
+            verdict: Verdict::Refuted,
+            statement: Some(Statement::Similarities),
+            reason: Some(
+                "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned(),
+            ),
+        });
+    }
+    found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    Ok(found)
+}
+
+fn without_contraction(contraction: &Contraction, length: usize, open: usize) -> Certified {
+    let reason = format!("contraction is not decided: {open} words of length {length} are left");
+    let claim = Claim {
+        text: "the shape has tangents".to_owned(),
+        verdict: Verdict::Undetermined,
+        statement: None,
+        reason: Some(reason),
+    };
+    Certified {
+        claims: vec![claim],
+        verdict: Verdict::Undetermined,
+        contraction: contraction.clone(),
+        states: Vec::new(),
+        points: Vec::new(),
+        dense: None,
+        similarities: None,
+    }
+}
+
+fn state_report(cx: &Context, state: usize) -> StateReport {
+    let space = cx.spaces.of(state);
+    StateReport {
+        state,
+        relevant: space.basis.cols(),
+        visible: space.visible.rows(),
+        base: space.base.clone(),
+        radius: cx.balls.radius(state).clone(),
+    }
+}
+
+/// Whether the linear part of a cycle has spectral radius at least 1: a float proposes, the exact spectrum decides.
+fn expands(linear: &Matrix) -> bool {
+    if !crate::approx::may_expand(linear) {
+        return false;
+    }
+    let spectrum = Spectrum::of(linear);
+    let Some(class) = spectrum.classes.first() else { return false };
+    let root: &Root = spectrum.root(class.members[0]);
+    root.cmp_modulus_rational(&Rational::from(1)) != std::cmp::Ordering::Less
+}
+
+fn add_point(cx: &Context, spec: Option<point::PointSpec>, found: &mut Certified) -> Option<usize> {
+    let spec = spec?;
+    if let Some(known) = found.points.iter().position(|p| same_place(&p.role, &spec)) {
+        return Some(known);
+    }
+    found.points.push(point::examine_point(cx, &spec)?);
+    Some(found.points.len() - 1)
+}
+
+fn same_place(role: &Role, spec: &point::PointSpec) -> bool {
+    *role == spec.role && !matches!(role, Role::Interior | Role::SetPoint)
+}
+
+fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
+    let shape = cx.shape;
+    let mut ends = Vec::new();
+    for end in [End::Start, End::Finish] {
+        ends.extend(add_point(cx, point::end_spec(cx, end), found));
+    }
+    let mut joints = Vec::new();
+    for (path, state) in shortest_paths(shape) {
+        if shape.states[state].kind == CellKind::Edge {
+            for (left, right) in point::joint_pairs(cx, state) {
+                joints.extend(add_point(cx, point::joint_spec(cx, &path, left, right), found));
+            }
+        }
+    }
+    if cx.spaces.of(shape.start).basis.cols() == 0 {
+        let reason = Some("the attractor is a single point".to_owned());
+        let text = "the curve has a tangent at a dense set of points".to_owned();
+        found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason });
+        return;
+    }
+    let dense = dense::dense_set(cx, joints);
+    found.claims.push(end_claim(found, &ends));
+    dense::claim(cx, dense, found);
+    for address in asked {
+        if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
+            found.claims.push(point_claim(found, index, address));
+        }
+    }
+}
+
+fn certify_set(cx: &Context, asked: &[Address], found: &mut Certified) {
+    let start = cx.shape.start;
+    let mut addresses: Vec<Address> = asked.to_vec();
+    if addresses.is_empty() {
+        for (i, piece) in cx.shape.states[start].pieces.iter().enumerate() {
+            if piece.target == start {
+                addresses.push(Address::periodic(vec![i]));
+            }
+        }
+    }
+    for address in &addresses {
+        if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
+            found.claims.push(point_claim(found, index, address));
+        }
+    }
+}
+
+/// A shortest path from the start to every reachable state.
+fn shortest_paths(shape: &Shape) -> Vec<(Vec<usize>, usize)> {
+    let mut paths = vec![(Vec::new(), shape.start)];
+    let mut next = 0;
+    while next < paths.len() {
+        let (path, state) = paths[next].clone();
+        for (letter, piece) in shape.states[state].pieces.iter().enumerate() {
+            if paths.iter().all(|(_, e)| *e != piece.target) {
+                let mut longer = path.clone();
+                longer.push(letter);
+                paths.push((longer, piece.target));
+            }
+        }
+        next += 1;
+    }
+    paths
+}
+
+fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
+    let verdict = ends.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
+    let failing = ends.iter().find(|&&i| found.points[i].verdict != Verdict::Proved);
+    let reason = failing.map(|&i| {
+        let side = if found.points[i].role == Role::LeftEnd { "left" } else { "right" };
+        format!("{side} end: {}", found.points[i].reason.clone().unwrap_or_default())
+    });
+    Claim {
+        text: "the curve has a tangent line at both end points".to_owned(),
+        verdict: verdict.unwrap_or(Verdict::Undetermined),
+        statement: None,
+        reason,
+    }
+}
+
+fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
+    let point = &found.points[index];
+    Claim {
+        text: format!("the shape has a tangent line at the address {address}"),
+        verdict: point.verdict,
+        statement: None,
+        reason: point.reason.clone(),
+    }
+}

@@ -1,0 +1,216 @@
+//! From branches to points: end points, joints, interior points, points of sets (theory §3, §5, §9).
+
+use super::branch::{Context, examine};
+use super::direction::Direction;
+use super::verdict::{BranchReport, Dimension, Kind, Outcome, PointReport, Role, Side, Verdict};
+use crate::arith::Rational;
+use crate::shape::{Address, CellKind, End, Piece};
+
+/// A point to examine: where it sits and its branches.
+#[derive(Debug, Clone)]
+pub struct PointSpec {
+    /// Where it sits.
+    pub role: Role,
+    /// Its branches, from the start state.
+    pub branches: Vec<(Side, Address)>,
+}
+
+/// The branch at an end of the cell reached by `path`, or `None` where the cell is a point.
+fn end_branch(cx: &Context, path: &[usize], state: usize, end: End) -> Option<Address> {
+    let skip = |p: &Piece| cx.shape.is_point(cx.spaces, p);
+    let mut address = cx.shape.end_address(state, end, skip)?;
+    address.prefix.splice(0..0, path.iter().copied());
+    Some(address)
+}
+
+/// An end point of the start state.
+#[must_use]
+pub fn end_spec(cx: &Context, end: End) -> Option<PointSpec> {
+    let address = end_branch(cx, &[], cx.root, end)?;
+    let (role, side) = match end {
+        End::Start => (Role::LeftEnd, Side::Right),
+        End::Finish => (Role::RightEnd, Side::Left),
+    };
+    Some(PointSpec { role, branches: vec![(side, address)] })
+}
+
+/// The pairs of neighbouring pieces of a state that are no points.
+#[must_use]
+pub fn joint_pairs(cx: &Context, state: usize) -> Vec<(usize, usize)> {
+    let pieces = &cx.shape.states[state].pieces;
+    let kept: Vec<usize> = (0..pieces.len()).filter(|&i| !cx.shape.is_point(cx.spaces, &pieces[i])).collect();
+    kept.windows(2).map(|w| (w[0], w[1])).collect()
+}
+
+/// The joint between two pieces of the state that `path` reaches.
+#[must_use]
+pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Option<PointSpec> {
+    let shape = cx.shape;
+    let state = *shape.path(cx.root, path).last()?;
+    let branch = |letter: usize, end: End| {
+        let piece = &shape.states[state].pieces[letter];
+        let path = [path, &[letter]].concat();
+        end_branch(cx, &path, piece.target, end.in_piece(piece))
+    };
+    let flipped = orientation(cx, path) < 0;
+    let mut branches = vec![(Side::Left, branch(left, End::Finish)?), (Side::Right, branch(right, End::Start)?)];
+    if flipped {
+        branches.reverse();
+        branches[0].0 = Side::Left;
+        branches[1].0 = Side::Right;
+    }
+    Some(PointSpec { role: Role::Joint { path: path.to_vec(), state, left, right }, branches })
+}
+
+fn orientation(cx: &Context, path: &[usize]) -> i32 {
+    let states = cx.shape.path(cx.root, path);
+    path.iter().zip(&states).map(|(&i, &e)| if cx.shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
+}
+
+/// The point with a normalised address: an end point, a joint, or a point inside.
+#[must_use]
+pub fn address_spec(cx: &Context, address: &Address) -> Option<PointSpec> {
+    let shape = cx.shape;
+    let states = shape.path(cx.root, &address.prefix);
+    let state = *states.last()?;
+    let all = [address.prefix.as_slice(), &address.cycle].concat();
+    let is_curve = shape.path(cx.root, &all).iter().all(|&e| shape.states[e].kind == CellKind::Edge);
+    if !is_curve {
+        return Some(PointSpec { role: Role::SetPoint, branches: vec![(Side::Both, address.clone())] });
+    }
+    let Some(mut end) = end_of_cell(cx, state, &address.cycle) else {
+        return Some(PointSpec { role: Role::Interior, branches: vec![(Side::Both, address.clone())] });
+    };
+    for (k, &letter) in address.prefix.iter().enumerate().rev() {
+        let pieces = &shape.states[states[k]].pieces;
+        end = end.in_piece(&pieces[letter]);
+        let solid = |i: &usize| !shape.is_point(cx.spaces, &pieces[*i]);
+        let path = &address.prefix[..k];
+        let neighbour = match end {
+            End::Start => (0..letter).rev().find(solid).map(|i| (i, letter)),
+            End::Finish => (letter + 1..pieces.len()).find(solid).map(|i| (letter, i)),
+        };
+        if let Some((left, right)) = neighbour {
+            return joint_spec(cx, path, left, right);
+        }
+    }
+    end_spec(cx, end)
+}
+
+/// Whether the fixed point of a cycle is an end of its cell: no piece that is more than a point lies on that side.
+fn end_of_cell(cx: &Context, state: usize, cycle: &[usize]) -> Option<End> {
+    [End::Start, End::Finish].into_iter().find(|&end| {
+        let (mut at, mut side) = (state, end);
+        for _ in 0..2 {
+            for &letter in cycle {
+                let pieces = &cx.shape.states[at].pieces;
+                let solid = |i: &usize| !cx.shape.is_point(cx.spaces, &pieces[*i]);
+                let outside = match side {
+                    End::Start => (0..letter).any(|i| solid(&i)),
+                    End::Finish => (letter + 1..pieces.len()).any(|i| solid(&i)),
+                };
+                if outside {
+                    return false;
+                }
+                side = side.in_piece(&pieces[letter]);
+                at = pieces[letter].target;
+            }
+        }
+        true
+    })
+}
+
+/// Examines a point.
+#[must_use]
+pub fn examine_point(cx: &Context, spec: &PointSpec) -> Option<PointReport> {
+    let branches: Vec<BranchReport> =
+        spec.branches.iter().map(|(side, address)| examine(cx, address, *side)).collect::<Option<_>>()?;
+    let position = cx.shape.point(cx.root, &branches[0].address)?;
+    let image = cx.shape.control.as_ref().map(|p| p.apply(&position));
+    Some(conclude(spec.role.clone(), position, image, branches))
+}
+
+fn conclude(
+    role: Role,
+    position: Vec<Rational>,
+    image: Option<Vec<Rational>>,
+    branches: Vec<BranchReport>,
+) -> PointReport {
+    let at_least = branches.iter().map(lower_bound).max().unwrap_or(0);
+    let mut report = PointReport {
+        role,
+        position,
+        image,
+        branches,
+        verdict: Verdict::Undetermined,
+        kind: Kind::None,
+        dimension: Dimension { at_least, exact: false },
+        tangent: None,
+        left: Vec::new(),
+        right: Vec::new(),
+        reason: None,
+    };
+    if at_least >= 2 {
+        report.verdict = Verdict::Refuted;
+        report.reason = Some("the tangent subspace has more than one dimension".to_owned());
+        return report;
+    }
+    let mut lines = Vec::new();
+    for branch in &report.branches {
+        match &branch.outcome {
+            Outcome::Line { direction, rays, .. } => lines.push((direction.clone(), rays.clone())),
+            Outcome::Open { reason, .. } | Outcome::NoGerm { reason } => {
+                report.reason = Some(reason.clone());
+                return report;
+            }
+            Outcome::AtLeast { .. } => {}
+        }
+    }
+    for (side, (_, rays)) in report.branches.iter().map(|b| b.side).zip(&lines) {
+        if side != Side::Right {
+            report.left.clone_from(&rays.left);
+        }
+        if side != Side::Left {
+            report.right.clone_from(&rays.right);
+        }
+    }
+    let Some((first, _)) = lines.first() else { return report };
+    report.dimension = Dimension { at_least: 1, exact: true };
+    if let Some((second, _)) = lines.get(1)
+        && first.same_line(second).is_none()
+    {
+        report.verdict = Verdict::Refuted;
+        report.dimension = Dimension { at_least: 2, exact: true };
+        let single = report.left.len() == 1 && report.right.len() == 1;
+        report.kind = if single { Kind::Corner } else { Kind::None };
+        report.reason = Some("the tangent lines of the two sides differ".to_owned());
+        return report;
+    }
+    report.verdict = Verdict::Proved;
+    report.tangent = Some(first.clone());
+    report.kind = kind(&report);
+    report
+}
+
+fn lower_bound(branch: &BranchReport) -> usize {
+    match &branch.outcome {
+        Outcome::Line { .. } => 1,
+        Outcome::AtLeast { dimension, .. } => *dimension,
+        Outcome::NoGerm { .. } => 0,
+        Outcome::Open { at_least, .. } => *at_least,
+    }
+}
+
+fn kind(report: &PointReport) -> Kind {
+    let (left, right) = (&report.left, &report.right);
+    let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd | Role::SetPoint);
+    let opposite = |a: &Direction, b: &Direction| a.same_line(b) == Some(-1);
+    match (left.len(), right.len()) {
+        (2, _) | (_, 2) if report.role == Role::SetPoint => Kind::Regular,
+        (2, _) | (_, 2) => Kind::Oscillating,
+        (1, 0) | (0, 1) if one_sided => Kind::HalfTangent,
+        (1, 1) if opposite(&left[0], &right[0]) => Kind::Regular,
+        (1, 1) => Kind::Cusp,
+        _ => Kind::None,
+    }
+}

@@ -1,0 +1,423 @@
+//! The ring of a branch, and the ring condition `0 ∉ π(X)` by branch and bound (theory §3, §7).
+
+use crate::algebraic::{Elem, Root};
+use crate::arith::{Integer, Interval, Rational, abs, sign};
+use crate::linalg::{Matrix, dot};
+use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference, oscillation};
+use std::collections::VecDeque;
+
+/// Where a piece lies with respect to the cycle's cell, in the order of its state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Position {
+    /// Before it (`K⁻`).
+    Before,
+    /// After it (`K⁺`).
+    After,
+    /// The state is no curve.
+    Unordered,
+}
+
+/// A piece of the ring: `op · A_end`.
+#[derive(Debug, Clone)]
+pub struct RingPiece {
+    /// The word that leaves the cycle in its last letter.
+    pub word: Vec<usize>,
+    /// The state where the word ends.
+    pub end: usize,
+    /// Its operator.
+    pub op: Matrix,
+    /// Its place.
+    pub position: Position,
+    /// Whether the whole piece falls into `q` after finitely many turns (Lemma 2), so that the germ does not see it.
+    pub collapses: bool,
+}
+
+/// Which real functional of an algebraic one is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// Its real part (the functional itself at a real root).
+    Real,
+    /// Its imaginary part.
+    Imaginary,
+}
+
+/// A real functional on `Y`: a row over `Q(θ)` seen at a root; without a root the entries are rational.
+#[derive(Debug, Clone)]
+pub struct Functional {
+    /// Entries.
+    pub row: Vec<Elem>,
+    /// The root.
+    pub root: Option<Root>,
+    /// The part.
+    pub part: Part,
+}
+
+impl Functional {
+    /// A rational functional.
+    #[must_use]
+    pub fn rational(row: &[Rational]) -> Self {
+        Self { row: row.iter().cloned().map(Elem::from_rational).collect(), root: None, part: Part::Real }
+    }
+
+    /// A dyadic approximation of the entries and a bound of its error in each.
+    fn approximate(&self, bits: u64) -> (Vec<Rational>, Rational) {
+        let exact: Option<Vec<Rational>> = self.row.iter().map(Elem::is_rational).collect();
+        if let Some(row) = exact {
+            return match self.part {
+                Part::Real => (row, Rational::from(0)),
+                Part::Imaginary => (vec![Rational::from(0); self.row.len()], Rational::from(0)),
+            };
+        }
+        let root = self.root.as_ref().expect("irrational entries have a root");
+        let entry = |e: &Elem| {
+            let (re, im) = e.enclosure(root, bits + 2);
+            let chosen = if self.part == Part::Real { re } else { im };
+            // The width of the enclosure and the rounding add up to less than 2^-bits.
+            Interval::point(chosen.mid()).outward(bits + 2).lo
+        };
+        let error = Rational::from(1) / Rational::from(Integer::from(1) << bits);
+        (self.row.iter().map(entry).collect(), error)
+    }
+
+    /// Whether the algebraic functional vanishes at a rational vector of `Y`, exactly.
+    #[must_use]
+    pub fn vanishes(&self, y: &[Rational]) -> bool {
+        let zero = Elem::from_rational(Rational::from(0));
+        self.row.iter().zip(y).fold(zero, |s, (e, x)| s.add(&e.scale(x))).is_zero()
+    }
+}
+
+/// A cell on which a functional keeps a strict sign.
+#[derive(Debug, Clone)]
+pub struct Discharged {
+    /// The cell, as a word from the branch's state.
+    pub word: Vec<usize>,
+    /// The state where the word ends.
+    pub end: usize,
+    /// Index of the functional.
+    pub functional: usize,
+    /// Its sign there.
+    pub sign: i32,
+    /// Its place in the curve.
+    pub position: Position,
+    /// An enclosure of its values there.
+    pub bound: Interval,
+}
+
+/// A proof that the functionals have no common zero on the ring: the discharged words cover it.
+#[derive(Debug, Clone)]
+pub struct RingProof {
+    /// The functionals, on `Y`.
+    pub functionals: Vec<Functional>,
+    /// The cells.
+    pub discharged: Vec<Discharged>,
+    /// Binary digits used for irrational entries.
+    pub bits: u64,
+}
+
+/// A proof that the functionals do have a common zero on the ring.
+#[derive(Debug, Clone)]
+pub enum Witness {
+    /// A point with an eventually periodic address where all vanish exactly.
+    Point {
+        /// Its address from the branch's state.
+        address: Address,
+        /// The point minus `q`, in coordinates of `Y`.
+        offset: Vec<Rational>,
+    },
+    /// Two cells of one connected part of the ring on which the only functional has opposite signs.
+    SignChange {
+        /// A cell where it is positive.
+        positive: Vec<usize>,
+        /// Bounds there.
+        above: Interval,
+        /// A cell where it is negative.
+        negative: Vec<usize>,
+        /// Bounds there.
+        below: Interval,
+    },
+    /// A cell on which `c_1` keeps its sign while `c_2` changes sign (theory §6).
+    Crossing {
+        /// The cell.
+        cell: Vec<usize>,
+        /// The sign of `c_1` on it.
+        sign: i32,
+    },
+}
+
+/// The answer to a ring condition.
+#[derive(Debug, Clone)]
+pub enum RingAnswer {
+    /// `0 ∉ π(X)`.
+    Holds(RingProof),
+    /// `0 ∈ π(X)`.
+    Fails(Witness),
+    /// Not decided.
+    Open {
+        /// The cell in which it failed.
+        place: Vec<usize>,
+    },
+}
+
+/// The ring of a branch with what is needed to examine it.
+pub struct Ring<'a> {
+    /// The shape.
+    pub shape: &'a Shape,
+    /// Its relevant spaces.
+    pub spaces: &'a Spaces,
+    /// Its balls.
+    pub balls: &'a Balls,
+    /// The state of the branch.
+    pub state: usize,
+    /// The fixed point.
+    pub fixed: &'a [Rational],
+    /// `Y`-coordinates: `chart (x − q)`.
+    pub chart: &'a Matrix,
+    /// The pieces.
+    pub pieces: &'a [RingPiece],
+}
+
+struct Node {
+    word: Vec<usize>,
+    end: usize,
+    position: Position,
+    rows: Vec<Vec<Rational>>,
+}
+
+const MAX_ROWS: usize = 6_000;
+const MAX_BITS: u64 = 1_024;
+/// Levels of cells on which points are tried as witnesses although they are not the last ones.
+const WITNESS_NODES: usize = 400;
+
+/// The standard ring of the cycle `w` at `state`, without pieces that lie in `M A_e` or repeat a kept one (theory §3).
+#[must_use]
+pub fn standard_ring(
+    shape: &Shape,
+    spaces: &Spaces,
+    state: usize,
+    cycle: &[usize],
+    fixed: &[Rational],
+) -> Vec<RingPiece> {
+    let mut ring: Vec<RingPiece> = Vec::new();
+    let mut product = Matrix::identity(shape.states[state].dim);
+    let (mut at, mut orientation) = (state, 1);
+    for (i, &turn) in cycle.iter().enumerate() {
+        let pieces = &shape.states[at].pieces;
+        let ordered = shape.states[at].kind == CellKind::Edge;
+        let kept_from = ring.len();
+        for (letter, piece) in pieces.iter().enumerate().filter(|(j, _)| *j != turn) {
+            let op = &product * &piece.op;
+            let position = match (ordered, (letter < turn) == (orientation > 0)) {
+                (false, _) => Position::Unordered,
+                (true, true) => Position::Before,
+                (true, false) => Position::After,
+            };
+            let same = |other: &Matrix, target: usize| target == piece.target && *other == piece.op;
+            let repeated = !ordered
+                && (same(&pieces[turn].op, pieces[turn].target)
+                    || ring[kept_from..].iter().any(|r| r.end == piece.target && r.op == op));
+            let is_fixed_point = (&piece.op * &spaces.of(piece.target).basis).is_zero()
+                && op.apply(&spaces.of(piece.target).base) == fixed;
+            if !repeated && !is_fixed_point {
+                let mut word = cycle[..i].to_vec();
+                word.push(letter);
+                ring.push(RingPiece { word, end: piece.target, op, position, collapses: false });
+            }
+        }
+        product = &product * &pieces[turn].op;
+        if pieces[turn].reversed {
+            orientation = -orientation;
+        }
+        at = pieces[turn].target;
+    }
+    ring
+}
+
+impl Ring<'_> {
+    /// Decides whether the functionals have a common zero on the ring.
+    ///
+    /// # Cost
+    /// At most [`MAX_ROWS`] products of a row and an operator per precision.
+    #[must_use]
+    pub fn decide(&self, functionals: &[Functional]) -> RingAnswer {
+        let mut bits = 64;
+        loop {
+            match self.attempt(functionals, bits) {
+                Attempt::Answer(answer) => return answer,
+                Attempt::MoreBits(place) if bits >= MAX_BITS => return RingAnswer::Open { place },
+                Attempt::MoreBits(_) => bits *= 2,
+            }
+        }
+    }
+
+    /// A bound of the 1-norm of `chart (x − q)` over the attractor.
+    fn chart_bound(&self) -> Rational {
+        let radius = self.balls.radius(self.state);
+        (0..self.chart.rows()).fold(Rational::from(0), |s, k| s + oscillation(self.chart.row(k)) * radius)
+    }
+
+    /// A functional on `Y` as a row on `R^n` that vanishes at `q`.
+    fn row_on_points(&self, on_y: &[Rational]) -> Vec<Rational> {
+        let row = self.chart.apply_left(on_y);
+        let at_q = dot(&row, self.fixed);
+        row.into_iter().map(|x| x - &at_q).collect()
+    }
+
+    fn attempt(&self, functionals: &[Functional], bits: u64) -> Attempt {
+        let bound = self.chart_bound();
+        let approximations: Vec<(Vec<Rational>, Rational)> = functionals.iter().map(|f| f.approximate(bits)).collect();
+        let errors: Vec<Rational> = approximations.iter().map(|(_, e)| e * &bound).collect();
+        let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| self.row_on_points(row)).collect();
+        let mut queue: VecDeque<Node> = self
+            .pieces
+            .iter()
+            .map(|p| Node {
+                word: p.word.clone(),
+                end: p.end,
+                position: p.position,
+                rows: rows.iter().map(|r| p.op.apply_left(r)).collect(),
+            })
+            .collect();
+        let mut discharged: Vec<Discharged> = Vec::new();
+        let mut count = 0;
+        while let Some(node) = queue.pop_front() {
+            count += 1;
+            let bounds: Vec<Interval> = node
+                .rows
+                .iter()
+                .zip(&errors)
+                .map(|(row, e)| &self.balls.enclose(self.spaces, node.end, row) + &Interval::symmetric(e.clone()))
+                .collect();
+            let strict = bounds.iter().position(|b| matches!(b.sign(), Some(1 | -1)));
+            if let Some(functional) = strict {
+                let bound = bounds[functional].clone();
+                let sign = bound.sign().unwrap_or(0);
+                let Node { word, end, position, .. } = node;
+                let cell = Discharged { word, end, functional, sign, position, bound };
+                if functionals.len() == 1
+                    && let Some(witness) = sign_change(&discharged, &cell)
+                {
+                    return Attempt::Answer(RingAnswer::Fails(witness));
+                }
+                discharged.push(cell);
+                continue;
+            }
+            if count <= WITNESS_NODES
+                && let Some(witness) = self.point_witness(functionals, &node, &errors)
+            {
+                return Attempt::Answer(RingAnswer::Fails(witness));
+            }
+            if count * functionals.len() > MAX_ROWS {
+                return Attempt::Answer(RingAnswer::Open { place: node.word });
+            }
+            let hopeless = |(b, e): (&Interval, &Rational)| *e > 0 && b.width() < e * Rational::from(16);
+            if bounds.iter().zip(&errors).all(hopeless) {
+                return Attempt::MoreBits(node.word);
+            }
+            queue.extend(self.children(&node));
+        }
+        Attempt::Answer(RingAnswer::Holds(RingProof { functionals: functionals.to_vec(), discharged, bits }))
+    }
+
+    fn children(&self, node: &Node) -> Vec<Node> {
+        let pieces = self.shape.states[node.end].pieces.iter().enumerate();
+        pieces
+            .map(|(letter, piece)| {
+                let mut word = node.word.clone();
+                word.push(letter);
+                let rows = node.rows.iter().map(|r| piece.op.apply_left(r)).collect();
+                Node { word, end: piece.target, position: node.position, rows }
+            })
+            .collect()
+    }
+
+    /// Tries the points of the cell with known addresses as exact common zeros.
+    fn point_witness(&self, functionals: &[Functional], node: &Node, errors: &[Rational]) -> Option<Witness> {
+        for address in self.shape.landmarks(node.end) {
+            let local = self.shape.point(node.end, &address)?;
+            let near = node.rows.iter().zip(errors).all(|(row, e)| abs(&dot(row, &local)) <= *e);
+            if !near {
+                continue;
+            }
+            let (op, _) = self.shape.product(self.state, &node.word);
+            let offset = self.chart.apply(&difference(&op.apply(&local), self.fixed));
+            if functionals.iter().all(|f| f.vanishes(&offset)) {
+                let mut prefix = node.word.clone();
+                prefix.extend(&address.prefix);
+                let address = Address { prefix, cycle: address.cycle };
+                let address = address.normalise(self.shape, self.state).ok()?;
+                return Some(Witness::Point { address, offset });
+            }
+        }
+        None
+    }
+
+    /// Looks for a cell on which `c_1` keeps one sign while `c_2` takes both at its end points (theory §6).
+    #[must_use]
+    pub fn crossing(&self, c1: &Functional, c2: &Functional) -> Option<Witness> {
+        let bits = 256;
+        let bound = self.chart_bound();
+        let (a1, e1) = c1.approximate(bits);
+        let (a2, e2) = c2.approximate(bits);
+        let (r1, r2) = (self.row_on_points(&a1), self.row_on_points(&a2));
+        let (e1, e2) = (e1 * &bound, e2 * &bound);
+        let mut queue: VecDeque<Node> = self
+            .pieces
+            .iter()
+            .filter(|p| p.position != Position::Unordered)
+            .map(|p| Node {
+                word: p.word.clone(),
+                end: p.end,
+                position: p.position,
+                rows: vec![p.op.apply_left(&r1), p.op.apply_left(&r2)],
+            })
+            .collect();
+        let mut count = 0;
+        while let Some(node) = queue.pop_front() {
+            count += 1;
+            if count > 600 {
+                return None;
+            }
+            let enclose = |k: usize, e: &Rational| {
+                &self.balls.enclose(self.spaces, node.end, &node.rows[k]) + &Interval::symmetric(e.clone())
+            };
+            if enclose(1, &e2).sign().is_some() {
+                continue;
+            }
+            if let Some(s) = enclose(0, &e1).sign() {
+                let strict = |value: Rational| if abs(&value) > e2 { sign(&value) } else { 0 };
+                let ends = self.shape.landmarks(node.end);
+                let signs: Vec<i32> = ends
+                    .iter()
+                    .filter_map(|a| self.shape.point(node.end, a))
+                    .map(|x| strict(dot(&node.rows[1], &x)))
+                    .collect();
+                if signs.contains(&1) && signs.contains(&-1) {
+                    return Some(Witness::Crossing { cell: node.word, sign: s });
+                }
+            }
+            queue.extend(self.children(&node));
+        }
+        None
+    }
+}
+
+enum Attempt {
+    Answer(RingAnswer),
+    MoreBits(Vec<usize>),
+}
+
+/// A cell of opposite sign in the same connected part.
+fn sign_change(discharged: &[Discharged], cell: &Discharged) -> Option<Witness> {
+    if cell.position == Position::Unordered {
+        return None;
+    }
+    let other = discharged.iter().find(|d| d.position == cell.position && d.sign == -cell.sign)?;
+    let (p, n) = if cell.sign > 0 { (cell, other) } else { (other, cell) };
+    Some(Witness::SignChange {
+        positive: p.word.clone(),
+        above: p.bound.clone(),
+        negative: n.word.clone(),
+        below: n.bound.clone(),
+    })
+}
