@@ -10,6 +10,7 @@ pub mod jordan;
 pub mod linalg;
 pub mod picture;
 pub mod poly;
+pub mod radius;
 pub mod report;
 pub mod shape;
 pub mod theorem;
