@@ -5,6 +5,7 @@
 mod blocks;
 mod driver;
 mod exact;
+pub mod file;
 mod float;
 mod grow;
 mod leading;
