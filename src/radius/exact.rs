@@ -5,9 +5,10 @@ use super::grow::{Grown, Inside, Origin};
 use super::leading::{Eigenvector, Lower, real_sign};
 use super::polytope::{Inclusion, Point, Polytope, norm1};
 use super::simplex::{Body, Combination, gauge};
+use crate::algebraic::{Elem, Root, roots};
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::Matrix;
-use crate::poly::Poly;
+use crate::poly::{Poly, factor};
 
 /// Below this gauge an image counts as strictly inside.
 const STRICT: f64 = 1.0 - 1e-8;
@@ -146,9 +147,9 @@ pub(super) fn axis_point(dim: usize, axis: usize, exponent: u32) -> Vec<Rational
 
 /// Whether the polytope grown closes at the radius itself, an algebraic number.
 ///
-/// Vertices are enclosed by intervals; strictly inner images are checked with the coefficients found, images that are
-/// vertices again by polynomial identities in the radius.
-pub(super) fn closes(system: &System, grown: &Grown, polytope: &Polytope, roots: &[LeadingVector], radius: &Lower) -> bool {
+/// Vertices are enclosed by intervals; strictly inner images are checked with the coefficients found, images on the boundary
+/// by solving for the coefficients in the field of the radius.
+pub(super) fn closes(system: &System, grown: &Grown, polytope: &Polytope, leading: &[LeadingVector], radius: &Lower) -> bool {
     const BITS: u64 = 160;
     let ratio = radius.enclosure(BITS);
     if ratio.lo <= 0 {
@@ -158,7 +159,7 @@ pub(super) fn closes(system: &System, grown: &Grown, polytope: &Polytope, roots:
     let mut enclosures: Vec<Vec<Interval>> = Vec::new();
     for v in &grown.vertices {
         enclosures.push(match &v.origin {
-            Origin::Root(k) => roots[*k].vector.enclosure(&roots[*k].lower.root, BITS + 40),
+            Origin::Root(k) => leading[*k].vector.enclosure(&leading[*k].lower.root, BITS + 40),
             Origin::Axis { axis, exponent } => {
                 axis_point(system.dims[v.state], *axis, *exponent).into_iter().map(Interval::point).collect()
             }
@@ -166,14 +167,15 @@ pub(super) fn closes(system: &System, grown: &Grown, polytope: &Polytope, roots:
         });
     }
     let Some(interior) = interiors(system, grown, polytope, &enclosures) else { return false };
-    let symbols = Symbols::new(roots);
+    let boundary = grown.inside.iter().any(|i| i.combination.value > STRICT);
+    let field = if boundary { Field::new(system, grown, leading, &radius.enclosure(96)) } else { None };
     grown.inside.iter().all(|inside| {
+        if inside.combination.value > STRICT {
+            return field.as_ref().is_some_and(|f| f.reaches(system, grown.body, inside));
+        }
         let x = image(system, inside.arrow, &enclosures[inside.vertex], &inverse, BITS);
         let state = system.arrows[inside.arrow].from;
-        if inside.combination.value <= STRICT {
-            return strictly_inside(grown.body, &x, &inside.combination, &enclosures, interior.get(state));
-        }
-        symbols.as_ref().is_some_and(|s| s.reaches(system, grown, roots, inside, &x, &enclosures))
+        strictly_inside(grown.body, &x, &inside.combination, &enclosures, interior.get(state))
     })
 }
 
@@ -241,71 +243,95 @@ fn strictly_inside(body: Body, x: &[Interval], found: &Combination, points: &[Ve
     }
 }
 
-/// Polynomials in the radius, modulo one that vanishes at it.
-struct Symbols {
+/// The field of the radius `ρ`, with all vertices as elements.
+struct Field {
     modulus: Poly,
+    root: Root,
+    points: Vec<Vec<Elem>>,
+    inverse: Elem,
 }
 
-impl Symbols {
-    fn new(roots: &[LeadingVector]) -> Option<Self> {
-        let mut modulus = Poly::zero();
-        for r in roots {
-            modulus = modulus.gcd(&in_radius(r.lower.root.minpoly().coeffs(), &r.lower));
+/// Largest degree of a field in which boundary points are solved.
+const MAX_DEGREE: usize = 24;
+
+impl Field {
+    fn new(system: &System, grown: &Grown, all: &[LeadingVector], radius: &Interval) -> Option<Self> {
+        let mut common = Poly::zero();
+        for r in all {
+            common = common.gcd(&in_radius(r.lower.root.minpoly().coeffs(), &r.lower));
         }
-        (modulus.degree()? > 0).then_some(Self { modulus })
+        let near = |r: &Root| r.is_real() && !r.enclosure(96).0.disjoint(radius);
+        let mut candidates: Vec<(Poly, Root)> = Vec::new();
+        for (modulus, _) in factor(&common).into_iter().filter(|f| f.0.degree() <= Some(MAX_DEGREE)) {
+            candidates.extend(roots(&modulus).into_iter().filter(near).map(|r| (modulus.clone(), r)));
+        }
+        let [(modulus, root)] = <[_; 1]>::try_from(candidates).ok()?;
+        let inverse = Elem::generator(&modulus).inv(&modulus)?;
+        let mut field = Self { modulus, root, points: Vec::new(), inverse };
+        for v in &grown.vertices {
+            let point = match &v.origin {
+                Origin::Root(r) => {
+                    let reduce = |c: &Vec<Rational>| Elem::reduced(&in_radius(c, &all[*r].lower), &field.modulus);
+                    all[*r].vector.coordinates.iter().map(reduce).collect()
+                }
+                Origin::Axis { axis, exponent } => {
+                    axis_point(system.dims[v.state], *axis, *exponent).iter().map(Elem::from_rational).collect()
+                }
+                Origin::Image { parent, arrow } => field.image(&system.arrows[*arrow].matrix, &field.points[*parent]),
+            };
+            field.points.push(point);
+        }
+        Some(field)
     }
 
-    /// The vertex `value / radius^exponent` as polynomials in the radius.
-    fn vertex(&self, system: &System, grown: &Grown, roots: &[LeadingVector], k: usize) -> (Vec<Poly>, usize) {
-        match &grown.vertices[k].origin {
-            Origin::Root(r) => {
-                let root = &roots[*r];
-                (root.vector.coordinates.iter().map(|c| in_radius(c, &root.lower)).collect(), 0)
-            }
-            Origin::Axis { axis, exponent } => {
-                let point = axis_point(system.dims[grown.vertices[k].state], *axis, *exponent);
-                (point.into_iter().map(Poly::constant).collect(), 0)
-            }
-            Origin::Image { parent, arrow } => {
-                let (value, exponent) = self.vertex(system, grown, roots, *parent);
-                (self.apply(&system.arrows[*arrow].matrix, &value), exponent + 1)
-            }
-        }
-    }
-
-    fn apply(&self, matrix: &Matrix, value: &[Poly]) -> Vec<Poly> {
+    /// `T v / ρ`.
+    fn image(&self, matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
         (0..matrix.rows())
             .map(|i| {
-                let row = matrix.row(i).iter().zip(value).filter(|(a, _)| **a != 0);
-                row.fold(Poly::zero(), |s, (a, v)| &s + &v.scale(a)).div_rem(&self.modulus).1
+                let row = matrix.row(i).iter().zip(v).filter(|(a, _)| **a != 0);
+                row.fold(Elem::zero(), |s, (a, x)| s.add(&x.scale(a))).mul(&self.inverse, &self.modulus)
             })
             .collect()
     }
 
-    /// Whether an image on the boundary is a vertex again up to sign (or is dominated by one).
-    fn reaches(
-        &self,
-        system: &System,
-        grown: &Grown,
-        roots: &[LeadingVector],
-        inside: &Inside,
-        x: &[Interval],
-        points: &[Vec<Interval>],
-    ) -> bool {
-        let (value, exponent) = self.vertex(system, grown, roots, inside.vertex);
-        let (image, exponent) = (self.apply(&system.arrows[inside.arrow].matrix, &value), exponent + 1);
-        inside.combination.terms.iter().any(|&(k, c)| {
-            let (other, below) = self.vertex(system, grown, roots, k);
-            let sign = Rational::from(if c < 0.0 { -1 } else { 1 });
-            (0..x.len()).all(|i| {
-                let lower = grown.body == Body::Monotone && x[i].hi <= points[k][i].lo;
-                lower || {
-                    let left = shift(&image[i], below);
-                    let right = shift(&other[i], exponent).scale(&sign);
-                    (&left - &right).div_rem(&self.modulus).1.is_zero()
-                }
-            })
-        })
+    /// Whether an image on the boundary is a combination, with `Σ|c| <= 1`, of the points found for it.
+    fn reaches(&self, system: &System, body: Body, inside: &Inside) -> bool {
+        let x = self.image(&system.arrows[inside.arrow].matrix, &self.points[inside.vertex]);
+        let columns: Vec<usize> = inside.combination.terms.iter().map(|t| t.0).collect();
+        let rows: Vec<usize> = match body {
+            Body::Symmetric => (0..x.len()).collect(),
+            Body::Monotone => (0..x.len()).filter(|i| !inside.combination.loose.contains(i)).collect(),
+        };
+        let Some(c) = self.solve(&rows, &columns, &x) else { return false };
+        let signs: Vec<i32> = c.iter().map(|e| e.sign(&self.root)).collect();
+        let sum = c.iter().zip(&signs).fold(Elem::zero(), |s, (e, sign)| s.add(&e.scale(&Rational::from(*sign))));
+        let small = sum.sub(&Elem::from_rational(&Rational::from(1))).sign(&self.root) <= 0;
+        let dominates = |i: usize| {
+            let reach = columns.iter().zip(&c).fold(Elem::zero(), |s, (k, e)| s.add(&e.mul(&self.points[*k][i], &self.modulus)));
+            reach.sub(&x[i]).sign(&self.root) >= 0
+        };
+        small && (body == Body::Symmetric || (signs.iter().all(|s| *s >= 0) && (0..x.len()).all(dominates)))
+    }
+
+    /// The solution of `Σ c_k q_k = x` on some rows, if there is one and it is unique.
+    fn solve(&self, rows: &[usize], columns: &[usize], x: &[Elem]) -> Option<Vec<Elem>> {
+        let mut a: Vec<Vec<Elem>> = rows
+            .iter()
+            .map(|&i| columns.iter().map(|&k| self.points[k][i].clone()).chain([x[i].clone()]).collect())
+            .collect();
+        for col in 0..columns.len() {
+            let found = (col..a.len()).find(|&r| !a[r][col].is_zero())?;
+            a.swap(col, found);
+            let inverse = a[col][col].inv(&self.modulus)?;
+            a[col] = a[col].iter().map(|e| e.mul(&inverse, &self.modulus)).collect();
+            let pivot = a[col].clone();
+            for (_, row) in a.iter_mut().enumerate().filter(|(r, row)| *r != col && !row[col].is_zero()) {
+                let factor = row[col].clone();
+                *row = row.iter().zip(&pivot).map(|(e, p)| e.sub(&factor.mul(p, &self.modulus))).collect();
+            }
+        }
+        let consistent = a[columns.len()..].iter().all(|row| row[columns.len()].is_zero());
+        consistent.then(|| a[..columns.len()].iter().map(|row| row[columns.len()].clone()).collect())
     }
 }
 
@@ -317,10 +343,4 @@ fn in_radius(coeffs: &[Rational], lower: &Lower) -> Poly {
         out[k * lower.length] = if negative && k % 2 == 1 { -c } else { c.clone() };
     }
     Poly::new(out)
-}
-
-fn shift(p: &Poly, by: usize) -> Poly {
-    let mut coeffs = vec![Rational::from(0); by];
-    coeffs.extend_from_slice(p.coeffs());
-    Poly::new(coeffs)
 }
