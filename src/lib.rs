@@ -11,6 +11,7 @@ pub mod jordan;
 pub mod linalg;
 pub mod picture;
 pub mod poly;
+pub mod radius;
 pub mod report;
 pub mod scheme;
 pub mod shape;
