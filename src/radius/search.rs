@@ -26,9 +26,8 @@ pub(super) fn candidates(system: &System, longest: usize, tolerance: f64) -> Vec
     let mut best: Vec<Candidate> = Vec::new();
     let mut top = 0.0_f64;
     let arrows = system.arrows.len();
-    let mut layer: Vec<Partial> = (0..arrows)
-        .map(|a| Partial { path: vec![a], product: floats[a].clone(), value: 0.0 })
-        .collect();
+    let mut layer: Vec<Partial> =
+        (0..arrows).map(|a| Partial { path: vec![a], product: floats[a].clone(), value: 0.0 }).collect();
     for length in 1..=longest {
         for partial in &mut layer {
             let power = 1.0 / f64::from(u32::try_from(length).unwrap_or(u32::MAX));
@@ -76,7 +75,7 @@ fn insert(best: &mut Vec<Candidate>, path: &[usize], value: f64, tolerance: f64)
 /// The primitive root of a cyclic word in its least rotation.
 pub(super) fn canonical(path: &[usize]) -> Vec<usize> {
     let n = path.len();
-    let period = (1..=n).find(|&p| n % p == 0 && (0..n).all(|k| path[k] == path[(k + p) % n])).unwrap_or(n);
+    let period = (1..=n).find(|&p| n.is_multiple_of(p) && (0..n).all(|k| path[k] == path[(k + p) % n])).unwrap_or(n);
     (0..period)
         .map(|shift| (0..period).map(|k| path[(k + shift) % period]).collect::<Vec<_>>())
         .min()
