@@ -221,10 +221,16 @@ fn witness_value(w: &Witness) -> Value {
         }
         Witness::SignChange { positive, above, negative, below } => json!({
             "kind": "sign-change",
-            "positive": { "cell": word_text(positive), "values": [above.lo.to_string(), above.hi.to_string()] },
-            "negative": { "cell": word_text(negative), "values": [below.lo.to_string(), below.hi.to_string()] },
+            "positive": { "address": positive.to_string(), "value": [above.lo.to_string(), above.hi.to_string()] },
+            "negative": { "address": negative.to_string(), "value": [below.lo.to_string(), below.hi.to_string()] },
         }),
-        Witness::Crossing { cell, sign } => json!({ "kind": "crossing", "cell": word_text(cell), "sign": sign }),
+        Witness::Crossing { sign, positive, negative, cover, .. } => json!({
+            "kind": "crossing",
+            "sign": sign,
+            "positive": positive.to_string(),
+            "negative": negative.to_string(),
+            "cells": cover.discharged.len(),
+        }),
     }
 }
 

@@ -255,18 +255,17 @@ pub fn witness(w: &Witness) -> Line {
         ),
         Witness::SignChange { positive, above, negative, below } => line(
             &format!(
-                "the functional changes sign on the ring, which is connected: it is positive on the cell {} (between $@$ and $@$) \
-                 and negative on the cell {} (between $@$ and $@$)",
-                cell(positive),
-                cell(negative)
+                "the functional changes sign on a connected part of the ring: it is positive at the point `{positive}` \
+                 (between $@$ and $@$) and negative at the point `{negative}` (between $@$ and $@$)"
             ),
             [&above.lo, &above.hi, &below.lo, &below.hi].map(|x| decimal_math(x, 6)),
         ),
-        Witness::Crossing { cell: word, sign } => line(
+        Witness::Crossing { sign, positive, negative, cover, .. } => line(
             &format!(
-                "on the cell {} the first coordinate stays {} while the second takes both signs",
-                cell(word),
-                if *sign > 0 { "positive" } else { "negative" }
+                "on a connected part of the ring $c_2$ is positive at the point `{positive}` and negative at the point `{negative}`, while \
+                 $c_1$ is {} wherever $c_2$ vanishes ({})",
+                if *sign > 0 { "positive" } else { "negative" },
+                count(cover.discharged.len(), "cell")
             ),
             [],
         ),

@@ -102,10 +102,8 @@ fn propose(states: usize, reachable: &[usize], maps: &[PlaneMap]) -> Vec<Vec<[f6
     for &e in reachable {
         polygons[e] = vec![[0.0, 0.0]];
     }
-    let float: Vec<([[f64; 2]; 2], [f64; 2])> = maps
-        .iter()
-        .map(|m| (m.a.each_ref().map(|r| r.each_ref().map(to_f64)), m.t.each_ref().map(to_f64)))
-        .collect();
+    let float: Vec<([[f64; 2]; 2], [f64; 2])> =
+        maps.iter().map(|m| (m.a.each_ref().map(|r| r.each_ref().map(to_f64)), m.t.each_ref().map(to_f64))).collect();
     for _ in 0..ROUNDS {
         let mut next = polygons.clone();
         for (map, (a, t)) in maps.iter().zip(&float) {
@@ -126,9 +124,7 @@ fn float_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     if points.len() < 3 {
         return points;
     }
-    let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| {
-        (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
-    };
+    let cross = |o: [f64; 2], a: [f64; 2], b: [f64; 2]| (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]);
     let half = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut chain: Vec<[f64; 2]> = Vec::new();
         for p in points {

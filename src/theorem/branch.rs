@@ -212,7 +212,12 @@ impl Analysis<'_> {
                 }
                 RingAnswer::Open { place } => {
                     let reason = "L is nilpotent and it is not decided whether the ring passes through the point";
-                    return Outcome::Open { reason: reason.to_owned(), place: Some(place), at_least: 0, direction: None };
+                    return Outcome::Open {
+                        reason: reason.to_owned(),
+                        place: Some(place),
+                        at_least: 0,
+                        direction: None,
+                    };
                 }
             }
             for piece in &mut images {

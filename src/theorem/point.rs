@@ -195,7 +195,8 @@ fn conclude(
     report
 }
 
-const SPREAD: &str = "directions that the tangent subspaces of the two sides are known to contain lie on different lines";
+const SPREAD: &str =
+    "directions that the tangent subspaces of the two sides are known to contain lie on different lines";
 
 /// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.
 fn spread(branches: &[BranchReport]) -> Option<Dimension> {

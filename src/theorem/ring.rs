@@ -328,7 +328,12 @@ impl Ring<'_> {
             }
             queue.extend(self.children(&node));
         }
-        Attempt::Answer(RingAnswer::Holds(RingProof { functionals: functionals.to_vec(), discharged, bits, polygons: self.balls.hull(self.state).is_some() }))
+        Attempt::Answer(RingAnswer::Holds(RingProof {
+            functionals: functionals.to_vec(),
+            discharged,
+            bits,
+            polygons: self.balls.hull(self.state).is_some(),
+        }))
     }
 
     fn children(&self, node: &Node) -> Vec<Node> {
