@@ -11,6 +11,8 @@ pub mod jordan;
 pub mod linalg;
 pub mod picture;
 pub mod poly;
+pub mod radius;
 pub mod report;
+pub mod scheme;
 pub mod shape;
 pub mod theorem;

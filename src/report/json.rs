@@ -221,15 +221,14 @@ fn witness_value(w: &Witness) -> Value {
         }
         Witness::SignChange { positive, above, negative, below } => json!({
             "kind": "sign-change",
-            "positive": { "address": positive.to_string(), "value": [above.lo.to_string(), above.hi.to_string()] },
-            "negative": { "address": negative.to_string(), "value": [below.lo.to_string(), below.hi.to_string()] },
+            "positive": { "address": positive.to_string(), "values": [above.lo.to_string(), above.hi.to_string()] },
+            "negative": { "address": negative.to_string(), "values": [below.lo.to_string(), below.hi.to_string()] },
         }),
-        Witness::Crossing { sign, positive, negative, cover, .. } => json!({
+        Witness::Crossing { sign, positive, negative, .. } => json!({
             "kind": "crossing",
             "sign": sign,
-            "positive": positive.to_string(),
-            "negative": negative.to_string(),
-            "cells": cover.discharged.len(),
+            "positive": { "address": positive.to_string() },
+            "negative": { "address": negative.to_string() },
         }),
     }
 }

@@ -255,17 +255,17 @@ pub fn witness(w: &Witness) -> Line {
         ),
         Witness::SignChange { positive, above, negative, below } => line(
             &format!(
-                "the functional changes sign on a connected part of the ring: it is positive at the point `{positive}` \
-                 (between $@$ and $@$) and negative at the point `{negative}` (between $@$ and $@$)"
+                "the functional changes sign on a connected part of the ring: it is positive at the point with address `{positive}` \
+                 (between $@$ and $@$) and negative at the one with address `{negative}` (between $@$ and $@$)"
             ),
             [&above.lo, &above.hi, &below.lo, &below.hi].map(|x| decimal_math(x, 6)),
         ),
         Witness::Crossing { sign, positive, negative, cover, .. } => line(
             &format!(
-                "on a connected part of the ring $c_2$ is positive at the point `{positive}` and negative at the point `{negative}`, while \
-                 $c_1$ is {} wherever $c_2$ vanishes ({})",
-                if *sign > 0 { "positive" } else { "negative" },
-                count(cover.discharged.len(), "cell")
+                "the coefficient $c_2$ is positive at the point with address `{positive}` and negative at `{negative}` of a connected \
+                 part of the ring, and on {} that cover that part either $c_2$ has a strict sign or $c_1$ is {}",
+                count(cover.discharged.len(), "cell"),
+                if *sign > 0 { "positive" } else { "negative" }
             ),
             [],
         ),

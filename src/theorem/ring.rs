@@ -278,16 +278,7 @@ impl Ring<'_> {
         let approximations: Vec<(Vec<Rational>, Rational)> = functionals.iter().map(|f| f.approximate(bits)).collect();
         let errors: Vec<Rational> = approximations.iter().map(|(_, e)| e * &bound).collect();
         let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| self.row_on_points(row)).collect();
-        let mut queue: VecDeque<Node> = self
-            .pieces
-            .iter()
-            .map(|p| Node {
-                word: p.word.clone(),
-                end: p.end,
-                position: p.position,
-                rows: rows.iter().map(|r| p.op.apply_left(r)).collect(),
-            })
-            .collect();
+        let mut queue = self.roots(&rows);
         let mut discharged: Vec<Discharged> = Vec::new();
         let mut signs = Signs::default();
         let mut count = 0;
@@ -334,6 +325,33 @@ impl Ring<'_> {
             bits,
             polygons: self.balls.hull(self.state).is_some(),
         }))
+    }
+
+    /// Points of opposite sign of one functional in one connected part, looked for among the ends of the first cells.
+    fn find_sign_change(&self, functional: &Functional) -> Option<Witness> {
+        let (row, error) = functional.approximate(256);
+        let error = error * self.chart_bound();
+        let mut queue = self.roots(&[self.row_on_points(&row)]);
+        let mut signs = Signs::default();
+        for _ in 0..SIGN_NODES {
+            let node = queue.pop_front()?;
+            if let Some(witness) = self.sign_change(&mut signs, &node, &error) {
+                return Some(witness);
+            }
+            queue.extend(self.children(&node));
+        }
+        None
+    }
+
+    /// The pieces of the ring as cells, with the rows carried to them.
+    fn roots(&self, rows: &[Vec<Rational>]) -> VecDeque<Node> {
+        let node = |p: &RingPiece| Node {
+            word: p.word.clone(),
+            end: p.end,
+            position: p.position,
+            rows: rows.iter().map(|r| p.op.apply_left(r)).collect(),
+        };
+        self.pieces.iter().map(node).collect()
     }
 
     fn children(&self, node: &Node) -> Vec<Node> {
@@ -396,11 +414,7 @@ impl Ring<'_> {
         [Position::Before, Position::After].into_iter().find_map(|part| {
             let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| p.position == part).cloned().collect();
             let ring = Ring { pieces: &pieces, ..*self };
-            let RingAnswer::Fails(Witness::SignChange { positive, negative, .. }) =
-                ring.decide(std::slice::from_ref(c2), budget)
-            else {
-                return None;
-            };
+            let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2)? else { return None };
             let RingAnswer::Holds(cover) = ring.decide(&[c2.clone(), c1.clone()], budget) else { return None };
             let mut signs = cover.discharged.iter().filter(|d| d.functional == 1).map(|d| d.sign);
             let sign = signs.next()?;
