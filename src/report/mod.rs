@@ -4,6 +4,7 @@ pub mod document;
 pub mod figures;
 pub mod html;
 pub mod json;
+pub mod latex;
 pub mod markdown;
 pub mod math;
 pub mod mathml;
