@@ -1,4 +1,6 @@
 //! The float fallback and float proposals. Nothing here is a proof.
 
 mod growth;
+mod spectrum;
 pub use growth::may_expand;
+pub use spectrum::{ApproxEigenvalue, ApproxError, ApproxSpectrum, approximate_spectrum};

@@ -2,4 +2,5 @@
 
 pub mod document;
 pub mod math;
+pub mod spectrum;
 pub mod text;
