@@ -12,6 +12,7 @@ pub mod proof;
 pub mod summary;
 mod symbols;
 pub mod tex;
+pub mod spectrum;
 pub mod text;
 pub mod theorems;
 pub mod values;
