@@ -316,3 +316,12 @@ fn json_states_its_convention() {
         assert!(matches!(scheme::parse_json(bad), Err(SchemeError::Import { .. })), "{bad}");
     }
 }
+
+#[test]
+fn the_documentation_lists_every_scheme() {
+    let text = include_str!("../docs/schemes.md");
+    let listed = |name: &str| text.lines().any(|l| l.starts_with(&format!("| `{name}` |")));
+    let names = scheme::list().iter().map(|s| s.name).chain(scheme::mesh_rules().iter().map(|r| r.name));
+    let missing: Vec<&str> = names.filter(|n| !listed(n)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
