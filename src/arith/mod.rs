@@ -1,6 +1,7 @@
 //! Exact numbers: integers and rationals (malachite), and rational intervals.
 
 mod interval;
+pub mod modular;
 mod parse;
 
 pub use interval::Interval;

@@ -4,6 +4,7 @@ mod address;
 mod contraction;
 mod curve;
 mod enclosure;
+mod hull;
 mod identities;
 mod model;
 mod space;

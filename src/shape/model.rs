@@ -95,6 +95,14 @@ pub enum ShapeError {
         /// Rows and columns expected.
         expected: (usize, usize),
     },
+    /// A piece of a curve that is no curve.
+    #[error("piece {piece} of the edge state `{state}` is not an edge state")]
+    Kind {
+        /// The state.
+        state: String,
+        /// The letter.
+        piece: usize,
+    },
     /// A column that does not sum to 1.
     #[error("column {column} of the operator of piece {piece} of state `{state}` sums to {sum}, not to 1")]
     Sum {
@@ -170,6 +178,9 @@ impl Shape {
         let (found, expected) = ((p.op.rows(), p.op.cols()), (state.dim, self.states[p.target].dim));
         if found != expected {
             return Err(ShapeError::Size { state: state.name.clone(), piece, found, expected });
+        }
+        if state.kind == CellKind::Edge && self.states[p.target].kind != CellKind::Edge {
+            return Err(ShapeError::Kind { state: state.name.clone(), piece });
         }
         match first_bad_column(&p.op) {
             Some((column, sum)) => Err(ShapeError::Sum { state: state.name.clone(), piece, column, sum }),

@@ -7,7 +7,13 @@ use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
-use crate::shape::{Address, Balls, CellKind, Shape, Spaces};
+use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
+use std::cell::OnceCell;
+
+/// Products of a row and an operator that one ring condition may cost.
+const MAX_ROWS: usize = 6_000;
+/// The same for the first try with balls, where polygons may do better.
+const FIRST_ROWS: usize = 1_000;
 
 /// What all branches of a shape share.
 pub struct Context<'a> {
@@ -17,6 +23,12 @@ pub struct Context<'a> {
     pub spaces: &'a Spaces,
     /// Balls that hold its attractors.
     pub balls: &'a Balls,
+    /// The same with convex polygons, tried where the balls do not suffice.
+    pub hulls: &'a OnceCell<Option<Balls>>,
+    /// The state from which addresses are read.
+    pub root: usize,
+    /// The map from that state into the space where the shape is looked at: control points, identity, or a quotient.
+    pub view: Matrix,
 }
 
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
@@ -37,23 +49,22 @@ impl Quotient {
             }
             rows = grown;
         }
-        let lift = Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| {
-            Rational::from(u8::from(rows.pivots[k] == i))
-        });
+        let lift =
+            Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| Rational::from(u8::from(rows.pivots[k] == i)));
         Self { chart: rows.rows, lift }
     }
 }
 
-/// Examines the branch `address` from the start state; `side` says which part of the curve it describes there.
+/// Examines the branch `address` from the root state; `side` says which part of the curve it describes there.
 ///
 /// Returns `None` where the fixed point of the cycle is not unique.
 #[must_use]
 pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchReport> {
     let shape = cx.shape;
-    let (prefix, state) = shape.product(shape.start, &address.prefix);
+    let (prefix, state) = shape.product(cx.root, &address.prefix);
     let (cycle_operator, _) = shape.product(state, &address.cycle);
     let fixed = crate::shape::fixed_point(&cycle_operator)?;
-    let transport = &shape.view() * &prefix;
+    let transport = &cx.view * &prefix;
     let space = cx.spaces.of(state);
     let on_v = &transport * &space.basis;
     let linear_v = cx.spaces.linear(&cycle_operator, state, state);
@@ -62,7 +73,8 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
     let view = &on_v * &quotient.lift;
     let chart = &quotient.chart * &space.coordinates;
     let spectrum = Spectrum::of(&linear);
-    let ring = standard_ring(shape, cx.spaces, state, &address.cycle, &fixed);
+    let mut ring = standard_ring(shape, cx.spaces, state, &address.cycle, &fixed);
+    mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
     let sign_along = |from: usize, word: &[usize]| -> i32 {
         let states = shape.path(from, word);
         word.iter().zip(&states).map(|(&i, &e)| if shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
@@ -71,7 +83,7 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         side,
         address: address.clone(),
         state,
-        prefix_sign: sign_along(shape.start, &address.prefix),
+        prefix_sign: sign_along(cx.root, &address.prefix),
         cycle_sign: sign_along(state, &address.cycle),
         cycle_operator,
         fixed,
@@ -84,13 +96,30 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         ring,
         outcome: Outcome::NoGerm { reason: String::new() },
     };
-    report.outcome = Analysis { cx, branch: &report }.outcome();
+    let seen: Vec<RingPiece> = report.ring.iter().filter(|p| !p.collapses).cloned().collect();
+    report.outcome = Analysis { cx, branch: &report, seen: &seen }.outcome();
     Some(report)
+}
+
+/// Marks the pieces that fall into `q` as a whole (Lemma 2).
+fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
+    let falls = &power(linear, linear.rows()) * chart;
+    for piece in ring {
+        let space = cx.spaces.of(piece.end);
+        let point = falls.apply(&difference(&piece.op.apply(&space.base), fixed));
+        piece.collapses = point.iter().all(|x| *x == 0) && (&falls * &(&piece.op * &space.basis)).is_zero();
+    }
+}
+
+fn power(m: &Matrix, exponent: usize) -> Matrix {
+    (0..exponent).fold(Matrix::identity(m.rows()), |p, _| &p * m)
 }
 
 struct Analysis<'a> {
     cx: &'a Context<'a>,
     branch: &'a BranchReport,
+    /// The ring without the pieces that collapse.
+    seen: &'a [RingPiece],
 }
 
 /// The part of the spectrum with the largest modulus.
@@ -130,7 +159,21 @@ impl Analysis<'_> {
             state: self.branch.state,
             fixed: &self.branch.fixed,
             chart: &self.branch.chart,
-            pieces: &self.branch.ring,
+            pieces: self.seen,
+        }
+    }
+
+    /// The ring condition with balls, then with polygons where there are any.
+    fn decide(&self, functionals: &[Functional]) -> RingAnswer {
+        let small = self.branch.relevant <= 2;
+        let answer = self.ring().decide(functionals, if small { FIRST_ROWS } else { MAX_ROWS });
+        if !small || !matches!(answer, RingAnswer::Open { .. }) {
+            return answer;
+        }
+        let cx = self.cx;
+        match cx.hulls.get_or_init(|| cx.balls.with_hulls(cx.shape, cx.spaces)) {
+            Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, MAX_ROWS),
+            None => self.ring().decide(functionals, MAX_ROWS),
         }
     }
 
@@ -156,26 +199,32 @@ impl Analysis<'_> {
         let coordinates: Vec<Functional> = (0..self.branch.linear.rows())
             .map(|k| Functional::rational(Matrix::identity(self.branch.linear.rows()).row(k)))
             .collect();
-        let mut power = self.branch.ring.clone();
-        for _ in 0..=self.branch.linear.rows() {
-            let ring = Ring { pieces: &power, ..self.ring() };
-            match ring.decide(&coordinates) {
+        let mut images = self.branch.ring.clone();
+        let mut turns = 0;
+        // From the index of nilpotency on, the images of the ring are the point itself.
+        while !power(&self.branch.linear, turns).is_zero() {
+            let ring = Ring { pieces: &images, ..self.ring() };
+            match ring.decide(&coordinates, FIRST_ROWS) {
                 RingAnswer::Holds(_) => {}
                 RingAnswer::Fails(_) => {
                     let reason = "L is nilpotent and the ring passes through the point: its germ is that of finitely many pieces";
-                    return Outcome::Open { reason: reason.to_owned(), place: None, at_least: 0 };
+                    return Outcome::Open { reason: reason.to_owned(), place: None, at_least: 0, direction: None };
                 }
                 RingAnswer::Open { place } => {
                     let reason = "L is nilpotent and it is not decided whether the ring passes through the point";
-                    return Outcome::Open { reason: reason.to_owned(), place: Some(place), at_least: 0 };
+                    return Outcome::Open {
+                        reason: reason.to_owned(),
+                        place: Some(place),
+                        at_least: 0,
+                        direction: None,
+                    };
                 }
             }
-            for piece in &mut power {
+            for piece in &mut images {
                 piece.op = &self.branch.cycle_operator * &piece.op;
-                let mut word = self.branch.address.cycle.clone();
-                word.append(&mut piece.word);
-                piece.word = word;
+                piece.word.splice(0..0, self.branch.address.cycle.iter().copied());
             }
+            turns += 1;
         }
         Outcome::NoGerm { reason: "the point is isolated in the shape: no tangent question arises".to_owned() }
     }
@@ -194,7 +243,7 @@ impl Analysis<'_> {
             };
         }
         let reason = "several directions of the largest modulus, which the control points may fold into one line";
-        Outcome::Open { reason: reason.to_owned(), place: None, at_least: 1 }
+        Outcome::Open { reason: reason.to_owned(), place: None, at_least: 1, direction: None }
     }
 
     /// `dim U = 1`: one real eigenvalue with one longest block.
@@ -206,7 +255,7 @@ impl Analysis<'_> {
             root: Some(top.root.clone()),
             part: Part::Real,
         };
-        let answer = self.ring().decide(std::slice::from_ref(&functional));
+        let answer = self.decide(std::slice::from_ref(&functional));
         let statement = if top.block == 1 { Statement::Theorem2 } else { Statement::Theorem3 };
         let line = |statement, proof: Option<RingProof>| {
             let direction = self.direction(top).normalised();
@@ -238,13 +287,21 @@ impl Analysis<'_> {
 
     /// The ring condition fails or is open: isolation first, then what the witness gives.
     fn ring_fails(&self, top: &Top, functional: &Functional, answer: RingAnswer) -> Outcome {
-        let open = |reason: &str, place| Outcome::Open { reason: reason.to_owned(), place, at_least: 1 };
-        let isolation = match self.ring().decide(&isolation_functionals(&self.branch.linear)) {
+        let open = |reason: &str, place| Outcome::Open {
+            reason: reason.to_owned(),
+            place,
+            at_least: 1,
+            direction: Some(self.direction(top).normalised()),
+        };
+        let isolation = match self.decide(&isolation_functionals(&self.branch.linear)) {
             RingAnswer::Holds(proof) => proof,
             RingAnswer::Fails(Witness::Point { address, .. }) => {
                 let mut place = address.prefix;
                 place.extend(address.cycle);
-                return open("the branch is not isolated: a point of the ring falls into the generalised kernel", Some(place));
+                return open(
+                    "the branch is not isolated: a point of the ring falls into the generalised kernel",
+                    Some(place),
+                );
             }
             RingAnswer::Fails(_) => return open("the branch is not isolated", None),
             RingAnswer::Open { place } => return open("it is not decided whether the branch is isolated", Some(place)),
@@ -274,14 +331,14 @@ impl Analysis<'_> {
         }
         if top.block == 2 && injective && self.is_single_block(top) {
             let c1 = Functional { row: second_functional(top.factor), ..functional.clone() };
-            if let Some(crossing) = self.ring().crossing(&c1, functional) {
+            if let Some(crossing) = self.ring().crossing(&c1, functional, MAX_ROWS) {
                 return refuted(Statement::Section6, crossing);
             }
         }
         let place = match witness {
             Witness::Point { address, .. } => address.prefix.into_iter().chain(address.cycle).collect(),
-            Witness::SignChange { positive, .. } => positive,
-            Witness::Crossing { cell, .. } => cell,
+            Witness::SignChange { positive, .. } => positive.prefix.into_iter().chain(positive.cycle).collect(),
+            Witness::Crossing { positive, .. } => positive.prefix,
         };
         open("the ring condition fails, but what follows for the tangent is not decided", Some(place))
     }
@@ -330,7 +387,7 @@ impl Analysis<'_> {
         let chain = longest_chain(&top.factor.right, top.block);
         let row = leading_functional(top.factor, top.block);
         let last = &chain.vectors[top.block - 1];
-        let zero = Elem::from_rational(Rational::from(0));
+        let zero = Elem::from_rational(&Rational::from(0));
         let pairing = row.iter().zip(last).fold(zero, |s, (a, b)| s.add(&a.mul(b, f)));
         let orientation = self.direction(top).same_line(direction).unwrap_or(0);
         // λ^{-ℓ} in the leading coefficient u.
@@ -378,11 +435,7 @@ impl Analysis<'_> {
 
 /// The rows that vanish on the generalised kernel of `linear` (theory §3, Isolation): all coordinates where it is invertible.
 fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
-    let mut power = linear.clone();
-    for _ in 1..linear.rows() {
-        power = &power * linear;
-    }
-    let rows = power.echelon().rows;
+    let rows = power(linear, linear.rows()).echelon().rows;
     (0..rows.rows()).map(|k| Functional::rational(rows.row(k))).collect()
 }
 
@@ -402,7 +455,7 @@ fn second_functional(factor: &Factor) -> Vec<Elem> {
 }
 
 fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
-    let zero = Elem::from_rational(Rational::from(0));
+    let zero = Elem::from_rational(&Rational::from(0));
     (0..matrix.rows())
         .map(|i| {
             let terms = matrix.row(i).iter().zip(v).filter(|(a, _)| **a != 0);

@@ -35,10 +35,9 @@ impl Direction {
         let f = self.root.minpoly();
         let Some(inverse) = self.coords[lead].inv(f) else { return self.clone() };
         let s = self.coords[lead].sign(&self.root);
-        let unit: Vec<Elem> =
-            self.coords.iter().map(|c| c.mul(&inverse, f).scale(&Rational::from(s))).collect();
+        let unit: Vec<Elem> = self.coords.iter().map(|c| c.mul(&inverse, f).scale(&Rational::from(s))).collect();
         let coords = match unit.iter().map(Elem::is_rational).collect::<Option<Vec<_>>>() {
-            Some(rationals) => primitive(&rationals).into_iter().map(Elem::from_rational).collect(),
+            Some(rationals) => primitive(&rationals).iter().map(Elem::from_rational).collect(),
             None => unit,
         };
         Self { root: self.root.clone(), coords }

@@ -1,14 +1,17 @@
 //! The theorem checker: from a shape to verdicts with evidence. Statements and proofs are in `docs/theory.md`.
 
 mod branch;
+mod dense;
 mod direction;
 mod point;
 mod ring;
+mod similarity;
 mod verdict;
 
 pub use branch::Context;
 pub use direction::{Direction, primitive};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
+pub use similarity::Similarities;
 pub use verdict::{
     BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
     StateReport, Statement, Verdict,
@@ -53,10 +56,24 @@ pub enum ModelError {
     FixedPoint,
 }
 
-/// How many levels of joints are examined where Theorem 5 does not apply.
-const DEEP_LEVELS: usize = 4;
-/// How many joints at most.
-const DEEP_JOINTS: usize = 40;
+impl ModelError {
+    /// The diagnostic code, such as `secant::shape::adjacency`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Shape(ShapeError::NoPiece { .. }) => "secant::shape::empty",
+            Self::Shape(ShapeError::Kind { .. }) => "secant::shape::kind",
+            Self::Shape(ShapeError::Size { .. }) => "secant::case::size",
+            Self::Shape(ShapeError::Sum { .. }) => "secant::case::sum",
+            Self::Shape(ShapeError::Control { .. }) => "secant::case::control",
+            Self::Shape(ShapeError::Boundary { .. }) => "secant::case::boundary",
+            Self::Curve(CurveError::Apart { .. }) => "secant::shape::adjacency",
+            Self::Curve(CurveError::Identity { .. }) => "secant::shape::identity",
+            Self::Address(_) => "secant::case::address",
+            Self::Expands { .. } | Self::FixedPoint => "secant::shape::contraction",
+        }
+    }
+}
 
 /// Certifies a shape: end points, first-level joints of all reachable states, further addresses, and the dense set.
 ///
@@ -79,7 +96,8 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
     let balls = Balls::new(shape, &spaces, &proof);
-    let cx = Context { shape, spaces: &spaces, balls: &balls };
+    let hulls = std::cell::OnceCell::new();
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
     let mut found = Certified {
         claims: Vec::new(),
         verdict: Verdict::Undetermined,
@@ -87,6 +105,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         states: shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect(),
         points: Vec::new(),
         dense: None,
+        similarities: similarity::similarities(&cx),
     };
     let mut asked = Vec::new();
     for address in addresses {
@@ -96,6 +115,16 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         certify_curve(&cx, &asked, &mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
+    }
+    if found.similarities.is_some() {
+        found.claims.push(Claim {
+            text: "some point of the shape has a tangent line".to_owned(),
+            verdict: Verdict::Refuted,
+            statement: Some(Statement::Similarities),
+            reason: Some(
+                "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned(),
+            ),
+        });
     }
     found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     Ok(found)
@@ -116,6 +145,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         states: Vec::new(),
         points: Vec::new(),
         dense: None,
+        similarities: None,
     }
 }
 
@@ -174,11 +204,9 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
         found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason });
         return;
     }
-    let dense = dense_set(cx, joints);
+    let dense = dense::dense_set(cx, joints);
     found.claims.push(end_claim(found, &ends));
-    let claim = dense_claim(cx, &dense, found);
-    found.claims.push(claim);
-    found.dense = Some(dense);
+    dense::claim(cx, dense, found);
     for address in asked {
         if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
             found.claims.push(point_claim(found, index, address));
@@ -188,14 +216,12 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
 
 fn certify_set(cx: &Context, asked: &[Address], found: &mut Certified) {
     let start = cx.shape.start;
-    let mut addresses: Vec<Address> = asked.to_vec();
-    if addresses.is_empty() {
-        for (i, piece) in cx.shape.states[start].pieces.iter().enumerate() {
-            if piece.target == start {
-                addresses.push(Address::periodic(vec![i]));
-            }
-        }
-    }
+    let pieces = cx.shape.states[start].pieces.iter().enumerate();
+    let mut addresses: Vec<Address> =
+        pieces.filter(|(_, p)| p.target == start).map(|(i, _)| Address::periodic(vec![i])).collect();
+    addresses.extend(asked.iter().cloned());
+    let mut seen = std::collections::BTreeSet::new();
+    addresses.retain(|a| seen.insert(a.clone()));
     for address in &addresses {
         if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
             found.claims.push(point_claim(found, index, address));
@@ -221,24 +247,6 @@ fn shortest_paths(shape: &Shape) -> Vec<(Vec<usize>, usize)> {
     paths
 }
 
-/// The hypotheses of Theorem 5 on injectivity, in the visible quotients.
-fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
-    let mut injective = Vec::new();
-    for e in cx.shape.reachable() {
-        if cx.shape.states[e].kind != CellKind::Edge {
-            continue;
-        }
-        for (letter, piece) in cx.shape.states[e].pieces.iter().enumerate() {
-            let linear = cx.spaces.linear(&piece.op, e, piece.target);
-            let onto = &cx.spaces.of(e).visible * &linear;
-            injective.push((e, letter, onto.rank() == cx.spaces.of(piece.target).visible.rows()));
-        }
-    }
-    let start = cx.spaces.of(cx.shape.start);
-    let view_injective = (&cx.shape.view() * &start.basis).rank() == start.visible.rows();
-    DenseSet { injective, view_injective, joints }
-}
-
 fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
     let verdict = ends.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
     let failing = ends.iter().find(|&&i| found.points[i].verdict != Verdict::Proved);
@@ -262,61 +270,4 @@ fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
         statement: None,
         reason: point.reason.clone(),
     }
-}
-
-/// Theorem 5, or the joints one by one where its hypotheses fail.
-fn dense_claim(cx: &Context, dense: &DenseSet, found: &mut Certified) -> Claim {
-    let text = "the curve has a tangent line at every joint of every level, a dense set".to_owned();
-    let claim = |verdict, reason: Option<String>| Claim {
-        text: text.clone(),
-        verdict,
-        statement: Some(Statement::Theorem5),
-        reason,
-    };
-    let joint_verdict = dense.joints.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
-    let Some(joint_verdict) = joint_verdict else {
-        return claim(Verdict::Undetermined, Some("no joint between pieces that are more than a point".to_owned()));
-    };
-    if joint_verdict == Verdict::Refuted {
-        return claim(Verdict::Refuted, Some("a first-level joint has no tangent".to_owned()));
-    }
-    let injective = dense.view_injective && dense.injective.iter().all(|(_, _, ok)| *ok);
-    if injective {
-        let reason = (joint_verdict != Verdict::Proved).then(|| "a first-level joint is not decided".to_owned());
-        return claim(joint_verdict, reason);
-    }
-    for (path, left, right) in deep_joints(cx) {
-        let Some(index) = add_point(cx, point::joint_spec(cx, &path, left, right), found) else { continue };
-        if found.points[index].verdict == Verdict::Refuted {
-            return claim(Verdict::Refuted, Some("a joint of a deeper level has no tangent".to_owned()));
-        }
-    }
-    let reason = "an operator, or the projection by the control points, is not injective on the relevant space: only the joints \
-                  listed were examined";
-    claim(Verdict::Undetermined, Some(reason.to_owned()))
-}
-
-/// Joints of the levels after the first, in breadth-first order.
-fn deep_joints(cx: &Context) -> Vec<(Vec<usize>, usize, usize)> {
-    let mut joints = Vec::new();
-    let mut level: Vec<(Vec<usize>, usize)> = vec![(Vec::new(), cx.shape.start)];
-    for _ in 1..DEEP_LEVELS {
-        let mut next = Vec::new();
-        for (path, state) in level {
-            for (letter, piece) in cx.shape.states[state].pieces.iter().enumerate() {
-                let longer = [path.as_slice(), &[letter]].concat();
-                if cx.shape.states[piece.target].kind == CellKind::Edge {
-                    let pairs = point::joint_pairs(cx, piece.target);
-                    joints.extend(pairs.into_iter().map(|(l, r)| (longer.clone(), l, r)));
-                }
-                next.push((longer, piece.target));
-            }
-        }
-        level = next;
-        if joints.len() >= DEEP_JOINTS {
-            break;
-        }
-    }
-    joints.truncate(DEEP_JOINTS);
-    joints
 }

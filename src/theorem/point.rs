@@ -26,7 +26,7 @@ fn end_branch(cx: &Context, path: &[usize], state: usize, end: End) -> Option<Ad
 /// An end point of the start state.
 #[must_use]
 pub fn end_spec(cx: &Context, end: End) -> Option<PointSpec> {
-    let address = end_branch(cx, &[], cx.shape.start, end)?;
+    let address = end_branch(cx, &[], cx.root, end)?;
     let (role, side) = match end {
         End::Start => (Role::LeftEnd, Side::Right),
         End::Finish => (Role::RightEnd, Side::Left),
@@ -46,7 +46,7 @@ pub fn joint_pairs(cx: &Context, state: usize) -> Vec<(usize, usize)> {
 #[must_use]
 pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Option<PointSpec> {
     let shape = cx.shape;
-    let state = *shape.path(shape.start, path).last()?;
+    let state = *shape.path(cx.root, path).last()?;
     let branch = |letter: usize, end: End| {
         let piece = &shape.states[state].pieces[letter];
         let path = [path, &[letter]].concat();
@@ -63,7 +63,7 @@ pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Op
 }
 
 fn orientation(cx: &Context, path: &[usize]) -> i32 {
-    let states = cx.shape.path(cx.shape.start, path);
+    let states = cx.shape.path(cx.root, path);
     path.iter().zip(&states).map(|(&i, &e)| if cx.shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
 }
 
@@ -71,10 +71,10 @@ fn orientation(cx: &Context, path: &[usize]) -> i32 {
 #[must_use]
 pub fn address_spec(cx: &Context, address: &Address) -> Option<PointSpec> {
     let shape = cx.shape;
-    let states = shape.path(shape.start, &address.prefix);
+    let states = shape.path(cx.root, &address.prefix);
     let state = *states.last()?;
     let all = [address.prefix.as_slice(), &address.cycle].concat();
-    let is_curve = shape.path(shape.start, &all).iter().all(|&e| shape.states[e].kind == CellKind::Edge);
+    let is_curve = shape.path(cx.root, &all).iter().all(|&e| shape.states[e].kind == CellKind::Edge);
     if !is_curve {
         return Some(PointSpec { role: Role::SetPoint, branches: vec![(Side::Both, address.clone())] });
     }
@@ -125,12 +125,17 @@ fn end_of_cell(cx: &Context, state: usize, cycle: &[usize]) -> Option<End> {
 pub fn examine_point(cx: &Context, spec: &PointSpec) -> Option<PointReport> {
     let branches: Vec<BranchReport> =
         spec.branches.iter().map(|(side, address)| examine(cx, address, *side)).collect::<Option<_>>()?;
-    let position = cx.shape.point(cx.shape.start, &branches[0].address)?;
+    let position = cx.shape.point(cx.root, &branches[0].address)?;
     let image = cx.shape.control.as_ref().map(|p| p.apply(&position));
     Some(conclude(spec.role.clone(), position, image, branches))
 }
 
-fn conclude(role: Role, position: Vec<Rational>, image: Option<Vec<Rational>>, branches: Vec<BranchReport>) -> PointReport {
+fn conclude(
+    role: Role,
+    position: Vec<Rational>,
+    image: Option<Vec<Rational>>,
+    branches: Vec<BranchReport>,
+) -> PointReport {
     let at_least = branches.iter().map(lower_bound).max().unwrap_or(0);
     let mut report = PointReport {
         role,
@@ -149,6 +154,9 @@ fn conclude(role: Role, position: Vec<Rational>, image: Option<Vec<Rational>>, b
         report.verdict = Verdict::Refuted;
         report.reason = Some("the tangent subspace has more than one dimension".to_owned());
         return report;
+    }
+    if let Some(known) = spread(&report.branches) {
+        return PointReport { verdict: Verdict::Refuted, dimension: known, reason: Some(SPREAD.to_owned()), ..report };
     }
     let mut lines = Vec::new();
     for branch in &report.branches {
@@ -187,6 +195,24 @@ fn conclude(role: Role, position: Vec<Rational>, image: Option<Vec<Rational>>, b
     report
 }
 
+const SPREAD: &str =
+    "directions that the tangent subspaces of the two sides are known to contain lie on different lines";
+
+/// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.
+fn spread(branches: &[BranchReport]) -> Option<Dimension> {
+    let open = branches.iter().any(|b| matches!(b.outcome, Outcome::Open { .. }));
+    let known: Vec<&Direction> = branches
+        .iter()
+        .filter_map(|b| match &b.outcome {
+            Outcome::Line { direction, .. } => Some(direction),
+            Outcome::Open { direction, .. } => direction.as_ref(),
+            _ => None,
+        })
+        .collect();
+    let differ = open && known.len() == 2 && known[0].same_line(known[1]).is_none();
+    differ.then_some(Dimension { at_least: 2, exact: false })
+}
+
 fn lower_bound(branch: &BranchReport) -> usize {
     match &branch.outcome {
         Outcome::Line { .. } => 1,
@@ -201,7 +227,6 @@ fn kind(report: &PointReport) -> Kind {
     let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd | Role::SetPoint);
     let opposite = |a: &Direction, b: &Direction| a.same_line(b) == Some(-1);
     match (left.len(), right.len()) {
-        (2, _) | (_, 2) if report.role == Role::SetPoint => Kind::Regular,
         (2, _) | (_, 2) => Kind::Oscillating,
         (1, 0) | (0, 1) if one_sided => Kind::HalfTangent,
         (1, 1) if opposite(&left[0], &right[0]) => Kind::Regular,

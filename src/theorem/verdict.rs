@@ -59,6 +59,10 @@ pub enum Statement {
     Joint,
     /// Theorem 5, a dense set by finitely many checks.
     Theorem5,
+    /// All maps are similarities: no tangent line at any point.
+    Similarities,
+    /// Theorem 5′, the same for a projection that is not injective.
+    Theorem5Projected,
 }
 
 /// Kinds of points (theory §2).
@@ -225,6 +229,8 @@ pub enum Outcome {
         place: Option<Vec<usize>>,
         /// A proved lower bound of `dim D*`.
         at_least: usize,
+        /// A direction that `D*` is known to contain (`U ⊂ D*`, the corollary).
+        direction: Option<Direction>,
     },
 }
 
@@ -312,6 +318,8 @@ pub struct DenseSet {
     pub view_injective: bool,
     /// Indices, in [`Certified::points`], of the first-level joints of all reachable edge states.
     pub joints: Vec<usize>,
+    /// For Theorem 5′: the same joints in the visible quotients `W_e` of their own states, before the control points.
+    pub upstairs: Vec<PointReport>,
 }
 
 /// What is known of the relevant space of one reachable state.
@@ -344,4 +352,6 @@ pub struct Certified {
     pub points: Vec<PointReport>,
     /// The evidence for the dense set; `None` for shapes that are no curves.
     pub dense: Option<DenseSet>,
+    /// The scalar product for which all maps are similarities, where there is one.
+    pub similarities: Option<super::similarity::Similarities>,
 }

@@ -1,0 +1,222 @@
+use super::root::{Root, roots};
+use crate::arith::{Interval, Rational, sign};
+use crate::linalg::Matrix;
+use crate::poly::Poly;
+use std::cmp::Ordering;
+
+/// An element of `Q[x] / (f)`, as a polynomial of smaller degree than the monic irreducible `f`.
+///
+/// The element does not know `f`; the operations that need it take it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Elem(pub Poly);
+
+impl Elem {
+    /// A rational number.
+    #[must_use]
+    pub fn from_rational(q: &Rational) -> Self {
+        Self(Poly::constant(q.clone()))
+    }
+
+    /// The class of `x`.
+    #[must_use]
+    pub fn generator(f: &Poly) -> Self {
+        Self(Poly::new(vec![0.into(), 1.into()]).div_rem(f).1)
+    }
+
+    /// The class of a polynomial.
+    #[must_use]
+    pub fn reduced(p: &Poly, f: &Poly) -> Self {
+        Self(p.div_rem(f).1)
+    }
+
+    /// The element 0.
+    #[must_use]
+    pub fn zero() -> Self {
+        Self(Poly::zero())
+    }
+
+    /// Whether this is 0.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+
+    /// The value, when it is rational.
+    #[must_use]
+    pub fn is_rational(&self) -> Option<Rational> {
+        match self.0.coeffs() {
+            [] => Some(Rational::from(0)),
+            [c] => Some(c.clone()),
+            _ => None,
+        }
+    }
+
+    /// `self + other`.
+    #[must_use]
+    pub fn add(&self, other: &Self) -> Self {
+        Self(&self.0 + &other.0)
+    }
+
+    /// `self - other`.
+    #[must_use]
+    pub fn sub(&self, other: &Self) -> Self {
+        Self(&self.0 - &other.0)
+    }
+
+    /// `-self`.
+    #[must_use]
+    pub fn neg(&self) -> Self {
+        Self(-&self.0)
+    }
+
+    /// `self * other`.
+    #[must_use]
+    pub fn mul(&self, other: &Self, f: &Poly) -> Self {
+        Self::reduced(&(&self.0 * &other.0), f)
+    }
+
+    /// `1 / self`, or `None` for 0.
+    #[must_use]
+    pub fn inv(&self, f: &Poly) -> Option<Self> {
+        if let Some(q) = self.is_rational() {
+            return (q != 0).then(|| Self::from_rational(&(Rational::from(1) / q)));
+        }
+        let (mut r0, mut r1) = (f.clone(), self.0.clone());
+        let (mut t0, mut t1) = (Poly::zero(), Poly::constant(Rational::from(1)));
+        while r1.degree() > Some(0) {
+            let (q, r) = r0.div_rem(&r1);
+            let t = &t0 - &(&q * &t1);
+            (r0, r1, t0, t1) = (r1, r, t1, t);
+        }
+        let unit = r1.leading()?.clone();
+        Some(Self::reduced(&t1.scale(&(Rational::from(1) / unit)), f))
+    }
+
+    /// `factor * self`.
+    #[must_use]
+    pub fn scale(&self, factor: &Rational) -> Self {
+        Self(self.0.scale(factor))
+    }
+
+    /// Enclosures of the real and imaginary part of the value at a root, of width at most `2^-bits`.
+    #[must_use]
+    pub fn enclosure(&self, root: &Root, bits: u64) -> (Interval, Interval) {
+        let zero = || Interval::point(Rational::from(0));
+        if let Some(q) = self.is_rational() {
+            return (Interval::point(q), zero());
+        }
+        if let Some(x) = root.rational() {
+            return (Interval::point(self.0.eval(&x)), zero());
+        }
+        let goal = Rational::from(1) >> bits;
+        let mut working = bits + 16;
+        loop {
+            let (x, y) = root.enclosure(working);
+            let (x, y) = (x.outward(working + 8), y.outward(working + 8));
+            let (mut re, mut im) = (zero(), zero());
+            for c in self.0.coeffs().iter().rev() {
+                let next = &(&re * &x) - &(&im * &y);
+                im = (&(&re * &y) + &(&im * &x)).outward(working + 8);
+                re = (&next + &Interval::point(c.clone())).outward(working + 8);
+            }
+            if root.is_real() {
+                im = zero();
+            }
+            if re.width() <= goal && im.width() <= goal {
+                return (re, im);
+            }
+            working *= 2;
+        }
+    }
+
+    /// The sign of the value at a real root, exactly; 0 only for the element 0.
+    #[must_use]
+    pub fn sign(&self, root: &Root) -> i32 {
+        if let Some(q) = self.is_rational() {
+            return sign(&q);
+        }
+        if let Some(x) = root.rational() {
+            return sign(&self.0.eval(&x));
+        }
+        (0..).find_map(|k| self.enclosure(root, 32 << k).0.sign()).unwrap_or(0)
+    }
+
+    /// The monic minimal polynomial over the rationals.
+    ///
+    /// # Cost
+    /// An elimination of size `deg f`.
+    #[must_use]
+    pub fn minpoly(&self, f: &Poly) -> Poly {
+        if let Some(q) = self.is_rational() {
+            return Poly::linear(&q);
+        }
+        let n = f.degree().unwrap_or(1);
+        let mut columns: Vec<Vec<Rational>> = Vec::new();
+        let mut power = Self::from_rational(&Rational::from(1));
+        for _ in 0..=n {
+            columns.push((0..n).map(|k| power.0.coeff(k)).collect());
+            power = power.mul(self, f);
+        }
+        let kernel = Matrix::from_columns(n, &columns).kernel();
+        // The first dependency among the powers is the first column of the kernel basis.
+        Poly::new(kernel.column(0)).monic()
+    }
+
+    /// Text such as `2/3t^2 - 1`.
+    #[must_use]
+    pub fn display(&self, var: &str) -> String {
+        self.0.display(var)
+    }
+}
+
+/// The value of `elem` at `root`, as a root of its own minimal polynomial.
+///
+/// # Cost
+/// One minimal polynomial, its roots, and enclosures until only one of them is near.
+#[must_use]
+pub fn locate(elem: &Elem, root: &Root) -> Root {
+    let reduced = match root.rational() {
+        Some(x) => Elem::from_rational(&elem.0.eval(&x)),
+        None => elem.clone(),
+    };
+    if let Some(q) = reduced.is_rational() {
+        return Root::from_rational(&q);
+    }
+    let candidates = roots(&reduced.minpoly(root.minpoly()));
+    let mut bits = 64;
+    loop {
+        let (re, im) = reduced.enclosure(root, bits);
+        let near = |c: &&Root| {
+            let (a, b) = c.enclosure(bits);
+            !a.disjoint(&re) && !b.disjoint(&im)
+        };
+        let mut hits = candidates.iter().filter(near);
+        if let (Some(only), None) = (hits.next(), hits.next()) {
+            return only.clone();
+        }
+        bits *= 2;
+    }
+}
+
+/// The order of two real roots, exactly.
+///
+/// # Panics
+/// If one of them is not real.
+#[must_use]
+pub fn cmp_real(a: &Root, b: &Root) -> Ordering {
+    assert!(a.is_real() && b.is_real(), "real numbers");
+    if a.same(b) {
+        return Ordering::Equal;
+    }
+    let mut bits = 64;
+    loop {
+        let (x, y) = (a.enclosure(bits).0, b.enclosure(bits).0);
+        if x.disjoint(&y) {
+            return x.lo.cmp(&y.lo);
+        }
+        if a.degree() == 1 && b.degree() == 1 {
+            return x.lo.cmp(&y.lo);
+        }
+        bits *= 2;
+    }
+}

@@ -1,0 +1,223 @@
+use super::ball::Ball;
+use super::isolate::{isolate, refine};
+use super::modulus;
+use super::relation;
+use crate::arith::{Integer, Interval, Rational, sign, to_f64};
+use crate::poly::{IntPoly, Poly};
+use std::cmp::Ordering;
+use std::fmt;
+use std::sync::{Arc, Mutex, OnceLock};
+
+/// All roots of one irreducible polynomial, shared by the [`Root`]s.
+pub(super) struct RootSet {
+    pub poly: Poly,
+    pub ints: IntPoly,
+    pub real: usize,
+    /// The isolating discs, in canonical order; empty for degree 1.
+    pub discs: Vec<Ball>,
+    refined: Vec<Mutex<Ball>>,
+    pub bases: OnceLock<modulus::Bases>,
+}
+
+/// A root of an irreducible polynomial over the rationals, with an isolating enclosure that refines on demand.
+///
+/// Cheap to clone. Roots are numbered in canonical order: the real ones ascending, then the complex ones by real
+/// part, then by imaginary part of the pair, the one in the upper half plane before its conjugate.
+#[derive(Clone)]
+pub struct Root {
+    pub(super) set: Arc<RootSet>,
+    pub(super) index: usize,
+}
+
+/// All roots of an irreducible polynomial, in canonical order.
+///
+/// # Panics
+/// If the polynomial is constant. An input with repeated roots makes the isolation search endlessly.
+///
+/// # Cost
+/// About `degree^2` multiplications of 64 to 128 bits per sweep of the iteration, for roots that are not clustered.
+///
+/// Source: Bini, *Numerical computation of polynomial zeros by means of Aberth's method*, for the proposals; the
+/// enclosures are proved as described in the module.
+#[must_use]
+pub fn roots(minpoly: &Poly) -> Vec<Root> {
+    let set = Arc::new(RootSet::new(&minpoly.monic()));
+    (0..set.poly.degree().unwrap_or(0)).map(|index| Root { set: Arc::clone(&set), index }).collect()
+}
+
+impl RootSet {
+    fn new(poly: &Poly) -> Self {
+        let ints = poly.primitive();
+        assert!(ints.len() > 1, "a polynomial of positive degree");
+        let mut set =
+            Self { poly: poly.clone(), ints, real: 1, discs: Vec::new(), refined: Vec::new(), bases: OnceLock::new() };
+        if set.ints.len() == 2 {
+            return set;
+        }
+        let found = isolate(&set.ints);
+        set.real = found.real.len();
+        set.discs = found.real;
+        let upper = relation::sorted_by_parts(&set.poly, &set.ints, found.upper);
+        set.discs.extend(upper.into_iter().flat_map(|b| [b.clone(), b.conjugate()]));
+        set.refined = set.discs.iter().map(|b| Mutex::new(b.clone())).collect();
+        set
+    }
+
+    /// The disc of a root with radius at most `2^t`.
+    pub fn disc(&self, index: usize, t: i64) -> Ball {
+        // The lower half plane mirrors the upper one, so that conjugates have conjugate enclosures.
+        if index >= self.real && (index - self.real) % 2 == 1 {
+            return self.disc(index - 1, t).conjugate();
+        }
+        let mut cell = self.refined[index].lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if !cell.is_within(t) {
+            *cell = refine(&self.ints, &self.discs[index], &cell, t);
+        }
+        cell.clone()
+    }
+}
+
+impl Root {
+    /// The root `q` of `x - q`.
+    #[must_use]
+    pub fn from_rational(q: &Rational) -> Self {
+        Self { set: Arc::new(RootSet::new(&Poly::linear(q))), index: 0 }
+    }
+
+    /// The minimal polynomial, monic.
+    #[must_use]
+    pub fn minpoly(&self) -> &Poly {
+        &self.set.poly
+    }
+
+    /// The degree of the minimal polynomial.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.set.ints.len() - 1
+    }
+
+    /// The position in the canonical order of the roots of the minimal polynomial.
+    #[must_use]
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Whether the root is real.
+    #[must_use]
+    pub fn is_real(&self) -> bool {
+        self.index < self.set.real
+    }
+
+    /// The value, when it is rational.
+    #[must_use]
+    pub fn rational(&self) -> Option<Rational> {
+        (self.degree() == 1).then(|| -self.set.poly.coeff(0))
+    }
+
+    /// Whether the root is 0.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.degree() == 1 && self.set.ints[0] == 0
+    }
+
+    /// Enclosures of the real and the imaginary part, of width at most `2^-bits`; the second is `[0, 0]` for a real root.
+    #[must_use]
+    pub fn enclosure(&self, bits: u64) -> (Interval, Interval) {
+        match self.rational() {
+            Some(q) => (Interval::point(q), Interval::point(Rational::from(0))),
+            None => self.disc(-(bits as i64) - 1).enclosure(),
+        }
+    }
+
+    pub(super) fn disc(&self, t: i64) -> Ball {
+        self.set.disc(self.index, t)
+    }
+
+    /// The complex conjugate; the root itself when it is real.
+    #[must_use]
+    pub fn conjugate(&self) -> Self {
+        let real = self.set.real;
+        let index = if self.is_real() { self.index } else { real + ((self.index - real) ^ 1) };
+        Self { set: Arc::clone(&self.set), index }
+    }
+
+    /// The sign of a real root; 0 for 0 and for every root that is not real.
+    #[must_use]
+    pub fn sign(&self) -> i32 {
+        if !self.is_real() {
+            return 0;
+        }
+        if let Some(q) = self.rational() {
+            return sign(&q);
+        }
+        (1..).find_map(|k| self.enclosure(32 * k).0.sign()).unwrap_or(0)
+    }
+
+    /// Whether the two numbers are equal.
+    #[must_use]
+    pub fn same(&self, other: &Self) -> bool {
+        self.index == other.index && (Arc::ptr_eq(&self.set, &other.set) || self.set.poly == other.set.poly)
+    }
+
+    /// The order of the absolute values, exactly.
+    ///
+    /// # Cost
+    /// Numerical separation first; what does not separate is decided by an algebraic relation (see
+    /// [`Root::cmp_modulus_rational`] and the module), in the last resort by the polynomial of the products of two roots.
+    #[must_use]
+    pub fn cmp_modulus(&self, other: &Self) -> Ordering {
+        modulus::compare(self, other)
+    }
+
+    /// The order of the absolute value and a rational, exactly.
+    #[must_use]
+    pub fn cmp_modulus_rational(&self, q: &Rational) -> Ordering {
+        if *q < 0 { Ordering::Greater } else { modulus::compare(self, &Self::from_rational(q)) }
+    }
+
+    /// An enclosure of the absolute value, of width at most `2^-bits`.
+    #[must_use]
+    pub fn modulus(&self, bits: u64) -> Interval {
+        modulus::enclosure(self, bits)
+    }
+
+    /// The nearest pair of doubles, roughly: for display and for proposals.
+    #[must_use]
+    pub fn to_f64(&self) -> (f64, f64) {
+        if let Some(q) = self.rational() {
+            return (to_f64(&q), 0.0);
+        }
+        let disc = self.set.discs[self.index].log_size();
+        let (re, im) = self.disc(disc - 60).enclosure();
+        (to_f64(&re.mid()), to_f64(&im.mid()))
+    }
+
+    /// The integer coefficients of the minimal polynomial.
+    #[must_use]
+    pub fn primitive(&self) -> &[Integer] {
+        &self.set.ints
+    }
+
+    /// Whether the quotient of the two numbers is a root of unity.
+    ///
+    /// # Cost
+    /// Decides a product polynomial of degree `deg^2` for factors that are not related in an obvious way.
+    #[must_use]
+    pub fn ratio_is_root_of_unity(&self, other: &Self) -> bool {
+        relation::ratio_is_root_of_unity(self, other)
+    }
+}
+
+impl fmt::Debug for Root {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Root({}, {})", self.set.poly.primitive_display("x"), self.index)
+    }
+}
+
+impl PartialEq for Root {
+    fn eq(&self, other: &Self) -> bool {
+        self.same(other)
+    }
+}
+
+impl Eq for Root {}

@@ -1,0 +1,98 @@
+use super::node::{Node, Table};
+use super::read::address;
+use crate::arith::Rational;
+use crate::diagnostic::Problem;
+use crate::shape::{Address, Shape};
+use toml::de::{DeTable, DeValue};
+
+/// What a test expects of a case.
+#[derive(Debug, Clone, Default)]
+pub struct Expect {
+    /// `proved`, `refuted` or `undetermined`.
+    pub verdict: Option<String>,
+    /// The same of the contraction.
+    pub contraction: Option<String>,
+    /// Code of the diagnostic with which the case must be refused.
+    pub error: Option<String>,
+    /// What is expected at single points.
+    pub points: Vec<ExpectPoint>,
+}
+
+/// What a test expects at one point.
+#[derive(Debug, Clone)]
+pub struct ExpectPoint {
+    /// An address of the point.
+    pub address: Address,
+    /// `half-tangent`, `regular`, `cusp`, `oscillating`, `corner` or `none`.
+    pub kind: Option<String>,
+    /// `proved`, `refuted` or `undetermined`.
+    pub verdict: Option<String>,
+    /// Dimension of the tangent subspace.
+    pub dimension: Option<usize>,
+    /// Direction of the tangent line, up to a factor.
+    pub tangent: Option<Vec<Rational>>,
+    /// Rays of the left side, up to positive factors.
+    pub left: Option<Vec<Vec<Rational>>>,
+    /// Rays of the right side, up to positive factors.
+    pub right: Option<Vec<Vec<Rational>>>,
+    /// Minimal polynomial of the eigenvalue, such as `x - 3/4`.
+    pub eigenvalue: Option<String>,
+}
+
+const VERDICTS: [&str; 3] = ["proved", "refuted", "undetermined"];
+const KINDS: [&str; 6] = ["half-tangent", "regular", "cusp", "oscillating", "corner", "none"];
+
+impl Expect {
+    pub(super) fn read(node: &Node<'_>, shape: &Shape) -> Result<Self, Problem> {
+        let table = node.table()?;
+        table.only(&["verdict", "contraction", "error", "point"])?;
+        let points = match table.get("point") {
+            Some(list) => {
+                let tables = list.tables(|k| format!("expected point {k}"))?;
+                tables.iter().map(|t| ExpectPoint::read(t, shape)).collect::<Result<_, _>>()?
+            }
+            None => Vec::new(),
+        };
+        Ok(Self {
+            verdict: table.word("verdict", &VERDICTS)?.map(str::to_owned),
+            contraction: table.word("contraction", &VERDICTS)?.map(str::to_owned),
+            error: table.optional_text("error")?.map(str::to_owned),
+            points,
+        })
+    }
+}
+
+impl ExpectPoint {
+    fn read(table: &Table<'_>, shape: &Shape) -> Result<Self, Problem> {
+        table.only(&["address", "kind", "verdict", "dimension", "tangent", "left", "right", "eigenvalue"])?;
+        let rays = |key: &str| -> Result<Option<Vec<Vec<Rational>>>, Problem> {
+            let Some(node) = table.get(key) else { return Ok(None) };
+            let rays = node.array(|k| format!("ray {k} of `{key}`"))?;
+            Ok(Some(rays.iter().map(vector).collect::<Result<_, _>>()?))
+        };
+        Ok(Self {
+            address: address(&table.need("address", "\"(0)\"")?, shape)?,
+            kind: table.word("kind", &KINDS)?.map(str::to_owned),
+            verdict: table.word("verdict", &VERDICTS)?.map(str::to_owned),
+            dimension: table.get("dimension").map(|n| n.index(super::MAX_COORDINATES)).transpose()?,
+            tangent: table.get("tangent").map(|n| vector(&n)).transpose()?,
+            left: rays("left")?,
+            right: rays("right")?,
+            eigenvalue: table.optional_text("eigenvalue")?.map(str::to_owned),
+        })
+    }
+}
+
+fn vector(node: &Node<'_>) -> Result<Vec<Rational>, Problem> {
+    node.array(|k| format!("entry {k} of {}", node.what))?.iter().map(Node::number).collect()
+}
+
+/// The diagnostic code that a case declares under `[expect] error`, read even from a case that is refused.
+///
+/// `None` where the text is not TOML or declares none.
+#[must_use]
+pub fn expected_error(text: &str) -> Option<String> {
+    let (table, _) = DeTable::parse_recoverable(text);
+    let DeValue::Table(expect) = table.get_ref().get("expect")?.get_ref() else { return None };
+    expect.get("error")?.get_ref().as_str().map(str::to_owned)
+}

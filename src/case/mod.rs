@@ -1,0 +1,140 @@
+//! Case files: TOML in, a checked [`Shape`] and what is asked about it out.
+//!
+//! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
+
+mod expect;
+mod maps;
+mod matrix;
+mod node;
+mod read;
+mod states;
+
+pub use expect::{Expect, ExpectPoint, expected_error};
+
+use crate::diagnostic::{Problem, SourceText};
+use crate::shape::{Address, Shape};
+use std::ops::Range;
+
+/// Largest case file that is read, in bytes.
+pub const MAX_BYTES: usize = 4 << 20;
+/// Largest number of states.
+pub const MAX_STATES: usize = 64;
+/// Largest number of pieces of a state.
+pub const MAX_PIECES: usize = 64;
+/// Largest number of barycentric coordinates of a state, and of coordinates of a control point.
+pub const MAX_COORDINATES: usize = 64;
+/// Largest number of addresses to examine.
+pub const MAX_ADDRESSES: usize = 256;
+/// Longest address to examine, in letters.
+pub const MAX_LETTERS: usize = 1_000;
+/// Largest size of all numbers of a file together, in bits (it keeps `1e9999` in every entry from filling the memory).
+pub const MAX_BITS: u64 = 1 << 25;
+
+/// How the matrices of a case act.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Convention {
+    /// Operators on columns of barycentric coordinates; columns sum to 1.
+    Columns,
+    /// Subdivision matrices on rows of control points; rows sum to 1. They are transposed on reading.
+    Rows,
+    /// Affine maps `x -> linear x + shift`.
+    Affine,
+}
+
+impl Convention {
+    /// The word in the case file (`affine` is implied by `[[map]]`).
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Columns => "columns",
+            Self::Rows => "rows",
+            Self::Affine => "affine",
+        }
+    }
+}
+
+/// A case file, read and checked.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// The name, made of letters, digits, `-`, `_` and `.`.
+    pub name: String,
+    /// One line for people; the name where the file has none.
+    pub title: String,
+    /// Where the shape and the claim come from.
+    pub source: Option<String>,
+    /// How the matrices were written.
+    pub convention: Convention,
+    /// The shape. Sizes and column sums are checked; adjacency is not (the engine does that).
+    pub shape: Shape,
+    /// Further points to examine, as written; every letter exists.
+    pub examine: Vec<Address>,
+    /// What a test expects.
+    pub expect: Option<Expect>,
+    /// The file, for diagnostics and digests.
+    pub text: SourceText,
+    places: Places,
+}
+
+/// Where things stand in the file.
+#[derive(Debug, Clone, Default)]
+struct Places {
+    states: Vec<StatePlace>,
+    control: Option<Range<usize>>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct StatePlace {
+    name: Range<usize>,
+    pieces: Vec<Range<usize>>,
+    left: Option<Range<usize>>,
+    right: Option<Range<usize>>,
+}
+
+impl Case {
+    /// A problem of one piece of a state, shown at its matrix (or map) in the file.
+    ///
+    /// Indices that do not exist give a problem without a place.
+    #[must_use]
+    pub fn problem_at_piece(&self, state: usize, piece: usize, code: &str, message: &str, help: &str) -> Problem {
+        let span = self.places.states.get(state).and_then(|s| s.pieces.get(piece));
+        self.problem(span, &format!("piece {piece}"), code, message, help)
+    }
+
+    /// A problem of two neighbouring pieces of a state, `piece` and `piece + 1`, shown at both.
+    #[must_use]
+    pub fn problem_at_joint(&self, state: usize, piece: usize, code: &str, message: &str, help: &str) -> Problem {
+        let problem = self.problem_at_piece(state, piece, code, message, help);
+        match self.places.states.get(state).and_then(|s| s.pieces.get(piece + 1)) {
+            Some(next) => problem.with_label(next.clone(), format!("piece {}", piece + 1)),
+            None => problem,
+        }
+    }
+
+    /// A problem of a whole state, shown at its name.
+    #[must_use]
+    pub fn problem_at_state(&self, state: usize, code: &str, message: &str, help: &str) -> Problem {
+        self.problem(self.places.states.get(state).map(|s| &s.name), "this state", code, message, help)
+    }
+
+    /// A problem of a boundary (`right` or left) of a state, shown at its matrix.
+    #[must_use]
+    pub fn problem_at_boundary(&self, state: usize, right: bool, code: &str, message: &str, help: &str) -> Problem {
+        let place = self.places.states.get(state);
+        let span = place.and_then(|s| if right { s.right.as_ref() } else { s.left.as_ref() });
+        self.problem(span.or(place.map(|s| &s.name)), "this boundary", code, message, help)
+    }
+
+    /// A problem of the control points, shown at their list.
+    #[must_use]
+    pub fn problem_at_control(&self, code: &str, message: &str, help: &str) -> Problem {
+        self.problem(self.places.control.as_ref(), "these control points", code, message, help)
+    }
+
+    fn problem(&self, span: Option<&Range<usize>>, note: &str, code: &str, message: &str, help: &str) -> Problem {
+        let problem = Problem::new(code, message).with_help(help).with_source(&self.text);
+        match span {
+            Some(span) => problem.with_label(span.clone(), note),
+            None => problem,
+        }
+    }
+}

@@ -1,0 +1,242 @@
+use super::expect::Expect;
+use super::matrix::Written;
+use super::node::{File, Node, Table};
+use super::{Case, Convention, MAX_ADDRESSES, MAX_BYTES, MAX_LETTERS, Places, maps, states};
+use crate::diagnostic::{Problem, SourceText};
+use crate::linalg::Matrix;
+use crate::shape::{Address, CellKind, Shape};
+use std::io::Read;
+use std::path::Path;
+use toml::de::DeTable;
+
+const KEYS: [&str; 13] = [
+    "name",
+    "title",
+    "source",
+    "kind",
+    "convention",
+    "pieces",
+    "reversed",
+    "map",
+    "start",
+    "state",
+    "control",
+    "examine",
+    "expect",
+];
+
+impl Case {
+    /// Reads and checks the case file at `path`; `-` is the standard input.
+    ///
+    /// # Errors
+    /// A [`Problem`] for everything that is wrong with it: see `docs/case-format.md` for the codes.
+    pub fn read(path: &Path) -> Result<Self, Problem> {
+        if path.as_os_str() == "-" {
+            return Self::from_reader("<stdin>", std::io::stdin().lock());
+        }
+        let name = path.display().to_string();
+        let unreadable = |error: &std::io::Error| {
+            Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
+                .with_help("give the path of a case file, or `-` for the standard input")
+        };
+        let file = std::fs::File::open(path).map_err(|e| unreadable(&e))?;
+        if file.metadata().is_ok_and(|m| m.is_dir()) {
+            return Err(Problem::new("secant::case::unreadable", format!("{name} is a directory"))
+                .with_help("give the path of a case file, such as cases/thesis/half-tangent.toml"));
+        }
+        Self::from_reader(&name, file)
+    }
+
+    /// Reads and checks a case from a stream; `name` is shown in diagnostics.
+    ///
+    /// # Errors
+    /// As [`Case::read`].
+    pub fn from_reader(name: &str, stream: impl Read) -> Result<Self, Problem> {
+        let mut bytes = Vec::new();
+        if let Err(error) = stream.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes) {
+            return Err(Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
+                .with_help("give the path of a case file, or `-` for the standard input"));
+        }
+        if bytes.len() > MAX_BYTES {
+            return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
+                .with_help("case files are at most 4 MiB long"));
+        }
+        match String::from_utf8(bytes) {
+            Ok(text) => Self::parse(name, &text),
+            Err(error) => {
+                let at = error.utf8_error().valid_up_to();
+                let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
+                let source = SourceText::new(name, valid);
+                let (line, column) = source.position(at);
+                Err(Problem::new("secant::case::encoding", format!("{name}:{line}:{column}: this is not UTF-8 text"))
+                    .with_help("case files are UTF-8 text in the TOML format"))
+            }
+        }
+    }
+
+    /// Reads and checks the text of a case; `name` is shown in diagnostics.
+    ///
+    /// # Errors
+    /// As [`Case::read`].
+    ///
+    /// # Cost
+    /// Linear in the text, apart from the arithmetic on the numbers.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
+        let source = SourceText::new(name, text);
+        if text.len() > MAX_BYTES {
+            return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
+                .with_help("case files are at most 4 MiB long"));
+        }
+        let table = DeTable::parse(text).map_err(|error| syntax(&source, &error))?;
+        if table.get_ref().is_empty() {
+            return Err(Problem::new("secant::case::empty", format!("{name} is empty"))
+                .with_help("a case needs at least `name`, `convention` and `pieces`; see docs/case-format.md"));
+        }
+        let file = File::new(source);
+        build(&file, &Table::root(&file, &table))
+    }
+}
+
+fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
+    let end = source.text.len();
+    let span = error.span().unwrap_or(end..end);
+    let message = error.message();
+    let help = if message.contains("recursion") {
+        "lists and tables are nested too deeply; a matrix is a list of lists"
+    } else if message.contains("duplicate") {
+        "every key may be given once"
+    } else {
+        "case files are TOML: strings and fractions in quotes, lists in square brackets"
+    };
+    Problem::new("secant::case::syntax", format!("this is not valid TOML: {}", message.lines().next().unwrap_or("")))
+        .with_source(source)
+        .with_label(span.start.min(end)..span.end.min(end), "here")
+        .with_help(help)
+}
+
+fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
+    case.only(&KEYS)?;
+    let name = name(case)?;
+    let title = case.optional_text("title")?.unwrap_or(&name).to_owned();
+    let source = case.optional_text("source")?.map(str::to_owned);
+    let kind = match case.word("kind", &["curve", "set"])? {
+        Some("set") => CellKind::Set,
+        _ => CellKind::Edge,
+    };
+    let convention = convention(case)?;
+    let (mut shape, mut places) = shape(case, kind, convention)?;
+    if let Some(node) = case.get("control") {
+        shape.control = Some(control(&node, &shape)?);
+        places.control = Some(node.span());
+    }
+    shape.check().map_err(|error| case.problem("shape", error.to_string(), "in this file"))?;
+    let examine = examine(case, &shape)?;
+    let expect = case.get("expect").map(|node| Expect::read(&node, &shape)).transpose()?;
+    let text = file.source.clone();
+    Ok(Case { name, title, source, convention, shape, examine, expect, text, places })
+}
+
+fn name(case: &Table<'_>) -> Result<String, Problem> {
+    let name = case.text("name", "\"my-curve\"")?;
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+    if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
+        return Err(case
+            .need("name", "\"my-curve\"")?
+            .problem("value", "the name of a case is made of letters, digits, `-`, `_` and `.`", "not a name")
+            .with_help("the name is the file name without .toml; use `title` for anything longer"));
+    }
+    Ok(name.to_owned())
+}
+
+fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
+    let word = case.word("convention", &["columns", "rows"])?;
+    if case.get("map").is_none() {
+        case.need("convention", "\"columns\"").map_err(|p| {
+            p.with_help(
+                "say how the matrices act: convention = \"columns\" (operators on columns of coordinates, \
+                 columns sum to 1) or convention = \"rows\" (subdivision matrices on rows of control points, \
+                 rows sum to 1)",
+            )
+        })?;
+        return Ok(if word == Some("rows") { Convention::Rows } else { Convention::Columns });
+    }
+    match (word, case.get("convention")) {
+        (Some("rows"), Some(node)) => Err(node
+            .problem("value", "affine maps act on columns: x -> linear x + shift", "does not fit [[map]]")
+            .with_help("leave `convention` out, and transpose the linear parts if they were meant to act on rows")),
+        _ => Ok(Convention::Affine),
+    }
+}
+
+fn shape(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<(Shape, Places), Problem> {
+    if let Some(node) = case.get("map") {
+        return maps::read(case, &node, kind);
+    }
+    if let Some(node) = case.get("state") {
+        return states::automaton(case, &node, kind, convention);
+    }
+    if let Some(span) = case.key_span("start") {
+        return Err(case
+            .file
+            .problem(
+                "two-forms",
+                "`start` belongs to an automaton, but there is no [[state]]",
+                span,
+                "without [[state]]",
+            )
+            .with_help("leave `start` out, or give the states"));
+    }
+    let node = case.need("pieces", "[ [[…]], [[…]] ]").map_err(|p| {
+        p.with_help(
+            "a case is written with `pieces` (a list of matrices), with [[map]] tables or with [[state]] tables",
+        )
+    })?;
+    states::single(case, &node, kind, convention)
+}
+
+fn control(node: &Node<'_>, shape: &Shape) -> Result<Matrix, Problem> {
+    let written = Written::read(&node.named("the list of control points"))?;
+    let start = &shape.states[shape.start];
+    if written.height() != start.dim {
+        let message = format!("there are {} control points for {} coordinates", written.height(), start.dim);
+        return Err(node
+            .problem("control", message, format!("{} points here", written.height()))
+            .with_help(format!("give one point for each of the {} coordinates of the start state", start.dim)));
+    }
+    Ok(written.matrix().transpose())
+}
+
+fn examine(case: &Table<'_>, shape: &Shape) -> Result<Vec<Address>, Problem> {
+    let Some(node) = case.get("examine") else { return Ok(Vec::new()) };
+    let tables = node.tables(|k| format!("[[examine]] number {k}"))?;
+    if tables.len() > MAX_ADDRESSES {
+        return Err(node
+            .problem("limit", format!("{} points are over the limit of {MAX_ADDRESSES}", tables.len()), "too many")
+            .with_help("examine fewer points in one case"));
+    }
+    let mut addresses = Vec::new();
+    for table in &tables {
+        table.only(&["address"])?;
+        addresses.push(address(&table.need("address", "\"0(1)\"")?, shape)?);
+    }
+    Ok(addresses)
+}
+
+/// Reads an address and makes sure that its letters exist.
+pub(super) fn address(node: &Node<'_>, shape: &Shape) -> Result<Address, Problem> {
+    let text = node.text()?;
+    let problem = |message: String, help: &str| node.problem("address", message, "this address").with_help(help);
+    if text.len() > 4 * MAX_LETTERS {
+        return Err(problem("the address is too long".to_owned(), "addresses of at most 1000 letters are read"));
+    }
+    let help = "letters first, then the repeated letters in brackets: \"0(1)\" is 0111…";
+    let read = Address::parse(text).map_err(|error| problem(error.to_string(), help))?;
+    if read.prefix.len() + read.cycle.len() > MAX_LETTERS {
+        return Err(problem("the address is too long".to_owned(), "addresses of at most 1000 letters are read"));
+    }
+    read.normalise(shape, shape.start).map_err(|error| problem(error.to_string(), "use the letters of the state"))?;
+    Ok(read)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,189 @@
+//! The exact spectrum of a rational matrix: eigenvalues, multiplicities, Jordan block sizes, chains of generalised
+//! eigenvectors on both sides, and the classes of eigenvalues of equal modulus.
+
+mod chains;
+mod classes;
+mod echelon;
+mod generators;
+mod operator;
+mod reconstruct;
+mod summand;
+mod symmetry;
+
+use crate::algebraic::{Elem, Root, roots};
+use crate::linalg::Matrix;
+use crate::poly::Poly;
+use rayon::prelude::*;
+
+pub use crate::linalg::char_poly;
+
+/// A chain of generalised eigenvectors of one Jordan block, for every root `θ` of a factor at once: entries are
+/// elements of `Q[x] / (factor)`.
+///
+/// Right chains satisfy `(A - θ) v[0] = 0` and `(A - θ) v[j+1] = v[j]`, left chains the same for the transpose.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chain {
+    /// The vectors, the eigenvector first.
+    pub vectors: Vec<Vec<Elem>>,
+}
+
+/// What belongs to one irreducible factor of the characteristic polynomial.
+#[derive(Debug, Clone)]
+pub struct Factor {
+    /// The factor, monic irreducible.
+    pub poly: Poly,
+    /// Its exponent in the characteristic polynomial: the algebraic multiplicity of each of its roots.
+    pub multiplicity: usize,
+    /// The sizes of the Jordan blocks of each root, descending.
+    pub blocks: Vec<usize>,
+    /// The roots, in canonical order.
+    pub roots: Vec<Root>,
+    /// The right chains, one for each block.
+    pub right: Vec<Chain>,
+    /// The left chains, one for each block.
+    pub left: Vec<Chain>,
+}
+
+/// An eigenvalue: a root of a factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Eigenvalue {
+    /// The position of the factor in [`Spectrum::factors`].
+    pub factor: usize,
+    /// The position of the root in [`Factor::roots`].
+    pub root: usize,
+}
+
+/// The different eigenvalues of one absolute value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ModulusClass {
+    /// The eigenvalues, by factor and root.
+    pub members: Vec<Eigenvalue>,
+}
+
+/// The exact spectrum of a square rational matrix.
+#[derive(Debug, Clone)]
+pub struct Spectrum {
+    /// The size of the matrix.
+    pub size: usize,
+    /// The characteristic polynomial.
+    pub char_poly: Poly,
+    /// Its irreducible factors, by degree, then by coefficients.
+    pub factors: Vec<Factor>,
+    /// The eigenvalues by absolute value, descending; exact ties share a class.
+    pub classes: Vec<ModulusClass>,
+}
+
+impl Spectrum {
+    /// Computes the spectrum.
+    ///
+    /// The chains prove themselves: each satisfies its equations exactly, the eigenvectors are independent (shown
+    /// modulo a prime), and the sizes add up to the exponents in the characteristic polynomial.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    #[must_use]
+    pub fn of(a: &Matrix) -> Self {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        Self::from_summands(a.rows(), &summand::split(a))
+    }
+
+    /// The same as [`Spectrum::of`], with a declared symmetry: a permutation of the indices with
+    /// `A[p[i]][p[j]] = A[i][j]`, all of whose cycles have length 1 or one common length. The blocks of the Fourier
+    /// transform are then treated one by one. `None` when the matrix does not have the symmetry.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    #[must_use]
+    pub fn with_symmetry(a: &Matrix, permutation: &[usize]) -> Option<Self> {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        let symmetry = symmetry::Symmetry::declared(a, permutation)?;
+        Some(Self::from_summands(a.rows(), &symmetry.split(a)))
+    }
+
+    /// The same as [`Spectrum::of`], without any search for a symmetry; slower, for comparison.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    #[must_use]
+    pub fn without_symmetry(a: &Matrix) -> Self {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        Self::from_summands(a.rows(), &[summand::Summand::whole(a)])
+    }
+
+    fn from_summands(size: usize, summands: &[summand::Summand]) -> Self {
+        let parts = summand::decompose(summands);
+        let char_poly = summand::product(&parts);
+        let build = |part: summand::Merged| {
+            let roots = roots(&part.poly);
+            let summand::Merged { poly, multiplicity, blocks, right, left } = part;
+            Factor { poly, multiplicity, blocks, roots, right, left }
+        };
+        let factors: Vec<Factor> = if size < PARALLEL {
+            parts.into_iter().map(build).collect()
+        } else {
+            parts.into_par_iter().map(build).collect()
+        };
+        let classes = classes::modulus_classes(&factors);
+        Self { size, char_poly, factors, classes }
+    }
+
+    /// The minimal polynomial, monic.
+    #[must_use]
+    pub fn min_poly(&self) -> Poly {
+        let one = Poly::new(vec![1.into()]);
+        self.factors.iter().fold(one, |acc, f| &acc * &f.poly.pow(f.blocks.first().copied().unwrap_or(0)))
+    }
+
+    /// The number that an eigenvalue stands for.
+    ///
+    /// # Panics
+    /// If it is not one of this spectrum.
+    #[must_use]
+    pub fn root(&self, eigenvalue: Eigenvalue) -> &Root {
+        &self.factors[eigenvalue.factor].roots[eigenvalue.root]
+    }
+
+    /// The factor of an eigenvalue.
+    ///
+    /// # Panics
+    /// If it is not one of this spectrum.
+    #[must_use]
+    pub fn factor(&self, eigenvalue: Eigenvalue) -> &Factor {
+        &self.factors[eigenvalue.factor]
+    }
+
+    /// All different eigenvalues, by descending modulus, then by factor and root.
+    pub fn eigenvalues(&self) -> impl Iterator<Item = Eigenvalue> {
+        self.classes.iter().flat_map(|c| c.members.iter().copied())
+    }
+
+    /// The class that an eigenvalue belongs to.
+    #[must_use]
+    pub fn class_of(&self, eigenvalue: Eigenvalue) -> Option<usize> {
+        self.classes.iter().position(|c| c.members.contains(&eigenvalue))
+    }
+}
+
+impl Factor {
+    /// The degree of the factor.
+    #[must_use]
+    pub fn degree(&self) -> usize {
+        self.roots.len()
+    }
+}
+
+/// Smaller matrices are not worth a second thread.
+const PARALLEL: usize = 24;
+
+/// Only the classes of eigenvalues of equal modulus, descending, as lists of roots: no chains are computed.
+///
+/// # Panics
+/// If the matrix is not square.
+#[must_use]
+pub fn modulus_classes(a: &Matrix) -> Vec<Vec<Root>> {
+    assert_eq!(a.rows(), a.cols(), "square matrix");
+    let factors: Vec<Vec<Root>> = summand::polynomials(&summand::split(a)).iter().map(|(f, _)| roots(f)).collect();
+    let lists: Vec<&[Root]> = factors.iter().map(Vec::as_slice).collect();
+    let resolve = |e: &Eigenvalue| factors[e.factor][e.root].clone();
+    classes::group(&lists).iter().map(|c| c.members.iter().map(resolve).collect()).collect()
+}

@@ -1,0 +1,219 @@
+use super::matrix::Matrix;
+use super::strong::strong_components;
+use crate::arith::modular::{PrimeField, large_primes};
+use crate::arith::{Integer, Natural, Rational};
+use crate::poly::ints::{self, CrtPoly};
+use crate::poly::{IntPoly, Poly};
+use malachite_base::num::logic::traits::SignificantBits;
+use rayon::prelude::*;
+
+/// The characteristic polynomial `det(x - A)`, monic. For `n = 0` it is 1.
+///
+/// # Panics
+/// If the matrix is not square.
+///
+/// # Cost
+/// The matrix is split into its strongly connected components first. For one component of size `n` the integer
+/// polynomial `det(x D - N)`, with `A = D^-1 N` or `N D^-1` and `D` diagonal, is computed modulo primes of 62 bits,
+/// `O(n^3)` each, as many as Hadamard's bound for its coefficients needs; the primes are shared among the threads.
+///
+/// Source: Cohen, *A Course in Computational Algebraic Number Theory*, algorithm 2.2.9, for the Hessenberg method.
+#[must_use]
+pub fn char_poly(a: &Matrix) -> Poly {
+    let product = char_poly_blocks(a).iter().fold(vec![Integer::from(1)], |acc, f| ints::mul(&acc, f));
+    Poly::from_ints(&product).monic()
+}
+
+/// The characteristic polynomials of the strongly connected components, as primitive integer polynomials.
+pub(crate) fn char_poly_blocks(a: &Matrix) -> Vec<IntPoly> {
+    assert_eq!(a.rows(), a.cols(), "square matrix");
+    strong_components(a).iter().map(|block| component(&Cleared::best(a, block))).collect()
+}
+
+/// `x D - N` for one component: `D` the row denominators, `N` the cleared rows.
+struct Cleared {
+    denominators: Vec<Natural>,
+    entries: Vec<Vec<Integer>>,
+    /// Bits that every coefficient of the determinant fits, without its sign.
+    bound: u64,
+}
+
+impl Cleared {
+    /// Clears by rows or by columns, whichever has the smaller bound.
+    fn best(a: &Matrix, block: &[usize]) -> Self {
+        let rows = Self::by_lines(block.len(), |i, j| &a[(block[i], block[j])]);
+        if rows.bound <= 60 {
+            return rows;
+        }
+        let columns = Self::by_lines(block.len(), |i, j| &a[(block[j], block[i])]);
+        if rows.bound <= columns.bound { rows } else { columns }
+    }
+
+    fn by_lines<'a>(n: usize, entry: impl Fn(usize, usize) -> &'a Rational) -> Self {
+        let mut denominators = Vec::with_capacity(n);
+        let mut entries = Vec::with_capacity(n);
+        let mut bound = 2;
+        let mut product = Natural::from(1u32);
+        for i in 0..n {
+            let d = ints::common_denominator((0..n).map(|j| entry(i, j)));
+            let row: Vec<Integer> = (0..n).map(|j| ints::cleared(entry(i, j), &d)).collect();
+            // On the unit circle a row of x D - N is at most this long, and the coefficients are at most the maximum.
+            let mut square = Natural::from(0u32);
+            for (j, x) in row.iter().enumerate() {
+                let size = if i == j { x.unsigned_abs_ref() + &d } else { x.unsigned_abs_ref().clone() };
+                square += &size * &size;
+            }
+            product *= square;
+            if product.significant_bits() > 4096 {
+                bound += product.significant_bits();
+                product = Natural::from(1u32);
+            }
+            denominators.push(d);
+            entries.push(row);
+        }
+        bound += product.significant_bits();
+        Self { denominators, entries, bound: bound / 2 + 1 }
+    }
+
+    /// The coefficients of `det(x D - N)` modulo a prime; `None` when the prime divides a denominator.
+    fn modulo(&self, field: &PrimeField) -> Option<Vec<u64>> {
+        let mut determinant = field.one();
+        let mut m = Vec::with_capacity(self.entries.len());
+        for (row, d) in self.entries.iter().zip(&self.denominators) {
+            let d = field.from_natural(d);
+            if d == 0 {
+                return None;
+            }
+            determinant = field.mul(determinant, d);
+            let inverse = if d == field.one() { d } else { field.inverse(d) };
+            m.push(row.iter().map(|x| if *x == 0 { 0 } else { field.mul(field.from_integer(x), inverse) }).collect());
+        }
+        let monic = hessenberg_char_poly(field, m);
+        Some(monic.into_iter().map(|c| field.mul(c, determinant)).collect())
+    }
+}
+
+fn component(cleared: &Cleared) -> IntPoly {
+    let n = cleared.entries.len();
+    if n == 1 {
+        return ints::primitive(vec![-&cleared.entries[0][0], Integer::from(&cleared.denominators[0])]);
+    }
+    let mut image = CrtPoly::default();
+    let mut primes = large_primes();
+    // The signed coefficient must be below half the modulus.
+    while image.modulus == 0 || image.modulus.significant_bits() < cleared.bound + 2 {
+        let missing = (cleared.bound + 2).saturating_sub(image.modulus.significant_bits());
+        let batch: Vec<u64> = primes.by_ref().take(missing.div_ceil(61).max(1) as usize).collect();
+        let compute = |p: &u64| {
+            let field = PrimeField::new(*p);
+            cleared.modulo(&field).map(|r| (field, r))
+        };
+        let images: Vec<Option<(PrimeField, Vec<u64>)>> = if batch.len() == 1 || n < 24 {
+            batch.iter().map(compute).collect()
+        } else {
+            batch.par_iter().map(compute).collect()
+        };
+        for (field, residues) in images.into_iter().flatten() {
+            image.absorb(&field, &residues);
+        }
+    }
+    ints::primitive(image.coeffs)
+}
+
+/// The characteristic polynomial over a prime field, monic, through a similar Hessenberg matrix.
+fn hessenberg_char_poly(field: &PrimeField, mut m: Vec<Vec<u64>>) -> Vec<u64> {
+    let n = m.len();
+    for k in 1..n.saturating_sub(1) {
+        let Some(pivot) = (k..n).find(|&i| m[i][k - 1] != 0) else { continue };
+        if pivot != k {
+            m.swap(pivot, k);
+            for row in &mut m {
+                row.swap(pivot, k);
+            }
+        }
+        let inverse = field.inverse(m[k][k - 1]);
+        let pivot_row = m[k].clone();
+        let mut factors = vec![0; n];
+        for i in k + 1..n {
+            if m[i][k - 1] == 0 {
+                continue;
+            }
+            let factor = field.mul(m[i][k - 1], inverse);
+            factors[i] = factor;
+            for (x, y) in m[i][k - 1..].iter_mut().zip(&pivot_row[k - 1..]) {
+                *x = field.sub(*x, field.mul(factor, *y));
+            }
+        }
+        for row in &mut m {
+            row[k] = field.add(row[k], field.dot(&row[k + 1..], &factors[k + 1..]));
+        }
+    }
+    let mut polys: Vec<Vec<u64>> = vec![vec![field.one()]];
+    for k in 0..n {
+        let mut next = vec![0; k + 2];
+        next[1..].copy_from_slice(&polys[k]);
+        let mut weight = field.one();
+        for i in (0..=k).rev() {
+            let c = field.mul(m[i][k], weight);
+            if c != 0 {
+                for (x, y) in next.iter_mut().zip(&polys[i]) {
+                    *x = field.sub(*x, field.mul(c, *y));
+                }
+            }
+            if i > 0 {
+                weight = field.mul(weight, m[i][i - 1]);
+                if weight == 0 {
+                    break;
+                }
+            }
+        }
+        polys.push(next);
+    }
+    polys.pop().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+
+    fn evaluate(f: &Poly, a: &Matrix) -> Matrix {
+        let n = a.rows();
+        f.coeffs().iter().rev().fold(Matrix::zero(n, n), |acc, c| &(&acc * a) + &Matrix::identity(n).scale(c))
+    }
+
+    #[test]
+    fn cayley_hamilton() {
+        let mut seed = 3;
+        for n in 0..9 {
+            let a = Matrix::from_fn(n, n, |_, _| {
+                let r = crate::poly::modp::next_random(&mut seed);
+                if r % 3 == 0 { ratio(0, 1) } else { ratio((r >> 20) as i64 % 50 - 25, 1 + (r >> 40) as i64 % 30) }
+            });
+            let f = char_poly(&a);
+            assert_eq!(f.degree(), Some(n));
+            assert!(evaluate(&f, &a).is_zero());
+            if n > 0 {
+                let trace: Rational = (0..n).map(|i| a[(i, i)].clone()).sum();
+                assert_eq!(f.coeff(n - 1), -trace);
+            }
+        }
+    }
+
+    #[test]
+    fn products_commute_in_the_characteristic_polynomial() {
+        let a = Matrix::from_fn(2, 4, |i, j| ratio((3 * i + j * j) as i64 - 4, 1 + i as i64));
+        let b = Matrix::from_fn(4, 2, |i, j| ratio((i * j) as i64 - 2, 1 + j as i64));
+        let (f, g) = (char_poly(&(&a * &b)), char_poly(&(&b * &a)));
+        assert_eq!(&f * &Poly::new(vec![0.into(), 0.into(), 1.into()]), g);
+    }
+
+    #[test]
+    fn large_entries_need_several_primes() {
+        let big = Rational::from(Integer::from(3)) << 200i64;
+        let a = Matrix::from_fn(2, 2, |i, j| if i == j { big.clone() } else { ratio(1, 7) });
+        let f = char_poly(&a);
+        assert_eq!(f.coeff(0), &big * &big - ratio(1, 49));
+        assert_eq!(f.coeff(1), -(&big * ratio(2, 1)));
+    }
+}

@@ -1,0 +1,133 @@
+//! Pictures of attractors as SVG. Floats are used here and prove nothing; exact points only start the computation.
+#![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
+
+mod projection;
+mod svg;
+mod trace;
+
+pub use projection::Projection;
+
+use crate::arith::Rational;
+use crate::shape::{CellKind, Shape};
+use svg::Canvas;
+use trace::Tracer;
+
+/// What is drawn at an examined point.
+#[derive(Debug, Clone)]
+pub struct Mark {
+    /// The point, in the barycentric space of the start state.
+    pub at: Vec<Rational>,
+    /// Rays in the space where the shape is looked at (control points, or barycentric differences).
+    pub rays: Vec<Vec<f64>>,
+    /// The class of the mark.
+    pub style: MarkStyle,
+    /// A short label, such as an address.
+    pub label: String,
+}
+
+/// How a mark looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MarkStyle {
+    /// A tangent: half-tangent, regular point or oscillating point.
+    Tangent,
+    /// A cusp.
+    Cusp,
+    /// A corner.
+    Corner,
+    /// No tangent, or not decided.
+    Open,
+}
+
+/// A picture with the words that belong to it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Picture {
+    /// A complete SVG document; the same input gives the same bytes.
+    pub svg: String,
+    /// What is to be seen and how it was projected.
+    pub caption: String,
+    /// The same for those who cannot see it.
+    pub alt: String,
+}
+
+/// Draws the attractor of the start state with its control polygon and the marks.
+///
+/// Returns `None` where no point of the shape can be computed (it does not contract) or nothing finite results.
+///
+/// # Cost
+/// At most a few times 10 000 small matrix products.
+#[must_use]
+pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> {
+    let projection = Projection::of(shape);
+    let tracer = Tracer::new(shape)?;
+    let start = &shape.states[shape.start];
+    let is_curve = start.kind == CellKind::Edge;
+    let points = tracer.points(&projection);
+    let polygon = projection.polygon();
+    let spots: Vec<[f64; 2]> = marks.iter().map(|m| projection.point(&m.at)).collect();
+    let all: Vec<[f64; 2]> = points.iter().chain(&polygon).chain(&spots).copied().collect();
+    if points.is_empty() || !all.iter().flatten().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mut canvas = Canvas::around(&all, title);
+    canvas.polygon(&polygon);
+    if is_curve {
+        canvas.curve(&points);
+    } else {
+        canvas.cloud(&points);
+    }
+    for (mark, at) in marks.iter().zip(&spots) {
+        let rays: Vec<[f64; 2]> = mark.rays.iter().map(|r| projection.direction(r)).collect();
+        canvas.mark(mark.style, *at, &rays, &mark.label);
+    }
+    let what = if is_curve { "curve" } else { "set" };
+    let drawn = match marks.len() {
+        0 => String::new(),
+        1 => " One examined point is marked.".to_owned(),
+        n => format!(" {n} examined points are marked."),
+    };
+    let caption = format!("The {what}, its control polygon and the rays found. {}{drawn}", projection.words());
+    let alt = format!("Drawing of the {what} {title} with its control polygon. {}{drawn}", projection.words());
+    Some(Picture { svg: canvas.finish(), caption, alt })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+    use crate::linalg::Matrix;
+
+    fn spline() -> Shape {
+        let m = |rows: [[i64; 3]; 3]| Matrix::from_fn(3, 3, |i, j| ratio(rows[i][j], 4));
+        Shape::single(CellKind::Edge, vec![m([[3, 1, 0], [1, 3, 3], [0, 0, 1]]), m([[1, 0, 0], [3, 3, 1], [0, 1, 3]])])
+    }
+
+    #[test]
+    fn the_same_bytes_every_time() {
+        let mark = Mark {
+            at: vec![ratio(1, 2), ratio(1, 2), ratio(0, 1)],
+            rays: vec![vec![-1.0, 1.0, 0.0]],
+            style: MarkStyle::Tangent,
+            label: "(0) <&>".into(),
+        };
+        let a = attractor(&spline(), "a & b", std::slice::from_ref(&mark)).unwrap();
+        let b = attractor(&spline(), "a & b", &[mark]).unwrap();
+        assert_eq!(a, b);
+        assert!(a.svg.contains("a &amp; b") && a.svg.contains("(0) &lt;&amp;&gt;"));
+        assert!(a.caption.contains("triangle"));
+        assert!(a.svg.len() < 200_000, "{}", a.svg.len());
+    }
+
+    #[test]
+    fn a_set_is_a_cloud_of_points() {
+        let mut shape = spline();
+        shape.states[0].kind = CellKind::Set;
+        let picture = attractor(&shape, "t", &[]).unwrap();
+        assert!(picture.svg.contains("h0"));
+    }
+
+    #[test]
+    fn no_picture_of_what_does_not_contract() {
+        let shape = Shape::single(CellKind::Edge, vec![Matrix::identity(3)]);
+        assert!(attractor(&shape, "t", &[]).is_none());
+    }
+}

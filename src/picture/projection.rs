@@ -1,0 +1,98 @@
+use crate::arith::{Rational, to_f64};
+use crate::linalg::Matrix;
+use crate::shape::{Frame, Shape};
+use nalgebra::DMatrix;
+
+/// A linear map from the barycentric space of the start state to the plane of the drawing.
+#[derive(Debug, Clone)]
+pub struct Projection {
+    /// From the space where the shape is looked at to the plane.
+    plane: DMatrix<f64>,
+    /// From barycentric coordinates to the plane.
+    whole: DMatrix<f64>,
+    words: &'static str,
+    corners: usize,
+}
+
+pub(super) fn floats(m: &Matrix) -> DMatrix<f64> {
+    DMatrix::from_fn(m.rows(), m.cols(), |i, j| to_f64(&m[(i, j)]))
+}
+
+impl Projection {
+    /// Chooses the projection: control points in the plane as they are, in space from a fixed direction; barycentric
+    /// coordinates with the control points at the corners of a regular polygon.
+    #[must_use]
+    pub fn of(shape: &Shape) -> Self {
+        let n = shape.states[shape.start].dim;
+        let Some(control) = &shape.control else {
+            let plane = regular(n);
+            let words = match n {
+                0..=2 => "Barycentric coordinates are drawn on a line.",
+                3 => "Barycentric coordinates are drawn in the plane triangle of the control points.",
+                _ => {
+                    "Barycentric coordinates are projected to the plane with the control points at the corners of a regular polygon."
+                }
+            };
+            return Self { whole: plane.clone(), plane, words, corners: n };
+        };
+        let (plane, words) = match control.rows() {
+            1 => (DMatrix::from_row_slice(2, 1, &[1.0, 0.0]), "The points lie on a line."),
+            2 => (DMatrix::identity(2, 2), "Drawn in the plane of the control points."),
+            d => (slanted(d), "Drawn from a fixed direction in space."),
+        };
+        let whole = &plane * floats(control);
+        let corners = if shape.frame == Frame::Affine { 0 } else { n };
+        Self { plane, whole, words, corners }
+    }
+
+    /// The projection in one sentence.
+    #[must_use]
+    pub fn words(&self) -> &'static str {
+        self.words
+    }
+
+    /// The map from barycentric coordinates of the start state.
+    pub(super) fn matrix(&self) -> &DMatrix<f64> {
+        &self.whole
+    }
+
+    /// The corners of the control polygon; none where the case has affine maps.
+    pub(super) fn polygon(&self) -> Vec<[f64; 2]> {
+        (0..self.corners).map(|j| [self.whole[(0, j)], self.whole[(1, j)]]).collect()
+    }
+
+    /// Where a point of the start state is drawn.
+    pub(super) fn point(&self, x: &[Rational]) -> [f64; 2] {
+        let x = DMatrix::from_fn(x.len(), 1, |i, _| to_f64(&x[i]));
+        let p = &self.whole * x;
+        [p[0], p[1]]
+    }
+
+    /// The drawn direction of a vector of the space where the shape is looked at; 0 where the sizes differ.
+    pub(super) fn direction(&self, v: &[f64]) -> [f64; 2] {
+        if v.len() != self.plane.ncols() {
+            return [0.0, 0.0];
+        }
+        let p = &self.plane * DMatrix::from_column_slice(v.len(), 1, v);
+        [p[0], p[1]]
+    }
+}
+
+/// The corners of a regular polygon, the first and the last at the bottom.
+fn regular(n: usize) -> DMatrix<f64> {
+    use std::f64::consts::PI;
+    if n <= 2 {
+        return DMatrix::from_fn(2, n, |i, j| if i == 0 { j as f64 } else { 0.0 });
+    }
+    let step = 2.0 * PI / n as f64;
+    DMatrix::from_fn(2, n, |i, j| {
+        let angle = -PI / 2.0 - step * (j as f64 + 0.5);
+        if i == 0 { angle.cos() } else { angle.sin() }
+    })
+}
+
+/// The first three coordinates seen from a fixed direction.
+fn slanted(d: usize) -> DMatrix<f64> {
+    let axes = [[0.94, -0.15], [-0.34, -0.42], [0.0, 0.9]];
+    DMatrix::from_fn(2, d, |i, j| if j < 3 { axes[j][i] } else { 0.0 })
+}
