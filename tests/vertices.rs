@@ -1,12 +1,15 @@
 //! Subdivision matrices at extraordinary vertices against an outside oracle (FLINT) and the published eigenvalues.
 
 use secant::arith::{Rational, parse_rational, ratio};
-use secant::linalg::Matrix;
+use secant::linalg::{Matrix, char_poly};
 use secant::scheme::{
     DualWeights, LocalMatrix, LoopWeights, MeshRule, SchemeError, Sector, VertexWeights, local_matrix, local_matrix_of,
 };
-use secant::shape::characteristic;
 use std::collections::BTreeMap;
+
+fn characteristic(m: &Matrix) -> Vec<Rational> {
+    char_poly(m).coeffs().to_vec()
+}
 
 fn local(rule: &MeshRule, valence: usize, rings: usize) -> LocalMatrix {
     let result = local_matrix(rule, valence, rings).unwrap_or_else(|e| panic!("valence {valence}: {e}"));
