@@ -84,7 +84,8 @@ const MAX_CYCLE: usize = 6;
 #[must_use]
 pub fn common_cone(shape: &Shape, spaces: &Spaces) -> Option<ConeAnswer> {
     let frame = frame(shape, spaces)?;
-    for attempt in 0..8 {
+    let attempts = if frame.dims.iter().any(|d| *d > 5) { 3 } else { 8 };
+    for attempt in 0..attempts {
         if let Some(rays) = propose(&frame, attempt)
             && let Some(cone) = exact(shape, spaces, &frame, &rays)
             && cone.holds(shape, spaces)

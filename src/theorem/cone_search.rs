@@ -16,11 +16,15 @@ pub(super) struct Frame {
 
 type Rays = Vec<Vec<f64>>;
 
-const MAX_RAYS: usize = 48;
+const MAX_RAYS: usize = 160;
+
+/// How far the cone is thickened, and how far images are pushed when it is closed under the maps.
+const STEPS: [(f64, f64); 8] =
+    [(0.25, 0.25), (0.25, 0.02), (0.05, 0.002), (0.5, 0.05), (0.01, 1e-3), (0.002, 1e-3), (1.0, 0.02), (5e-4, 1e-4)];
 
 /// Rays for every state; attempts differ in the depth of the chords and in how far rays are pushed.
 pub(super) fn propose(frame: &Frame, attempt: usize) -> Option<Vec<Vec<Vec<Rational>>>> {
-    let push = [0.25, 0.05, 0.5, 0.01, 0.1, 0.002, 1.0, 0.0005][attempt % 8];
+    let (push, hair) = STEPS[attempt % STEPS.len()];
     let maps: Vec<Vec<Vec<f64>>> = frame.maps.iter().map(|m| floats(&m.3)).collect();
     let mut cones: Vec<Rays> = frame.chords.iter().map(|c| vec![unit(c.iter().map(to_f64).collect())]).collect();
     for _ in 0..(6 + attempt) {
@@ -37,8 +41,9 @@ pub(super) fn propose(frame: &Frame, attempt: usize) -> Option<Vec<Vec<Vec<Ratio
     for (rays, &dim) in cones.iter_mut().zip(&frame.dims) {
         thicken(rays, dim, push);
     }
-    for _ in 0..60 {
-        if !close(frame, &maps, &mut cones, push)? {
+    let rounds = if frame.dims.iter().any(|d| *d > 5) { 12 } else { 60 };
+    for _ in 0..rounds {
+        if !close(frame, &maps, &mut cones, hair)? {
             return Some(cones.iter().map(|rays| rays.iter().map(|r| r.iter().map(|x| short(*x)).collect()).collect()).collect());
         }
     }
