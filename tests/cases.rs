@@ -31,7 +31,7 @@ fn mistakes(path: &Path) -> Vec<String> {
     let text = std::fs::read_to_string(path).unwrap();
     let label = path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().display().to_string();
     let code = match Case::read(path) {
-        Err(problem) => Some(problem.code().to_owned()),
+        Err(problem) => miette::Diagnostic::code(&problem).map(|c| c.to_string()),
         Ok(case) => match certify(&case.shape, &case.examine) {
             Err(error) => Some(error.code().to_owned()),
             Ok(found) => {
@@ -43,8 +43,8 @@ fn mistakes(path: &Path) -> Vec<String> {
             }
         },
     };
-    let wanted =
-        expected_error(&text).or_else(|| label.contains("refused/empty").then(|| "secant::case::empty".to_owned()));
+    let wanted = expected_error(&text)
+        .or_else(|| label.starts_with("cases/refused/empty").then(|| "secant::case::empty".to_owned()));
     if code == wanted { Vec::new() } else { vec![format!("{label}: refused with {code:?}, expected {wanted:?}")] }
 }
 
@@ -111,7 +111,7 @@ fn shown<'a>(rays: impl Iterator<Item = &'a Direction>) -> String {
 fn parallel(direction: &Direction, wanted: &[Rational]) -> i32 {
     let wanted = Direction {
         root: direction.root.clone(),
-        coords: wanted.iter().cloned().map(secant::algebraic::Elem::from_rational).collect(),
+        coords: wanted.iter().map(secant::algebraic::Elem::from_rational).collect(),
     };
     direction.same_line(&wanted).unwrap_or(0)
 }

@@ -37,7 +37,7 @@ impl Direction {
         let s = self.coords[lead].sign(&self.root);
         let unit: Vec<Elem> = self.coords.iter().map(|c| c.mul(&inverse, f).scale(&Rational::from(s))).collect();
         let coords = match unit.iter().map(Elem::is_rational).collect::<Option<Vec<_>>>() {
-            Some(rationals) => primitive(&rationals).into_iter().map(Elem::from_rational).collect(),
+            Some(rationals) => primitive(&rationals).iter().map(Elem::from_rational).collect(),
             None => unit,
         };
         Self { root: self.root.clone(), coords }
