@@ -108,6 +108,12 @@ pub(super) fn root_of(x: &Interval, degree: usize, bits: u64) -> Interval {
     Interval::new(lo, hi)
 }
 
+/// An enclosure of the square root of a nonnegative rational, with end points of `bits` binary places.
+#[must_use]
+pub fn square_root(x: &Rational, bits: u64) -> Interval {
+    root_of(&Interval::point(x.clone()), 2, bits)
+}
+
 /// A real eigenvector of the product for a real leading eigenvalue, given exactly: coordinate `i` is the polynomial
 /// `Σ_k coordinates[i][k] x^k` at the eigenvalue.
 #[derive(Debug, Clone)]
