@@ -11,7 +11,7 @@ use super::quadratic::Quadratic;
 use super::search::{Candidate, candidates, canonical};
 use super::simplex::Body;
 use super::system::{System, SystemError};
-use crate::arith::{Interval, Rational, abs, to_f64};
+use crate::arith::{Interval, Rational, to_f64};
 use malachite_base::num::arithmetic::traits::CheckedRoot;
 use std::cmp::Ordering;
 
@@ -90,8 +90,7 @@ pub struct JointRadius {
 pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, SystemError> {
     let system = system.clone().checked()?;
     let parts = blocks(&system);
-    let mut found: Vec<Vec<Candidate>> =
-        parts.iter().map(|b| candidates(&b.system, options.longest, 1e-7)).collect();
+    let mut found: Vec<Vec<Candidate>> = parts.iter().map(|b| candidates(&b.system, options.longest, 1e-7)).collect();
     for _ in 0..8 {
         match attempt(&system, &parts, &found, options) {
             Ok(result) => return Ok(result),
@@ -118,7 +117,12 @@ fn attempt_without_restart(
     attempt(system, parts, found, &small).or(Err(SystemError::Empty))
 }
 
-fn attempt(system: &System, parts: &[Block], found: &[Vec<Candidate>], options: &Options) -> Result<JointRadius, Restart> {
+fn attempt(
+    system: &System,
+    parts: &[Block],
+    found: &[Vec<Candidate>],
+    options: &Options,
+) -> Result<JointRadius, Restart> {
     let Some(best) = best_word(parts, found) else {
         let exact = parts.is_empty();
         let upper = exact.then(|| Rational::from(0));
@@ -150,7 +154,8 @@ fn best_word(parts: &[Block], found: &[Vec<Candidate>]) -> Option<(Best, Vec<Vec
     let mut best: Option<(usize, Lower)> = None;
     for (block, list) in lists.iter().enumerate() {
         for lower in list {
-            let better = best.as_ref().is_none_or(|(old, b)| compare(parts, (block, lower), (*old, b)) == Ordering::Greater);
+            let better =
+                best.as_ref().is_none_or(|(old, b)| compare(parts, (block, lower), (*old, b)) == Ordering::Greater);
             if better {
                 best = Some((block, lower.clone()));
             }
@@ -192,7 +197,12 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs }
 }
 
-fn prove(block: &Block, found: &[Candidate], best: &(Best, Vec<Vec<Lower>>), options: &Options) -> Result<BlockProof, Vec<usize>> {
+fn prove(
+    block: &Block,
+    found: &[Candidate],
+    best: &(Best, Vec<Vec<Lower>>),
+    options: &Options,
+) -> Result<BlockProof, Vec<usize>> {
     let (best, lists) = best;
     let own: Vec<&Lower> = lists
         .iter()
@@ -204,14 +214,14 @@ fn prove(block: &Block, found: &[Candidate], best: &(Best, Vec<Vec<Lower>>), opt
         return smaller(block, value, best, options);
     }
     let roots = eigenvectors(block, &own);
-    let square = square(&best.lower);
+    let square = best.lower.square();
     let mut result = BlockProof { block: block.clone(), roots, bound: None, attains: false, proof: None };
-    if result.roots.is_empty() && by_quadratic(&mut result, square.as_ref()) {
+    if own.iter().any(|l| !l.root.is_real()) && by_quadratic(&mut result, square.as_ref(), &own) {
         return Ok(result);
     }
     if !result.roots.is_empty() {
         at_radius(&mut result, best, options)?;
-        if result.attains || by_quadratic(&mut result, square.as_ref()) {
+        if result.attains || by_quadratic(&mut result, square.as_ref(), &own) {
             return Ok(result);
         }
     }
@@ -230,7 +240,7 @@ fn prove(block: &Block, found: &[Candidate], best: &(Best, Vec<Vec<Lower>>), opt
 /// Real eigenvectors of the leading words, scaled to about 1 and, for nonnegative matrices, made nonnegative.
 fn eigenvectors(block: &Block, own: &[&Lower]) -> Vec<LeadingVector> {
     let mut out = Vec::new();
-    for lower in own.iter().filter(|l| l.root.is_real()) {
+    for lower in own.iter().filter_map(|l| real_power(&block.system, l)) {
         let Some(mut vector) = Eigenvector::of(&block.system.product(&lower.path), &lower.root) else { continue };
         let values: Vec<f64> = vector.enclosure(&lower.root, 64).iter().map(|x| to_f64(&x.mid())).collect();
         let largest = values.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
@@ -238,9 +248,24 @@ fn eigenvectors(block: &Block, own: &[&Lower]) -> Vec<LeadingVector> {
             continue;
         }
         vector.scale(&scale_near(1.0 / largest));
-        out.push(LeadingVector { lower: (*lower).clone(), vector });
+        out.push(LeadingVector { lower, vector });
     }
     out
+}
+
+/// The word, or a power of it whose leading eigenvalue is real.
+fn real_power(system: &System, lower: &Lower) -> Option<Lower> {
+    if lower.root.is_real() {
+        return Some(lower.clone());
+    }
+    if !lower.root.ratio_is_root_of_unity(&lower.root.conjugate()) {
+        return None;
+    }
+    [2, 3, 4, 5, 6, 8, 10, 12]
+        .into_iter()
+        .filter(|k| k * lower.length <= 48)
+        .filter_map(|k| Lower::of(system, &lower.path.repeat(k)))
+        .find(|l| l.root.is_real())
 }
 
 /// A short rational close to a float of any size.
@@ -255,22 +280,10 @@ fn scale_near(x: f64) -> Rational {
     if rest == 0 { power } else { rest * power }
 }
 
-/// The square of the value, where it is rational and simply found.
-fn square(lower: &Lower) -> Option<Rational> {
-    let degree = u64::try_from(lower.length).ok()?;
-    if let Some(r) = lower.root.rational() {
-        return (&r * &r).checked_root(degree);
-    }
-    let coeffs = lower.root.minpoly().monic().coeffs().to_vec();
-    if coeffs.len() != 3 || lower.root.is_real() && coeffs[1] != 0 {
-        return None;
-    }
-    abs(&coeffs[0]).checked_root(degree)
-}
-
-fn by_quadratic(result: &mut BlockProof, square: Option<&Rational>) -> bool {
+fn by_quadratic(result: &mut BlockProof, square: Option<&Rational>, own: &[&Lower]) -> bool {
     let Some(square) = square else { return false };
-    let Some(proof) = Quadratic::find(&result.block.system, square) else { return false };
+    let letters: Vec<usize> = own.iter().filter(|l| l.length == 1).map(|l| l.path[0]).collect();
+    let Some(proof) = Quadratic::find(&result.block.system, square, &letters) else { return false };
     let hi = super::leading::root_of(&Interval::point(square.clone()), 2, 64).hi;
     result.bound = Some(square.clone().checked_root(2u64).unwrap_or(hi));
     result.attains = true;
@@ -286,7 +299,14 @@ fn at_radius(result: &mut BlockProof, best: &Best, options: &Options) -> Result<
     let body = body(&system);
     for exponent in [0, 8, 14] {
         let limit = limit(&system, options).min(1500);
-        let grown = grow(&Task { system: &system, scaled: &scaled, body, seeds: seeds.clone(), max_vertices: limit, tolerance: 1e-9 });
+        let grown = grow(&Task {
+            system: &system,
+            scaled: &scaled,
+            body,
+            seeds: seeds.clone(),
+            max_vertices: limit,
+            tolerance: 1e-9,
+        });
         if let Some(path) = grown.better {
             return Err(path);
         }
@@ -330,7 +350,14 @@ fn inflated(result: &mut BlockProof, radius: f64, options: &Options) -> Result<b
     let limit = limit(&system, options);
     let body = body(&system);
     for _ in 0..2 {
-        let grown = grow(&Task { system: &system, scaled: &scaled, body, seeds: seeds.clone(), max_vertices: limit, tolerance: 0.0 });
+        let grown = grow(&Task {
+            system: &system,
+            scaled: &scaled,
+            body,
+            seeds: seeds.clone(),
+            max_vertices: limit,
+            tolerance: 0.0,
+        });
         if grown.better.is_some() {
             // A product above the radius: a better word.
             return grown.better.map_or(Ok(false), Err);

@@ -6,6 +6,7 @@ pub mod html;
 pub mod json;
 pub mod markdown;
 pub mod math;
+pub mod radius;
 pub mod mathml;
 pub mod proof;
 pub mod summary;
