@@ -47,8 +47,22 @@ impl Lower {
     /// The value as a rational, where it is one.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {
-        let value = abs(&self.root.rational()?);
-        value.checked_root(u64::try_from(self.length).ok()?)
+        self.square()?.checked_root(2u64)
+    }
+
+    /// The square of the value, where it is rational and simply found (rational or quadratic eigenvalues).
+    #[must_use]
+    pub fn square(&self) -> Option<Rational> {
+        let degree = u64::try_from(self.length).ok()?;
+        if let Some(r) = self.root.rational() {
+            return (&r * &r).checked_root(degree);
+        }
+        let coeffs = self.root.minpoly().monic().coeffs().to_vec();
+        // The roots of x² + bx + c have modulus √c when they are conjugate or opposite.
+        if coeffs.len() != 3 || (self.root.is_real() && coeffs[1] != 0) {
+            return None;
+        }
+        abs(&coeffs[0]).checked_root(degree)
     }
 
     /// An enclosure of the value of width about `2^-bits` (relative to 1).

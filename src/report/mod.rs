@@ -7,6 +7,7 @@ pub mod json;
 pub mod latex;
 pub mod markdown;
 pub mod math;
+pub mod radius;
 pub mod mathml;
 pub mod proof;
 pub mod summary;

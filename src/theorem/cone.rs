@@ -135,7 +135,8 @@ fn exact(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational
     let mut maps = Vec::new();
     let mut cross_ratio = Rational::from(1);
     for (from, letter, to, matrix) in &frame.maps {
-        let columns: Option<Vec<Vec<Rational>>> = rays[*to].iter().map(|r| interior(&rays[*from], &matrix.apply(r))).collect();
+        let columns: Option<Vec<Vec<Rational>>> =
+            rays[*to].iter().map(|r| interior(&rays[*from], &matrix.apply(r))).collect();
         let b = Matrix::from_columns(rays[*from].len(), &columns?);
         cross_ratio = cross_ratio.max(largest_cross_ratio(&b)?);
         let state = frame.states[*from];

@@ -44,7 +44,9 @@ pub(super) fn propose(frame: &Frame, attempt: usize) -> Option<Vec<Vec<Vec<Ratio
     let rounds = if frame.dims.iter().any(|d| *d > 5) { 12 } else { 60 };
     for _ in 0..rounds {
         if !close(frame, &maps, &mut cones, hair)? {
-            return Some(cones.iter().map(|rays| rays.iter().map(|r| r.iter().map(|x| short(*x)).collect()).collect()).collect());
+            return Some(
+                cones.iter().map(|rays| rays.iter().map(|r| r.iter().map(|x| short(*x)).collect()).collect()).collect(),
+            );
         }
     }
     None
@@ -87,7 +89,8 @@ fn prune(rays: &mut Rays) -> Option<()> {
 /// Pushes rays away from the centre and gives the cone an interior.
 fn thicken(rays: &mut Rays, dim: usize, push: f64) {
     let c = centre(rays);
-    let mut out: Rays = rays.iter().map(|r| unit(r.iter().zip(&c).map(|(x, m)| x + push * (x - m)).collect())).collect();
+    let mut out: Rays =
+        rays.iter().map(|r| unit(r.iter().zip(&c).map(|(x, m)| x + push * (x - m)).collect())).collect();
     if dim > 1 {
         for axis in 0..dim {
             for sign in [-0.5, 0.5] {
@@ -140,7 +143,8 @@ pub(super) fn carrier(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Vec<usiz
     let x: Vec<f64> = unit(x.iter().map(to_f64).collect());
     let mut chosen: Vec<usize> = cone_combination(&views, &x)?.into_iter().map(|t| t.0).collect();
     // Degenerate solutions use fewer rays than there are coordinates; complete them to a basis.
-    let rank = |set: &[usize]| Matrix::from_columns(x.len(), &set.iter().map(|k| rays[*k].clone()).collect::<Vec<_>>()).rank();
+    let rank =
+        |set: &[usize]| Matrix::from_columns(x.len(), &set.iter().map(|k| rays[*k].clone()).collect::<Vec<_>>()).rank();
     for k in 0..rays.len() {
         if chosen.len() < x.len() && !chosen.contains(&k) {
             chosen.push(k);
@@ -161,7 +165,11 @@ pub(super) fn share(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Rational> 
     }
     #[allow(clippy::cast_possible_truncation, reason = "an exponent")]
     let exponent = (size / rays.len() as f64).log2().floor() as i64 - 2;
-    Some(if exponent >= 0 { Rational::from(1) << exponent.unsigned_abs() } else { Rational::from(1) >> exponent.unsigned_abs() })
+    Some(if exponent >= 0 {
+        Rational::from(1) << exponent.unsigned_abs()
+    } else {
+        Rational::from(1) >> exponent.unsigned_abs()
+    })
 }
 
 fn short(x: f64) -> Rational {

@@ -273,9 +273,11 @@ fn orders(arity: usize, sum_rules: usize, radius: Option<&Interval>) -> Vec<Orde
 }
 
 fn attained(radius: &JointRadius, arity: usize, length: usize) -> Attained {
-    let integer = radius.lower.as_ref().and_then(|l| l.rational()).is_some_and(|r| {
-        digits_of_log(&(Rational::from(1) / r), arity).is_some_and(|e| e.lo == e.hi)
-    });
+    let integer = radius
+        .lower
+        .as_ref()
+        .and_then(|l| l.rational())
+        .is_some_and(|r| digits_of_log(&(Rational::from(1) / r), arity).is_some_and(|e| e.lo == e.hi));
     match radius.growth {
         _ if length == 1 => Attained::Yes,
         Growth::Unbounded(_) => Attained::No,
