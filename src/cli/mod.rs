@@ -8,6 +8,9 @@ mod init;
 mod many;
 mod output;
 mod progress;
+mod radius;
+mod schemes;
+mod spectrum;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
@@ -38,6 +41,22 @@ enum Command {
     /// Certify a case: prove or refute tangents at its end points, its joints, and a dense set.
     #[command(after_help = CODES)]
     Certify(CertifyArgs),
+    /// Print the exact spectrum of a matrix, or of the operators of a case.
+    Spectrum(SpectrumArgs),
+    /// Bound the joint spectral radius of the matrices of a file (docs/radius.md).
+    Jsr {
+        /// A TOML file with `matrices = [...]`.
+        file: PathBuf,
+    },
+    /// The regularity of the subdivision scheme of a mask, from a joint spectral radius.
+    Regularity(RegularityArgs),
+    /// List the named schemes, or write one as a case.
+    Schemes {
+        /// Its name; without it the schemes are listed.
+        name: Option<String>,
+        /// Its parameters, as in `degree=3`.
+        parameters: Vec<String>,
+    },
     /// Print a statement with its proof and reference.
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
@@ -91,6 +110,35 @@ struct CertifyArgs {
 }
 
 #[derive(Debug, Args)]
+struct SpectrumArgs {
+    /// A case (.toml), or a text file with a square matrix (rows of rationals, MatrixMarket, or the literal of a computer
+    /// algebra system).
+    file: PathBuf,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Print LaTeX.
+    #[arg(long, conflicts_with = "json")]
+    latex: bool,
+    /// Take the transpose.
+    #[arg(long)]
+    transpose: bool,
+    /// Only compute in floating point: labelled approximate (exit code 3).
+    #[arg(long, conflicts_with_all = ["json", "latex"])]
+    approx: bool,
+}
+
+#[derive(Debug, Args)]
+struct RegularityArgs {
+    /// The mask: coefficients such as "1/4,3/4,3/4,1/4", or the symbol such as "(1+z)^3/4".
+    #[arg(allow_hyphen_values = true)]
+    mask: String,
+    /// The arity of the scheme.
+    #[arg(long, default_value_t = 2)]
+    arity: usize,
+}
+
+#[derive(Debug, Args)]
 struct GalleryArgs {
     /// The directory with the families of cases.
     #[arg(default_value = "cases", value_name = "CASES")]
@@ -116,6 +164,10 @@ pub fn main() -> ExitCode {
     };
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
+        Command::Spectrum(args) => spectrum::run(&args),
+        Command::Jsr { file } => radius::jsr(&file),
+        Command::Regularity(args) => radius::mask(&args),
+        Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),

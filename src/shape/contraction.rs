@@ -51,6 +51,8 @@ pub enum Contraction {
 /// How many words are looked at before the question is left open.
 pub const MAX_WORDS: usize = 20_000;
 
+/// How many multiplications of numbers those words may cost together.
+const MAX_PRODUCTS: usize = 5_000_000;
 /// How many words of a state a code may have when it is lengthened only to make the balls smaller.
 const SHARP_WORDS: usize = 512;
 
@@ -98,10 +100,15 @@ pub fn contraction(shape: &Shape, mut expands: impl FnMut(&Matrix) -> bool) -> C
     let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> =
         shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim))).collect();
     let (mut length, mut count) = (0, 0);
+    let largest = shape.states.iter().map(|s| s.dim).max().unwrap_or(1);
+    let budget = MAX_WORDS.min(MAX_PRODUCTS / largest.pow(3).max(1));
     while !open.is_empty() {
         length += 1;
         let mut next = Vec::new();
         for (from, word, state, product) in open {
+            if count > budget {
+                return Contraction::Undetermined { length, open: next.len().max(1) };
+            }
             for (letter, piece) in shape.states[state].pieces.iter().enumerate() {
                 count += 1;
                 let op = &product * &piece.op;
@@ -121,9 +128,6 @@ pub fn contraction(shape: &Shape, mut expands: impl FnMut(&Matrix) -> bool) -> C
             }
         }
         open = next;
-        if count > MAX_WORDS && !open.is_empty() {
-            return Contraction::Undetermined { length, open: open.len() };
-        }
     }
     let mut proof = Contracting { codes, length, constant };
     proof.sharpen(shape);
@@ -148,7 +152,8 @@ fn sharpen_code(shape: &Shape, from: usize, code: &mut Vec<ContractingWord>) {
     let mut heap: BinaryHeap<(Rational, Vec<usize>, usize)> =
         code.iter().map(|c| (c.tau.clone(), c.word.clone(), c.end)).collect();
     let mut best = heap.peek().map(|(tau, ..)| tau.clone()).unwrap_or_else(|| Rational::from(0));
-    while heap.len() < SHARP_WORDS {
+    let limit = SHARP_WORDS.min(MAX_PRODUCTS / shape.states[from].dim.pow(3).max(1));
+    while heap.len() < limit {
         let Some((tau, word, state)) = heap.pop() else { return };
         if tau <= half {
             heap.push((tau, word, state));
@@ -160,7 +165,7 @@ fn sharpen_code(shape: &Shape, from: usize, code: &mut Vec<ContractingWord>) {
             heap.push((dobrushin(&(&product * &piece.op)), word, piece.target));
         }
         let worst = heap.peek().map(|(tau, ..)| tau.clone()).unwrap_or_else(|| Rational::from(0));
-        if worst < best && heap.len() < SHARP_WORDS {
+        if worst < best && heap.len() < limit {
             best = worst;
             *code = heap.iter().cloned().map(|(tau, word, end)| ContractingWord { word, end, tau }).collect();
         }

@@ -29,57 +29,76 @@ pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
     DenseSet { injective, view_injective, joints, upstairs: Vec::new() }
 }
 
-/// Adds the claim about the dense set.
-pub fn claim(cx: &Context, mut dense: DenseSet, found: &mut Certified) {
-    let claim = decide(cx, &mut dense, found);
-    found.claims.push(claim);
+/// Adds the claims about the dense set.
+pub fn claims(cx: &Context, mut dense: DenseSet, found: &mut Certified) {
+    let injective = dense.injective.iter().all(|(_, _, ok)| *ok);
+    let first = dense.joints.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
+    let plain = |verdict, reason: Option<&str>| claim(Statement::Theorem5, ALL, verdict, reason);
+    match first {
+        None => {
+            let reason = "no joint between pieces that are more than a point";
+            found.claims.push(plain(Verdict::Undetermined, Some(reason)));
+        }
+        Some(Verdict::Refuted) => {
+            found.claims.push(plain(Verdict::Refuted, Some("a first-level joint has no tangent")));
+        }
+        Some(verdict) if injective && dense.view_injective => {
+            let open = (verdict != Verdict::Proved).then_some("a first-level joint is not decided");
+            found.claims.push(plain(verdict, open));
+        }
+        Some(_) => {
+            let examined = examine_deeper(cx, &dense, found);
+            found.claims.push(examined);
+            if injective {
+                let projected = projected(cx, &mut dense);
+                found.claims.push(projected);
+            } else {
+                let reason = "an operator is not injective on the relevant space: only the joints listed were examined";
+                found.claims.push(plain(Verdict::Undetermined, Some(reason)));
+            }
+        }
+    }
     found.dense = Some(dense);
 }
 
 const ALL: &str = "the curve has a tangent line at every joint of every level, a dense set";
-const PROJECTED: &str = "the projected curve has a tangent line at the joints listed and at every joint whose tangent line upstairs the \
-                         projection does not kill, a dense set";
+const EXAMINED: &str = "the curve has a tangent line at each of the joints examined below";
+const PROJECTED: &str = "the projected curve has a tangent line at every joint whose tangent line before the projection is not \
+                         killed by it; in every cell that is more than a point there are such joints";
 
-fn decide(cx: &Context, dense: &mut DenseSet, found: &mut Certified) -> Claim {
-    let claim = |statement, text: &str, verdict, reason: Option<&str>| Claim {
-        text: text.to_owned(),
-        verdict,
-        statement: Some(statement),
-        reason: reason.map(str::to_owned),
-    };
-    let plain = |verdict, reason| claim(Statement::Theorem5, ALL, verdict, reason);
-    let Some(verdict) = dense.joints.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and) else {
-        return plain(Verdict::Undetermined, Some("no joint between pieces that are more than a point"));
-    };
-    if verdict == Verdict::Refuted {
-        return plain(Verdict::Refuted, Some("a first-level joint has no tangent"));
-    }
-    let injective = dense.injective.iter().all(|(_, _, ok)| *ok);
-    if injective && dense.view_injective {
-        let open = (verdict != Verdict::Proved).then_some("a first-level joint is not decided");
-        return plain(verdict, open);
-    }
+fn claim(statement: Statement, text: &str, verdict: Verdict, reason: Option<&str>) -> Claim {
+    Claim { text: text.to_owned(), verdict, statement: Some(statement), reason: reason.map(str::to_owned) }
+}
+
+/// Examines joints of deeper levels one by one, and claims a tangent at all joints examined.
+fn examine_deeper(cx: &Context, dense: &DenseSet, found: &mut Certified) -> Claim {
+    let mut examined = dense.joints.clone();
     for (path, left, right) in deep_joints(cx) {
-        let Some(index) = add_point(cx, point::joint_spec(cx, &path, left, right), found) else { continue };
-        if found.points[index].verdict == Verdict::Refuted {
-            return plain(Verdict::Refuted, Some("a joint of a deeper level has no tangent"));
-        }
+        examined.extend(add_point(cx, point::joint_spec(cx, &path, left, right), found));
     }
-    if !injective {
-        let reason = "an operator is not injective on the relevant space: only the joints listed were examined";
-        return plain(Verdict::Undetermined, Some(reason));
-    }
-    let projected = |verdict, reason| claim(Statement::Theorem5Projected, PROJECTED, verdict, reason);
+    let verdict = examined.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
+    let verdict = verdict.unwrap_or(Verdict::Undetermined);
+    let reason = match verdict {
+        Verdict::Proved => None,
+        Verdict::Refuted => Some("a joint of a deeper level has no tangent"),
+        Verdict::Undetermined => Some("a joint is not decided"),
+    };
+    claim(Statement::Joint, EXAMINED, verdict, reason)
+}
+
+/// Theorem 5′, its operators being injective.
+fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
+    let claim = |verdict, reason| claim(Statement::Theorem5Projected, PROJECTED, verdict, reason);
     dense.upstairs = upstairs(cx);
     if dense.upstairs.iter().any(|p| p.verdict != Verdict::Proved) {
         let reason = "the projection is not injective, and before it a first-level joint is not proved";
-        return projected(Verdict::Undetermined, Some(reason));
+        return claim(Verdict::Undetermined, Some(reason));
     }
     if !tangents_span(cx, &dense.upstairs) {
         let reason = "the projection is not injective, and the tangent lines at the joints were not seen to span the relevant space";
-        return projected(Verdict::Undetermined, Some(reason));
+        return claim(Verdict::Undetermined, Some(reason));
     }
-    projected(verdict, (verdict != Verdict::Proved).then_some("a first-level joint is not decided"))
+    claim(Verdict::Proved, None)
 }
 
 /// The first-level joints of all reachable edge states, each in the visible quotient of its own state.

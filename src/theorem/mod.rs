@@ -209,7 +209,7 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
     }
     let dense = dense::dense_set(cx, joints);
     found.claims.push(end_claim(found, &ends));
-    dense::claim(cx, dense, found);
+    dense::claims(cx, dense, found);
     for address in asked {
         if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
             found.claims.push(point_claim(found, index, address));
@@ -268,7 +268,13 @@ fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
 fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
     let point = &found.points[index];
     Claim {
-        text: format!("the shape has a tangent line at the address {address}"),
+        text: match point.role {
+            Role::SetPoint if !address.prefix.is_empty() => format!(
+                "the germ of the branch {address} has a tangent line (other addresses of the same point are not looked at)"
+            ),
+            Role::SetPoint => format!("the shape has a tangent line at the address {address}"),
+            _ => format!("the parametrised curve has a tangent line at the address {address}"),
+        },
         verdict: point.verdict,
         statement: None,
         reason: point.reason.clone(),

@@ -1,0 +1,54 @@
+//! `secant schemes`: the named schemes, and each of them written as a case.
+
+use super::output::{complain, print};
+use super::{BAD_INPUT, PROVED};
+use crate::arith::{Rational, parse_rational};
+use crate::diagnostic::Problem;
+use crate::scheme::{self, Heading, SchemeInfo, case_text};
+use std::collections::BTreeMap;
+
+/// Lists the schemes, or writes one as a case file to the standard output.
+pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
+    let Some(name) = name else {
+        print(&scheme::list().iter().map(entry).collect::<String>());
+        return PROVED;
+    };
+    match written(name, parameters) {
+        Ok(text) => {
+            print(&text);
+            PROVED
+        }
+        Err(message) => {
+            let problem = Problem::new("secant::scheme", message)
+                .with_help("`secant schemes` lists the schemes; parameters are written as in degree=3");
+            complain(&problem);
+            BAD_INPUT
+        }
+    }
+}
+
+fn entry(info: &SchemeInfo) -> String {
+    let parameter = |p: &scheme::Parameter| match p.default {
+        Some(value) => format!("    {} (default {value}): {}\n", p.name, p.summary),
+        None => format!("    {}: {}\n", p.name, p.summary),
+    };
+    let parameters: String = info.parameters.iter().map(parameter).collect();
+    format!("{}\n    {}\n{parameters}    source: {}\n", info.name, info.summary, info.source)
+}
+
+fn written(name: &str, parameters: &[String]) -> Result<String, String> {
+    let mut values: BTreeMap<String, Rational> = BTreeMap::new();
+    for text in parameters {
+        let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}` is not of the form name=value"))?;
+        values.insert(key.trim().to_owned(), parse_rational(value).map_err(|e| e.to_string())?);
+    }
+    let shape = scheme::build(name, &values).map_err(|e| e.to_string())?;
+    let info = scheme::list().iter().find(|s| s.name == name);
+    let tail: String = values.iter().map(|(k, v)| format!("-{k}-{}", v.to_string().replace('/', "o"))).collect();
+    let heading = Heading {
+        name: format!("{name}{tail}"),
+        title: info.map(|i| i.summary.to_owned()).unwrap_or_default(),
+        source: info.map(|i| i.source.to_owned()).unwrap_or_default(),
+    };
+    Ok(case_text(&shape, &heading))
+}
