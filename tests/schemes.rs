@@ -347,7 +347,7 @@ fn shapes_survive_as_case_files() {
         assert_eq!(case.shape.states.len(), shape.states.len(), "{name}");
         assert_eq!(case.shape.control, shape.control, "{name}");
         for (a, b) in case.shape.states.iter().zip(&shape.states) {
-            assert_eq!((&a.name == &b.name || shape.states.len() == 1, a.dim), (true, b.dim), "{name}");
+            assert_eq!((a.name == b.name || shape.states.len() == 1, a.dim), (true, b.dim), "{name}");
             assert_eq!(a.left.as_ref().map(|x| &x.op), b.left.as_ref().map(|x| &x.op), "{name}");
             for (p, q) in a.pieces.iter().zip(&b.pieces) {
                 assert_eq!((&p.op, p.target, p.reversed), (&q.op, q.target, q.reversed), "{name}");
