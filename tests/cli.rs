@@ -249,3 +249,51 @@ fn the_float_fallback_is_labelled_and_never_a_success() {
     assert_eq!((&value["approximate"], &value["verdict"]), (&Value::Bool(true), &Value::String("undetermined".into())));
     output(&["certify", "--approx", "cases/refused/empty.toml"], 2);
 }
+
+#[test]
+fn the_starter_case_is_proved_and_never_overwrites() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |args: &[&str]| secant(args).current_dir(dir.path()).output().unwrap().status.code();
+    assert_eq!(run(&["init", "mine"]), Some(0));
+    assert_eq!(run(&["certify", "mine.toml"]), Some(0));
+    assert_eq!(run(&["init", "mine"]), Some(2));
+    assert_eq!(run(&["init", "../else where"]), Some(2));
+}
+
+#[test]
+fn the_gallery_is_written_and_checked() {
+    let dir = tempfile::tempdir().unwrap();
+    let cases = dir.path().join("cases/some");
+    std::fs::create_dir_all(&cases).unwrap();
+    for case in [HALF, "cases/refused/gap.toml"] {
+        let from = Path::new(env!("CARGO_MANIFEST_DIR")).join(case);
+        std::fs::copy(&from, cases.join(from.file_name().unwrap())).unwrap();
+    }
+    let run = |args: &[&str]| secant(args).current_dir(dir.path()).output().unwrap().status.code();
+    assert_eq!(run(&["gallery", "--check"]), Some(1));
+    assert_eq!(run(&["gallery"]), Some(0));
+    assert_eq!(run(&["gallery", "--check"]), Some(0));
+    let page = std::fs::read_to_string(dir.path().join("docs/gallery/index.html")).unwrap();
+    assert!(page.contains("some/half-tangent.html") && page.contains("secant::shape::adjacency"));
+    assert!(dir.path().join("docs/gallery/some/half-tangent.html").exists());
+    assert_eq!(run(&["gallery", "no/such/dir"]), Some(2));
+}
+
+#[test]
+fn latex_is_complete() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("a.tex").display().to_string();
+    output(&["certify", "-q", HALF, "--report", &file], 0);
+    let text = std::fs::read_to_string(&file).unwrap();
+    assert!(text.contains("\\begin{tikzpicture}") && text.trim_end().ends_with("\\end{document}"));
+    for name in ["document", "itemize", "longtable", "quoted", "pmatrix", "center", "tikzpicture"] {
+        let count = |what: &str| text.matches(&format!("\\{what}{{{name}}}")).count();
+        assert_eq!(count("begin"), count("end"), "{name}");
+    }
+}
+
+#[test]
+fn completions_and_the_manual_are_printed() {
+    assert!(output(&["completions", "bash"], 0).0.contains("secant"));
+    assert!(output(&["man"], 0).0.contains(".TH"));
+}

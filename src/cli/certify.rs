@@ -1,12 +1,13 @@
 //! `secant certify` of a single case.
 
 use super::output::{complain, print, stdout_colour, write_file};
+use super::progress::Waiting;
 use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::arith::Rational;
 use crate::case::{Case, MAX_LETTERS};
 use crate::diagnostic::Problem;
 use crate::report::math::Math;
-use crate::report::{figures, html, json, markdown, proof, summary, text};
+use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
 use crate::shape::{Address, CurveError, Frame, word_text};
 use crate::theorem::{Certified, ModelError, Verdict, certify};
 use std::path::Path;
@@ -31,7 +32,10 @@ pub fn run(args: &CertifyArgs) -> u8 {
         return approximate::run(args);
     }
     let [path] = args.cases.as_slice() else { return many::run(args) };
-    let done = one(path, args).and_then(|(case, found)| {
+    let waiting = Waiting::new(args.quiet);
+    let certified = one(path, args);
+    waiting.finish();
+    let done = certified.and_then(|(case, found)| {
         write_files(&case, &found, args)?;
         Ok((case, found))
     });
@@ -57,10 +61,10 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         return Err(Problem::new("secant::usage", "--json, --report and --svg are for a single case")
             .with_help("use --jsonl for many cases, and write the reports one by one"));
     }
-    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm");
+    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
     if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
         return Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
-            .with_help("the ending of --report says the format: .md or .html"));
+            .with_help("the ending of --report says the format: .html, .md or .tex"));
     }
     Ok(())
 }
@@ -106,7 +110,7 @@ fn read_address(case: &Case, text: &str) -> Result<Address, Problem> {
 }
 
 /// What the engine refuses, shown where it stands in the file.
-fn model_problem(case: &Case, error: &ModelError) -> Problem {
+pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
     let code = error.code();
     match error {
         ModelError::Curve(CurveError::Apart { state, index, piece, ends, begins }) => {
@@ -146,7 +150,11 @@ fn model_problem(case: &Case, error: &ModelError) -> Problem {
 fn write_files(case: &Case, found: &Certified, args: &CertifyArgs) -> Result<(), Problem> {
     let report = args.report.as_deref().map(|path| {
         let document = proof::document(case, found);
-        let written = if extension(path) == "md" { markdown::render(&document) } else { html::render(&document) };
+        let written = match extension(path).as_str() {
+            "md" => markdown::render(&document),
+            "tex" => latex::render(&document),
+            _ => html::render(&document),
+        };
         (path, written)
     });
     let svg = match args.svg.as_deref() {

@@ -2,6 +2,7 @@
 
 use super::certify::{exit_code, json_text, one};
 use super::output::{complain, print, stdout_colour};
+use super::progress::Progress;
 use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED};
 use crate::case::Case;
 use crate::diagnostic::Problem;
@@ -14,7 +15,17 @@ type Outcome = Result<(Case, Certified), Problem>;
 
 /// Certifies all cases; the exit code is the gravest.
 pub fn run(args: &CertifyArgs) -> u8 {
-    let outcomes: Vec<Outcome> = args.cases.par_iter().map(|path| one(path, args)).collect();
+    let progress = Progress::new(args.cases.len(), args.quiet);
+    let outcomes: Vec<Outcome> = args
+        .cases
+        .par_iter()
+        .map(|path| {
+            let outcome = one(path, args);
+            progress.step();
+            outcome
+        })
+        .collect();
+    progress.finish();
     let names: Vec<String> = args.cases.iter().map(|p| p.display().to_string()).collect();
     if args.jsonl {
         for (name, outcome) in names.iter().zip(&outcomes) {
@@ -47,7 +58,7 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
             }
             Err(problem) => {
                 let mark = vec![Inline::Mark(Tone::Bad, "refused".to_owned())];
-                vec![words(name.clone()), mark, words(problem.message().to_owned())]
+                vec![words(stem(name)), mark, words(problem.message().to_owned())]
             }
         }
     };
@@ -70,8 +81,13 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
     Document { title: "secant certify".to_owned(), blocks: vec![Block::Table(table), Block::Paragraph(words(total))] }
 }
 
+/// The name of the file without directory and ending.
+fn stem(path: &str) -> String {
+    std::path::Path::new(path).file_stem().map_or_else(|| path.to_owned(), |s| s.to_string_lossy().into_owned())
+}
+
 /// The kinds of the examined points, each with its number.
-fn kinds(found: &Certified) -> Vec<String> {
+pub fn kinds(found: &Certified) -> Vec<String> {
     let mut counted: Vec<(&str, usize)> = Vec::new();
     for point in &found.points {
         let word = if point.kind == crate::theorem::Kind::None { "no tangent" } else { point.kind.word() };

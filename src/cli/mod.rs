@@ -3,10 +3,13 @@
 mod approximate;
 mod certify;
 mod explain;
+mod gallery;
+mod init;
 mod many;
 mod output;
+mod progress;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -40,6 +43,20 @@ enum Command {
         /// Its name, such as `theorem-2`; without it the names are listed.
         theorem: Option<String>,
     },
+    /// Write a commented starter case.
+    Init {
+        /// Its name; NAME.toml is written to the current directory.
+        name: String,
+    },
+    /// Certify all cases of a directory and write a page of pictures and verdicts, with a report for each.
+    Gallery(GalleryArgs),
+    /// Print the completions for a shell.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page (roff).
+    Man,
 }
 
 #[derive(Debug, Args)]
@@ -56,7 +73,7 @@ struct CertifyArgs {
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
     #[arg(long, value_name = "ADDRESS")]
     address: Vec<String>,
-    /// Write a proof to a file: .md or .html.
+    /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Draw the attractor with the tangents found.
@@ -73,6 +90,19 @@ struct CertifyArgs {
     verbose: bool,
 }
 
+#[derive(Debug, Args)]
+struct GalleryArgs {
+    /// The directory with the families of cases.
+    #[arg(default_value = "cases", value_name = "CASES")]
+    cases: PathBuf,
+    /// Where the page is written.
+    #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
+    out: PathBuf,
+    /// Write nothing; fail if the page is not what it would be.
+    #[arg(long)]
+    check: bool,
+}
+
 /// Runs the program on the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
@@ -87,14 +117,32 @@ pub fn main() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
+        Command::Init { name } => init::run(&name),
+        Command::Gallery(args) => gallery::run(&args),
+        Command::Completions { shell } => completions(shell),
+        Command::Man => man(),
     };
     ExitCode::from(code)
+}
+
+fn completions(shell: clap_complete::Shell) -> u8 {
+    let mut text = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "secant", &mut text);
+    output::print(&String::from_utf8_lossy(&text));
+    PROVED
+}
+
+fn man() -> u8 {
+    let mut text = Vec::new();
+    // Writing to memory does not fail.
+    let _ = clap_mangen::Man::new(Cli::command()).render(&mut text);
+    output::print(&String::from_utf8_lossy(&text));
+    PROVED
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_arguments_are_consistent() {

@@ -40,6 +40,8 @@ pub enum Block {
     Figure {
         /// A complete SVG document.
         svg: String,
+        /// The same as a TikZ picture.
+        tikz: String,
         /// What can be seen, for those who cannot see it.
         alt: String,
         /// The words below it.

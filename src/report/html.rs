@@ -52,7 +52,7 @@ fn write_block(out: &mut String, block: &Block) {
             let name = escaped(name);
             out.push_str(&format!("<blockquote><p><strong>{name}.</strong> {}</p></blockquote>\n", inline(body)));
         }
-        Block::Figure { svg, alt, caption } => {
+        Block::Figure { svg, alt, caption, .. } => {
             let svg = svg.replacen("<svg ", &format!("<svg aria-label=\"{}\" ", escaped(alt)), 1);
             out.push_str(&format!("<figure>\n{svg}<figcaption>{}</figcaption>\n</figure>\n", inline(caption)));
         }

@@ -48,7 +48,7 @@ fn write_block(out: &mut String, block: &Block) {
         Block::Statement { name, body } => {
             out.push_str(&format!("> **{}.** {}\n", escaped(name), inline(body)));
         }
-        Block::Figure { svg, alt, caption } => {
+        Block::Figure { svg, alt, caption, .. } => {
             // A data URI keeps the file self-contained, and Markdown viewers show it.
             let data = percent_encoded(svg);
             out.push_str(&format!("![{}](data:image/svg+xml,{data})\n\n*{}*\n", escaped(alt), inline(caption)));

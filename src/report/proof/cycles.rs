@@ -13,7 +13,7 @@ use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::report::values::decimal_math;
 use crate::shape::{Spaces, word_text};
-use crate::theorem::{BranchReport, Certified, Outcome, RingProof, Statement};
+use crate::theorem::{BranchReport, Certified, Outcome, RingProof, Statement, Witness};
 
 /// Most cells that are listed of a ring condition.
 const MAX_CELLS: usize = 400;
@@ -322,6 +322,9 @@ fn many_blocks(branch: &BranchReport, statement: Statement) -> Vec<Block> {
     }
     let mut blocks = vec![Block::Checks(checks)];
     blocks.extend(isolation.as_ref().map(cell_table));
+    if let Some(Witness::Crossing { cover, .. }) = found {
+        blocks.push(cell_table(cover));
+    }
     blocks.push(Block::text(
         "**Conclusion.** $\\dim D^*≥@$: there is no tangent line on this branch.",
         [Math::count(*dimension)],

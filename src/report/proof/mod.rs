@@ -62,7 +62,12 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     }));
     blocks.push(Block::Paragraph(verdict));
     if let Some(picture) = figures::attractor(case, found) {
-        blocks.push(Block::Figure { svg: picture.svg, alt: picture.alt, caption: words(picture.caption) });
+        blocks.push(Block::Figure {
+            svg: picture.svg,
+            tikz: picture.tikz,
+            alt: picture.alt,
+            caption: words(picture.caption),
+        });
     }
     blocks
 }

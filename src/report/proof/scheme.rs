@@ -5,8 +5,8 @@ use super::super::math::Math;
 use super::super::words::{contraction, count};
 use super::{equation, quoted_id};
 use crate::case::{Case, Convention};
-use crate::shape::{CellKind, Contraction, End, Frame, Shape, word_text};
-use crate::theorem::Certified;
+use crate::shape::{Balls, CellKind, Contraction, End, Frame, Shape, Spaces, word_text};
+use crate::theorem::{BranchReport, Certified, Outcome, Witness};
 
 /// Most code words that are listed.
 const MAX_WORDS: usize = 400;
@@ -164,6 +164,43 @@ fn identities(shape: &Shape) -> Vec<Block> {
     blocks
 }
 
+/// The polygons that hold the attractors, where a ring condition used them.
+fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
+    let Contraction::Proved(proof) = &found.contraction else { return Vec::new() };
+    if !found.points.iter().flat_map(|p| &p.branches).any(uses_polygons) {
+        return Vec::new();
+    }
+    let hulls = Spaces::new(shape).and_then(|spaces| Balls::new(shape, &spaces, proof).with_hulls(shape, &spaces));
+    let Some(hulls) = hulls else { return Vec::new() };
+    let mut rows = Vec::new();
+    for e in shape.reachable() {
+        for vertex in hulls.hull(e).unwrap_or_default() {
+            rows.push(vec![words(shape.states[e].name.clone()), formula(Math::vector(vertex))]);
+        }
+    }
+    let header = vec![words("state"), words("vertex")];
+    let table = Block::Table(Table { caption: Line::new(), header, rows });
+    vec![
+        Block::text(
+            "Where a ring condition needs sharper enclosures, these convex polygons are used: every map sends polygon into polygon, which is \
+             checked exactly at the vertices, so that the attractors lie inside; a functional takes its extreme values at vertices.",
+            [],
+        ),
+        Block::Details { summary: words("The vertices of the polygons:"), blocks: vec![table] },
+    ]
+}
+
+fn uses_polygons(branch: &BranchReport) -> bool {
+    match &branch.outcome {
+        Outcome::Line { proof, .. } => proof.as_ref().is_some_and(|p| p.polygons),
+        Outcome::AtLeast { isolation, witness, .. } => {
+            let crossing = matches!(witness, Some(Witness::Crossing { cover, .. }) if cover.polygons);
+            crossing || isolation.as_ref().is_some_and(|p| p.polygons)
+        }
+        Outcome::NoGerm { .. } | Outcome::Open { .. } => false,
+    }
+}
+
 fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Relevant spaces and enclosures")];
     blocks.push(Block::text(
@@ -182,6 +219,7 @@ fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
     });
     let header = vec![words("state"), line("$\\dim V_e$", []), words("seen"), words("base point"), words("radius")];
     blocks.push(Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }));
+    blocks.extend(polygons(shape, found));
     if let Some(similar) = &found.similarities {
         blocks.push(quoted_id("similarities"));
         blocks.push(Block::Checks(vec![Check {
