@@ -267,3 +267,38 @@ fn equal_names_are_equal_entries() {
     let Solution::One(solved) = problem.solve().unwrap() else { panic!("Chaikin's curve") };
     assert_eq!(solved.operator(T0), Some(&matrix(&["3/4 1/4 0", "1/4 3/4 3/4", "0 0 1/4"])));
 }
+
+#[test]
+fn broken_complexes_are_diagnosed() {
+    let broken = |change: &dyn Fn(&mut Complex)| {
+        let mut patch = bicubic();
+        change(&mut patch);
+        let Err(ComplexError::Cell { state, message }) = patch.check() else { panic!("must be refused") };
+        format!("{state}: {message}")
+    };
+    let text = broken(&|c| c.shape.states[0].pieces[1].target = 99);
+    assert!(text.contains("T_1[A⊗A] comes from state 99"), "{text}");
+    let text = broken(&|c| c.faces.get_mut(&0).unwrap().sides[2].edge = 0);
+    assert!(text.contains("∂_top") && text.contains("wrong kind (face)"), "{text}");
+    let text = broken(&|c| c.faces.get_mut(&0).unwrap().sides[0].op = blank(16, 11));
+    assert!(text.contains("(16, 11), but must be (16, 12)"), "{text}");
+    let text = broken(&|c| c.shape.states[1].left.as_mut().unwrap().vertex = 7);
+    assert!(text.contains("∂_0") && text.contains("does not exist"), "{text}");
+    let text = broken(&|c| drop(c.shape.states[0].pieces.pop()));
+    assert!(text.contains("has 4 pieces, not 3"), "{text}");
+    let text = broken(&|c| drop(c.faces.get_mut(&0).unwrap().sides.pop()));
+    assert!(text.contains("has 4 sides, not 3"), "{text}");
+    let text = broken(&|c| c.faces.get_mut(&0).unwrap().layout = secant::shape::Layout::Triangle);
+    assert!(text.contains("sides"), "{text}");
+    let text = broken(&|c| c.faces.get_mut(&0).unwrap().placement = vec![vec![0, 0, 1, 2]; 4]);
+    assert!(text.contains("placement"), "{text}");
+    let text = broken(&|c| c.faces.get_mut(&0).unwrap().placement = vec![vec![1, 0, 3, 2]; 4]);
+    assert!(text.contains("no reversal"), "{text}");
+    let text = broken(&|c| {
+        let face = c.faces[&0].clone();
+        c.faces.insert(44, face);
+    });
+    assert!(text.contains("number 44"), "{text}");
+    let text = broken(&|c| drop(c.shape.states[1].pieces.pop()));
+    assert!(text.contains("1 pieces, but needs 2"), "{text}");
+}

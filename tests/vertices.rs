@@ -278,6 +278,8 @@ fn patches_at_extraordinary_vertices_are_complexes() {
     let warren = MeshRule::Loop(LoopWeights::Warren);
     assert_eq!([3, 4, 5, 6, 9].map(|n| face_dim(&cc, n)), [14, 16, 18, 20, 26]);
     assert_eq!([3, 4, 5, 6, 7].map(|n| face_dim(&warren, n)), [9, 10, 11, 12, 13]);
+    let dual = MeshRule::DooSabin(DualWeights::CatmullClark);
+    assert_eq!([3, 4, 5, 8].map(|n| face_dim(&dual, n)), [8, 9, 10, 13]);
     let given = MeshRule::Loop(LoopWeights::Given(ratio(1, 20)));
     assert_eq!(face_dim(&given, 6), 12);
     assert!(matches!(patch(&MeshRule::FourEight, 5), Err(SchemeError::Mesh { .. })));
@@ -291,6 +293,15 @@ fn the_regular_patches_are_the_splines() {
     assert_eq!(dims, [16, 12, 12, 9]);
     let curve = bspline(3, 2).unwrap().curve_with_vertices().unwrap();
     let product = tensor(&curve, &curve).unwrap();
+    for letter in 0..4 {
+        let op = |c: &secant::shape::Complex| characteristic(&c.shape.states[0].pieces[letter].op);
+        assert_eq!(op(&complex), op(&product), "piece {letter}");
+    }
+    let quadratic = bspline(2, 2).unwrap().curve_with_vertices().unwrap();
+    let product = tensor(&quadratic, &quadratic).unwrap();
+    let complex = patch(&MeshRule::DooSabin(DualWeights::Original), 4).unwrap();
+    let dims: Vec<usize> = complex.shape.states.iter().map(|s| s.dim).collect();
+    assert_eq!(dims, [9, 6, 6, 4]);
     for letter in 0..4 {
         let op = |c: &secant::shape::Complex| characteristic(&c.shape.states[0].pieces[letter].op);
         assert_eq!(op(&complex), op(&product), "piece {letter}");
@@ -348,6 +359,10 @@ fn discs_are_covered_by_their_pieces() {
         (MeshRule::Loop(LoopWeights::Warren), 3),
         (MeshRule::Loop(LoopWeights::Warren), 5),
         (MeshRule::Loop(LoopWeights::Warren), 6),
+        (MeshRule::DooSabin(DualWeights::CatmullClark), 3),
+        (MeshRule::DooSabin(DualWeights::CatmullClark), 4),
+        (MeshRule::DooSabin(DualWeights::CatmullClark), 5),
+        (MeshRule::DooSabin(DualWeights::Midedge), 3),
     ] {
         let shape = disc(&rule, n).unwrap_or_else(|e| panic!("valence {n}: {e}"));
         let complex = patch(&rule, n).unwrap();

@@ -11,8 +11,10 @@ pub(super) type Row = BTreeMap<usize, Rational>;
 pub(super) enum Centre {
     /// A vertex, and the neighbour with which the order begins.
     Vertex(usize, usize),
-    /// A directed edge.
+    /// A directed edge, with all faces that touch it.
     Edge(usize, usize),
+    /// A directed edge, with the two faces that share it.
+    Across(usize, usize),
     /// A face, and the vertex with which the order begins.
     Face(usize, usize),
 }
@@ -154,13 +156,14 @@ impl Mesh {
         let mut order = self.beginning(centre)?;
         let mut seen: BTreeSet<usize> = order.iter().map(|(v, _)| *v).collect();
         let mut ends = if matches!(centre, Centre::Vertex(..)) { vec![1] } else { vec![0, order.len()] };
+        let turns = if matches!(centre, Centre::Across(..)) { 1 } else { usize::MAX };
         let mut moves = Vec::new();
         let mut processed = 0;
         while ends.len() <= rings {
             let end = order.len();
             while processed < end {
                 let (v, first) = order[processed];
-                for (turn, w) in self.star(v, Some(first))?.into_iter().enumerate() {
+                for (turn, w) in self.star(v, Some(first))?.into_iter().enumerate().take(turns) {
                     for step in 1..self.faces[self.left(v, w)?].len() {
                         let point = self.beyond(v, w, step)?;
                         if seen.insert(point.0) {
@@ -191,7 +194,7 @@ impl Mesh {
     fn beginning(&self, centre: Centre) -> Option<Vec<(usize, usize)>> {
         match centre {
             Centre::Vertex(v, first) => Some(vec![(v, first)]),
-            Centre::Edge(a, b) => Some(vec![(a, b), (b, a)]),
+            Centre::Edge(a, b) | Centre::Across(a, b) => Some(vec![(a, b), (b, a)]),
             Centre::Face(f, first) => {
                 let face = self.faces.get(f)?;
                 let at = face.iter().position(|v| *v == first)?;

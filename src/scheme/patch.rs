@@ -1,7 +1,8 @@
 //! The patches around an extraordinary vertex as a complex of faces, edges and vertices (thesis §3.6.2).
 //!
 //! A cell depends on the points of all faces that touch it: a bicubic patch on 16, its edges on 12, its corners on 9; a
-//! patch of Loop's box spline on 12, 10 and 7. Faces at the extraordinary vertex have it at their corner 0.
+//! patch of Loop's box spline on 12, 10 and 7. In a dual scheme the points are the faces of the lattice: a biquadratic patch
+//! depends on 9, its edges on 6, its corners on 4. Faces at the extraordinary vertex have it at their corner 0.
 
 use super::mesh::{Centre, Mesh, Row, Sector};
 use super::refine::Refined;
@@ -36,8 +37,8 @@ struct Site {
     irregular: bool,
 }
 
-/// The complex of the patches of a rule (Catmull–Clark or Loop) around a vertex of the given valence; at a regular valence,
-/// of the regular patch. The state to begin with is the face at the vertex.
+/// The complex of the patches of a rule (Catmull–Clark, Loop, or dual) around a vertex of the given valence; at a regular
+/// valence, of the regular patch. The state to begin with is the face at the vertex.
 ///
 /// # Errors
 /// [`SchemeError::Mesh`] for other rules, and those of [`super::local_matrix`].
@@ -71,12 +72,12 @@ pub fn patch(rule: &MeshRule, valence: usize) -> Result<Complex, SchemeError> {
 pub fn disc(rule: &MeshRule, valence: usize) -> Result<Shape, SchemeError> {
     let builder = Builder::new(rule, valence)?;
     let mut shape = builder.complex()?.shape;
-    let star = builder.mesh.star(0, Some(1)).ok_or_else(|| builder.small())?;
-    let ring = builder.mesh.walk(Centre::Vertex(0, 1), 2).ok_or_else(|| builder.small())?.points;
+    let sectors = builder.sectors().ok_or_else(|| builder.small())?;
+    let ring = builder.mesh.walk(builder.centre, 2).ok_or_else(|| builder.small())?.points;
     let step = super::local_matrix(rule, valence, 2)?.matrix.transpose();
     let mut pieces = vec![Piece { target: 0, op: step, reversed: false }];
-    for spoke in star {
-        let points = builder.points(&builder.mesh, Centre::Vertex(0, spoke), Cell::Face, CENTRE)?;
+    for centre in sectors {
+        let points = builder.points(&builder.mesh, centre, Cell::Face, CENTRE)?;
         let sector = builder.inclusion(&ring, &points)?;
         for piece in shape.states[0].pieces.iter().skip(1) {
             // Indices of states move up by one.
@@ -129,6 +130,7 @@ struct Builder<'a> {
     rule: &'a MeshRule,
     sector: Sector,
     mesh: Mesh,
+    centre: Centre,
     refined: Refined,
     sites: Vec<Site>,
 }
@@ -136,18 +138,38 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(rule: &'a MeshRule, valence: usize) -> Result<Self, SchemeError> {
         let sector = match rule {
-            MeshRule::CatmullClark(_) => Sector::Quads,
+            MeshRule::CatmullClark(_) | MeshRule::DooSabin(_) => Sector::Quads,
             MeshRule::Loop(_) => Sector::Triangles,
-            _ => return Err(failure(rule, "patches are built for Catmull–Clark's and Loop's rules only")),
+            _ => return Err(failure(rule, "patches are built for Catmull–Clark's, Loop's and dual rules only")),
         };
         // The matrix checks the valence, the weights and the sums.
         super::local_matrix(rule, valence, 1)?;
-        let mesh = Mesh::disc(&vec![sector; valence], 7);
-        let refined = rule.refine(&mesh, Centre::Vertex(0, 1), 0)?;
-        let own_weights = matches!(rule, MeshRule::CatmullClark(Some(_)))
-            || matches!(rule, MeshRule::Loop(super::LoopWeights::Given(_)));
+        let disc = Mesh::disc(&vec![sector; valence], 7);
+        let too_small = || failure(rule, "the mesh is too small");
+        let (mesh, centre) =
+            if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
+        let refined = rule.refine(&mesh, centre, 0)?;
+        let own_weights = matches!(
+            rule,
+            MeshRule::CatmullClark(Some(_))
+                | MeshRule::Loop(super::LoopWeights::Given(_))
+                | MeshRule::DooSabin(super::DualWeights::Given(_))
+        );
         let usual = if sector == Sector::Quads { 4 } else { 6 };
-        Ok(Self { rule, sector, mesh, refined, sites: sites(sector, valence == usual && !own_weights) })
+        Ok(Self { rule, sector, mesh, centre, refined, sites: sites(sector, valence == usual && !own_weights) })
+    }
+
+    /// The centre as seen from each sector.
+    fn sectors(&self) -> Option<Vec<Centre>> {
+        match self.centre {
+            Centre::Vertex(v, first) => {
+                Some(self.mesh.star(v, Some(first))?.into_iter().map(|w| Centre::Vertex(v, w)).collect())
+            }
+            Centre::Face(f, _) => {
+                Some(self.mesh.walk(self.centre, 1)?.points.iter().map(|v| Centre::Face(f, *v)).collect())
+            }
+            Centre::Edge(..) | Centre::Across(..) => None,
+        }
     }
 
     fn complex(&self) -> Result<Complex, SchemeError> {
@@ -187,7 +209,7 @@ impl<'a> Builder<'a> {
     /// The points on which a cell depends, in the order of its state. Near a vertex of valence 3 some may coincide.
     fn points(&self, mesh: &Mesh, centre: Centre, cell: Cell, place: Place) -> Result<Vec<usize>, SchemeError> {
         let model = self.place(self.sites[self.kind(cell, place)]);
-        let (around, rings) = self.around(&self.mesh, Centre::Vertex(0, 1), cell, model).ok_or_else(|| self.small())?;
+        let (around, rings) = self.around(&self.mesh, self.centre, cell, model).ok_or_else(|| self.small())?;
         let walk = self.mesh.walk(around, rings).ok_or_else(|| self.small())?;
         let here = self.around(mesh, centre, cell, place);
         here.and_then(|(around, _)| mesh.follow(around, &walk.moves)).ok_or_else(|| self.small())
@@ -197,6 +219,16 @@ impl<'a> Builder<'a> {
     fn around(&self, mesh: &Mesh, centre: Centre, cell: Cell, place: Place) -> Option<(Centre, usize)> {
         let (v, ahead) = self.locate(mesh, centre, place)?;
         let star = mesh.star(v, Some(ahead))?;
+        if self.rule.dual() {
+            // `v` is the face of the lattice whose lower left corner is the place.
+            return match cell {
+                Cell::Vertex => mesh.left(v, star[2]).map(|f| (Centre::Face(f, v), 1)),
+                Cell::Edge(0) => Some((Centre::Across(v, *star.get(3)?), 2)),
+                Cell::Edge(_) => Some((Centre::Across(v, *star.get(2)?), 2)),
+                Cell::Face => Some((Centre::Vertex(v, ahead), 1)),
+                Cell::Down => None,
+            };
+        }
         match cell {
             Cell::Vertex => Some((Centre::Vertex(v, ahead), 1)),
             Cell::Edge(d) => Some((Centre::Edge(v, *star.get(d)?), 2)),
@@ -205,9 +237,18 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The vertex at a place of the first sector, and its neighbour in direction `+u`.
+    /// The point at a place of the first sector, and its neighbour in direction `+u`.
     fn locate(&self, mesh: &Mesh, centre: Centre, (i, j): Place) -> Option<(usize, usize)> {
-        let Centre::Vertex(mut v, mut ahead) = centre else { return None };
+        let (mut v, mut ahead) = match centre {
+            Centre::Vertex(v, ahead) => (v, ahead),
+            // From a face of the central polygon the next one lies in direction `−u`.
+            Centre::Face(f, v) => {
+                let face = mesh.faces.get(f)?;
+                let at = face.iter().position(|x| *x == v)?;
+                (v, *mesh.star(v, Some(face[(at + 1) % face.len()]))?.get(2)?)
+            }
+            Centre::Edge(..) | Centre::Across(..) => return None,
+        };
         let (straight, left) = match self.sector {
             Sector::Quads => (2, 1),
             Sector::Triangles => (3, 2),
@@ -226,7 +267,7 @@ impl<'a> Builder<'a> {
     }
 
     fn old(&self, cell: Cell, place: Place) -> Result<Vec<usize>, SchemeError> {
-        self.points(&self.mesh, Centre::Vertex(0, 1), cell, place)
+        self.points(&self.mesh, self.centre, cell, place)
     }
 
     fn state(&self, site: Site) -> Result<State, SchemeError> {

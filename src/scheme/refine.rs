@@ -164,7 +164,7 @@ impl MeshRule {
                 self.shrink(mesh, f, weights, &mut draft)?;
                 (Key::Face(f), Key::Corner(f, first))
             }
-            (Self::DooSabin(_), Centre::Vertex(..)) | (_, Centre::Face(..) | Centre::Edge(..)) => {
+            (Self::DooSabin(_), Centre::Vertex(..)) | (_, Centre::Face(..) | Centre::Edge(..) | Centre::Across(..)) => {
                 return Err(self.error("the centre must be a face for a dual scheme and a vertex for the others"));
             }
             (Self::Sqrt3(_) | Self::FourEight, Centre::Vertex(v, first)) => {

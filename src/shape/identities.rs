@@ -194,7 +194,7 @@ impl Layout {
     #[must_use]
     pub fn pieces(self) -> usize {
         match self {
-            Self::Quad { columns, rows } => columns * rows,
+            Self::Quad { columns, rows } => columns.saturating_mul(rows),
             Self::Triangle => 4,
         }
     }
@@ -215,10 +215,11 @@ impl Layout {
     }
 
     fn side_name(self, side: usize) -> &'static str {
-        match self {
-            Self::Quad { .. } => ["bottom", "right", "top", "left"][side],
-            Self::Triangle => ["01", "12", "02"][side],
-        }
+        let names: &'static [&'static str] = match self {
+            Self::Quad { .. } => &["bottom", "right", "top", "left"],
+            Self::Triangle => &["01", "12", "02"],
+        };
+        names.get(side).copied().unwrap_or("?")
     }
 
     fn division(self) -> Division {
@@ -341,6 +342,7 @@ impl Complex {
     /// # Errors
     /// [`ComplexError::Cell`] and [`ComplexError::Different`].
     pub fn identities(&self) -> Result<Vec<Identity>, ComplexError> {
+        self.check_sizes()?;
         let mut all = Vec::new();
         for (e, state) in self.shape.states.iter().enumerate() {
             match state.kind {
@@ -383,6 +385,60 @@ impl Complex {
         Ok(identities.len())
     }
 
+    /// Checks that every state that is named exists, is of the right kind, and that every operator has the right size.
+    fn check_sizes(&self) -> Result<(), ComplexError> {
+        let states = &self.shape.states;
+        for (e, state) in states.iter().enumerate() {
+            for (letter, piece) in state.pieces.iter().enumerate() {
+                self.fits(e, OpName::Piece { state: e, letter }, piece.target, &piece.op, None)?;
+            }
+            for (name, boundary) in [(OpName::Left(e), &state.left), (OpName::Right(e), &state.right)] {
+                if let Some(b) = boundary {
+                    self.fits(e, name, b.vertex, &b.op, Some(CellKind::Vertex))?;
+                }
+            }
+        }
+        for (&e, face) in &self.faces {
+            if states.get(e).is_none_or(|s| s.kind != CellKind::Face) {
+                return Err(self.cell_error(e, "sides are given, but this is no face".to_owned()));
+            }
+            for (side, s) in face.sides.iter().enumerate() {
+                self.fits(e, OpName::Side { state: e, side }, s.edge, &s.op, Some(CellKind::Edge))?;
+            }
+        }
+        for (&e, reversal) in &self.reversals {
+            if states.get(e).is_none_or(|s| s.kind != CellKind::Edge) {
+                return Err(self.cell_error(e, "a reversal is given, but this is no edge".to_owned()));
+            }
+            self.fits(e, OpName::Reverse(e), reversal.edge, &reversal.op, Some(CellKind::Edge))?;
+        }
+        Ok(())
+    }
+
+    fn fits(
+        &self,
+        e: usize,
+        name: OpName,
+        from: usize,
+        op: &Matrix,
+        kind: Option<CellKind>,
+    ) -> Result<(), ComplexError> {
+        let text = self.operator_text(name);
+        let Some(source) = self.shape.states.get(from) else {
+            return Err(self.cell_error(e, format!("{text} comes from state {from}, which does not exist")));
+        };
+        if kind.is_some_and(|k| k != source.kind) {
+            let found = format!("{:?}", source.kind).to_lowercase();
+            let message = format!("{text} comes from state `{}`, which is of the wrong kind ({found})", source.name);
+            return Err(self.cell_error(e, message));
+        }
+        let (wanted, found) = ((self.shape.states[e].dim, source.dim), (op.rows(), op.cols()));
+        if wanted != found {
+            return Err(self.cell_error(e, format!("{text} is {found:?}, but must be {wanted:?} (rows, columns)")));
+        }
+        Ok(())
+    }
+
     fn failure(&self, identity: &Identity) -> Result<Option<Failure>, ComplexError> {
         let (left, right) = (self.path_product(&identity.left)?, self.path_product(&identity.right)?);
         let text = self.identity_text(identity);
@@ -400,7 +456,8 @@ impl Complex {
     }
 
     fn cell_error(&self, state: usize, message: String) -> ComplexError {
-        ComplexError::Cell { state: self.shape.states[state].name.clone(), message }
+        let state = self.shape.states.get(state).map_or_else(|| format!("number {state}"), |s| s.name.clone());
+        ComplexError::Cell { state, message }
     }
 
     /// The boundary of an edge state at its start (`false`) or end (`true`), with its vertex.
