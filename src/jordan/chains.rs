@@ -89,7 +89,10 @@ impl Reduced {
     }
 
     fn lowest(mut self) -> Self {
-        let g = self.vector.iter().fold(self.denominator.clone(), |g, x| if g == 1 { g } else { g.gcd(x.unsigned_abs_ref()) });
+        let g = self
+            .vector
+            .iter()
+            .fold(self.denominator.clone(), |g, x| if g == 1 { g } else { g.gcd(x.unsigned_abs_ref()) });
         if g > 1 {
             self.denominator /= &g;
             let g = Integer::from(g);

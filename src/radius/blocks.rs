@@ -49,7 +49,15 @@ pub fn blocks(system: &System) -> Vec<Block> {
 
 /// The strongly connected parts of the graph on (state, coordinate) pairs that contain a cycle.
 fn components(system: &System, states: &[usize]) -> Vec<(System, Vec<usize>)> {
-    let offsets: Vec<usize> = system.dims.iter().scan(0, |sum, d| { let o = *sum; *sum += d; Some(o) }).collect();
+    let offsets: Vec<usize> = system
+        .dims
+        .iter()
+        .scan(0, |sum, d| {
+            let o = *sum;
+            *sum += d;
+            Some(o)
+        })
+        .collect();
     let count: usize = system.dims.iter().sum();
     let mut reach = vec![vec![false; count]; count];
     for a in &system.arrows {
@@ -71,8 +79,9 @@ fn components(system: &System, states: &[usize]) -> Vec<(System, Vec<usize>)> {
     for top in 0..count {
         let mutual = |i: usize| reach[top][i] && reach[i][top];
         if mutual(top) && (0..top).all(|i| !mutual(i)) {
-            let kept: Vec<Vec<usize>> =
-                (0..system.dims.len()).map(|s| (0..system.dims[s]).filter(|i| mutual(offsets[s] + i)).collect()).collect();
+            let kept: Vec<Vec<usize>> = (0..system.dims.len())
+                .map(|s| (0..system.dims[s]).filter(|i| mutual(offsets[s] + i)).collect())
+                .collect();
             parts.push(restrict(system, states, &kept));
         }
     }
@@ -259,7 +268,8 @@ fn parts(system: &System, family: &[Matrix]) -> Split {
         let arrows = system.arrows.iter().map(|a| {
             let whole = &(&frames[a.from].2 * &a.matrix) * &frames[a.to].1;
             let (rows, cols) = (range(a.from), range(a.to));
-            let matrix = Matrix::from_fn(rows.len(), cols.len(), |i, j| whole[(rows.start + i, cols.start + j)].clone());
+            let matrix =
+                Matrix::from_fn(rows.len(), cols.len(), |i, j| whole[(rows.start + i, cols.start + j)].clone());
             Arrow { matrix, ..a.clone() }
         });
         System { arrows: arrows.collect(), dims: (0..system.dims.len()).map(|s| range(s).len()).collect() }

@@ -90,8 +90,7 @@ pub struct JointRadius {
 pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, SystemError> {
     let system = system.clone().checked()?;
     let parts = blocks(&system);
-    let mut found: Vec<Vec<Candidate>> =
-        parts.iter().map(|b| candidates(&b.system, options.longest, 1e-7)).collect();
+    let mut found: Vec<Vec<Candidate>> = parts.iter().map(|b| candidates(&b.system, options.longest, 1e-7)).collect();
     for _ in 0..8 {
         match attempt(&system, &parts, &found, options) {
             Ok(result) => return Ok(result),
@@ -118,7 +117,12 @@ fn attempt_without_restart(
     attempt(system, parts, found, &small).or(Err(SystemError::Empty))
 }
 
-fn attempt(system: &System, parts: &[Block], found: &[Vec<Candidate>], options: &Options) -> Result<JointRadius, Restart> {
+fn attempt(
+    system: &System,
+    parts: &[Block],
+    found: &[Vec<Candidate>],
+    options: &Options,
+) -> Result<JointRadius, Restart> {
     let Some(best) = best_word(parts, found) else {
         let exact = parts.is_empty();
         let upper = exact.then(|| Rational::from(0));
@@ -150,7 +154,8 @@ fn best_word(parts: &[Block], found: &[Vec<Candidate>]) -> Option<(Best, Vec<Vec
     let mut best: Option<(usize, Lower)> = None;
     for (block, list) in lists.iter().enumerate() {
         for lower in list {
-            let better = best.as_ref().is_none_or(|(old, b)| compare(parts, (block, lower), (*old, b)) == Ordering::Greater);
+            let better =
+                best.as_ref().is_none_or(|(old, b)| compare(parts, (block, lower), (*old, b)) == Ordering::Greater);
             if better {
                 best = Some((block, lower.clone()));
             }
@@ -192,7 +197,12 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs }
 }
 
-fn prove(block: &Block, found: &[Candidate], best: &(Best, Vec<Vec<Lower>>), options: &Options) -> Result<BlockProof, Vec<usize>> {
+fn prove(
+    block: &Block,
+    found: &[Candidate],
+    best: &(Best, Vec<Vec<Lower>>),
+    options: &Options,
+) -> Result<BlockProof, Vec<usize>> {
     let (best, lists) = best;
     let own: Vec<&Lower> = lists
         .iter()
@@ -286,7 +296,14 @@ fn at_radius(result: &mut BlockProof, best: &Best, options: &Options) -> Result<
     let body = body(&system);
     for exponent in [0, 8, 14] {
         let limit = limit(&system, options).min(1500);
-        let grown = grow(&Task { system: &system, scaled: &scaled, body, seeds: seeds.clone(), max_vertices: limit, tolerance: 1e-9 });
+        let grown = grow(&Task {
+            system: &system,
+            scaled: &scaled,
+            body,
+            seeds: seeds.clone(),
+            max_vertices: limit,
+            tolerance: 1e-9,
+        });
         if let Some(path) = grown.better {
             return Err(path);
         }
@@ -330,7 +347,14 @@ fn inflated(result: &mut BlockProof, radius: f64, options: &Options) -> Result<b
     let limit = limit(&system, options);
     let body = body(&system);
     for _ in 0..2 {
-        let grown = grow(&Task { system: &system, scaled: &scaled, body, seeds: seeds.clone(), max_vertices: limit, tolerance: 0.0 });
+        let grown = grow(&Task {
+            system: &system,
+            scaled: &scaled,
+            body,
+            seeds: seeds.clone(),
+            max_vertices: limit,
+            tolerance: 0.0,
+        });
         if grown.better.is_some() {
             // A product above the radius: a better word.
             return grown.better.map_or(Ok(false), Err);

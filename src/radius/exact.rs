@@ -38,9 +38,8 @@ pub(super) fn rational(system: &System, grown: &Grown, radius: &Rational, exact:
         Some(points) => points[k].clone(),
         None => grown.vertices[k].point.iter().map(|x| grid(*x)).collect(),
     };
-    let points: Vec<Point> = (0..grown.vertices.len())
-        .map(|k| Point { state: grown.vertices[k].state, coordinates: point(k) })
-        .collect();
+    let points: Vec<Point> =
+        (0..grown.vertices.len()).map(|k| Point { state: grown.vertices[k].state, coordinates: point(k) }).collect();
     let mut inclusions: Vec<Inclusion> = Vec::new();
     for (k, v) in grown.vertices.iter().enumerate() {
         if let Origin::Image { parent, arrow } = v.origin {
@@ -92,7 +91,12 @@ fn solve(body: Body, points: &[Point], image: &[Rational], found: &Combination) 
 }
 
 fn axis_terms(system: &System, grown: &Grown) -> Vec<Vec<Vec<(usize, Rational)>>> {
-    system.dims.iter().enumerate().map(|(state, &dim)| (0..dim).map(|axis| unit_terms(grown, state, dim, axis)).collect()).collect()
+    system
+        .dims
+        .iter()
+        .enumerate()
+        .map(|(state, &dim)| (0..dim).map(|axis| unit_terms(grown, state, dim, axis)).collect())
+        .collect()
 }
 
 fn unit_terms(grown: &Grown, state: usize, dim: usize, axis: usize) -> Vec<(usize, Rational)> {
@@ -111,7 +115,8 @@ fn dominate(system: &System, polytope: &mut Polytope) {
         let arrow = &system.arrows[inclusion.arrow];
         let image = arrow.matrix.apply(&polytope.points[inclusion.point].coordinates);
         let short = (0..image.len()).any(|i| {
-            let reach = inclusion.terms.iter().fold(Rational::from(0), |s, (q, c)| s + c * &polytope.points[*q].coordinates[i]);
+            let reach =
+                inclusion.terms.iter().fold(Rational::from(0), |s, (q, c)| s + c * &polytope.points[*q].coordinates[i]);
             reach < image[i]
         });
         if short {
@@ -121,7 +126,12 @@ fn dominate(system: &System, polytope: &mut Polytope) {
 }
 
 /// The exact vertices for a rational radius.
-pub(super) fn exact_points(system: &System, grown: &Grown, roots: &[LeadingVector], radius: &Rational) -> Option<Vec<Vec<Rational>>> {
+pub(super) fn exact_points(
+    system: &System,
+    grown: &Grown,
+    roots: &[LeadingVector],
+    radius: &Rational,
+) -> Option<Vec<Vec<Rational>>> {
     let mut points: Vec<Vec<Rational>> = Vec::new();
     for v in &grown.vertices {
         points.push(match &v.origin {
@@ -149,7 +159,13 @@ pub(super) fn axis_point(dim: usize, axis: usize, exponent: u32) -> Vec<Rational
 ///
 /// Vertices are enclosed by intervals; strictly inner images are checked with the coefficients found, images on the boundary
 /// by solving for the coefficients in the field of the radius.
-pub(super) fn closes(system: &System, grown: &Grown, polytope: &Polytope, leading: &[LeadingVector], radius: &Lower) -> bool {
+pub(super) fn closes(
+    system: &System,
+    grown: &Grown,
+    polytope: &Polytope,
+    leading: &[LeadingVector],
+    radius: &Lower,
+) -> bool {
     const BITS: u64 = 160;
     let ratio = radius.enclosure(BITS);
     if ratio.lo <= 0 {
@@ -203,8 +219,7 @@ fn interiors(system: &System, grown: &Grown, polytope: &Polytope, points: &[Vec<
         let (mut size, mut error) = (Rational::from(0), Rational::from(0));
         for axis in 0..dim {
             let terms = &polytope.axes[state][axis];
-            let unit: Vec<Interval> =
-                (0..dim).map(|i| Interval::point(Rational::from(u8::from(i == axis)))).collect();
+            let unit: Vec<Interval> = (0..dim).map(|i| Interval::point(Rational::from(u8::from(i == axis)))).collect();
             error = error.max(distance(&unit, terms, points));
             size = size.max(norm1(&terms.iter().map(|t| t.1.clone()).collect::<Vec<_>>()));
         }
@@ -227,7 +242,13 @@ fn distance(x: &[Interval], terms: &[(usize, Rational)], points: &[Vec<Interval>
     rest.iter().fold(Rational::from(0), |s, r| s + r.magnitude())
 }
 
-fn strictly_inside(body: Body, x: &[Interval], found: &Combination, points: &[Vec<Interval>], interior: Option<&Rational>) -> bool {
+fn strictly_inside(
+    body: Body,
+    x: &[Interval],
+    found: &Combination,
+    points: &[Vec<Interval>],
+    interior: Option<&Rational>,
+) -> bool {
     let terms: Vec<(usize, Rational)> = found.terms.iter().map(|(k, c)| (*k, grid(*c))).collect();
     let sum = terms.iter().fold(Rational::from(0), |s, t| s + abs(&t.1));
     match (body, interior) {
@@ -307,7 +328,10 @@ impl Field {
         let sum = c.iter().zip(&signs).fold(Elem::zero(), |s, (e, sign)| s.add(&e.scale(&Rational::from(*sign))));
         let small = sum.sub(&Elem::from_rational(&Rational::from(1))).sign(&self.root) <= 0;
         let dominates = |i: usize| {
-            let reach = columns.iter().zip(&c).fold(Elem::zero(), |s, (k, e)| s.add(&e.mul(&self.points[*k][i], &self.modulus)));
+            let reach = columns
+                .iter()
+                .zip(&c)
+                .fold(Elem::zero(), |s, (k, e)| s.add(&e.mul(&self.points[*k][i], &self.modulus)));
             reach.sub(&x[i]).sign(&self.root) >= 0
         };
         small && (body == Body::Symmetric || (signs.iter().all(|s| *s >= 0) && (0..x.len()).all(dominates)))

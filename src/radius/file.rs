@@ -143,7 +143,8 @@ mod tests {
     fn reads_sets_and_automata() {
         let file = parse("name = \"x\"\nmatrices = [[[\"1/2\", 1], [0, 1]]]").unwrap();
         assert_eq!((file.name.as_str(), file.system.dims.as_slice()), ("x", [2].as_slice()));
-        let file = parse("matrices = [[[1, 2]], [[1], [1]]]\nstates = [1, 2]\narrows = [[0, 1, 0], [1, 0, 1]]").unwrap();
+        let file =
+            parse("matrices = [[[1, 2]], [[1], [1]]]\nstates = [1, 2]\narrows = [[0, 1, 0], [1, 0, 1]]").unwrap();
         assert_eq!(file.system.product(&[0, 1]).rows(), 1);
     }
 

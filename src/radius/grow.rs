@@ -66,13 +66,8 @@ pub(super) struct Task<'a> {
 
 /// Applies all arrows to all vertices until nothing new comes out, or the limit is reached.
 pub(super) fn grow(task: &Task) -> Grown {
-    let mut grown = Grown {
-        body: task.body,
-        vertices: task.seeds.clone(),
-        inside: Vec::new(),
-        excess: 0.0,
-        better: None,
-    };
+    let mut grown =
+        Grown { body: task.body, vertices: task.seeds.clone(), inside: Vec::new(), excess: 0.0, better: None };
     let mut next = 0;
     while next < grown.vertices.len() && grown.better.is_none() {
         let state = grown.vertices[next].state;

@@ -35,7 +35,13 @@ impl Lower {
         if root.is_zero() {
             return None;
         }
-        Some(Self { path: path.to_vec(), word: system.labels(path), root, length: path.len(), block: block.unwrap_or(1) })
+        Some(Self {
+            path: path.to_vec(),
+            word: system.labels(path),
+            root,
+            length: path.len(),
+            block: block.unwrap_or(1),
+        })
     }
 
     /// The value as a rational, where it is one.
@@ -146,7 +152,9 @@ impl Eigenvector {
         self.coordinates
             .iter()
             .map(|c| {
-                c.iter().rev().fold(Interval::point(Rational::from(0)), |sum, a| &(&sum * &x) + &Interval::point(a.clone()))
+                c.iter()
+                    .rev()
+                    .fold(Interval::point(Rational::from(0)), |sum, a| &(&sum * &x) + &Interval::point(a.clone()))
             })
             .collect()
     }

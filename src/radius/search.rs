@@ -26,9 +26,8 @@ pub(super) fn candidates(system: &System, longest: usize, tolerance: f64) -> Vec
     let mut best: Vec<Candidate> = Vec::new();
     let mut top = 0.0_f64;
     let arrows = system.arrows.len();
-    let mut layer: Vec<Partial> = (0..arrows)
-        .map(|a| Partial { path: vec![a], product: floats[a].clone(), value: 0.0 })
-        .collect();
+    let mut layer: Vec<Partial> =
+        (0..arrows).map(|a| Partial { path: vec![a], product: floats[a].clone(), value: 0.0 }).collect();
     for length in 1..=longest {
         for partial in &mut layer {
             let power = 1.0 / f64::from(u32::try_from(length).unwrap_or(u32::MAX));
