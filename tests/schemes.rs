@@ -316,3 +316,42 @@ fn json_states_its_convention() {
         assert!(matches!(scheme::parse_json(bad), Err(SchemeError::Import { .. })), "{bad}");
     }
 }
+
+#[test]
+fn the_documentation_lists_every_scheme() {
+    let text = include_str!("../docs/schemes.md");
+    let listed = |name: &str| text.lines().any(|l| l.starts_with(&format!("| `{name}` |")));
+    let names = scheme::list().iter().map(|s| s.name).chain(scheme::mesh_rules().iter().map(|r| r.name));
+    let missing: Vec<&str> = names.filter(|n| !listed(n)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
+fn shapes_survive_as_case_files() {
+    let heading = |name: &str| scheme::Heading {
+        name: name.to_owned(),
+        title: format!("the scheme \"{name}\""),
+        source: String::new(),
+    };
+    let given: BTreeMap<&str, Vec<(&str, Rational)>> =
+        [("corner-cutting", vec![("a", ratio(-1, 4)), ("b", ratio(1, 2))])].into();
+    let mut shapes: Vec<(&str, Shape)> = scheme::list()
+        .iter()
+        .map(|s| (s.name, build(s.name, given.get(s.name).map_or(&[], Vec::as_slice)).unwrap()))
+        .collect();
+    shapes.push(("vertices", scheme::bspline(3, 2).unwrap().curve_with_vertices().unwrap()));
+    shapes.push(("disc", scheme::disc(&scheme::MeshRule::CatmullClark(None), 3).unwrap()));
+    for (name, shape) in shapes {
+        let text = scheme::case_text(&shape, &heading(name));
+        let case = secant::case::Case::parse(name, &text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));
+        assert_eq!(case.shape.states.len(), shape.states.len(), "{name}");
+        assert_eq!(case.shape.control, shape.control, "{name}");
+        for (a, b) in case.shape.states.iter().zip(&shape.states) {
+            assert_eq!((a.name == b.name || shape.states.len() == 1, a.dim), (true, b.dim), "{name}");
+            assert_eq!(a.left.as_ref().map(|x| &x.op), b.left.as_ref().map(|x| &x.op), "{name}");
+            for (p, q) in a.pieces.iter().zip(&b.pieces) {
+                assert_eq!((&p.op, p.target, p.reversed), (&q.op, q.target, q.reversed), "{name}");
+            }
+        }
+    }
+}

@@ -1,12 +1,15 @@
 //! Subdivision matrices at extraordinary vertices against an outside oracle (FLINT) and the published eigenvalues.
 
 use secant::arith::{Rational, parse_rational, ratio};
-use secant::linalg::Matrix;
+use secant::linalg::{Matrix, char_poly};
 use secant::scheme::{
     DualWeights, LocalMatrix, LoopWeights, MeshRule, SchemeError, Sector, VertexWeights, local_matrix, local_matrix_of,
 };
-use secant::shape::characteristic;
 use std::collections::BTreeMap;
+
+fn characteristic(m: &Matrix) -> Vec<Rational> {
+    char_poly(m).coeffs().to_vec()
+}
 
 fn local(rule: &MeshRule, valence: usize, rings: usize) -> LocalMatrix {
     let result = local_matrix(rule, valence, rings).unwrap_or_else(|e| panic!("valence {valence}: {e}"));
@@ -333,4 +336,55 @@ fn mesh_rules_have_names() {
     assert!(
         matches!(mesh_rule("catmul-clark", &BTreeMap::new()), Err(SchemeError::Unknown { near, .. }) if near == "catmull-clark")
     );
+}
+
+#[test]
+fn discs_are_covered_by_their_pieces() {
+    use secant::scheme::{disc, patch};
+    for (rule, n) in [
+        (MeshRule::CatmullClark(None), 3),
+        (MeshRule::CatmullClark(None), 4),
+        (MeshRule::CatmullClark(None), 5),
+        (MeshRule::Loop(LoopWeights::Warren), 3),
+        (MeshRule::Loop(LoopWeights::Warren), 5),
+        (MeshRule::Loop(LoopWeights::Warren), 6),
+    ] {
+        let shape = disc(&rule, n).unwrap_or_else(|e| panic!("valence {n}: {e}"));
+        let complex = patch(&rule, n).unwrap();
+        assert_eq!(shape.states[0].pieces.len(), 1 + 3 * n);
+        // The corner 0 of the patch, in its own coordinates and in those of every sector, is the centre of the disc.
+        let at = secant::shape::Address::periodic(vec![0]);
+        let centre = shape.point(0, &at).unwrap();
+        let corner = complex.shape.point(0, &at).unwrap();
+        let sectors: Vec<Matrix> = (0..n).map(|k| sector(&shape, &complex, 3 * k)).collect();
+        for inclusion in &sectors {
+            assert_eq!(inclusion.apply(&corner), centre, "valence {n}");
+            // The step of the disc and of the patch agree on the sector.
+            let disc_step = &shape.states[0].pieces[0].op;
+            assert_eq!(disc_step * inclusion, inclusion * &complex.shape.states[0].pieces[0].op, "valence {n}");
+        }
+        // Neighbouring sectors share an edge: left side of one, bottom (or first) side of the next.
+        let last = complex.faces[&0].sides.len() - 1;
+        let (first, side) = (&complex.faces[&0].sides[0], &complex.faces[&0].sides[last]);
+        let (bottom, left) = (curve(&complex, first, &[0, 1, 1]), curve(&complex, side, &[0, 1, 1]));
+        for k in 0..n {
+            assert_eq!(sectors[k].apply(&left), sectors[(k + 1) % n].apply(&bottom), "valence {n}, sector {k}");
+        }
+    }
+}
+
+/// The inclusion of a sector, from the pieces `sector * T_j` of the disc and the `T_j` of the patch.
+fn sector(shape: &secant::shape::Shape, complex: &secant::shape::Complex, offset: usize) -> Matrix {
+    let stacked = |pieces: Vec<&Matrix>| pieces.into_iter().map(Matrix::transpose).reduce(|a, b| a.stack(&b)).unwrap();
+    let disc = stacked((1..4).map(|j| &shape.states[0].pieces[offset + j].op).collect());
+    let patch = stacked((1..4).map(|j| &complex.shape.states[0].pieces[j].op).collect());
+    // patch * inclusionᵀ = disc, and the three pieces together span the patch's points.
+    patch.solve(&disc).unwrap().transpose()
+}
+
+/// A point of a side of a face, by the address `word (0)` of its edge.
+fn curve(complex: &secant::shape::Complex, side: &secant::shape::Side, word: &[usize]) -> Vec<Rational> {
+    let address = secant::shape::Address { prefix: word.to_vec(), cycle: vec![0] };
+    let address = address.normalise(&complex.shape, side.edge).unwrap();
+    side.op.apply(&complex.shape.point(side.edge, &address).unwrap())
 }

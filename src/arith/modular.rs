@@ -25,9 +25,15 @@ impl PrimeField {
         for _ in 0..5 {
             inverse = inverse.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(inverse)));
         }
-        let one = ((1u128 << 64) % u128::from(p)) as u64;
-        let r2 = (u128::from(one) * u128::from(one) % u128::from(p)) as u64;
-        Self { p, neg_inverse: inverse.wrapping_neg(), r2, one }
+        let one = (u64::MAX % p + 1) % p;
+        let mut field = Self { p, neg_inverse: inverse.wrapping_neg(), r2: one, one };
+        // From 2^64 to 2^128 modulo p: Montgomery squaring six times from 2^64 * 2 costs no long division.
+        let mut power = field.add(one, one);
+        for _ in 0..6 {
+            power = field.mul(power, power);
+        }
+        field.r2 = power;
+        field
     }
 
     /// The modulus.
@@ -48,6 +54,17 @@ impl PrimeField {
     pub fn reduce(&self, x: u128) -> u64 {
         let m = (x as u64).wrapping_mul(self.neg_inverse);
         let t = ((x + u128::from(m) * u128::from(self.p)) >> 64) as u64;
+        if t >= self.p { t - self.p } else { t }
+    }
+
+    /// `x / 2^64 mod p` for a sum `x` of at most eight products of elements.
+    #[inline]
+    #[must_use]
+    pub fn reduce_wide(&self, x: u128) -> u64 {
+        // x < 8 p^2 <= 2 p 2^64 and m p < 2^64 p, so the sum fits and its high word is below 3 p.
+        let m = (x as u64).wrapping_mul(self.neg_inverse);
+        let t = ((x + u128::from(m) * u128::from(self.p)) >> 64) as u64;
+        let t = if t >= 2 * self.p { t - 2 * self.p } else { t };
         if t >= self.p { t - self.p } else { t }
     }
 
@@ -105,10 +122,9 @@ impl PrimeField {
     pub fn dot(&self, a: &[u64], b: &[u64]) -> u64 {
         let mut sum = 0;
         for (x, y) in a.chunks(8).zip(b.chunks(8)) {
-            // Eight products below 2^124 stay below 2^127; their high word is folded once.
+            // Eight products below 2^124 stay below 2^127.
             let chunk: u128 = x.iter().zip(y).map(|(x, y)| u128::from(*x) * u128::from(*y)).sum();
-            let high = u128::from((chunk >> 64) as u64 % self.p) << 64;
-            sum = self.add(sum, self.reduce(high | u128::from(chunk as u64)));
+            sum = self.add(sum, self.reduce_wide(chunk));
         }
         sum
     }

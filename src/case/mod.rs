@@ -5,6 +5,7 @@
 mod expect;
 mod maps;
 mod matrix;
+pub mod matrix_file;
 mod node;
 mod read;
 mod states;

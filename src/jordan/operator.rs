@@ -152,8 +152,18 @@ impl ModOperator {
     fn combine(&self, row: &[(usize, u64)], rows: &[Vec<u64>]) -> Vec<u64> {
         let f = &self.field;
         let mut sum = vec![0; rows.len()];
-        for (j, x) in row {
-            for (s, y) in sum.iter_mut().zip(&rows[*j]).filter(|(_, y)| **y != 0) {
+        let mut chunks = row.chunks_exact(4);
+        for chunk in chunks.by_ref() {
+            let [(i, a), (j, b), (k, c), (l, d)] = chunk else { continue };
+            let (p, q, r, s) = (&rows[*i], &rows[*j], &rows[*k], &rows[*l]);
+            let wide = |x: u64, y: u64| u128::from(x) * u128::from(y);
+            for ((((x, p), q), r), s) in sum.iter_mut().zip(p).zip(q).zip(r).zip(s) {
+                let total = wide(*a, *p) + wide(*b, *q) + wide(*c, *r) + wide(*d, *s);
+                *x = f.add(*x, f.reduce_wide(total));
+            }
+        }
+        for (j, x) in chunks.remainder() {
+            for (s, y) in sum.iter_mut().zip(&rows[*j]) {
                 *s = f.add(*s, f.mul(*x, *y));
             }
         }

@@ -11,7 +11,7 @@ use super::quadratic::Quadratic;
 use super::search::{Candidate, candidates, canonical};
 use super::simplex::Body;
 use super::system::{System, SystemError};
-use crate::arith::{Interval, Rational, abs, to_f64};
+use crate::arith::{Interval, Rational, to_f64};
 use malachite_base::num::arithmetic::traits::CheckedRoot;
 use std::cmp::Ordering;
 
@@ -186,7 +186,7 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     };
     // A bound below the lower one belongs to blocks that do not matter.
     let upper = upper.map(|u| u.max(lower.enclosure(64).hi));
-    let top = proofs.iter().filter(|p| !p.bound.as_ref().is_some_and(|b| *b < best.floor)).count();
+    let top = proofs.iter().filter(|p| p.bound.as_ref().is_none_or(|b| *b >= best.floor)).count();
     let growth = if lower.block > 1 {
         Growth::Unbounded(lower.block)
     } else if exact && top == 1 {
@@ -214,14 +214,14 @@ fn prove(
         return smaller(block, value, best, options);
     }
     let roots = eigenvectors(block, &own);
-    let square = square(&best.lower);
+    let square = best.lower.square();
     let mut result = BlockProof { block: block.clone(), roots, bound: None, attains: false, proof: None };
-    if result.roots.is_empty() && by_quadratic(&mut result, square.as_ref()) {
+    if own.iter().any(|l| !l.root.is_real()) && by_quadratic(&mut result, square.as_ref(), &own) {
         return Ok(result);
     }
     if !result.roots.is_empty() {
         at_radius(&mut result, best, options)?;
-        if result.attains || by_quadratic(&mut result, square.as_ref()) {
+        if result.attains || by_quadratic(&mut result, square.as_ref(), &own) {
             return Ok(result);
         }
     }
@@ -240,7 +240,7 @@ fn prove(
 /// Real eigenvectors of the leading words, scaled to about 1 and, for nonnegative matrices, made nonnegative.
 fn eigenvectors(block: &Block, own: &[&Lower]) -> Vec<LeadingVector> {
     let mut out = Vec::new();
-    for lower in own.iter().filter(|l| l.root.is_real()) {
+    for lower in own.iter().filter_map(|l| real_power(&block.system, l)) {
         let Some(mut vector) = Eigenvector::of(&block.system.product(&lower.path), &lower.root) else { continue };
         let values: Vec<f64> = vector.enclosure(&lower.root, 64).iter().map(|x| to_f64(&x.mid())).collect();
         let largest = values.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
@@ -248,9 +248,24 @@ fn eigenvectors(block: &Block, own: &[&Lower]) -> Vec<LeadingVector> {
             continue;
         }
         vector.scale(&scale_near(1.0 / largest));
-        out.push(LeadingVector { lower: (*lower).clone(), vector });
+        out.push(LeadingVector { lower, vector });
     }
     out
+}
+
+/// The word, or a power of it whose leading eigenvalue is real.
+fn real_power(system: &System, lower: &Lower) -> Option<Lower> {
+    if lower.root.is_real() {
+        return Some(lower.clone());
+    }
+    if !lower.root.ratio_is_root_of_unity(&lower.root.conjugate()) {
+        return None;
+    }
+    [2, 3, 4, 5, 6, 8, 10, 12]
+        .into_iter()
+        .filter(|k| k * lower.length <= 48)
+        .filter_map(|k| Lower::of(system, &lower.path.repeat(k)))
+        .find(|l| l.root.is_real())
 }
 
 /// A short rational close to a float of any size.
@@ -265,22 +280,10 @@ fn scale_near(x: f64) -> Rational {
     if rest == 0 { power } else { rest * power }
 }
 
-/// The square of the value, where it is rational and simply found.
-fn square(lower: &Lower) -> Option<Rational> {
-    let degree = u64::try_from(lower.length).ok()?;
-    if let Some(r) = lower.root.rational() {
-        return (&r * &r).checked_root(degree);
-    }
-    let coeffs = lower.root.minpoly().monic().coeffs().to_vec();
-    if coeffs.len() != 3 || lower.root.is_real() && coeffs[1] != 0 {
-        return None;
-    }
-    abs(&coeffs[0]).checked_root(degree)
-}
-
-fn by_quadratic(result: &mut BlockProof, square: Option<&Rational>) -> bool {
+fn by_quadratic(result: &mut BlockProof, square: Option<&Rational>, own: &[&Lower]) -> bool {
     let Some(square) = square else { return false };
-    let Some(proof) = Quadratic::find(&result.block.system, square) else { return false };
+    let letters: Vec<usize> = own.iter().filter(|l| l.length == 1).map(|l| l.path[0]).collect();
+    let Some(proof) = Quadratic::find(&result.block.system, square, &letters) else { return false };
     let hi = super::leading::root_of(&Interval::point(square.clone()), 2, 64).hi;
     result.bound = Some(square.clone().checked_root(2u64).unwrap_or(hi));
     result.attains = true;

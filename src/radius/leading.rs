@@ -47,8 +47,22 @@ impl Lower {
     /// The value as a rational, where it is one.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {
-        let value = abs(&self.root.rational()?);
-        value.checked_root(u64::try_from(self.length).ok()?)
+        self.square()?.checked_root(2u64)
+    }
+
+    /// The square of the value, where it is rational and simply found (rational or quadratic eigenvalues).
+    #[must_use]
+    pub fn square(&self) -> Option<Rational> {
+        let degree = u64::try_from(self.length).ok()?;
+        if let Some(r) = self.root.rational() {
+            return (&r * &r).checked_root(degree);
+        }
+        let coeffs = self.root.minpoly().monic().coeffs().to_vec();
+        // The roots of x² + bx + c have modulus √c when they are conjugate or opposite.
+        if coeffs.len() != 3 || (self.root.is_real() && coeffs[1] != 0) {
+            return None;
+        }
+        abs(&coeffs[0]).checked_root(degree)
     }
 
     /// An enclosure of the value of width about `2^-bits` (relative to 1).
@@ -106,6 +120,12 @@ pub(super) fn root_of(x: &Interval, degree: usize, bits: u64) -> Interval {
     let lo = Rational::from(floor(&x.lo).floor_root(degree)) / Rational::from(&scale);
     let hi = Rational::from((floor(&x.hi) + Natural::from(1u32)).ceiling_root(degree)) / Rational::from(&scale);
     Interval::new(lo, hi)
+}
+
+/// An enclosure of the square root of a nonnegative rational, with end points of `bits` binary places.
+#[must_use]
+pub fn square_root(x: &Rational, bits: u64) -> Interval {
+    root_of(&Interval::point(x.clone()), 2, bits)
 }
 
 /// A real eigenvector of the product for a real leading eigenvalue, given exactly: coordinate `i` is the polynomial

@@ -25,21 +25,26 @@ impl Quadratic {
             })
     }
 
-    /// Forms that prove the bound with this square: the Euclidean ones, or ones that all arrows preserve exactly.
+    /// Forms that prove the bound with this square: the Euclidean ones, or ones that all arrows, or one of `letters`,
+    /// preserve exactly.
     #[must_use]
-    pub fn find(system: &System, square: &Rational) -> Option<Self> {
+    pub fn find(system: &System, square: &Rational, letters: &[usize]) -> Option<Self> {
         let forms = system.dims.iter().map(|d| Matrix::identity(*d)).collect();
         let euclidean = Self { forms, square: square.clone() };
         if euclidean.holds(system) {
             return Some(euclidean);
         }
-        let found = Self { forms: preserved(system, square)?, square: square.clone() };
-        found.holds(system).then_some(found)
+        let all: Vec<usize> = (0..system.arrows.len()).collect();
+        std::iter::once(all.as_slice())
+            .chain(letters.chunks(1))
+            .filter_map(|arrows| preserved(system, square, arrows))
+            .map(|forms| Self { forms, square: square.clone() })
+            .find(|found| found.holds(system))
     }
 }
 
-/// Symmetric forms with `T^t P T = square P` for all arrows, if they are unique up to a factor.
-fn preserved(system: &System, square: &Rational) -> Option<Vec<Matrix>> {
+/// Symmetric forms with `T^t P T = square P` for some arrows, if they are unique up to a factor.
+fn preserved(system: &System, square: &Rational, arrows: &[usize]) -> Option<Vec<Matrix>> {
     let mut unknowns: Vec<(usize, usize, usize)> = Vec::new();
     for (s, &d) in system.dims.iter().enumerate() {
         unknowns.extend((0..d).flat_map(|i| (0..=i).map(move |j| (s, i, j))));
@@ -48,7 +53,7 @@ fn preserved(system: &System, square: &Rational) -> Option<Vec<Matrix>> {
         return None;
     }
     let mut rows: Vec<Vec<Rational>> = Vec::new();
-    for a in &system.arrows {
+    for a in arrows.iter().map(|k| &system.arrows[*k]) {
         for p in 0..a.matrix.cols() {
             for q in 0..=p {
                 let coefficient = |&(s, i, j): &(usize, usize, usize)| {
@@ -124,7 +129,7 @@ mod tests {
             Matrix::from_rows(2, vec![vec![c.clone(), -&s], vec![s, c]])
         };
         let system = System::plain(&[rotation((3, 5), (4, 5)), rotation((5, 13), (12, 13))]).unwrap();
-        assert!(Quadratic::find(&system, &ratio(1, 1)).is_some());
-        assert!(Quadratic::find(&system, &ratio(99, 100)).is_none());
+        assert!(Quadratic::find(&system, &ratio(1, 1), &[]).is_some());
+        assert!(Quadratic::find(&system, &ratio(99, 100), &[]).is_none());
     }
 }

@@ -23,6 +23,14 @@ pub(super) struct Combination {
     pub loose: Vec<usize>,
 }
 
+/// How columns may be combined.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sign {
+    Any,
+    Nonnegative,
+    Dominating,
+}
+
 #[derive(Clone, Copy)]
 enum Column {
     Point(usize, f64),
@@ -115,6 +123,20 @@ impl Tableau {
 /// # Cost
 /// `O(n |points| + n²)` a pivot, usually a few times `n` pivots.
 pub(super) fn gauge(body: Body, points: &[&[f64]], x: &[f64], enough: f64) -> Combination {
+    let sign = match body {
+        Body::Symmetric => Sign::Any,
+        Body::Monotone => Sign::Dominating,
+    };
+    minimise(sign, points, x, enough)
+}
+
+/// Nonnegative coefficients, of at most as many rays as there are coordinates, that combine `x`; `None` outside the cone.
+pub(crate) fn cone_combination(rays: &[&[f64]], x: &[f64]) -> Option<Vec<(usize, f64)>> {
+    let found = minimise(Sign::Nonnegative, rays, x, 0.0);
+    found.value.is_finite().then_some(found.terms)
+}
+
+fn minimise(rule: Sign, points: &[&[f64]], x: &[f64], enough: f64) -> Combination {
     let n = x.len();
     let mut tableau = Tableau::start(x);
     for _ in 0..(60 * n + 100) {
@@ -122,15 +144,12 @@ pub(super) fn gauge(body: Body, points: &[&[f64]], x: &[f64], enough: f64) -> Co
         let mut entering: Option<(Column, f64)> = None;
         for (j, q) in points.iter().enumerate() {
             let price = dot(q, &y);
-            let (gain, sign) = match body {
-                Body::Symmetric => (price.abs() - 1.0, price.signum()),
-                Body::Monotone => (price - 1.0, 1.0),
-            };
+            let (gain, sign) = if rule == Sign::Any { (price.abs() - 1.0, price.signum()) } else { (price - 1.0, 1.0) };
             if gain > entering.map_or(1e-10, |e| e.1) {
                 entering = Some((Column::Point(j, sign), gain));
             }
         }
-        if body == Body::Monotone {
+        if rule == Sign::Dominating {
             for (i, price) in y.iter().enumerate() {
                 if -price > entering.map_or(1e-10, |e| e.1) {
                     entering = Some((Column::Surplus(i), -price));

@@ -109,8 +109,8 @@ fn tick(tone: Tone) -> &'static str {
 
 fn write_table(out: &mut String, table: &Table) {
     let columns = table.header.len().max(1);
-    let width = 0.94 / f64_of(columns);
-    let spec = format!(">{{\\raggedright\\arraybackslash}}p{{{width:.3}\\linewidth}}").repeat(columns);
+    let permille = 940 / columns;
+    let spec = format!(">{{\\raggedright\\arraybackslash}}p{{0.{permille:03}\\linewidth}}").repeat(columns);
     let row = |cells: &[Line]| cells.iter().map(|c| inline(c)).collect::<Vec<_>>().join(" & ");
     out.push_str(&format!("{{\\small\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n"));
     out.push_str(&format!("{} \\\\\n\\hline\n\\endhead\n", row(&table.header)));
@@ -118,11 +118,6 @@ fn write_table(out: &mut String, table: &Table) {
         out.push_str(&format!("{{}}{} \\\\\n", row(cells)));
     }
     out.push_str("\\end{longtable}}\n");
-}
-
-#[allow(clippy::cast_precision_loss, reason = "a number of columns")]
-fn f64_of(k: usize) -> f64 {
-    k as f64
 }
 
 fn inline(text: &[Inline]) -> String {

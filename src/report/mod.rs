@@ -9,6 +9,8 @@ pub mod markdown;
 pub mod math;
 pub mod mathml;
 pub mod proof;
+pub mod radius;
+pub mod spectrum;
 pub mod summary;
 mod symbols;
 pub mod tex;

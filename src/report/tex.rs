@@ -17,7 +17,7 @@ pub fn math_tex(math: &Math) -> String {
         }
         Math::Digits(text) => text.replace('−', "-").replace('…', "\\ldots "),
         Math::Letter('|') | Math::Symbol('|') => "\\vert ".to_owned(),
-        Math::Letter(c) | Math::Symbol(c) => latex(*c).map_or_else(|| plain(*c), |s| spaced(s)),
+        Math::Letter(c) | Math::Symbol(c) => latex(*c).map_or_else(|| plain(*c), spaced),
         Math::Word(word) if matches!(word.as_str(), "dim" | "ln" | "max" | "min" | "ker" | "det") => {
             format!("\\{word} ")
         }

@@ -96,10 +96,10 @@ pub enum SchemeError {
     Divergent(String),
     /// The pieces do not meet.
     #[error(transparent)]
-    Curve(#[from] CurveError),
+    Curve(Box<CurveError>),
     /// The result is not a model.
     #[error(transparent)]
-    Shape(#[from] ShapeError),
+    Shape(Box<ShapeError>),
     /// A mesh rule that cannot be applied.
     #[error("{rule}: {message}")]
     Mesh {
@@ -116,6 +116,18 @@ pub enum SchemeError {
         /// What is wrong.
         message: String,
     },
+}
+
+impl From<CurveError> for SchemeError {
+    fn from(error: CurveError) -> Self {
+        Self::Curve(Box::new(error))
+    }
+}
+
+impl From<ShapeError> for SchemeError {
+    fn from(error: ShapeError) -> Self {
+        Self::Shape(Box::new(error))
+    }
 }
 
 impl SchemeError {

@@ -12,6 +12,7 @@ mod refine;
 mod registry;
 mod rules;
 mod tensor;
+mod text;
 mod univariate;
 mod vertex;
 
@@ -25,11 +26,12 @@ pub use json::parse_json;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use mesh::Sector;
-pub use patch::patch;
+pub use patch::{disc, patch};
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, list};
 pub use rules::{RuleInfo, mesh_rule, mesh_rules};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
+pub use text::{Heading, case_text};
 pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };

@@ -51,21 +51,48 @@ struct Site {
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
 pub fn patch(rule: &MeshRule, valence: usize) -> Result<Complex, SchemeError> {
-    let sector = match rule {
-        MeshRule::CatmullClark(_) => Sector::Quads,
-        MeshRule::Loop(_) => Sector::Triangles,
-        _ => return Err(failure(rule, "patches are built for Catmull–Clark's and Loop's rules only")),
-    };
-    // The matrix checks the valence, the weights and the sums.
-    super::local_matrix(rule, valence, 1)?;
-    let mesh = Mesh::disc(&vec![sector; valence], 7);
-    let centre = Centre::Vertex(0, 1);
-    let refined = rule.refine(&mesh, centre, 0)?;
-    let own_weights =
-        matches!(rule, MeshRule::CatmullClark(Some(_))) || matches!(rule, MeshRule::Loop(super::LoopWeights::Given(_)));
-    let regular = valence == if sector == Sector::Quads { 4 } else { 6 } && !own_weights;
-    let builder = Builder { rule, sector, mesh, refined, sites: sites(sector, regular) };
-    builder.complex()
+    Builder::new(rule, valence)?.complex()
+}
+
+/// The neighbourhood of a vertex as one automaton: state 0, the disc on two rings of points, has itself as piece 0 (so the
+/// vertex has the address `(0)`) and as further pieces the regular patches of the ring that this leaves, sector by sector;
+/// the other states are those of [`patch`] that these reach. No order of the pieces is meant.
+///
+/// # Errors
+/// As for [`patch`].
+///
+/// # Examples
+/// ```
+/// use secant::scheme::{MeshRule, disc};
+/// let shape = disc(&MeshRule::CatmullClark(None), 3)?;
+/// assert_eq!((shape.states[0].dim, shape.states[0].pieces.len()), (19, 10));
+/// # Ok::<(), secant::scheme::SchemeError>(())
+/// ```
+pub fn disc(rule: &MeshRule, valence: usize) -> Result<Shape, SchemeError> {
+    let builder = Builder::new(rule, valence)?;
+    let mut shape = builder.complex()?.shape;
+    let star = builder.mesh.star(0, Some(1)).ok_or_else(|| builder.small())?;
+    let ring = builder.mesh.walk(Centre::Vertex(0, 1), 2).ok_or_else(|| builder.small())?.points;
+    let step = super::local_matrix(rule, valence, 2)?.matrix.transpose();
+    let mut pieces = vec![Piece { target: 0, op: step, reversed: false }];
+    for spoke in star {
+        let points = builder.points(&builder.mesh, Centre::Vertex(0, spoke), Cell::Face, CENTRE)?;
+        let sector = builder.inclusion(&ring, &points)?;
+        for piece in shape.states[0].pieces.iter().skip(1) {
+            // Indices of states move up by one.
+            pieces.push(Piece { target: piece.target + 1, op: &sector * &piece.op, reversed: false });
+        }
+    }
+    for state in &mut shape.states {
+        state.pieces.iter_mut().for_each(|p| p.target += 1);
+        for boundary in [&mut state.left, &mut state.right].into_iter().flatten() {
+            boundary.vertex += 1;
+        }
+    }
+    let disc = State { name: "disc".to_owned(), kind: CellKind::Set, dim: ring.len(), pieces, left: None, right: None };
+    shape.states.insert(0, disc);
+    shape.check()?;
+    Ok(shape)
 }
 
 fn failure(rule: &MeshRule, message: &str) -> SchemeError {
@@ -106,7 +133,23 @@ struct Builder<'a> {
     sites: Vec<Site>,
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
+    fn new(rule: &'a MeshRule, valence: usize) -> Result<Self, SchemeError> {
+        let sector = match rule {
+            MeshRule::CatmullClark(_) => Sector::Quads,
+            MeshRule::Loop(_) => Sector::Triangles,
+            _ => return Err(failure(rule, "patches are built for Catmull–Clark's and Loop's rules only")),
+        };
+        // The matrix checks the valence, the weights and the sums.
+        super::local_matrix(rule, valence, 1)?;
+        let mesh = Mesh::disc(&vec![sector; valence], 7);
+        let refined = rule.refine(&mesh, Centre::Vertex(0, 1), 0)?;
+        let own_weights = matches!(rule, MeshRule::CatmullClark(Some(_)))
+            || matches!(rule, MeshRule::Loop(super::LoopWeights::Given(_)));
+        let usual = if sector == Sector::Quads { 4 } else { 6 };
+        Ok(Self { rule, sector, mesh, refined, sites: sites(sector, valence == usual && !own_weights) })
+    }
+
     fn complex(&self) -> Result<Complex, SchemeError> {
         let mut states = Vec::new();
         let mut faces = BTreeMap::new();

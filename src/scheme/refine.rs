@@ -85,7 +85,7 @@ pub(super) struct Refined {
 #[must_use]
 pub fn rational_cosine(k: usize, n: usize) -> Option<Rational> {
     // The angle in twelfths of a turn, where it is a whole number of them.
-    if n == 0 || (12 * k) % n != 0 {
+    if n == 0 || !(12 * k).is_multiple_of(n) {
         return None;
     }
     match (12 * k / n) % 12 {
@@ -169,7 +169,7 @@ impl MeshRule {
             }
             (Self::Sqrt3(_) | Self::FourEight, Centre::Vertex(v, first)) => {
                 self.turned(mesh, v, &mut draft)?;
-                let side = if turn % 2 == 0 { mesh.left(v, first) } else { mesh.left(first, v) };
+                let side = if turn.is_multiple_of(2) { mesh.left(v, first) } else { mesh.left(first, v) };
                 (Key::Vertex(v), Key::Face(side.ok_or_else(|| self.error("the mesh is too small"))?))
             }
             (_, Centre::Vertex(v, first)) => {
@@ -186,14 +186,14 @@ impl MeshRule {
         let quads = matches!(self, Self::CatmullClark(_));
         let triangles = matches!(self, Self::Loop(_) | Self::Butterfly { .. });
         for (f, face) in mesh.faces.iter().enumerate() {
-            match face.as_slice() {
-                &[a, b, c, d] if !triangles => {
+            match *face.as_slice() {
+                [a, b, c, d] if !triangles => {
                     draft.rows.insert(Key::Face(f), mean(face));
                     for (before, at, after) in [(d, a, b), (a, b, c), (b, c, d), (c, d, a)] {
                         draft.faces.push(vec![Key::Vertex(at), edge(at, after), Key::Face(f), edge(before, at)]);
                     }
                 }
-                &[a, b, c] if !quads => {
+                [a, b, c] if !quads => {
                     for (before, at, after) in [(c, a, b), (a, b, c), (b, c, a)] {
                         draft.faces.push(vec![Key::Vertex(at), edge(at, after), edge(before, at)]);
                     }

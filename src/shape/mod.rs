@@ -19,4 +19,4 @@ pub use enclosure::{Balls, oscillation};
 pub use identities::{Complex, ComplexError, Face, Failure, Identity, IdentityKind, Layout, OpName, Reversal, Side};
 pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
 pub use space::{Spaces, StateSpace, difference};
-pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError, characteristic};
+pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError};

@@ -2,7 +2,8 @@
 
 use super::identities::{Complex, ComplexError, Identity, OpName};
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, char_poly};
+use crate::poly::Poly;
 use std::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 
@@ -389,19 +390,10 @@ impl Family {
 }
 
 impl Forced {
-    /// The characteristic polynomial of all forced blocks, constant coefficient first.
+    /// The characteristic polynomial of all forced blocks.
     #[must_use]
-    pub fn polynomial(&self) -> Vec<Rational> {
-        self.blocks.iter().fold(vec![Rational::from(1)], |product, block| {
-            let factor = characteristic(block);
-            let mut out = vec![Rational::from(0); product.len() + factor.len() - 1];
-            for (i, a) in product.iter().enumerate() {
-                for (j, b) in factor.iter().enumerate() {
-                    out[i + j] += a * b;
-                }
-            }
-            out
-        })
+    pub fn polynomial(&self) -> Poly {
+        self.blocks.iter().fold(Poly::constant(Rational::from(1)), |product, block| &product * &char_poly(block))
     }
 
     fn transpose(&mut self) {
@@ -448,24 +440,4 @@ impl Forced {
 /// The column of the leading one of a row of an echelon form.
 fn rows_pivot(rows: &Matrix, row: usize) -> usize {
     rows.row(row).iter().position(|x| *x != 0).unwrap_or_default()
-}
-
-/// The characteristic polynomial `det(x − m)` of a square matrix, constant coefficient first (Faddeev and LeVerrier).
-///
-/// # Cost
-/// `O(n⁴)` rational operations.
-#[must_use]
-pub fn characteristic(m: &Matrix) -> Vec<Rational> {
-    let n = m.rows();
-    let mut coefficients = vec![Rational::from(1)];
-    let mut power = Matrix::identity(n);
-    for k in 1..=n {
-        let product = m * &power;
-        let trace = (0..n).fold(Rational::from(0), |s, i| s + &product[(i, i)]);
-        let c = -trace / Rational::from(k as u64);
-        power = &product + &Matrix::identity(n).scale(&c);
-        coefficients.push(c);
-    }
-    coefficients.reverse();
-    coefficients
 }

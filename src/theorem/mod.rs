@@ -1,9 +1,12 @@
 //! The theorem checker: from a shape to verdicts with evidence. Statements and proofs are in `docs/theory.md`.
 
 mod branch;
+pub mod cone;
+mod cone_search;
 mod dense;
 mod direction;
 mod point;
+pub mod regularity;
 mod ring;
 mod similarity;
 mod verdict;

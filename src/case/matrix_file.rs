@@ -1,0 +1,198 @@
+//! Matrices in the formats of other programs, as exact rationals.
+//!
+//! * plain text: `n`, then `n` rows of numbers; `#` starts a comment;
+//! * `MatrixMarket` (`array` or `coordinate`; `integer` or `real`; `general`, `symmetric` or `skew-symmetric`), with an
+//!   optional comment `% denominator: 64` that divides every entry;
+//! * literals: `matrix(QQ, [[1/2, 0], [0, 1]])` and `matrix(QQ, 2, 2, [...])` of `SageMath`, `{{1/2, 0}, {0, 1}}` of
+//!   Mathematica, `Matrix([[Rational(1, 2), 0], [0, 1]])` of `SymPy`, `[1/2 0; 0 1]` of MATLAB.
+//!
+//! Decimals are read exactly: `0.1` is 1/10. [`MatrixFile::decimals`] counts them, so that the user can be told.
+
+mod entry;
+mod literal;
+mod market;
+
+use crate::arith::{Rational, parse_rational};
+use crate::diagnostic::{Problem, SourceText};
+use crate::linalg::Matrix;
+use malachite_base::num::logic::traits::SignificantBits;
+
+/// Largest file that is read, in bytes.
+pub const MAX_FILE_BYTES: usize = 16 << 20;
+/// Largest number of rows and columns.
+pub const MAX_SIZE: usize = 1_000;
+/// Largest size of all numbers together, in bits.
+pub const MAX_BITS: u64 = 1 << 28;
+
+/// The notations that are understood.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// `n`, then the rows.
+    Plain,
+    /// NIST's exchange format.
+    MatrixMarket,
+    /// Rows in nested brackets, as in `SageMath` and `SymPy`.
+    NestedBrackets,
+    /// Rows in nested braces, as in Mathematica.
+    NestedBraces,
+    /// Rows separated by semicolons, as in MATLAB.
+    Semicolons,
+    /// Sizes and one list of entries, as in `matrix(QQ, 2, 2, [...])`.
+    Flat,
+}
+
+/// A square matrix that was read.
+#[derive(Debug, Clone)]
+pub struct MatrixFile {
+    /// The matrix.
+    pub matrix: Matrix,
+    /// How it was written.
+    pub format: Format,
+    /// How many entries were decimals, which were taken exactly.
+    pub decimals: usize,
+}
+
+/// What is wrong with a text, and where.
+#[derive(Debug)]
+struct Mistake {
+    code: &'static str,
+    message: String,
+    at: usize,
+    help: Option<String>,
+}
+
+impl Mistake {
+    fn new(code: &'static str, at: usize, message: impl Into<String>) -> Self {
+        Self { code, message: message.into(), at, help: None }
+    }
+
+    fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+/// Rows of exact numbers, with the number of decimals among them.
+struct Rows {
+    rows: Vec<Vec<Rational>>,
+    format: Format,
+    decimals: usize,
+}
+
+/// Reads a square matrix in any of the formats.
+///
+/// # Errors
+/// A [`Problem`] with the place of the mistake: not a matrix, ragged or not square, too large, numbers that are none.
+pub fn parse(text: &str) -> Result<MatrixFile, Problem> {
+    parse_named("matrix", text)
+}
+
+/// The same as [`parse`], for a file whose name the messages show.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_named(name: &str, text: &str) -> Result<MatrixFile, Problem> {
+    read(text).map_err(|m| {
+        let source = SourceText::new(name, text);
+        let end = text[m.at.min(text.len())..].chars().next().map_or(0, char::len_utf8);
+        let problem = Problem::new(format!("secant::matrix::{}", m.code), m.message).with_source(&source);
+        let problem = problem.with_mark(m.at.min(text.len())..m.at.min(text.len()) + end);
+        match m.help {
+            Some(help) => problem.with_help(help),
+            None => problem,
+        }
+    })
+}
+
+fn read(text: &str) -> Result<MatrixFile, Mistake> {
+    if text.len() > MAX_FILE_BYTES {
+        return Err(Mistake::new("limit", 0, format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20)));
+    }
+    let start = text.trim_start();
+    let rows = if start.get(..14).is_some_and(|s| s.eq_ignore_ascii_case("%%MatrixMarket")) {
+        market::read(text)?
+    } else if start.starts_with(|c: char| c.is_ascii_digit() || c == '#') && !text.contains(['[', '{', '(']) {
+        plain(text)?
+    } else {
+        literal::read(text)?
+    };
+    square(rows)
+}
+
+fn square(found: Rows) -> Result<MatrixFile, Mistake> {
+    let n = found.rows.len();
+    for (i, row) in found.rows.iter().enumerate() {
+        if row.len() != n {
+            let message =
+                format!("the matrix is not square: row {} has {} entries, there are {n} rows", i + 1, row.len());
+            return Err(Mistake::new("square", 0, message).help("a spectrum belongs to a square matrix"));
+        }
+    }
+    check_size(n, 0)?;
+    Ok(MatrixFile { matrix: Matrix::from_rows(n, found.rows), format: found.format, decimals: found.decimals })
+}
+
+fn check_size(n: usize, at: usize) -> Result<(), Mistake> {
+    if n > MAX_SIZE {
+        let message = format!("a matrix of size {n} is over the limit of {MAX_SIZE}");
+        return Err(Mistake::new("limit", at, message).help("exact spectra of this size are out of reach"));
+    }
+    Ok(())
+}
+
+/// What the numbers of a file amount to so far.
+#[derive(Default)]
+struct Tally {
+    decimals: usize,
+    bits: u64,
+}
+
+/// One number, counted when it is a decimal.
+fn number(token: &str, at: usize, tally: &mut Tally) -> Result<Rational, Mistake> {
+    let value = parse_rational(token).map_err(|e| Mistake::new("number", at, e.to_string()))?;
+    tally.decimals += usize::from(token.contains(['.', 'e', 'E']));
+    tally.bits += value.numerator_ref().significant_bits() + value.denominator_ref().significant_bits();
+    if tally.bits > MAX_BITS {
+        return Err(Mistake::new("limit", at, "the numbers of this file are too long altogether"));
+    }
+    Ok(value)
+}
+
+/// The words of a text with their byte offsets; `comment` starts a comment.
+fn words(text: &str, comment: char) -> impl Iterator<Item = (usize, &str)> {
+    let base = text.as_ptr() as usize;
+    text.lines()
+        .map(move |line| line.split(comment).next().unwrap_or_default())
+        .flat_map(str::split_ascii_whitespace)
+        .map(move |word| (word.as_ptr() as usize - base, word))
+}
+
+fn plain(text: &str) -> Result<Rows, Mistake> {
+    let mut tokens = words(text, '#');
+    let (at, first) = tokens.next().ok_or_else(|| Mistake::new("empty", 0, "there is no matrix in this file"))?;
+    let n: usize = first.parse().map_err(|_| {
+        Mistake::new("size", at, format!("`{first}` is not the size of a matrix")).help("the file starts with n")
+    })?;
+    check_size(n, at)?;
+    let mut tally = Tally::default();
+    let mut rows = Vec::new();
+    for i in 0..n {
+        let mut row = Vec::with_capacity(n);
+        for j in 0..n {
+            let Some((at, word)) = tokens.next() else {
+                let message = format!("{} numbers are expected, but only {} are there", n * n, i * n + j);
+                return Err(Mistake::new("short", text.len(), message));
+            };
+            row.push(number(word, at, &mut tally)?);
+        }
+        rows.push(row);
+    }
+    if let Some((at, word)) = tokens.next() {
+        let message = format!("`{word}` comes after the last of {} entries", n * n);
+        return Err(Mistake::new("long", at, message).help("the file starts with n, then come n rows of n numbers"));
+    }
+    Ok(Rows { rows, format: Format::Plain, decimals: tally.decimals })
+}
+
+#[cfg(test)]
+mod tests;
