@@ -152,7 +152,7 @@ fn json_has_a_witness_or_a_reason() {
         assert!(!point["witness"].is_null() || !point["reason"].is_null());
     }
     let refused = json("cases/refused/one-over-zero.toml", 2);
-    assert_eq!(refused["error"]["code"], "secant::case::number");
+    assert_eq!(refused["error"]["code"], "secant::case::zero-denominator");
     assert_eq!(refused["error"]["line"], 6);
 }
 
