@@ -140,7 +140,7 @@ pub(super) fn evaluate(f: &[Integer], z: &Ball) -> Values {
     let real = *xi == 0;
     for (k, c) in f.iter().enumerate().rev() {
         if real {
-            d.0 = (d.0 * xr >> precision) + &y.0;
+            d.0 = ((d.0 * xr) >> precision) + &y.0;
             y.0 = (y.0 * xr) >> precision;
         } else {
             d = rotate(&d, xr, xi, precision);

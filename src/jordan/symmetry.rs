@@ -27,7 +27,7 @@ impl Symmetry {
         for order in (3..=n).rev() {
             for centre in [0, 1] {
                 let rest = n - centre;
-                if rest % order != 0 {
+                if !rest.is_multiple_of(order) {
                     continue;
                 }
                 let sector = rest / order;

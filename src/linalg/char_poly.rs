@@ -188,7 +188,11 @@ mod tests {
         for n in 0..9 {
             let a = Matrix::from_fn(n, n, |_, _| {
                 let r = crate::poly::modp::next_random(&mut seed);
-                if r % 3 == 0 { ratio(0, 1) } else { ratio((r >> 20) as i64 % 50 - 25, 1 + (r >> 40) as i64 % 30) }
+                if r.is_multiple_of(3) {
+                    ratio(0, 1)
+                } else {
+                    ratio((r >> 20) as i64 % 50 - 25, 1 + (r >> 40) as i64 % 30)
+                }
             });
             let f = char_poly(&a);
             assert_eq!(f.degree(), Some(n));
