@@ -28,7 +28,7 @@ impl Written {
             if entries.len() != width {
                 let note = format!("{} here, {width} in the first row", entries_text(entries.len()));
                 return Err(row
-                    .problem("ragged", format!("the rows of {} have different lengths", node.what), note)
+                    .problem("size", format!("the rows of {} have different lengths", node.what), note)
                     .with_help("every row of a matrix has the same number of entries"));
             }
             if entries.len() > MAX_COORDINATES || rows.len() == MAX_COORDINATES {
@@ -100,7 +100,10 @@ impl Written {
         };
         let message = format!("{this} {line} of {} sums to {}, not to 1", self.what, short(sum));
         let marks: Vec<Range<usize>> = match convention {
-            Convention::Rows => vec![self.places[line][0].start..self.places[line][self.width() - 1].end],
+            Convention::Rows => {
+                let row = &self.places[line];
+                std::iter::once(row[0].start..row[self.width() - 1].end).collect()
+            }
             _ => self.places.iter().map(|row| row[line].clone()).collect(),
         };
         let mut problem =

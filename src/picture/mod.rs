@@ -3,6 +3,7 @@
 
 mod projection;
 mod svg;
+mod tikz;
 mod trace;
 
 pub use projection::Projection;
@@ -43,6 +44,10 @@ pub enum MarkStyle {
 pub struct Picture {
     /// A complete SVG document; the same input gives the same bytes.
     pub svg: String,
+    /// A small SVG of the shape alone, without marks.
+    pub thumbnail: String,
+    /// The same as a TikZ picture for LaTeX, with fewer points.
+    pub tikz: String,
     /// What is to be seen and how it was projected.
     pub caption: String,
     /// The same for those who cannot see it.
@@ -87,7 +92,13 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
     };
     let caption = format!("The {what}, its control polygon and the rays found. {}{drawn}", projection.words());
     let alt = format!("Drawing of the {what} {title} with its control polygon. {}{drawn}", projection.words());
-    Some(Picture { svg: canvas.finish(), caption, alt })
+    Some(Picture {
+        svg: canvas.svg(),
+        thumbnail: canvas.thumbnail(),
+        tikz: tikz::picture(canvas.elements()),
+        caption,
+        alt,
+    })
 }
 
 #[cfg(test)]

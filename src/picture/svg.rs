@@ -13,13 +13,26 @@ const STYLE: &str = ".sc-p{fill:none;stroke:#8a8f98;stroke-width:1;stroke-dashar
 .sc-t{font:12px sans-serif;fill:#3c4048}\
 .sc-tangent{stroke:#1a8a4a;fill:#1a8a4a}.sc-cusp{stroke:#b06a00;fill:#b06a00}\
 .sc-corner{stroke:#c4332b;fill:#c4332b}.sc-open{stroke:#7a4fb5;fill:#7a4fb5}\
+path.sc-r{fill:none}\
 @media (prefers-color-scheme:dark){.sc-c,.sc-s{stroke:#7fb0ff}.sc-t{fill:#d4d8de}\
 .sc-tangent{stroke:#5fd08f;fill:#5fd08f}.sc-cusp{stroke:#f0b050;fill:#f0b050}\
 .sc-corner{stroke:#ff8077;fill:#ff8077}.sc-open{stroke:#c0a0f0;fill:#c0a0f0}}";
 
-/// An SVG document being drawn; y points up in the coordinates given to it.
+/// Something drawn, in pixels with y pointing down.
+pub(super) enum Element {
+    /// A broken line of a class.
+    Path { class: &'static str, points: Vec<[f64; 2]> },
+    /// Points of a class.
+    Cloud { class: &'static str, points: Vec<[f64; 2]> },
+    /// A disc.
+    Disc { class: &'static str, at: [f64; 2], radius: f64 },
+    /// Words beside a point; `left` of it or right.
+    Label { at: [f64; 2], left: bool, text: String },
+}
+
+/// A drawing in the making; y points up in the coordinates given to it.
 pub(super) struct Canvas {
-    body: String,
+    elements: Vec<Element>,
     title: String,
     scale: f64,
     shift: [f64; 2],
@@ -38,44 +51,32 @@ impl Canvas {
         let height = (span[1] * scale).max(80.0) + 2.0 * MARGIN;
         let middle = [(lo[0] + hi[0]) / 2.0, (lo[1] + hi[1]) / 2.0];
         let shift = [WIDTH / 2.0 - middle[0] * scale, height / 2.0 + middle[1] * scale];
-        Self { body: String::new(), title: escaped(title), scale, shift, height }
+        Self { elements: Vec::new(), title: title.to_owned(), scale, shift, height }
     }
 
     fn place(&self, p: [f64; 2]) -> [f64; 2] {
         [self.shift[0] + p[0] * self.scale, self.shift[1] - p[1] * self.scale]
     }
 
-    fn path(&self, points: &[[f64; 2]]) -> String {
-        let mut d = String::new();
-        for (k, p) in points.iter().enumerate() {
-            let [x, y] = self.place(*p);
-            let _ = write!(d, "{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(x), fixed(y));
-        }
-        d
+    fn placed(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        points.iter().map(|p| self.place(*p)).collect()
     }
 
     pub fn polygon(&mut self, corners: &[[f64; 2]]) {
         if corners.len() < 2 {
             return;
         }
-        let _ = writeln!(self.body, "<path class=\"sc-p\" d=\"{}\"/>", self.path(corners));
-        for p in corners {
-            let [x, y] = self.place(*p);
-            let _ = writeln!(self.body, "<circle class=\"sc-k\" cx=\"{}\" cy=\"{}\" r=\"2.5\"/>", fixed(x), fixed(y));
-        }
+        let points = self.placed(corners);
+        self.elements.push(Element::Path { class: "sc-p", points: points.clone() });
+        self.elements.extend(points.into_iter().map(|at| Element::Disc { class: "sc-k", at, radius: 2.5 }));
     }
 
     pub fn curve(&mut self, points: &[[f64; 2]]) {
-        let _ = writeln!(self.body, "<path class=\"sc-c\" d=\"{}\"/>", self.path(points));
+        self.elements.push(Element::Path { class: "sc-c", points: self.placed(points) });
     }
 
     pub fn cloud(&mut self, points: &[[f64; 2]]) {
-        let mut d = String::new();
-        for p in points {
-            let [x, y] = self.place(*p);
-            let _ = write!(d, "M{} {}h0", fixed(x), fixed(y));
-        }
-        let _ = writeln!(self.body, "<path class=\"sc-s\" d=\"{d}\"/>");
+        self.elements.push(Element::Cloud { class: "sc-s", points: self.placed(points) });
     }
 
     /// A point with its rays, each as an arrow of fixed length.
@@ -86,52 +87,104 @@ impl Canvas {
             MarkStyle::Corner => "sc-corner",
             MarkStyle::Open => "sc-open",
         };
-        let [x, y] = self.place(at);
+        let at = self.place(at);
         for ray in rays {
             let norm = ray[0].hypot(ray[1]);
             if norm > 1e-12 {
-                self.arrow(class, [x, y], [ray[0] / norm, -ray[1] / norm]);
+                self.arrow(class, at, [ray[0] / norm, -ray[1] / norm]);
             }
         }
-        let (cx, cy) = (fixed(x), fixed(y));
-        let _ = writeln!(self.body, "<circle class=\"sc-d {class}\" cx=\"{cx}\" cy=\"{cy}\" r=\"4\"/>");
-        let (anchor, dx) = if x > WIDTH - 90.0 { ("end", -8.0) } else { ("start", 8.0) };
-        let _ = writeln!(
-            self.body,
-            "<text class=\"sc-t\" x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\">{}</text>",
-            fixed(x + dx),
-            fixed((y - 8.0).max(14.0)),
-            escaped(label)
-        );
+        self.elements.push(Element::Disc { class, at, radius: 4.0 });
+        let left = at[0] > WIDTH - 90.0;
+        let spot = [if left { at[0] - 8.0 } else { at[0] + 8.0 }, (at[1] - 8.0).max(14.0)];
+        self.elements.push(Element::Label { at: spot, left, text: label.to_owned() });
     }
 
-    fn arrow(&mut self, class: &str, from: [f64; 2], unit: [f64; 2]) {
+    fn arrow(&mut self, class: &'static str, from: [f64; 2], unit: [f64; 2]) {
         let at = |along: f64, across: f64| {
-            let x = from[0] + unit[0] * along - unit[1] * across;
-            let y = from[1] + unit[1] * along + unit[0] * across;
-            format!("{} {}", fixed(x), fixed(y))
+            [from[0] + unit[0] * along - unit[1] * across, from[1] + unit[1] * along + unit[0] * across]
         };
-        let (tip, left, right) = (at(RAY, 0.0), at(RAY - 9.0, 4.0), at(RAY - 9.0, -4.0));
-        let _ = writeln!(
-            self.body,
-            "<path class=\"sc-r {class}\" d=\"M{}L{}M{left}L{tip}L{right}\" style=\"fill:none\"/>",
-            at(0.0, 0.0),
-            tip
-        );
+        self.elements.push(Element::Path { class, points: vec![from, at(RAY, 0.0)] });
+        let head = vec![at(RAY - 9.0, 4.0), at(RAY, 0.0), at(RAY - 9.0, -4.0)];
+        self.elements.push(Element::Path { class, points: head });
     }
 
-    pub fn finish(self) -> String {
+    /// The drawing as a complete SVG document.
+    pub fn svg(&self) -> String {
         let (w, h) = (fixed(WIDTH), fixed(self.height));
+        let body: String = self.elements.iter().map(svg_element).collect();
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\">\n\
-             <title>{}</title>\n<style>{STYLE}</style>\n{}</svg>\n",
-            self.title, self.body
+             <title>{}</title>\n<style>{STYLE}</style>\n{body}</svg>\n",
+            escaped(&self.title)
         )
+    }
+
+    /// The shape alone, with few points, as a small SVG document.
+    pub fn thumbnail(&self) -> String {
+        let mut body = String::new();
+        for element in &self.elements {
+            let small = match element {
+                Element::Path { class: class @ "sc-c", points } => Element::Path { class, points: spaced(points, 5.0) },
+                Element::Cloud { class, points } => Element::Cloud { class, points: spaced(points, 7.0) },
+                _ => continue,
+            };
+            body.push_str(&svg_element(&small));
+        }
+        let (w, h) = (fixed(WIDTH), fixed(self.height));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" aria-hidden=\"true\">\n{body}</svg>\n"
+        )
+    }
+
+    /// The elements, for other formats.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+}
+
+/// Drops points near the one kept before.
+pub(super) fn spaced(points: &[[f64; 2]], distance: f64) -> Vec<[f64; 2]> {
+    let mut out: Vec<[f64; 2]> = Vec::new();
+    for (k, p) in points.iter().enumerate() {
+        let near = |q: &[f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) < distance;
+        if !out.last().is_some_and(near) || k + 1 == points.len() {
+            out.push(*p);
+        }
+    }
+    out
+}
+
+fn svg_element(element: &Element) -> String {
+    let mut d = String::new();
+    match element {
+        Element::Path { class, points } => {
+            for (k, [x, y]) in points.iter().enumerate() {
+                let _ = write!(d, "{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(*x), fixed(*y));
+            }
+            let ray = if matches!(*class, "sc-p" | "sc-c") { String::new() } else { "sc-r ".to_owned() };
+            format!("<path class=\"{ray}{class}\" d=\"{d}\"/>\n")
+        }
+        Element::Cloud { class, points } => {
+            for [x, y] in points {
+                let _ = write!(d, "M{} {}h0", fixed(*x), fixed(*y));
+            }
+            format!("<path class=\"{class}\" d=\"{d}\"/>\n")
+        }
+        Element::Disc { class, at: [x, y], radius } => {
+            let (x, y, r) = (fixed(*x), fixed(*y), fixed(*radius));
+            format!("<circle class=\"sc-d {class}\" cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n")
+        }
+        Element::Label { at: [x, y], left, text } => {
+            let anchor = if *left { "end" } else { "start" };
+            let (x, y, text) = (fixed(*x), fixed(*y), escaped(text));
+            format!("<text class=\"sc-t\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>\n")
+        }
     }
 }
 
 /// Two digits after the point, without trailing zeros and without a negative zero.
-fn fixed(x: f64) -> String {
+pub(super) fn fixed(x: f64) -> String {
     let text = format!("{x:.2}");
     let short = text.trim_end_matches('0').trim_end_matches('.');
     if short == "-0" { "0".to_owned() } else { short.to_owned() }

@@ -23,6 +23,8 @@ pub enum Block {
     Formula(Math),
     /// Points of a list.
     List(Vec<Line>),
+    /// Terms with what is to be said about them.
+    Facts(Vec<(String, Line)>),
     /// Conditions with what was found about them.
     Checks(Vec<Check>),
     /// A table.
@@ -38,6 +40,8 @@ pub enum Block {
     Figure {
         /// A complete SVG document.
         svg: String,
+        /// The same as a TikZ picture.
+        tikz: String,
         /// What can be seen, for those who cannot see it.
         alt: String,
         /// The words below it.

@@ -1,0 +1,151 @@
+//! The command line: arguments, one file for each command, exit codes.
+
+mod approximate;
+mod certify;
+mod explain;
+mod gallery;
+mod init;
+mod many;
+mod output;
+mod progress;
+
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Everything was proved.
+pub const PROVED: u8 = 0;
+/// Something was refuted.
+pub const REFUTED: u8 = 1;
+/// The input or the command line is wrong.
+pub const BAD_INPUT: u8 = 2;
+/// Something is neither proved nor refuted.
+pub const UNDETERMINED: u8 = 3;
+
+const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input. Of several cases: 2 if one cannot be read, \
+                     otherwise 1 if one is refuted, otherwise 3 if one is undetermined.";
+
+/// Proves, in exact arithmetic, where self-similar shapes have tangents.
+#[derive(Debug, Parser)]
+#[command(name = "secant", version, about, after_help = CODES, max_term_width = 80)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Certify a case: prove or refute tangents at its end points, its joints, and a dense set.
+    #[command(after_help = CODES)]
+    Certify(CertifyArgs),
+    /// Print a statement with its proof and reference.
+    Explain {
+        /// Its name, such as `theorem-2`; without it the names are listed.
+        theorem: Option<String>,
+    },
+    /// Write a commented starter case.
+    Init {
+        /// Its name; NAME.toml is written to the current directory.
+        name: String,
+    },
+    /// Certify all cases of a directory and write a page of pictures and verdicts, with a report for each.
+    Gallery(GalleryArgs),
+    /// Print the completions for a shell.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page (roff).
+    Man,
+}
+
+#[derive(Debug, Args)]
+struct CertifyArgs {
+    /// Case files; `-` reads the standard input.
+    #[arg(required = true, value_name = "CASE")]
+    cases: Vec<PathBuf>,
+    /// Print the result as JSON (docs/json.md).
+    #[arg(long, conflicts_with = "jsonl")]
+    json: bool,
+    /// Print one line of JSON for each case.
+    #[arg(long)]
+    jsonl: bool,
+    /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
+    #[arg(long, value_name = "ADDRESS")]
+    address: Vec<String>,
+    /// Write a proof to a file: .html, .md or .tex.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Draw the attractor with the tangents found.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Only compute in floating point: a quick look, never a proof (exit code 3).
+    #[arg(long, conflicts_with_all = ["report", "svg"])]
+    approx: bool,
+    /// Print nothing but problems; the exit code tells the verdict.
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Print whole spectra, rates and exponents.
+    #[arg(short, long)]
+    verbose: bool,
+}
+
+#[derive(Debug, Args)]
+struct GalleryArgs {
+    /// The directory with the families of cases.
+    #[arg(default_value = "cases", value_name = "CASES")]
+    cases: PathBuf,
+    /// Where the page is written.
+    #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
+    out: PathBuf,
+    /// Write nothing; fail if the page is not what it would be.
+    #[arg(long)]
+    check: bool,
+}
+
+/// Runs the program on the arguments of the process.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            let code = if error.use_stderr() { BAD_INPUT } else { PROVED };
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let code = match cli.command {
+        Command::Certify(args) => certify::run(&args),
+        Command::Explain { theorem } => explain::run(theorem.as_deref()),
+        Command::Init { name } => init::run(&name),
+        Command::Gallery(args) => gallery::run(&args),
+        Command::Completions { shell } => completions(shell),
+        Command::Man => man(),
+    };
+    ExitCode::from(code)
+}
+
+fn completions(shell: clap_complete::Shell) -> u8 {
+    let mut text = Vec::new();
+    clap_complete::generate(shell, &mut Cli::command(), "secant", &mut text);
+    output::print(&String::from_utf8_lossy(&text));
+    PROVED
+}
+
+fn man() -> u8 {
+    let mut text = Vec::new();
+    // Writing to memory does not fail.
+    let _ = clap_mangen::Man::new(Cli::command()).render(&mut text);
+    output::print(&String::from_utf8_lossy(&text));
+    PROVED
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+}

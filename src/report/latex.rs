@@ -1,0 +1,185 @@
+//! Documents as LaTeX that a stock TeX compiles (article, amsmath, amsthm, longtable, TikZ).
+
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::tex::math_tex;
+
+const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
+\\usepackage[T1]{fontenc}
+\\usepackage[utf8]{inputenc}
+\\usepackage{lmodern}
+\\usepackage{amsmath,amssymb,amsthm}
+\\usepackage{array,longtable}
+\\usepackage{graphicx}
+\\usepackage{xcolor}
+\\usepackage{tikz}
+\\usepackage[margin=25mm]{geometry}
+\\setcounter{MaxMatrixCols}{64}
+\\newtheorem*{quoted}{Statement}
+\\definecolor{good}{HTML}{12693A}
+\\definecolor{bad}{HTML}{B3261E}
+\\definecolor{open}{HTML}{7D4A00}
+\\definecolor{neutral}{HTML}{5C6470}
+\\definecolor{curve}{HTML}{1F5FBF}
+\\definecolor{tangent}{HTML}{1A8A4A}
+\\definecolor{cusp}{HTML}{B06A00}
+\\definecolor{corner}{HTML}{C4332B}
+\\definecolor{undecided}{HTML}{7A4FB5}
+\\sloppy
+\\setlength{\\parindent}{0pt}
+\\setlength{\\parskip}{6pt}
+";
+
+/// Writes a document as a complete LaTeX file.
+#[must_use]
+pub fn render(document: &Document) -> String {
+    let title = escaped(&document.title);
+    let mut out = format!("{PREAMBLE}\\title{{{title}}}\n\\author{{}}\n\\date{{}}\n\\begin{{document}}\n\\maketitle\n");
+    for block in &document.blocks {
+        out.push('\n');
+        write_block(&mut out, block);
+    }
+    out.push_str("\n\\end{document}\n");
+    out
+}
+
+fn write_block(out: &mut String, block: &Block) {
+    match block {
+        Block::Heading(level, text) => {
+            let command = match level {
+                0..=2 => "section",
+                3 => "subsection",
+                _ => "subsubsection",
+            };
+            out.push_str(&format!("\\{command}*{{{}}}\n", inline(text)));
+        }
+        Block::Paragraph(text) => out.push_str(&format!("{}\n", inline(text))),
+        Block::Formula(math) => {
+            // Wide matrices are shrunk to the line.
+            let body = math_tex(math);
+            let wide = body.matches('&').count() > 40 || body.len() > 600;
+            if wide {
+                out.push_str(&format!("\\[\\resizebox{{0.98\\linewidth}}{{!}}{{$\\displaystyle {body}$}}\\]\n"));
+            } else {
+                out.push_str(&format!("\\[{body}\\]\n"));
+            }
+        }
+        Block::List(items) => {
+            let items: String = items.iter().map(|i| format!("\\item {{}}{}\n", inline(i))).collect();
+            out.push_str(&format!("\\begin{{itemize}}\n{items}\\end{{itemize}}\n"));
+        }
+        Block::Facts(facts) => {
+            let facts: String = facts.iter().map(|(t, d)| format!("\\item[{}] {}\n", escaped(t), inline(d))).collect();
+            out.push_str(&format!("\\begin{{description}}\n{facts}\\end{{description}}\n"));
+        }
+        Block::Checks(checks) => {
+            out.push_str("\\begin{itemize}\n");
+            for Check { tone, text } in checks {
+                out.push_str(&format!("\\item[{}] {}\n", tick(*tone), inline(text)));
+            }
+            out.push_str("\\end{itemize}\n");
+        }
+        Block::Table(table) => write_table(out, table),
+        Block::Statement { name, body } => {
+            out.push_str(&format!("\\begin{{quoted}}[{}]\n{}\n\\end{{quoted}}\n", escaped(name), inline(body)));
+        }
+        Block::Figure { tikz, caption, .. } => {
+            out.push_str(&format!(
+                "\\begin{{center}}\n{tikz}\n\\small\\itshape {}\n\\end{{center}}\n",
+                inline(caption)
+            ));
+        }
+        Block::Details { summary, blocks } => {
+            out.push_str(&format!("{}\n", inline(summary)));
+            for block in blocks {
+                out.push('\n');
+                write_block(out, block);
+            }
+        }
+    }
+}
+
+fn tick(tone: Tone) -> &'static str {
+    match tone {
+        Tone::Good => "{\\color{good}$\\checkmark$}",
+        Tone::Bad => "{\\color{bad}$\\times$}",
+        Tone::Open => "{\\color{open}?}",
+        Tone::Neutral => "{\\color{neutral}$\\cdot$}",
+    }
+}
+
+fn write_table(out: &mut String, table: &Table) {
+    let columns = table.header.len().max(1);
+    let permille = 940 / columns;
+    let spec = format!(">{{\\raggedright\\arraybackslash}}p{{0.{permille:03}\\linewidth}}").repeat(columns);
+    let row = |cells: &[Line]| cells.iter().map(|c| inline(c)).collect::<Vec<_>>().join(" & ");
+    out.push_str(&format!("{{\\small\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n"));
+    out.push_str(&format!("{} \\\\\n\\hline\n\\endhead\n", row(&table.header)));
+    for cells in &table.rows {
+        out.push_str(&format!("{{}}{} \\\\\n", row(cells)));
+    }
+    out.push_str("\\end{longtable}}\n");
+}
+
+fn inline(text: &[Inline]) -> String {
+    text.iter()
+        .map(|run| match run {
+            Inline::Text(t) => escaped(t),
+            Inline::Strong(t) => format!("\\textbf{{{}}}", escaped(t)),
+            Inline::Code(t) => format!("\\texttt{{{}}}", escaped(t)),
+            Inline::Math(m) => format!("${}$", math_tex(m)),
+            Inline::Mark(tone, t) => {
+                let colour = match tone {
+                    Tone::Good => "good",
+                    Tone::Bad => "bad",
+                    Tone::Open => "open",
+                    Tone::Neutral => "neutral",
+                };
+                format!("\\textcolor{{{colour}}}{{\\textbf{{{}}}}}", escaped(t))
+            }
+        })
+        .collect()
+}
+
+/// Text with TeX's special characters and the symbols that its fonts lack replaced.
+pub(super) fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        match c {
+            '\\' => out.push_str("\\textbackslash{}"),
+            '{' | '}' | '#' | '$' | '%' | '&' | '_' => {
+                out.push('\\');
+                out.push(c);
+            }
+            '^' => out.push_str("\\textasciicircum{}"),
+            '~' => out.push_str("\\textasciitilde{}"),
+            '<' => out.push_str("\\textless{}"),
+            '>' => out.push_str("\\textgreater{}"),
+            '"' => out.push_str("\\textquotedbl{}"),
+            '′' => out.push_str("$'$"),
+            '…' => out.push_str("\\dots{}"),
+            c if c.is_control() => out.push(' '),
+            // Letters of the Latin blocks are in the T1 fonts.
+            c if (c as u32) < 0x180 => out.push(c),
+            c => match super::symbols::latex(c) {
+                Some(command) => out.push_str(&format!("$ {command} $").replace("$ ", "$").replace(" $", "$")),
+                None => out.push('?'),
+            },
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::words;
+    use super::*;
+
+    #[test]
+    fn special_characters_are_harmless() {
+        let document =
+            Document { title: "100% \\input{x} $".into(), blocks: vec![Block::Paragraph(words("a_b ∈ ρ ≈ 日"))] };
+        let text = render(&document);
+        assert!(text.contains("100\\% \\textbackslash{}input\\{x\\} \\$"), "{text}");
+        assert!(text.contains("a\\_b $\\in$ $\\rho$ $\\approx$ ?"), "{text}");
+    }
+}

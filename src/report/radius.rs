@@ -1,0 +1,149 @@
+//! Joint spectral radii, regularity and cones as text for a terminal.
+
+use crate::arith::{Integer, Interval, Rational, abs};
+use crate::radius::{Growth, JointRadius, Proof};
+use crate::shape::word_text;
+use crate::theorem::cone::{CommonCone, ConeAnswer};
+use crate::theorem::regularity::{Attained, Regularity};
+use malachite_base::num::arithmetic::traits::{Ceiling, Floor, Pow};
+use std::fmt::Write as _;
+
+/// Places after the point.
+const PLACES: u64 = 12;
+
+/// A decimal of a rational, rounded down or up.
+#[must_use]
+pub fn decimal(x: &Rational, up: bool, places: u64) -> String {
+    let scaled = x * Rational::from(10).pow(places);
+    let whole: Integer = if up { scaled.ceiling() } else { scaled.floor() };
+    let negative = whole < 0;
+    let digits = abs(&Rational::from(whole)).to_string();
+    let width = usize::try_from(places).unwrap_or(0);
+    let padded = format!("{digits:0>width$}", width = width + 1);
+    let (head, tail) = padded.split_at(padded.len() - width);
+    let point = if width == 0 { "" } else { "." };
+    format!("{}{head}{point}{tail}", if negative { "-" } else { "" })
+}
+
+/// `[lo, hi]` with outward rounding, or the number itself where it is short.
+#[must_use]
+pub fn interval(x: &Interval) -> String {
+    let short = x.lo.to_string();
+    if x.lo == x.hi && short.len() <= 24 {
+        return short;
+    }
+    format!("[{}, {}]", decimal(&x.lo, false, PLACES), decimal(&x.hi, true, PLACES))
+}
+
+/// The answer of `secant jsr`.
+#[must_use]
+pub fn joint_radius(radius: &JointRadius) -> String {
+    let mut out = String::new();
+    let Some(lower) = &radius.lower else {
+        return match radius.exact {
+            true => "joint spectral radius 0: all long products vanish\n".to_owned(),
+            false => "joint spectral radius: not decided\n".to_owned(),
+        };
+    };
+    let value = lower.enclosure(64);
+    let root = lower.root.minpoly().primitive_display("x");
+    let power = if lower.length == 1 { String::new() } else { format!(" to the power 1/{}", lower.length) };
+    let _ = writeln!(out, "word        {} ({} letters)", word_text(&lower.word), lower.length);
+    let _ = writeln!(out, "eigenvalue  root of {root}, its modulus{power}");
+    match (&radius.upper, radius.exact) {
+        (_, true) => _ = writeln!(out, "radius      = {}  (proved: the word attains it)", interval(&value)),
+        (Some(upper), false) => {
+            let both = Interval::new(value.lo.clone(), upper.clone());
+            let _ = writeln!(out, "radius      in {}  (not decided whether the word attains it)", interval(&both));
+        }
+        (None, false) => {
+            _ = writeln!(out, "radius      >= {}  (no upper bound found)", decimal(&value.lo, false, PLACES))
+        }
+    }
+    let _ = writeln!(
+        out,
+        "growth      {}",
+        match radius.growth {
+            Growth::Bounded => "bounded: products of k letters stay below a constant times radius^k".to_owned(),
+            Growth::Unbounded(size) => format!("marginal: a Jordan block of size {size} at the largest modulus"),
+            Growth::Unknown => "not decided".to_owned(),
+        }
+    );
+    for (k, block) in radius.blocks.iter().enumerate() {
+        let proof = match &block.proof {
+            Some(Proof::Polytope(p)) => format!("polytope of {} points", p.points.len()),
+            Some(Proof::Quadratic(_)) => "quadratic norm".to_owned(),
+            None => "no proof".to_owned(),
+        };
+        let bound = block.bound.as_ref().map_or_else(|| "-".to_owned(), |b| decimal(b, true, PLACES));
+        let bound = if block.attains { "the radius".to_owned() } else { bound };
+        let _ = writeln!(out, "block {k}     dimensions {:?}: {proof}, at most {bound}", block.block.system.dims);
+    }
+    out
+}
+
+/// The table of `secant regularity`.
+#[must_use]
+pub fn regularity(r: &Regularity) -> String {
+    let mut out = String::new();
+    let _ = writeln!(out, "arity {}, sum rules of order {}", r.arity, r.sum_rules);
+    let factor: Vec<String> = r.factor.iter().map(ToString::to_string).collect();
+    let _ = writeln!(out, "factor b    {}", factor.join(" "));
+    out.push_str(&joint_radius(&r.radius));
+    let _ = writeln!(out, "k   JSR of differences of order k+1   bound {}^-k   C^k", r.arity);
+    for o in &r.orders {
+        let radius = o.radius.as_ref().map_or_else(|| "-".to_owned(), interval);
+        let word = match o.smooth {
+            Some(true) => "yes",
+            Some(false) if r.independent => "no",
+            Some(false) => "not by this condition",
+            None => "not decided",
+        };
+        let _ = writeln!(out, "{:<3} {radius:<33} {:<12} {word}", o.order, o.threshold.to_string());
+    }
+    if let Some(e) = &r.exponent {
+        let note = match r.attained {
+            Attained::Yes => "attained",
+            Attained::Zygmund => "in the Zygmund sense; the Hölder class of that order may miss it",
+            Attained::No => "not attained",
+            Attained::Unknown => "attained or open: not decided",
+        };
+        let sense = if r.independent { "exponent" } else { "exponent >=" };
+        let _ = writeln!(out, "{sense}    {} ({note})", interval(e));
+    }
+    out
+}
+
+/// The answer to the search for a common cone.
+#[must_use]
+pub fn cone(answer: &ConeAnswer) -> String {
+    match answer {
+        ConeAnswer::Proved(c) => proved(c),
+        ConeAnswer::Refuted(o) => {
+            format!("no common cone: the cycle {} of state {} has {}\n", word_text(&o.word), o.state, o.reason)
+        }
+        ConeAnswer::Undetermined => "common cone: not found within the budget\n".to_owned(),
+    }
+}
+
+fn proved(c: &CommonCone) -> String {
+    let rays: Vec<usize> = c.cones.iter().map(|k| k.rays.cols()).collect();
+    format!(
+        "common cones with {rays:?} rays; they shrink by {} a letter: half-tangents exist at every point\n",
+        decimal(&c.shrink().hi, true, 6)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+
+    #[test]
+    fn decimals_round_the_way_they_should() {
+        assert_eq!(decimal(&ratio(1, 3), false, 3), "0.333");
+        assert_eq!(decimal(&ratio(1, 3), true, 3), "0.334");
+        assert_eq!(decimal(&ratio(-1, 3), true, 3), "-0.333");
+        assert_eq!(decimal(&ratio(25, 2), false, 0), "12");
+    }
+}

@@ -1,0 +1,337 @@
+//! Regularity of the limits of univariate masks (theory §11), in the uniform parameter.
+//!
+//! With `a(z) = (1 + z + … + z^{N−1})^K b(z)`, `K` as large as possible, the differences of order `K` are refined by `b`.
+//! If `ρ` is the joint spectral radius of the matrices of `b`, the Hölder exponent of the scheme is `−log_N ρ`; the limits are
+//! `C^m` where `ρ < N^{−m}` (the condition of Levin and Levin, `JSR < 2^{−m}` for `C^m`, there for differences of order `m+1`).
+
+use crate::arith::{Interval, Rational};
+use crate::linalg::Matrix;
+use crate::radius::{Growth, JointRadius, Options, System, joint_radius};
+use crate::shape::{fixed_point, norm1};
+use thiserror::Error;
+
+/// Why a mask has no regularity.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum MaskError {
+    /// An arity below 2.
+    #[error("the arity is {0}, but must be at least 2")]
+    Arity(usize),
+    /// A mask without a nonzero coefficient.
+    #[error("the mask is zero")]
+    Zero,
+    /// Coefficients that do not sum to 1 on a coset.
+    #[error("the coefficients with index {coset} modulo {arity} sum to {sum}, not to 1: the scheme has no limits")]
+    SumRule {
+        /// The arity.
+        arity: usize,
+        /// The coset.
+        coset: usize,
+        /// Its sum.
+        sum: Rational,
+    },
+    /// More coefficients than are handled.
+    #[error("the mask has {0} coefficients; at most {MAX_MASK} are handled")]
+    Long(usize),
+}
+
+/// Longest mask handled.
+pub const MAX_MASK: usize = 64;
+
+/// What is known of one order of smoothness.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Order {
+    /// `k`: the claim is "the limits are `C^k`".
+    pub order: usize,
+    /// The bound `N^{−k}`.
+    pub threshold: Rational,
+    /// Enclosure of the joint spectral radius of the matrices of differences of order `k+1`.
+    pub radius: Option<Interval>,
+    /// Whether the radius is below the threshold; `None` where the bounds do not tell.
+    pub smooth: Option<bool>,
+}
+
+/// Whether the exponent is attained.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Attained {
+    /// The limits have the exponent itself.
+    Yes,
+    /// They are in the Zygmund class of that integer order; the Hölder class may miss it.
+    Zygmund,
+    /// Products grow faster than the power of the radius: the exponent is open.
+    No,
+    /// Not decided.
+    Unknown,
+}
+
+/// The regularity of a mask.
+#[derive(Debug, Clone)]
+pub struct Regularity {
+    /// The arity `N`.
+    pub arity: usize,
+    /// The mask without zeros at its ends.
+    pub mask: Vec<Rational>,
+    /// `K`: the order of the sum rules.
+    pub sum_rules: usize,
+    /// The coefficients of `b`.
+    pub factor: Vec<Rational>,
+    /// The matrices of `b`, by digit.
+    pub matrices: Vec<Matrix>,
+    /// Their joint spectral radius.
+    pub radius: JointRadius,
+    /// Enclosure of the exponent `−log_N ρ`, from below 2^-40 wide where the radius is exact.
+    pub exponent: Option<Interval>,
+    /// Whether it is attained.
+    pub attained: Attained,
+    /// Whether the integer translates of the limit function are independent on a unit interval; then the exponent of the scheme
+    /// is that of its limits, otherwise limits may be smoother.
+    pub independent: bool,
+    /// The orders `0, 1, …` up to the first that fails or is open.
+    pub orders: Vec<Order>,
+}
+
+impl Regularity {
+    /// The largest `k` for which the limits are proved `C^k`; `None` where not even continuity is proved.
+    #[must_use]
+    pub fn smoothness(&self) -> Option<usize> {
+        self.orders.iter().take_while(|o| o.smooth == Some(true)).map(|o| o.order).last()
+    }
+
+    /// Whether [`Regularity::smoothness`] is exact: the next order was refuted.
+    #[must_use]
+    pub fn smoothness_is_exact(&self) -> bool {
+        self.independent && self.orders.last().is_some_and(|o| o.smooth == Some(false))
+    }
+}
+
+/// Analyses a mask of the given arity.
+///
+/// # Errors
+/// [`MaskError`].
+///
+/// # Cost
+/// One joint spectral radius of matrices of about the length of `b`.
+pub fn regularity(mask: &[Rational], arity: usize, options: &Options) -> Result<Regularity, MaskError> {
+    let mask = trimmed(mask);
+    check(&mask, arity)?;
+    let (sum_rules, factor) = factored(&mask, arity);
+    let matrices = digits(&factor, arity);
+    let system = System::plain(&matrices).map_err(|_| MaskError::Zero)?;
+    let radius = joint_radius(&system, options).map_err(|_| MaskError::Zero)?;
+    let enclosure = enclosure(&radius);
+    let exponent = enclosure.as_ref().and_then(|e| minus_log(e, arity));
+    let orders = orders(arity, sum_rules, enclosure.as_ref());
+    let attained = attained(&radius, arity, factor.len());
+    let independent = independent(&mask, arity);
+    Ok(Regularity { arity, mask, sum_rules, factor, matrices, radius, exponent, attained, independent, orders })
+}
+
+fn trimmed(mask: &[Rational]) -> Vec<Rational> {
+    let first = mask.iter().position(|x| *x != 0).unwrap_or(mask.len());
+    let last = mask.iter().rposition(|x| *x != 0).map_or(first, |k| k + 1);
+    mask[first..last].to_vec()
+}
+
+fn check(mask: &[Rational], arity: usize) -> Result<(), MaskError> {
+    if arity < 2 {
+        return Err(MaskError::Arity(arity));
+    }
+    if mask.is_empty() {
+        return Err(MaskError::Zero);
+    }
+    if mask.len() > MAX_MASK {
+        return Err(MaskError::Long(mask.len()));
+    }
+    for coset in 0..arity {
+        let sum = mask.iter().skip(coset).step_by(arity).fold(Rational::from(0), |s, x| s + x);
+        if sum != 1 {
+            return Err(MaskError::SumRule { arity, coset, sum });
+        }
+    }
+    Ok(())
+}
+
+/// Divides by `1 + z + … + z^{N−1}` as often as possible.
+#[must_use]
+pub fn factored(mask: &[Rational], arity: usize) -> (usize, Vec<Rational>) {
+    let mut rest = mask.to_vec();
+    let mut count = 0;
+    while let Some(quotient) = divided(&rest, arity) {
+        rest = quotient;
+        count += 1;
+    }
+    (count, rest)
+}
+
+fn divided(a: &[Rational], arity: usize) -> Option<Vec<Rational>> {
+    if a.len() < arity {
+        return None;
+    }
+    let mut rest = a.to_vec();
+    let mut quotient = Vec::new();
+    for k in 0..=a.len() - arity {
+        let c = rest[k].clone();
+        for entry in &mut rest[k..k + arity] {
+            *entry -= &c;
+        }
+        quotient.push(c);
+    }
+    rest.iter().all(|x| *x == 0).then_some(quotient)
+}
+
+/// The matrices `T_e[i][j] = b_{N i − j + e}` of the smallest size that the refinement keeps (at least 1).
+#[must_use]
+pub fn digits(mask: &[Rational], arity: usize) -> Vec<Matrix> {
+    let size = mask.len().saturating_sub(1).div_ceil(arity - 1).max(1);
+    (0..arity)
+        .map(|e| {
+            Matrix::from_fn(size, size, |i, j| {
+                (arity * i + e).checked_sub(j).and_then(|k| mask.get(k)).cloned().unwrap_or_default()
+            })
+        })
+        .collect()
+}
+
+fn enclosure(radius: &JointRadius) -> Option<Interval> {
+    let upper = radius.upper.clone()?;
+    let Some(lower) = &radius.lower else { return Some(Interval::point(upper)) };
+    if radius.exact {
+        return Some(lower.enclosure(96));
+    }
+    Some(Interval::new(lower.enclosure(96).lo, upper))
+}
+
+/// An enclosure of `−log_N x` for `x` in a positive interval, by repeated squaring.
+#[must_use]
+pub fn minus_log(x: &Interval, arity: usize) -> Option<Interval> {
+    if x.lo <= 0 {
+        return None;
+    }
+    let one = Rational::from(1);
+    let lower = digits_of_log(&(&one / &x.hi), arity)?;
+    let upper = digits_of_log(&(&one / &x.lo), arity)?;
+    Some(Interval::new(lower.lo, upper.hi))
+}
+
+/// An enclosure of `log_N x` of width `2^-44`, or 0 where `x` is a power of `N`.
+fn digits_of_log(x: &Rational, arity: usize) -> Option<Interval> {
+    let base = Rational::from(arity as u64);
+    let one = Rational::from(1);
+    let mut x = x.clone();
+    let mut whole = Rational::from(0);
+    for _ in 0..10_000 {
+        if x >= base {
+            x /= &base;
+            whole += &one;
+        } else if x < one {
+            x *= &base;
+            whole -= &one;
+        } else {
+            break;
+        }
+    }
+    if x == one {
+        return Some(Interval::point(whole));
+    }
+    let mut x = Interval::point(x).outward(200);
+    let mut step = one.clone();
+    for _ in 0..44 {
+        step /= Rational::from(2);
+        x = x.square().outward(200);
+        if x.lo >= base {
+            x = Interval::new(&x.lo / &base, &x.hi / &base);
+            whole += &step;
+        } else if x.hi >= base {
+            return Some(Interval::new(whole.clone(), whole + step * Rational::from(2)));
+        }
+    }
+    Some(Interval::new(whole.clone(), whole + step))
+}
+
+fn orders(arity: usize, sum_rules: usize, radius: Option<&Interval>) -> Vec<Order> {
+    let base = Rational::from(1) / Rational::from(arity as u64);
+    let mut threshold = Rational::from(1);
+    let mut rows = Vec::new();
+    for order in 0..sum_rules {
+        let next = &threshold * &base;
+        // Differences of order k+1 < K carry besides b the powers N^{−k−1}, …, N^{1−K} of polynomials.
+        let floor = if order + 1 < sum_rules { next.clone() } else { Rational::from(0) };
+        let here = radius.map(|r| Interval::new(r.lo.clone().max(floor.clone()), r.hi.clone().max(floor)));
+        let smooth = here.as_ref().and_then(|r| match (r.hi < threshold, r.lo >= threshold) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        });
+        rows.push(Order { order, threshold: threshold.clone(), radius: here, smooth });
+        if smooth != Some(true) {
+            return rows;
+        }
+        threshold = next;
+    }
+    // Beyond the sum rules smoothness fails.
+    rows.push(Order { order: sum_rules, threshold, radius: radius.cloned(), smooth: Some(false) });
+    rows
+}
+
+fn attained(radius: &JointRadius, arity: usize, length: usize) -> Attained {
+    let integer = radius
+        .lower
+        .as_ref()
+        .and_then(|l| l.rational())
+        .is_some_and(|r| digits_of_log(&(Rational::from(1) / r), arity).is_some_and(|e| e.lo == e.hi));
+    match radius.growth {
+        _ if length == 1 => Attained::Yes,
+        Growth::Unbounded(_) => Attained::No,
+        Growth::Bounded if integer => Attained::Zygmund,
+        Growth::Bounded => Attained::Yes,
+        Growth::Unknown => Attained::Unknown,
+    }
+}
+
+/// Whether the values `(φ(x+i))_i`, `0 <= x <= 1`, span an affine space of full dimension.
+fn independent(mask: &[Rational], arity: usize) -> bool {
+    let operators = digits(mask, arity);
+    let n = operators[0].rows();
+    let Some(base) = fixed_point(&operators[0]) else { return false };
+    let rows = operators.iter().map(|t| crate::shape::difference(&t.apply(&base), &base)).filter(|d| norm1(d) != 0);
+    let mut span = Matrix::from_rows(n, rows.collect()).echelon().rows;
+    loop {
+        let before = span.rows();
+        for t in &operators {
+            span = span.stack(&(&span * &t.transpose())).echelon().rows;
+        }
+        if span.rows() == before {
+            return before + 1 == n;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::{ratio, to_f64};
+
+    fn mask(entries: &[i64], denominator: i64) -> Vec<Rational> {
+        entries.iter().map(|x| ratio(*x, denominator)).collect()
+    }
+
+    #[test]
+    fn chaikin_is_c1_and_its_derivative_lipschitz() {
+        let r = regularity(&mask(&[1, 3, 3, 1], 4), 2, &Options::default()).unwrap();
+        assert_eq!((r.sum_rules, r.smoothness(), r.attained), (3, Some(1), Attained::Yes));
+        assert_eq!(r.exponent, Some(Interval::point(ratio(2, 1))));
+        assert!(r.smoothness_is_exact());
+    }
+
+    #[test]
+    fn six_points() {
+        let r = regularity(&mask(&[3, 0, -25, 0, 150, 256, 150, 0, -25, 0, 3], 256), 2, &Options::default()).unwrap();
+        assert!(r.radius.exact);
+        assert_eq!(r.radius.upper, Some(ratio(9, 64)));
+        assert!((to_f64(&r.exponent.unwrap().lo) - 2.830_074_998_557_6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_mask_without_sum_rules_is_refused() {
+        assert!(matches!(regularity(&mask(&[1, 2], 2), 2, &Options::default()), Err(MaskError::SumRule { .. })));
+    }
+}

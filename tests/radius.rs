@@ -1,0 +1,213 @@
+//! Joint spectral radii, regularity and cones against known values.
+
+use secant::arith::{Rational, parse_rational, to_f64};
+use secant::linalg::Matrix;
+use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
+use secant::shape::{CellKind, Shape, Spaces};
+use secant::theorem::cone::{ConeAnswer, common_cone};
+use secant::theorem::regularity::{digits, regularity};
+
+fn rational(text: &str) -> Rational {
+    parse_rational(text).expect(text)
+}
+
+fn radius(matrices: &str) -> JointRadius {
+    let file = file::parse(&format!("matrices = {matrices}")).expect(matrices);
+    joint_radius(&file.system, &Options::default()).expect(matrices)
+}
+
+/// Name, matrices, the radius, and the letters of a word that attains it.
+const SETS: &[(&str, &str, f64)] = &[
+    ("golden", "[[[1,1],[0,1]],[[1,0],[1,1]]]", 1.618033988749895),
+    ("HMST-77_100", "[[[1,1],[0,1]],[[\"77/100\",0],[\"77/100\",\"77/100\"]]]", 1.4246703138602095),
+    ("HMST-3_5", "[[[1,1],[0,1]],[[\"3/5\",0],[\"3/5\",\"3/5\"]]]", 1.3082766773857093),
+    ("HMST-3_10", "[[[1,1],[0,1]],[[\"3/10\",0],[\"3/10\",\"3/10\"]]]", 1.1306363425511248),
+    ("nilp", "[[[0,1],[0,0]],[[0,0],[1,0]]]", 1.0),
+    ("AAT", "[[[1,2],[0,1]],[[1,0],[2,1]]]", 2.414213562373095),
+    ("rot", "[[[\"3/5\",\"-4/5\"],[\"4/5\",\"3/5\"]],[[\"5/13\",\"-12/13\"],[\"12/13\",\"5/13\"]]]", 1.0),
+    ("Euler3", "[[[1,0],[1,1]],[[1,1],[0,1]]]", 1.618033988749895),
+    (
+        "Euler7",
+        "[[[1,0,0,0,0,0],[1,1,1,0,0,0],[1,1,1,1,1,0],[1,1,1,1,1,1],[0,0,1,1,1,1],[0,0,0,0,1,1]],[[1,1,0,0,0,0],[1,1,1,1,0,0],[1,1,1,1,1,1],[0,1,1,1,1,1],[0,0,0,1,1,1],[0,0,0,0,0,1]]]",
+        3.5115471416945327,
+    ),
+    (
+        "Euler11",
+        "[[[1,0,0,0,0,0,0,0,0,0],[1,1,1,0,0,0,0,0,0,0],[1,1,1,1,1,0,0,0,0,0],[1,1,1,1,1,1,1,0,0,0],[1,1,1,1,1,1,1,1,1,0],[1,1,1,1,1,1,1,1,1,1],[0,0,1,1,1,1,1,1,1,1],[0,0,0,0,1,1,1,1,1,1],[0,0,0,0,0,0,1,1,1,1],[0,0,0,0,0,0,0,0,1,1]],[[1,1,0,0,0,0,0,0,0,0],[1,1,1,1,0,0,0,0,0,0],[1,1,1,1,1,1,0,0,0,0],[1,1,1,1,1,1,1,1,0,0],[1,1,1,1,1,1,1,1,1,1],[0,1,1,1,1,1,1,1,1,1],[0,0,0,1,1,1,1,1,1,1],[0,0,0,0,0,1,1,1,1,1],[0,0,0,0,0,0,0,1,1,1],[0,0,0,0,0,0,0,0,0,1]]]",
+        5.505892424682024,
+    ),
+    (
+        "pascal",
+        "[[[0,1,0,0,0],[1,0,2,0,0],[0,0,0,0,0],[0,1,0,0,1],[0,0,0,2,1]],[[1,0,2,0,0],[0,0,0,2,1],[1,1,0,0,0],[0,0,0,0,0],[0,1,0,0,0]]]",
+        2.0,
+    ),
+    ("cap-pp", "[[[0,1],[1,1]],[[1,1],[1,0]]]", 1.618033988749895),
+    ("cap-0p", "[[[0,1],[1,0]],[[1,0],[1,0]],[[0,1],[0,1]],[[1,0],[0,1]]]", 1.0),
+    ("cap-pp_pm", "[[[0,0],[1,1]],[[1,0],[1,0]],[[0,1],[0,1]],[[1,1],[0,0]]]", 1.4142135623730951),
+    (
+        "cap-0pm",
+        "[[[1,1,0,0],[0,0,0,1],[1,1,0,0],[0,0,0,1]],[[1,0,0,0],[0,0,1,1],[1,1,0,0],[0,0,0,1]],[[1,1,0,0],[0,0,0,1],[1,0,0,0],[0,0,1,1]],[[1,0,0,0],[0,0,1,1],[1,0,0,0],[0,0,1,1]]]",
+        1.618033988749895,
+    ),
+    (
+        "cap-p0m",
+        "[[[1,0,0,0],[0,0,1,1],[1,1,0,0],[0,0,0,1]],[[1,0,0,0],[0,0,1,0],[1,1,0,0],[0,0,1,1]],[[1,1,0,0],[0,0,1,1],[0,1,0,0],[0,0,0,1]],[[1,1,0,0],[0,0,1,0],[0,1,0,0],[0,0,1,1]]]",
+        1.618033988749895,
+    ),
+    (
+        "cap-pmp",
+        "[[[1,1,0,0],[0,0,0,1],[1,1,0,0],[0,0,1,1]],[[1,1,0,0],[0,0,1,1],[1,0,0,0],[0,0,1,1]]]",
+        1.8392867552141612,
+    ),
+];
+
+#[test]
+fn radii_of_known_sets_are_exact() {
+    for (name, matrices, value) in SETS {
+        let r = radius(matrices);
+        assert!(r.exact, "{name}");
+        let lower = r.lower.as_ref().expect(name).enclosure(64);
+        assert!((to_f64(&lower.lo) - value).abs() < 1e-12 * value, "{name}: {lower:?}");
+        assert_eq!(r.growth, Growth::Bounded, "{name}");
+    }
+}
+
+#[test]
+fn polytopes_prove_their_bounds_again() {
+    for (name, matrices, value) in SETS {
+        for block in radius(matrices).blocks {
+            if let Some(Proof::Polytope(p)) = &block.proof {
+                assert_eq!(p.bound(&block.block.system), block.bound, "{name}");
+                spoiled(p, &block.block.system, *value);
+            }
+        }
+    }
+}
+
+/// A polytope with a shortened list, or a halved coefficient, must not prove a smaller radius.
+fn spoiled(polytope: &Polytope, system: &System, value: f64) {
+    let mut short = polytope.clone();
+    short.inclusions.pop();
+    assert_eq!(short.bound(system), None);
+    let mut halved = polytope.clone();
+    for inclusion in &mut halved.inclusions {
+        inclusion.terms.iter_mut().for_each(|t| t.1 /= Rational::from(2));
+    }
+    assert!(halved.bound(system).is_none_or(|b| to_f64(&b) >= value * (1.0 - 1e-9)));
+}
+
+#[test]
+fn a_set_without_a_finite_word_stays_an_interval() {
+    let alpha = "0.749326546330367557943961948091344672091327370236064317358024";
+    let r = radius(&format!("[[[1,1],[0,1]],[[\"{alpha}\",0],[\"{alpha}\",\"{alpha}\"]]]"));
+    assert!(!r.exact);
+    let (lo, hi) = (to_f64(&r.lower.unwrap().enclosure(64).lo), to_f64(&r.upper.unwrap()));
+    assert!(lo < hi && hi < lo * (1.0 + 1e-6));
+}
+
+#[test]
+fn marginal_and_reducible_sets() {
+    assert_eq!(radius("[[[1,1],[0,1]]]").growth, Growth::Unbounded(2));
+    let nilpotent = radius("[[[0,1],[0,0]]]");
+    assert!(nilpotent.exact && nilpotent.lower.is_none());
+    let turned = radius("[[[0,-1],[1,1]],[[\"1/2\",0],[\"1/3\",\"1/5\"]]]");
+    assert!(turned.exact && turned.upper == Some(Rational::from(1)));
+    let alone = radius("[[[\"3/5\",\"-4/5\"],[\"4/5\",\"3/5\"]],[[\"1/2\",0],[0,\"1/4\"]]]");
+    assert!(alone.exact && alone.upper == Some(Rational::from(1)));
+}
+
+#[test]
+fn an_automaton_forbids_words() {
+    // Of the golden pair, A must be followed by A: the product AB is not a path.
+    let text = "matrices = [[[1,1],[0,1]],[[1,0],[1,1]]]\nstates = [2]\narrows = [[0,0,0]]";
+    let file = file::parse(text).unwrap();
+    let r = joint_radius(&file.system, &Options::default()).unwrap();
+    assert!(r.exact && r.upper == Some(Rational::from(1)));
+    // No two B in a row.
+    let text = "matrices = [[[1,1],[0,1]],[[1,0],[2,1]]]\nstates = [2,2]\narrows = [[0,0,0],[0,1,0],[1,0,1]]";
+    let file = file::parse(text).unwrap();
+    let r = joint_radius(&file.system, &Options::default()).unwrap();
+    assert!(r.exact);
+    assert!((to_f64(&r.lower.unwrap().enclosure(64).lo) - (2.0 + 3.0_f64.sqrt()).sqrt()).abs() < 1e-12);
+}
+
+/// Name, arity, mask, Hölder exponent, k of C^k.
+const MASKS: &[(&str, usize, &str, f64, usize)] = &[
+    ("bspline2", 2, "1/4 3/4 3/4 1/4", 2.0, 1),
+    ("bspline3", 2, "1/8 1/2 3/4 1/2 1/8", 3.0, 2),
+    ("bspline4", 2, "1/16 5/16 5/8 5/8 5/16 1/16", 4.0, 3),
+    ("bspline6", 2, "1/64 7/64 21/64 35/64 35/64 21/64 7/64 1/64", 6.0, 5),
+    ("DD2", 2, "1/2 1 1/2", 1.0, 0),
+    ("DD4", 2, "-1/16 0 9/16 1 9/16 0 -1/16", 2.0, 1),
+    ("DD6", 2, "3/256 0 -25/256 0 75/128 1 75/128 0 -25/256 0 3/256", 2.8300749985576865, 2),
+    ("HS3", 2, "-3/32 5/32 15/16 15/16 5/32 -3/32", 1.1926450779423958, 1),
+    ("HS4", 2, "-1/16 0 9/16 1 9/16 0 -1/16", 2.0, 1),
+    ("HS5", 2, "-5/128 -7/128 35/128 105/128 105/128 35/128 -7/128 -5/128", 2.8300749985576874, 2),
+    ("ter4-1_15", 3, "-2/45 -1/15 0 16/45 34/45 1 34/45 16/45 0 -1/15 -2/45", 2.0, 1),
+    ("ter4-1_8", 3, "-5/144 -11/144 0 47/144 113/144 1 113/144 47/144 0 -11/144 -5/144", 1.892789260714372, 1),
+    ("ter3-5_18", 3, "-1/18 0 5/18 7/9 1 7/9 5/18 0 -1/18", 1.3690702464285425, 1),
+    ("ter3-4_15", 3, "-1/15 0 4/15 4/5 1 4/5 4/15 0 -1/15", 1.4649735207179269, 1),
+    ("ter3-1_3", 3, "0 0 1/3 2/3 1 2/3 1/3 0 0", 1.0, 0),
+    ("ternB1", 3, "1/3 2/3 1 2/3 1/3", 1.0, 0),
+    ("ternB3", 3, "1/27 4/27 10/27 16/27 19/27 16/27 10/27 4/27 1/27", 3.0, 2),
+    ("4pt-w3_20", 2, "-3/20 0 13/20 1 13/20 0 -3/20", 1.2228556969831417, 1),
+    ("4pt-w19_100", 2, "-19/100 0 69/100 1 69/100 0 -19/100", 1.0126619004678612, 1),
+    ("4pt-w193_1000", 2, "-193/1000 0 693/1000 1 693/1000 0 -193/1000", 0.9987538508428128, 0),
+    ("4pt-w-1_10", 2, "1/10 0 2/5 1 2/5 0 1/10", 0.6145957186778039, 0),
+    ("4pt-w2_5", 2, "-2/5 0 9/10 1 9/10 0 -2/5", 0.32192809488736207, 0),
+];
+
+#[test]
+fn exponents_of_known_masks() {
+    for (name, arity, mask, exponent, smoothness) in MASKS {
+        let mask: Vec<Rational> = mask.split(' ').map(rational).collect();
+        let r = regularity(&mask, *arity, &Options::default()).expect(name);
+        let e = r.exponent.as_ref().expect(name);
+        assert!((to_f64(&e.lo) - exponent).abs() < 1e-11 && (to_f64(&e.hi) - exponent).abs() < 1e-11, "{name}: {e:?}");
+        assert!(r.radius.exact && r.smoothness_is_exact(), "{name}");
+        assert_eq!(r.smoothness(), Some(*smoothness), "{name}");
+    }
+}
+
+fn family(a: &str, b: &str) -> Shape {
+    let (one, zero, a, b) = (Rational::from(1), Rational::from(0), rational(a), rational(b));
+    let t0 = vec![
+        vec![&one - &a, b.clone(), zero.clone()],
+        vec![a.clone(), &one - &b, &one - &a],
+        vec![zero.clone(), zero.clone(), a.clone()],
+    ];
+    let t1 = vec![
+        vec![b.clone(), zero.clone(), zero.clone()],
+        vec![&one - &b, &one - &a, b.clone()],
+        vec![zero, a, &one - &b],
+    ];
+    Shape::single(CellKind::Edge, vec![Matrix::from_rows(3, t0), Matrix::from_rows(3, t1)])
+}
+
+fn cone(shape: &Shape) -> Option<ConeAnswer> {
+    common_cone(shape, &Spaces::new(shape).expect("base points"))
+}
+
+#[test]
+fn cones_of_the_two_parameter_family() {
+    for (a, b) in
+        [("1/4", "1/4"), ("3/10", "3/10"), ("1/10", "2/5"), ("1/10", "1/10"), ("33/100", "33/100"), ("2/5", "2/5")]
+    {
+        let shape = family(a, b);
+        let Some(ConeAnswer::Proved(found)) = cone(&shape) else { panic!("{a} {b}") };
+        assert!(found.holds(&shape, &Spaces::new(&shape).unwrap()));
+        let mut spoiled = found.clone();
+        spoiled.cones[0].functional.iter_mut().for_each(|x| *x = -&*x);
+        assert!(!spoiled.holds(&shape, &Spaces::new(&shape).unwrap()));
+    }
+    for (a, b) in [("1/3", "1/3"), ("3/5", "3/5"), ("-3/5", "41/50"), ("-1/4", "1/2")] {
+        assert!(matches!(cone(&family(a, b)), Some(ConeAnswer::Refuted(_))), "{a} {b}");
+    }
+}
+
+#[test]
+fn the_four_point_scheme_has_a_common_cone() {
+    let mask: Vec<Rational> = "-1/16 0 9/16 1 9/16 0 -1/16".split(' ').map(rational).collect();
+    let shape = Shape::single(CellKind::Edge, digits(&mask, 2));
+    assert!(matches!(cone(&shape), Some(ConeAnswer::Proved(_))));
+}
