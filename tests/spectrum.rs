@@ -5,7 +5,7 @@ mod chains;
 use secant::approx::approximate_spectrum;
 use secant::arith::to_f64;
 use secant::case::matrix_file;
-use secant::jordan::{Spectrum, modulus_classes};
+use secant::jordan::{BUDGET, Spectrum, estimated_work, modulus_classes};
 use secant::linalg::Matrix;
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -99,4 +99,14 @@ fn the_float_fallback_ends_and_is_near() {
         let tolerance = if approximate.ill_conditioned { 1e-2 } else { 1e-8 };
         assert!((found.re.hypot(found.im) - top).abs() < tolerance, "{name}");
     }
+}
+
+#[test]
+fn the_budget_admits_the_benches_and_refuses_what_is_hopeless() {
+    for name in ["stochmix_160", "stoch_160", "cc2_32", "jordan_64"] {
+        assert!(estimated_work(&matrix(name)) < BUDGET, "{name}");
+    }
+    let long = secant::arith::parse_rational(&"7".repeat(9_000)).unwrap();
+    assert!(estimated_work(&Matrix::from_fn(100, 100, |_, _| long.clone())) > BUDGET);
+    assert!(estimated_work(&Matrix::identity(1_000)) > BUDGET);
 }

@@ -27,11 +27,15 @@ pub(super) fn isolate(f: &[Integer]) -> Isolated {
     let mut turn = 0.7;
     loop {
         let mut aberth = Aberth::new(f, turn);
-        aberth.run();
-        if let Some(found) = certify(f, &aberth.balls(53), 64, 26) {
-            return found;
-        }
-        let mut points = aberth.balls(64);
+        let mut points = if aberth.fits() {
+            aberth.run();
+            if let Some(found) = certify(f, &aberth.balls(53), 64, 26) {
+                return found;
+            }
+            aberth.balls(64)
+        } else {
+            aberth.starting_balls()
+        };
         let mut precision = 128;
         while precision <= 1 << 14 {
             polish(f, &mut points, precision);

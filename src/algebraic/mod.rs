@@ -20,3 +20,6 @@ mod root;
 
 pub use elem::{Elem, cmp_real, locate};
 pub use root::{Root, roots};
+
+#[cfg(test)]
+mod tests;

@@ -47,6 +47,8 @@ pub(super) struct Aberth {
     rows: BTreeMap<i64, Vec<f64>>,
     /// The current approximations of the roots in `y`.
     pub points: Vec<C>,
+    /// The starting points: binary logarithm of the modulus in `y`, and angle.
+    start: Vec<C>,
 }
 
 impl Aberth {
@@ -67,16 +69,34 @@ impl Aberth {
             }
             hull.push(k);
         }
-        let mut points = Vec::with_capacity(n);
+        let mut start = Vec::with_capacity(n);
         for edge in hull.windows(2) {
             let (i, j) = (edge[0], edge[1]);
-            let radius = ((log(i) - log(j)) / (j - i) as f64).clamp(-1000.0, 1000.0).exp2();
+            let radius = (log(i) - log(j)) / (j - i) as f64;
             for t in 0..j - i {
                 let angle = std::f64::consts::TAU * (t as f64 / (j - i) as f64 + i as f64 / n as f64) + turn;
-                points.push((radius * angle.cos(), radius * angle.sin()));
+                start.push((radius, angle));
             }
         }
-        Self { split: parts, scale, rows: BTreeMap::new(), points }
+        let place = |(r, angle): &C| (r.exp2() * angle.cos(), r.exp2() * angle.sin());
+        let points = start.iter().map(place).collect();
+        Self { split: parts, scale, rows: BTreeMap::new(), points, start }
+    }
+
+    /// Whether all sizes are well inside the range of double precision.
+    pub fn fits(&self) -> bool {
+        self.start.iter().all(|(log, _)| log.abs() < 900.0)
+    }
+
+    /// The starting points, of any size.
+    pub fn starting_balls(&self) -> Vec<Ball> {
+        let ball = |(log, angle): &C| {
+            let (whole, fraction) = (log.floor(), (log - log.floor()).exp2());
+            let digit = |t: f64| Integer::from((t * fraction * (1u64 << 52) as f64) as i64);
+            let exp = whole as i64 - 52 + self.scale;
+            Ball { re: digit(angle.cos()), im: digit(angle.sin()), radius: Integer::from(0), exp }
+        };
+        self.start.iter().map(ball).collect()
     }
 
     /// The coefficients at points of size `2^e`, scaled into the range of `f64`.

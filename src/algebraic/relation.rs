@@ -159,7 +159,24 @@ pub(super) fn ratio_is_root_of_unity(a: &Root, b: &Root) -> bool {
     }
     // The quotient has degree at most deg a * deg b, and a primitive m-th root of unity has degree phi(m) >= sqrt(m/2).
     let bound = 2 * (a.degree() * b.degree()).pow(2);
-    (1..=bound).any(|m| same_power(a, b, m))
+    let turns = turns_between(a, b);
+    (1..=bound).filter(|m| near_whole(turns, *m)).any(|m| same_power(a, b, m))
+}
+
+/// The angle from `b` to `a` in full turns, with an error far below the tolerance of [`near_whole`].
+#[allow(clippy::float_arithmetic)] // only excludes exponents, with a wide margin
+fn turns_between(a: &Root, b: &Root) -> f64 {
+    let angle = |r: &Root| {
+        let (re, im) = r.to_f64();
+        im.atan2(re)
+    };
+    (angle(a) - angle(b)) / std::f64::consts::TAU
+}
+
+#[allow(clippy::float_arithmetic, clippy::cast_precision_loss)] // as above
+fn near_whole(turns: f64, m: usize) -> bool {
+    let t = turns * m as f64;
+    (t - t.round()).abs() < 1e-6 + 1e-13 * m as f64
 }
 
 /// Whether `a^m = b^m`, decided by the minimal polynomials of the powers and their enclosures.

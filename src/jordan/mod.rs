@@ -11,8 +11,10 @@ mod summand;
 mod symmetry;
 
 use crate::algebraic::{Elem, Root, roots};
+use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
+use malachite_base::num::logic::traits::SignificantBits;
 use rayon::prelude::*;
 
 pub use crate::linalg::char_poly;
@@ -174,6 +176,27 @@ impl Factor {
 
 /// Smaller matrices are not worth a second thread.
 const PARALLEL: usize = 24;
+
+/// The work of an exact spectrum that is taken on without asking, in rough units of a nanosecond.
+pub const BUDGET: u64 = 120_000_000_000;
+
+/// A rough estimate of the work of [`Spectrum::of`], in nanoseconds of one processor: what the modular characteristic
+/// polynomial, its reconstruction and the chains of a matrix without any structure cost. Structure makes it cheaper.
+///
+/// A matrix over [`BUDGET`] is one for [`crate::approx::approximate_spectrum`].
+#[must_use]
+pub fn estimated_work(a: &Matrix) -> u64 {
+    let n = a.rows() as u64;
+    let size = |x: &Rational| x.numerator_ref().significant_bits() + x.denominator_ref().significant_bits();
+    let row_bits = |i: usize| a.row(i).iter().map(size).max().unwrap_or(0) + 8;
+    let bits: u64 = (0..a.rows()).map(row_bits).sum();
+    let limbs: u64 = (0..a.rows()).flat_map(|i| a.row(i)).map(|x| size(x) / 64 + 1).sum();
+    let primes = bits / 61 + 1;
+    let cube = n.saturating_pow(3);
+    let modular = primes.saturating_mul(cube.saturating_mul(3).saturating_add(limbs.saturating_mul(4)));
+    let reconstruction = primes.saturating_mul(primes).saturating_mul(n);
+    modular.saturating_add(reconstruction).saturating_add(cube.saturating_mul(primes).saturating_mul(4))
+}
 
 /// Only the classes of eigenvalues of equal modulus, descending, as lists of roots: no chains are computed.
 ///

@@ -3,7 +3,7 @@ use super::strong::strong_components;
 use crate::arith::modular::{PrimeField, large_primes};
 use crate::arith::{Integer, Natural, Rational};
 use crate::poly::ints::{self, CrtPoly};
-use crate::poly::{IntPoly, Poly};
+use crate::poly::{IntPoly, Poly, modp};
 use malachite_base::num::logic::traits::SignificantBits;
 use rayon::prelude::*;
 
@@ -88,7 +88,8 @@ impl Cleared {
             let inverse = if d == field.one() { d } else { field.inverse(d) };
             m.push(row.iter().map(|x| if *x == 0 { 0 } else { field.mul(field.from_integer(x), inverse) }).collect());
         }
-        let monic = hessenberg_char_poly(field, m);
+        let krylov = if m.len() < KRYLOV { None } else { krylov_char_poly(field, &m) };
+        let monic = krylov.unwrap_or_else(|| hessenberg_char_poly(field, m));
         Some(monic.into_iter().map(|c| field.mul(c, determinant)).collect())
     }
 }
@@ -118,6 +119,54 @@ fn component(cleared: &Cleared) -> IntPoly {
         }
     }
     ints::primitive(image.coeffs)
+}
+
+/// From this size on the Krylov method is tried first: all its inner loops are sums of products.
+const KRYLOV: usize = 16;
+
+/// The characteristic polynomial over a prime field from the Krylov vectors `v, M v, ..., M^n v` of one fixed vector:
+/// where the first `n` are independent, it is the relation among all of them. `None` where that elimination, which
+/// does not pivot, meets a zero.
+fn krylov_char_poly(field: &PrimeField, m: &[Vec<u64>]) -> Option<Vec<u64>> {
+    let n = m.len();
+    let mut seed = 1;
+    let mut v: Vec<u64> = (0..n).map(|_| field.from_u64(modp::next_random(&mut seed))).collect();
+    let mut lower: Vec<Vec<u64>> = Vec::with_capacity(n);
+    let mut upper: Vec<Vec<u64>> = vec![Vec::with_capacity(n); n];
+    let mut inverses = Vec::with_capacity(n);
+    for j in 0..n {
+        // Row j of L U is the j-th vector; the columns of U are stored as lists.
+        let mut row = Vec::with_capacity(j);
+        for i in 0..j {
+            let rest = field.sub(v[i], field.dot(&row, &upper[i][..i]));
+            row.push(field.mul(rest, inverses[i]));
+        }
+        for (column, x) in upper[j..].iter_mut().zip(&v[j..]) {
+            let product = field.dot(&row, column);
+            column.push(field.sub(*x, product));
+        }
+        let pivot = upper[j][j];
+        if pivot == 0 {
+            return None;
+        }
+        inverses.push(field.inverse(pivot));
+        lower.push(row);
+        v = m.iter().map(|row| field.dot(row, &v)).collect();
+    }
+    let mut c: Vec<u64> = Vec::with_capacity(n + 1);
+    for i in 0..n {
+        let rest = field.sub(v[i], field.dot(&upper[i][..i], &c));
+        c.push(field.mul(rest, inverses[i]));
+    }
+    for k in (0..n).rev() {
+        let factor = c[k];
+        for (x, l) in c.iter_mut().zip(&lower[k]) {
+            *x = field.sub(*x, field.mul(*l, factor));
+        }
+    }
+    c.iter_mut().for_each(|x| *x = field.neg(*x));
+    c.push(field.one());
+    Some(c)
 }
 
 /// The characteristic polynomial over a prime field, monic, through a similar Hessenberg matrix.
@@ -210,6 +259,20 @@ mod tests {
         let b = Matrix::from_fn(4, 2, |i, j| ratio((i * j) as i64 - 2, 1 + j as i64));
         let (f, g) = (char_poly(&(&a * &b)), char_poly(&(&b * &a)));
         assert_eq!(&f * &Poly::new(vec![0.into(), 0.into(), 1.into()]), g);
+    }
+
+    #[test]
+    fn the_two_methods_agree() {
+        let field = PrimeField::new((1 << 62) - 57);
+        let mut seed = 9;
+        for n in [1, 2, 7, 23, 40] {
+            let random: Vec<Vec<u64>> = (0..n)
+                .map(|_| (0..n).map(|_| field.from_u64(crate::poly::modp::next_random(&mut seed))).collect())
+                .collect();
+            assert_eq!(krylov_char_poly(&field, &random), Some(hessenberg_char_poly(&field, random.clone())));
+        }
+        let derogatory = vec![vec![field.one(), 0], vec![0, field.one()]];
+        assert_eq!(krylov_char_poly(&field, &derogatory), None);
     }
 
     #[test]

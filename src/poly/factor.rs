@@ -62,6 +62,9 @@ struct ModularFactors {
     possible: Vec<bool>,
 }
 
+/// Degrees of irreducible factors with the product of those of that degree.
+type Degrees = Vec<(usize, Vec<u64>)>;
+
 /// The sums of sub-multisets of the degrees, as a table over `0..=n`.
 fn subset_sums(degrees: impl Iterator<Item = usize>, n: usize) -> Vec<bool> {
     let mut sums = vec![false; n + 1];
@@ -78,7 +81,7 @@ fn subset_sums(degrees: impl Iterator<Item = usize>, n: usize) -> Vec<bool> {
 fn modular_factors(f: &[Integer]) -> Option<ModularFactors> {
     let n = f.len() - 1;
     let mut possible = vec![true; n + 1];
-    let mut best: Option<(PrimeField, Vec<(usize, Vec<u64>)>, usize)> = None;
+    let mut best: Option<(PrimeField, Degrees, usize)> = None;
     let mut tried = 0;
     for p in primes_above(100) {
         let field = PrimeField::new(p);
@@ -207,7 +210,7 @@ fn try_subset(
     Some((candidate, rest))
 }
 
-/// The monic minimal polynomial candidates of degree one: the rational roots, ascending.
+/// The different rational roots, ascending.
 #[must_use]
 pub fn rational_roots(f: &Poly) -> Vec<crate::arith::Rational> {
     let mut roots: Vec<_> =
