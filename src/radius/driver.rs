@@ -186,7 +186,7 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     };
     // A bound below the lower one belongs to blocks that do not matter.
     let upper = upper.map(|u| u.max(lower.enclosure(64).hi));
-    let top = proofs.iter().filter(|p| !p.bound.as_ref().is_some_and(|b| *b < best.floor)).count();
+    let top = proofs.iter().filter(|p| p.bound.as_ref().is_none_or(|b| *b >= best.floor)).count();
     let growth = if lower.block > 1 {
         Growth::Unbounded(lower.block)
     } else if exact && top == 1 {

@@ -75,7 +75,7 @@ fn insert(best: &mut Vec<Candidate>, path: &[usize], value: f64, tolerance: f64)
 /// The primitive root of a cyclic word in its least rotation.
 pub(super) fn canonical(path: &[usize]) -> Vec<usize> {
     let n = path.len();
-    let period = (1..=n).find(|&p| n % p == 0 && (0..n).all(|k| path[k] == path[(k + p) % n])).unwrap_or(n);
+    let period = (1..=n).find(|&p| n.is_multiple_of(p) && (0..n).all(|k| path[k] == path[(k + p) % n])).unwrap_or(n);
     (0..period)
         .map(|shift| (0..period).map(|k| path[(k + shift) % period]).collect::<Vec<_>>())
         .min()
