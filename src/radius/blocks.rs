@@ -76,8 +76,8 @@ fn components(system: &System, states: &[usize]) -> Vec<(System, Vec<usize>)> {
         }
     }
     let mut parts = Vec::new();
-    for (top, from_top) in reach.iter().enumerate() {
-        let mutual = |i: usize| from_top[i] && reach[i][top];
+    for (top, row) in reach.iter().enumerate() {
+        let mutual = |i: usize| row[i] && reach[i][top];
         if mutual(top) && (0..top).all(|i| !mutual(i)) {
             let kept: Vec<Vec<usize>> = (0..system.dims.len())
                 .map(|s| (0..system.dims[s]).filter(|i| mutual(offsets[s] + i)).collect())

@@ -49,7 +49,7 @@ pub(super) fn rational(system: &System, grown: &Grown, radius: &Rational, exact:
     for inside in &grown.inside {
         inclusions.push(include(system, grown.body, &points, inside, radius, exact.is_some()));
     }
-    let axes = if grown.body == Body::Symmetric { axis_terms(system, grown) } else { Vec::new() };
+    let axes = if grown.body == Body::Symmetric { axis_terms(system, grown, &points) } else { Vec::new() };
     let mut polytope = Polytope { body: grown.body, points, inclusions, axes };
     if grown.body == Body::Monotone {
         dominate(system, &mut polytope);
@@ -90,21 +90,29 @@ fn solve(body: Body, points: &[Point], image: &[Rational], found: &Combination) 
     (body == Body::Symmetric || terms.iter().all(|t| t.1 > 0)).then_some(terms)
 }
 
-fn axis_terms(system: &System, grown: &Grown) -> Vec<Vec<Vec<(usize, Rational)>>> {
-    system
-        .dims
-        .iter()
-        .enumerate()
-        .map(|(state, &dim)| (0..dim).map(|axis| unit_terms(grown, state, dim, axis)).collect())
-        .collect()
+fn axis_terms(system: &System, grown: &Grown, points: &[Point]) -> Vec<Vec<Vec<(usize, Rational)>>> {
+    let of_state = |(state, &dim): (usize, &usize)| {
+        let proposed: Option<Vec<_>> = (0..dim).map(|axis| unit_terms(grown, state, dim, axis)).collect();
+        proposed.or_else(|| solved_axes(grown, points, state, dim)).unwrap_or_default()
+    };
+    system.dims.iter().enumerate().map(of_state).collect()
 }
 
-fn unit_terms(grown: &Grown, state: usize, dim: usize, axis: usize) -> Vec<(usize, Rational)> {
+/// Exact coefficients of the unit vectors on a basis of points, for polytopes too thin for floats.
+fn solved_axes(grown: &Grown, points: &[Point], state: usize, dim: usize) -> Option<Vec<Vec<(usize, Rational)>>> {
+    let chosen = super::grow::spread(grown, state, dim);
+    let columns: Vec<Vec<Rational>> = chosen.iter().map(|k| points[*k].coordinates.clone()).collect();
+    let inverse = Matrix::from_columns(dim, &columns).inverse()?;
+    Some((0..dim).map(|axis| chosen.iter().copied().zip(inverse.column(axis)).collect()).collect())
+}
+
+fn unit_terms(grown: &Grown, state: usize, dim: usize, axis: usize) -> Option<Vec<(usize, Rational)>> {
     let here = || grown.vertices.iter().enumerate().filter(|(_, v)| v.state == state);
     let points: Vec<&[f64]> = here().map(|(_, v)| v.point.as_slice()).collect();
     let indices: Vec<usize> = here().map(|(k, _)| k).collect();
     let unit: Vec<f64> = (0..dim).map(|k| f64::from(u8::from(k == axis))).collect();
-    gauge(Body::Symmetric, &points, &unit, 0.0).terms.into_iter().map(|(k, c)| (indices[k], grid(c))).collect()
+    let found = gauge(Body::Symmetric, &points, &unit, 0.0);
+    found.value.is_finite().then(|| found.terms.into_iter().map(|(k, c)| (indices[k], grid(c))).collect())
 }
 
 /// Raises coefficients by a hair where a rounded combination fails to dominate.

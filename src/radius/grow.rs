@@ -180,3 +180,27 @@ fn uncovered(points: &[&[f64]], dim: usize) -> Vec<usize> {
         })
         .collect()
 }
+
+/// As many points of a state as it has dimensions, chosen to be as independent as possible.
+pub(super) fn spread(grown: &Grown, state: usize, dim: usize) -> Vec<usize> {
+    let mut rest: Vec<(usize, Vec<f64>)> = grown
+        .vertices
+        .iter()
+        .enumerate()
+        .filter(|(_, v)| v.state == state)
+        .map(|(k, v)| (k, v.point.clone()))
+        .collect();
+    let size = |v: &[f64]| super::float::dot(v, v);
+    let mut chosen = Vec::new();
+    while chosen.len() < dim {
+        let Some((k, top)) = rest.iter().max_by(|a, b| size(&a.1).total_cmp(&size(&b.1))).cloned() else { break };
+        chosen.push(k);
+        let norm = size(&top);
+        for (_, v) in &mut rest {
+            let c = if norm > 0.0 { super::float::dot(v, &top) / norm } else { 0.0 };
+            v.iter_mut().zip(&top).for_each(|(x, t)| *x -= c * t);
+        }
+        rest.retain(|(j, _)| *j != k);
+    }
+    chosen
+}

@@ -128,6 +128,12 @@ pub fn square_root(x: &Rational, bits: u64) -> Interval {
     root_of(&Interval::point(x.clone()), 2, bits)
 }
 
+/// A rational not above the `degree`-th root of a nonnegative rational, and closer than about `2^-bits`.
+#[must_use]
+pub fn root_floor(x: &Rational, degree: usize, bits: u64) -> Rational {
+    root_of(&Interval::point(x.clone()), degree, bits).lo
+}
+
 /// A real eigenvector of the product for a real leading eigenvalue, given exactly: coordinate `i` is the polynomial
 /// `Σ_k coordinates[i][k] x^k` at the eigenvalue.
 #[derive(Debug, Clone)]

@@ -21,7 +21,7 @@ pub use contracts::{NormContraction, contraction_by_norms, linear_system};
 pub use driver::{BlockProof, Growth, JointRadius, Options, Proof, joint_radius};
 pub use exact::LeadingVector;
 pub use grow::Origin;
-pub use leading::{Eigenvector, Lower, square_root};
+pub use leading::{Eigenvector, Lower, root_floor, square_root};
 pub use polytope::{Inclusion, Point, Polytope};
 pub use quadratic::Quadratic;
 pub use simplex::Body;

@@ -93,8 +93,24 @@ impl Polytope {
         Some(rest)
     }
 
+    /// `K` with `e_j ∈ K Q` for all axes of a state of a symmetric body, or of a monotone one with a positive point.
+    #[must_use]
+    pub fn interior(&self, system: &System, state: usize) -> Option<Rational> {
+        match self.body {
+            Body::Symmetric => self.axis_bound(system, state),
+            Body::Monotone => {
+                let reach = |axis: usize| {
+                    let here = self.points.iter().filter(|p| p.state == state);
+                    here.filter_map(|p| p.coordinates.get(axis)).max().filter(|x| **x > 0)
+                };
+                let widest = (0..system.dims[state]).map(|a| reach(a).map(|x| Rational::from(1) / x));
+                widest.collect::<Option<Vec<_>>>()?.into_iter().max()
+            }
+        }
+    }
+
     /// `K` with `e_j ∈ K Q` for all axes of the state.
-    pub(super) fn axis_bound(&self, system: &System, state: usize) -> Option<Rational> {
+    fn axis_bound(&self, system: &System, state: usize) -> Option<Rational> {
         let dim = system.dims[state];
         let axes = self.axes.get(state).filter(|a| a.len() == dim)?;
         let (mut size, mut error) = (Rational::from(0), Rational::from(0));

@@ -10,6 +10,7 @@ pub mod regularity;
 mod ring;
 mod similarity;
 mod verdict;
+pub mod wavelet;
 
 pub use branch::Context;
 pub use direction::{Direction, primitive};

@@ -1,0 +1,204 @@
+//! The Hölder exponent of Daubechies' scaling functions: masks with algebraic coefficients, enclosed by intervals.
+//!
+//! `a(z) = 2 ((1+z)/2)^N q(z)`, where `q(z) q(1/z) = Σ_k C(N−1+k, k) y^k`, `y = (2 − z − 1/z)/4`, and `q` takes the roots outside
+//! the unit circle, `q(1) = 1`. With `b = 2^{1−N} q` the exponent is `−log_2` of the joint spectral radius of the matrices of `b`.
+//! The radius is bounded for rational matrices near the true ones, and the bounds are widened by what the difference can do.
+
+use super::regularity::{digits, minus_log};
+use crate::algebraic::roots;
+use crate::arith::{Integer, Interval, Rational, abs};
+use crate::linalg::Matrix;
+use crate::poly::{Poly, factor};
+use crate::radius::{JointRadius, Options, Proof, System, joint_radius};
+
+/// The regularity of a scaling function.
+#[derive(Debug, Clone)]
+pub struct Wavelet {
+    /// `N`, the number of vanishing moments.
+    pub moments: usize,
+    /// Enclosures of the coefficients of `b`.
+    pub factor: Vec<Interval>,
+    /// The radius of the rational matrices near the true ones.
+    pub radius: JointRadius,
+    /// Enclosure of the true joint spectral radius.
+    pub enclosure: Interval,
+    /// Enclosure of the Hölder exponent.
+    pub exponent: Interval,
+}
+
+/// Largest `N` handled.
+pub const MAX_MOMENTS: usize = 12;
+/// Binary places of the coefficients.
+const BITS: u64 = 160;
+
+/// Bounds the Hölder exponent of the scaling function with `moments` vanishing moments; `None` for `moments` outside
+/// `2..=`[`MAX_MOMENTS`], or where the bounds could not be established.
+///
+/// # Cost
+/// One joint spectral radius of matrices of size `moments − 1`.
+#[must_use]
+pub fn wavelet(moments: usize, options: &Options) -> Option<Wavelet> {
+    if !(2..=MAX_MOMENTS).contains(&moments) {
+        return None;
+    }
+    let factor = coefficients(moments)?;
+    let middle: Vec<Rational> = factor.iter().map(|x| grid(&x.mid())).collect();
+    let error = factor.iter().zip(&middle).map(|(x, m)| (x - &Interval::point(m.clone())).magnitude()).max()?;
+    let system = System::plain(&digits(&middle, 2)).ok()?;
+    let radius = joint_radius(&system, options).ok()?;
+    let enclosure = Interval::new(below(&system, &radius, &error)?, above(&system, &radius, &error)?);
+    let exponent = minus_log(&enclosure, 2)?;
+    Some(Wavelet { moments, factor, radius, enclosure, exponent })
+}
+
+fn grid(x: &Rational) -> Rational {
+    Interval::point(x.clone()).outward(BITS).lo
+}
+
+/// Enclosures of the coefficients of `2^{1−N} q`.
+fn coefficients(moments: usize) -> Option<Vec<Interval>> {
+    // z^{N−1} Σ_k C(N−1+k, k) ((2 − z − 1/z)/4)^k, where (2 − z − 1/z) z = −(1 − z)².
+    let mut symbol = Poly::zero();
+    let mut binomial = Rational::from(1);
+    let mut power = Poly::constant(Rational::from(1));
+    let square = Poly::new([-1, 2, -1].into_iter().map(|c| Rational::from(c) / Rational::from(4)).collect());
+    for k in 0..moments {
+        let mut shifted = vec![Rational::from(0); moments - 1 - k];
+        shifted.extend_from_slice(power.scale(&binomial).coeffs());
+        symbol = &symbol + &Poly::new(shifted);
+        power = &power * &square;
+        binomial = binomial * Rational::from((moments + k) as u64) / Rational::from((k + 1) as u64);
+    }
+    let zero = || Interval::point(Rational::from(0));
+    let one = || Interval::point(Rational::from(1));
+    // A complex polynomial, as enclosures of real and imaginary parts.
+    let mut q: Vec<(Interval, Interval)> = vec![(one(), zero())];
+    for (minpoly, multiplicity) in factor(&symbol) {
+        for root in roots(&minpoly) {
+            if root.cmp_modulus_rational(&Rational::from(1)) != std::cmp::Ordering::Greater {
+                continue;
+            }
+            let (re, im) = root.enclosure(BITS + 80);
+            for _ in 0..multiplicity {
+                q = times_linear(&q, &re, &im);
+            }
+        }
+    }
+    if q.len() != moments {
+        return None;
+    }
+    // q is real because roots come in conjugate pairs; scale to 2^{1−N} at z = 1.
+    let sum = q.iter().fold(zero(), |s, c| &s + &c.0);
+    if sum.contains_zero() {
+        return None;
+    }
+    let scale = Rational::from(1) / Rational::from(Integer::from(1) << (moments as u64 - 1));
+    let inverse = &Interval::new(Rational::from(1) / &sum.lo, Rational::from(1) / &sum.hi) * &scale;
+    Some(q.iter().map(|c| (&c.0 * &inverse).outward(BITS + 40)).collect())
+}
+
+/// `q(z) (z − r)`.
+fn times_linear(q: &[(Interval, Interval)], re: &Interval, im: &Interval) -> Vec<(Interval, Interval)> {
+    let zero = Interval::point(Rational::from(0));
+    let at = |k: usize| q.get(k).cloned().unwrap_or_else(|| (zero.clone(), zero.clone()));
+    (0..=q.len())
+        .map(|k| {
+            let (a, b) = at(k);
+            let before = if k == 0 { (zero.clone(), zero.clone()) } else { at(k - 1) };
+            let real = &(&before.0 - &(&a * re)) + &(&b * im);
+            let imaginary = &(&before.1 - &(&a * im)) - &(&b * re);
+            (real.outward(BITS + 80), imaginary.outward(BITS + 80))
+        })
+        .collect()
+}
+
+/// The bound of the rational matrices, widened: a change of every entry by at most `error` adds at most
+/// `K n error max|q|` in the norm of a polytope with points `q` and `e_j ∈ K Q`.
+fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rational> {
+    let mut largest = Rational::from(0);
+    for part in &radius.blocks {
+        // Blocks must be principal parts, on which the true matrices have the same zeros.
+        let Some(Proof::Polytope(p)) = &part.proof else { return None };
+        if radius.blocks.len() > 1 || part.block.system.dims != system.dims {
+            return None;
+        }
+        let mut entries = system.arrows.iter().flat_map(|a| (0..a.matrix.rows()).flat_map(|i| a.matrix.row(i)));
+        if entries.any(|x| *x != 0 && abs(x) <= *error) {
+            return None;
+        }
+        let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(abs)).max()?;
+        let n = Rational::from(part.block.system.dims[0] as u64);
+        let interior = p.interior(&part.block.system, 0)?;
+        // ‖E q‖_1 <= n · n · error · max|q|.
+        largest = largest.max(part.bound.clone()? + interior * &n * &n * error * size);
+    }
+    Some(largest)
+}
+
+/// A true eigenvalue of the leading word near that of the rational matrices, by a change of sign of `det(x − T_w)` that the
+/// difference of the matrices cannot undo.
+fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rational> {
+    let lower = radius.lower.as_ref().filter(|l| l.root.is_real())?;
+    let product = system.product(&lower.path);
+    let n = product.rows();
+    let count = Rational::from((n * n) as u64);
+    // 1-norms: ‖T‖ and the change of a product of that many factors, each changed by at most n · error.
+    let size = system.arrows.iter().map(|a| norm(&a.matrix)).max()? + Rational::from(1);
+    let mut change = &count * error * Rational::from(lower.length as u64);
+    for _ in 1..lower.length {
+        change *= &size;
+    }
+    let value = lower.root.enclosure(BITS).0.mid();
+    let step = abs(&value) / Rational::from(Integer::from(1) << 60u64);
+    let sides = [&value - &step, &value + &step];
+    let mut signs = Vec::new();
+    for x in &sides {
+        let shifted = &Matrix::identity(n).scale(x) - &product;
+        let det = determinant(&shifted);
+        // |det(A + E) − det A| <= n ‖E‖ (‖A‖ + ‖E‖)^{n−1} in the 1-norm.
+        let mut allowance = Rational::from(n as u64) * &change;
+        for _ in 1..n {
+            allowance *= norm(&shifted) + &change;
+        }
+        if abs(&det) <= allowance {
+            return None;
+        }
+        signs.push(det > 0);
+    }
+    let least = sides.iter().map(abs).min()?;
+    let floor = crate::radius::root_floor(&least, lower.length, 96);
+    (signs[0] != signs[1]).then_some(floor)
+}
+
+/// The largest 1-norm of a column.
+fn norm(m: &Matrix) -> Rational {
+    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).max().unwrap_or_default()
+}
+
+fn determinant(m: &Matrix) -> Rational {
+    let mut a = m.clone();
+    let n = a.rows();
+    let mut det = Rational::from(1);
+    for k in 0..n {
+        let Some(found) = (k..n).find(|&r| a[(r, k)] != 0) else { return Rational::from(0) };
+        if found != k {
+            for j in 0..n {
+                let t = a[(k, j)].clone();
+                a[(k, j)] = a[(found, j)].clone();
+                a[(found, j)] = t;
+            }
+            det = -det;
+        }
+        det *= &a[(k, k)];
+        for i in k + 1..n {
+            let factor = &a[(i, k)] / &a[(k, k)];
+            if factor != 0 {
+                for j in k..n {
+                    let change = &factor * &a[(k, j)];
+                    a[(i, j)] -= change;
+                }
+            }
+        }
+    }
+    det
+}
