@@ -18,6 +18,7 @@ enum Question {
     Ends,
     Joints,
     Address(Address),
+    AnyPoint,
 }
 
 /// The questions of a case: of a curve its end points, its joints and the addresses to examine; of a set those addresses,
@@ -33,6 +34,21 @@ fn questions(case: &Case) -> Vec<Question> {
     }
     let own = (0..start.pieces.len()).filter(|&i| start.pieces[i].target == case.shape.start);
     own.map(|i| Question::Address(Address { prefix: Vec::new(), cycle: vec![i] })).collect()
+}
+
+/// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
+fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Result<Question, Rejected> {
+    if item.tag("question")? == "any point" && last {
+        return Ok(Question::AnyPoint);
+    }
+    let [_, of, _, _] = item.fields(["question", "address", "verdict", "points"])?;
+    let address = crate::rules::read_address(&of)?;
+    let normal = address.normalise(&case.shape, case.shape.start);
+    let question = Question::Address(address.clone());
+    if normal.as_ref() != Some(&address) || asked.contains(&question) {
+        return reject("answers", &of.place, "the address is not in its normal form, or was asked for before");
+    }
+    Ok(question)
 }
 
 /// Checks a certificate.
@@ -57,12 +73,15 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
         checked.push(point);
     }
     let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], lines: Vec::new() };
-    let (items, asked) = (answers.list()?, questions(case));
-    if items.len() < asked.len() || items.len() > asked.len() + 1 {
+    let (items, mut asked) = (answers.list()?, questions(case));
+    if items.len() < asked.len() {
         return reject("answers", &answers.place, format!("{} questions are asked", asked.len()));
     }
+    for (k, item) in items.iter().enumerate().skip(asked.len()) {
+        asked.push(further(case, item, &asked, k + 1 == items.len())?);
+    }
     let mut together = None;
-    for (item, question) in items.iter().zip(asked.into_iter().map(Some).chain([None])) {
+    for (item, question) in items.iter().zip(&asked) {
         let found = at(&item.place, claims.answer(item, question))?;
         together = Some(together.map_or(found, |t: Verdict| t.and(found)));
     }
@@ -73,7 +92,9 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
     if verdict.text()? != together.word() {
         return reject("verdict", &verdict.place, format!("what follows is \"{}\"", together.word()));
     }
-    Ok(Accepted { case: case.name.clone(), verdict: together, claims: claims.lines })
+    let claims = claims.lines;
+    let line = |p: &Point| format!("{}: {:?}, {}", p.verdict.word(), p.place, p.kind);
+    Ok(Accepted { case: case.name.clone(), verdict: together, claims, points: checked.iter().map(line).collect() })
 }
 
 struct Claims<'a> {
@@ -84,17 +105,17 @@ struct Claims<'a> {
 }
 
 impl Claims<'_> {
-    /// Checks the answer to a question; `None` asks whether any point has a tangent line.
-    fn answer(&mut self, node: &Node<'_>, question: Option<Question>) -> Result<Verdict, Rejected> {
-        let (what, verdict, found) = match &question {
-            Some(Question::Ends) => {
+    /// Checks the answer to a question.
+    fn answer(&mut self, node: &Node<'_>, question: &Question) -> Result<Verdict, Rejected> {
+        let (what, verdict, found) = match question {
+            Question::Ends => {
                 let [what, verdict, points] = node.fields(["question", "verdict", "points"])?;
                 let ends = [Place::End(End::Start), Place::End(End::Finish)];
                 let found = self.all(&points, &ends)?;
                 self.lines.push(format!("{}: the curve has a tangent line at both end points", found.word()));
                 (what.text()? == "ends", verdict, found)
             }
-            Some(Question::Address(address)) => {
+            Question::Address(address) => {
                 let [what, of, verdict, points] = node.fields(["question", "address", "verdict", "points"])?;
                 if crate::rules::read_address(&of)? != *address {
                     return reject("answers", &of.place, "the case asks for another address here");
@@ -104,13 +125,13 @@ impl Claims<'_> {
                 self.lines.push(format!("{}: the shape has {text}", found.word()));
                 (what.text()? == "address", verdict, found)
             }
-            Some(Question::Joints) => {
+            Question::Joints => {
                 let [what, verdict, theorem, points, upstairs] =
                     node.fields(["question", "verdict", "theorem", "points", "upstairs"])?;
                 let found = self.joints(&theorem, &points, &upstairs)?;
                 (what.text()? == "joints", verdict, found)
             }
-            None => {
+            Question::AnyPoint => {
                 let [what, verdict, products] = node.fields(["question", "verdict", "products"])?;
                 self.similarities(&products)?;
                 self.lines.push("refuted: some point of the shape has a tangent line".to_owned());

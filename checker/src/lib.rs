@@ -57,7 +57,7 @@ impl Verdict {
 }
 
 /// A certificate that was checked.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Accepted {
     /// The name of the case.
     pub case: String,
@@ -65,6 +65,8 @@ pub struct Accepted {
     pub verdict: Verdict,
     /// What was proved or refuted, one claim a line.
     pub claims: Vec<String>,
+    /// The points with their verdicts and kinds, one a line.
+    pub points: Vec<String>,
 }
 
 /// Why a certificate proves nothing.

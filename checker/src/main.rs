@@ -28,7 +28,7 @@ fn main() -> ExitCode {
     match secant_check::check(&case, &certificate) {
         Ok(accepted) => {
             println!("accepted: {}: {}", accepted.case, accepted.verdict.word());
-            for claim in &accepted.claims {
+            for claim in accepted.claims.iter().chain(&accepted.points) {
                 println!("  {claim}");
             }
             ExitCode::SUCCESS

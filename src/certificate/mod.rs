@@ -167,11 +167,23 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         let pieces = shape.states[shape.start].pieces.iter().enumerate();
         asked = pieces.filter(|(_, p)| p.target == shape.start).map(|(i, _)| Address::periodic(vec![i])).collect();
     }
-    // The claims about addresses follow those about the curve, in the order of the questions.
-    let mut claims = found.claims.iter().filter_map(|c| Some((c.verdict, c.point?)));
+    // Addresses that were asked for besides those of the case come after them.
+    let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict, c.asked.as_ref()?))).collect();
+    let listed = asked.len();
+    for (_, (address, _)) in &claims {
+        if !asked.contains(address) {
+            asked.push(address.clone());
+        }
+    }
+    if asked.len() > listed && !curve && case.examine.is_empty() {
+        return unsupported("further addresses of a set whose case lists none", "answers");
+    }
     for address in &asked {
-        let (verdict, point) = claims.next().map_or((Verdict::Undetermined, None), |(v, k)| (v, Some(k)));
-        let place = point.map(|k| place_json(&found.points[k]));
+        let claim = claims.iter().find(|(_, (a, _))| a == address);
+        let (verdict, place) = match claim {
+            Some((verdict, (_, k))) => (*verdict, Some(place_json(&found.points[*k]))),
+            None => (Verdict::Undetermined, None),
+        };
         let index: Vec<usize> = points.places.iter().position(|p| Some(p) == place.as_ref()).into_iter().collect();
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));

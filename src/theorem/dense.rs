@@ -46,7 +46,7 @@ fn decide(cx: &Context, dense: &mut DenseSet, found: &mut Certified) -> Claim {
         verdict,
         statement: Some(statement),
         reason: reason.map(str::to_owned),
-        point: None,
+        asked: None,
     };
     let plain = |verdict, reason| claim(Statement::Theorem5, ALL, verdict, reason);
     let Some(verdict) = dense.joints.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and) else {

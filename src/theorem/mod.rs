@@ -123,7 +123,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
             reason: Some(
                 "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned(),
             ),
-            point: None,
+            asked: None,
         });
     }
     found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
@@ -137,7 +137,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         verdict: Verdict::Undetermined,
         statement: None,
         reason: Some(reason),
-        point: None,
+        asked: None,
     };
     Certified {
         claims: vec![claim],
@@ -202,7 +202,7 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
     if cx.spaces.of(shape.start).basis.cols() == 0 {
         let reason = Some("the attractor is a single point".to_owned());
         let text = "the curve has a tangent at a dense set of points".to_owned();
-        found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason, point: None });
+        found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason, asked: None });
         return;
     }
     let dense = dense::dense_set(cx, joints);
@@ -262,7 +262,7 @@ fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
         verdict: verdict.unwrap_or(Verdict::Undetermined),
         statement: None,
         reason,
-        point: None,
+        asked: None,
     }
 }
 
@@ -273,6 +273,6 @@ fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
         verdict: point.verdict,
         statement: None,
         reason: point.reason.clone(),
-        point: Some(index),
+        asked: Some((address.clone(), index)),
     }
 }

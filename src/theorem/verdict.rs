@@ -305,8 +305,8 @@ pub struct Claim {
     pub statement: Option<Statement>,
     /// The reason where it is not proved; what exactly is claimed where it is.
     pub reason: Option<String>,
-    /// For a claim about one address: the index of its point in [`Certified::points`].
-    pub point: Option<usize>,
+    /// For a claim about one address: the address, normalised, and the index of its point in [`Certified::points`].
+    pub asked: Option<(Address, usize)>,
 }
 
 /// The hypotheses of Theorem 5 as found.
