@@ -41,8 +41,7 @@ fn size(a: C) -> f64 {
 }
 
 /// Aberth's iteration on `f(2^scale y)`, all in the variable `y`.
-pub(super) struct Aberth<'a> {
-    coeffs: &'a [Integer],
+pub(super) struct Aberth {
     split: Vec<(f64, i64)>,
     scale: i64,
     rows: BTreeMap<i64, Vec<f64>>,
@@ -50,9 +49,9 @@ pub(super) struct Aberth<'a> {
     pub points: Vec<C>,
 }
 
-impl<'a> Aberth<'a> {
+impl Aberth {
     /// Starting points on the circles of the Newton polygon (Bini); `turn` rotates them.
-    pub fn new(coeffs: &'a [Integer], turn: f64) -> Self {
+    pub fn new(coeffs: &[Integer], turn: f64) -> Self {
         let n = coeffs.len() - 1;
         let parts: Vec<(f64, i64)> = coeffs.iter().map(split).collect();
         let scale = (parts[0].1 - parts[n].1).div_euclid(n as i64);
@@ -77,7 +76,7 @@ impl<'a> Aberth<'a> {
                 points.push((radius * angle.cos(), radius * angle.sin()));
             }
         }
-        Self { coeffs, split: parts, scale, rows: BTreeMap::new(), points }
+        Self { split: parts, scale, rows: BTreeMap::new(), points }
     }
 
     /// The coefficients at points of size `2^e`, scaled into the range of `f64`.

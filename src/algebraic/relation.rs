@@ -4,7 +4,7 @@ use super::ball::Ball;
 use super::isolate::refine;
 use super::root::Root;
 use crate::arith::{Integer, Interval, Rational};
-use crate::poly::{Poly, ints};
+use crate::poly::Poly;
 use std::cmp::Ordering;
 
 /// The power sums `p_0 .. p_count` of the roots of a monic polynomial (Newton).
@@ -184,9 +184,4 @@ fn same_power(a: &Root, b: &Root, m: usize) -> bool {
         return false;
     }
     locate(&pa, a).same(&locate(&pb, b))
-}
-
-/// The coefficients scaled to a primitive integer polynomial; re-exported for the modulus relations.
-pub(super) fn primitive(f: &Poly) -> Vec<Integer> {
-    ints::from_rationals(f.coeffs())
 }

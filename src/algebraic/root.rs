@@ -1,5 +1,5 @@
 use super::ball::Ball;
-use super::isolate::{GUARD, isolate, refine};
+use super::isolate::{isolate, refine};
 use super::modulus;
 use super::relation;
 use crate::arith::{Integer, Interval, Rational, sign, to_f64};
@@ -74,11 +74,6 @@ impl RootSet {
             *cell = refine(&self.ints, &self.discs[index], &cell, t);
         }
         cell.clone()
-    }
-
-    /// The only root that a disc inside one of the guard discs can contain.
-    pub fn owner(&self, disc: &Ball) -> Option<usize> {
-        (0..self.discs.len()).find(|&i| disc.inside(&self.discs[i], GUARD))
     }
 }
 

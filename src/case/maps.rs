@@ -6,7 +6,10 @@ use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, Frame, Piece, Shape};
 
-/// Reads the `[[map]]` tables: affine maps `x -> linear x + shift` of one space of dimension 1 to 3.
+/// Largest dimension of affine maps that is read.
+pub const MAX_AFFINE: usize = 16;
+
+/// Reads the `[[map]]` tables: affine maps `x -> linear x + shift` of one space of dimension 1 to [`MAX_AFFINE`].
 pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<(Shape, Places), Problem> {
     for key in ["pieces", "reversed", "state", "start", "control"] {
         if let Some(span) = case.key_span(key) {
@@ -60,10 +63,10 @@ fn affine_map(map: &Table<'_>) -> Result<(Matrix, Vec<Rational>), Problem> {
     let linear = Written::read(&node)?;
     let d = linear.height();
     linear.sized(&node, (d, d), "the linear part of a map is square")?;
-    if d > 3 {
+    if d > MAX_AFFINE {
         return Err(node
             .problem("limit", format!("{} is {d} x {d}", node.what), "too large")
-            .with_help("affine maps of dimension 1, 2 or 3 are read; use `pieces` for larger ones"));
+            .with_help(format!("affine maps of dimension 1 to {MAX_AFFINE} are read; use `pieces` for larger ones")));
     }
     let shift_node = map.need("shift", "[0, 0]")?;
     let shift = shift_node

@@ -28,7 +28,7 @@ impl Written {
             if entries.len() != width {
                 let note = format!("{} here, {width} in the first row", entries_text(entries.len()));
                 return Err(row
-                    .problem("ragged", format!("the rows of {} have different lengths", node.what), note)
+                    .problem("size", format!("the rows of {} have different lengths", node.what), note)
                     .with_help("every row of a matrix has the same number of entries"));
             }
             if entries.len() > MAX_COORDINATES || rows.len() == MAX_COORDINATES {

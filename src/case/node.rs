@@ -131,14 +131,10 @@ impl<'a> Node<'a> {
     fn number_problem(&self, error: &ParseNumberError) -> Problem {
         match error {
             ParseNumberError::ZeroDenominator(_) => self
-                .problem("zero-denominator", format!("{} divides by zero", self.what), "the denominator is 0")
+                .problem("number", format!("{} divides by zero", self.what), "the denominator is 0")
                 .with_help("give a fraction whose denominator is not 0"),
             ParseNumberError::TooLong(digits) => self
-                .problem(
-                    "number-too-long",
-                    format!("{} has too many digits", self.what),
-                    format!("{digits} characters"),
-                )
+                .problem("number", format!("{} has too many digits", self.what), format!("{digits} characters"))
                 .with_help(format!("at most {} digits are read", crate::arith::MAX_DIGITS)),
             ParseNumberError::Malformed(text) if is_infinite(text) => self
                 .not_a_number("infinite values and NaN are no exact numbers; give an integer, a fraction or a decimal"),

@@ -11,11 +11,15 @@ struct Entry<'a> {
     range: Interval,
 }
 
-/// The classes, strictly descending.
+/// The classes of the roots of all factors, strictly descending.
 pub(super) fn modulus_classes(factors: &[Factor]) -> Vec<ModulusClass> {
+    group(&factors.iter().map(|f| f.roots.as_slice()).collect::<Vec<_>>())
+}
+
+pub(super) fn group(factors: &[&[Root]]) -> Vec<ModulusClass> {
     let mut entries: Vec<Entry> = Vec::new();
-    for (factor, f) in factors.iter().enumerate() {
-        for (root, r) in f.roots.iter().enumerate() {
+    for (factor, roots) in factors.iter().enumerate() {
+        for (root, r) in roots.iter().enumerate() {
             // A conjugate shares the range of its partner.
             let mirrored = !r.is_real() && r.conjugate().index() < root;
             if !mirrored {

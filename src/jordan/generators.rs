@@ -1,94 +1,216 @@
-//! Rational vectors that generate the cyclic summands of a primary component.
+//! Rational vectors that generate the cyclic summands of a primary component: proposed modulo primes, then exact.
 
-use crate::arith::Rational;
-use crate::linalg::Matrix;
-use crate::poly::Poly;
+use super::echelon::{ModEchelon, ModSpan};
+use super::operator::{ModOperator, Operator, make_primitive};
+use super::reconstruct::Residues;
+use crate::arith::Integer;
+use crate::arith::modular::{PrimeField, large_primes};
+use crate::poly::{IntPoly, Poly, ints};
 
-/// A rational vector with `f(A)^size u = 0`; it generates a cyclic module `Q[x] / (f^size)`, that is one Jordan block
-/// of that size for every root of `f`.
+/// An integer vector with `F(N)^size u = 0`; it generates a cyclic module `Q[x] / (F^size)`, that is one Jordan block
+/// of that size for every root of `F`.
+#[derive(Debug, Clone)]
 pub(super) struct Generator {
-    pub vector: Vec<Rational>,
+    pub vector: Vec<Integer>,
     pub size: usize,
 }
 
-/// The value of a polynomial at a matrix.
-pub(super) fn evaluate(f: &Poly, a: &Matrix) -> Matrix {
-    let n = a.rows();
-    let mut value = Matrix::zero(n, n);
-    for c in f.coeffs().iter().rev() {
-        value = &value * a;
-        for i in 0..n {
-            value[(i, i)] += c;
-        }
-    }
-    value
+/// A scaled irreducible factor (see [`Operator::scaled`]) and its exponent in the characteristic polynomial.
+pub(super) struct Part {
+    pub monic: Poly,
+    pub poly: IntPoly,
+    pub multiplicity: usize,
 }
 
-/// Generators of the whole component `ker f(A)^multiplicity`, sizes descending.
-pub(super) fn generators(a: &Matrix, f: &Poly, multiplicity: usize) -> Vec<Generator> {
-    let degree = f.degree().unwrap_or(1);
-    let value = evaluate(f, a);
-    let mut powers = vec![value.clone()];
-    let mut kernels = vec![value.kernel()];
-    while kernels[kernels.len() - 1].cols() < degree * multiplicity {
-        let next = &powers[powers.len() - 1] * &value;
-        kernels.push(next.kernel());
-        powers.push(next);
+impl Part {
+    fn degree(&self) -> usize {
+        self.poly.len() - 1
     }
-    let mut span = Span::default();
-    let mut found = Vec::new();
-    for size in (1..=kernels.len()).rev() {
-        let below = if size == 1 { 0 } else { kernels[size - 2].cols() };
-        let count = (kernels[size - 1].cols() - below) / degree;
-        for column in 0..kernels[size - 1].cols() {
-            if found.len() == count {
+}
+
+/// Generators of the component of part `which`, sizes descending.
+///
+/// What makes the result certain: `F(N)^size u = 0` holds exactly, the vectors `F(N)^(size-1) u` are independent over
+/// `Q[x] / (F)` because they are so modulo a prime, and the sizes add up to the multiplicity.
+pub(super) fn generators(operator: &Operator, parts: &[Part], which: usize) -> Vec<Generator> {
+    let part = &parts[which];
+    let rest: usize =
+        parts.iter().map(|p| p.degree() * p.multiplicity).sum::<usize>() - part.degree() * part.multiplicity;
+    if part.multiplicity == 1 && rest < part.degree() {
+        return vec![projected(operator, parts, which)];
+    }
+    large_primes().find_map(|p| from_prime(operator, part, p)).expect("only finitely many primes are unlucky")
+}
+
+/// For a large factor the other factors, applied to a unit vector, give the generator.
+fn projected(operator: &Operator, parts: &[Part], which: usize) -> Generator {
+    let n = operator.size();
+    for unit in 0..n {
+        let mut v: Vec<Integer> = (0..n).map(|i| Integer::from(u8::from(i == unit))).collect();
+        for (_, part) in parts.iter().enumerate().filter(|(i, _)| *i != which) {
+            for _ in 0..part.multiplicity {
+                v = operator.apply_poly(&part.poly, &v);
+                make_primitive(&mut v);
+            }
+        }
+        // By Cayley and Hamilton F(N) v = 0, and v is not 0.
+        if v.iter().any(|x| *x != 0) {
+            return Generator { vector: v, size: 1 };
+        }
+    }
+    unreachable!("the other factors do not annihilate the space")
+}
+
+/// A kernel vector to reconstruct: the free column of an echelon form of `F(N)^size`.
+struct Pick {
+    size: usize,
+    column: usize,
+}
+
+fn residues(part: &Part, field: &PrimeField) -> Vec<u64> {
+    part.poly.iter().map(|c| field.from_integer(c)).collect()
+}
+
+/// Finds the structure modulo `p` and reconstructs it; `None` when the prime was unlucky.
+fn from_prime(operator: &Operator, part: &Part, p: u64) -> Option<Vec<Generator>> {
+    let image = operator.modulo(&PrimeField::new(p));
+    let poly = residues(part, &image.field);
+    let levels = levels(&image, &poly, part)?;
+    let picks = picks(&image, &poly, part, &levels)?;
+    let mut found: Vec<Generator> = Vec::with_capacity(picks.len());
+    for size in (1..=levels.len()).rev() {
+        let columns: Vec<usize> = picks.iter().filter(|p| p.size == size).map(|p| p.column).collect();
+        if !columns.is_empty() {
+            let vectors = reconstruct(operator, part, size, &columns, (&image.field, &levels[size - 1]))?;
+            found.extend(vectors.into_iter().map(|vector| Generator { vector, size }));
+        }
+    }
+    Some(found)
+}
+
+/// Echelon forms of the powers of `F(N)`, until the kernel is the whole component.
+fn levels(image: &ModOperator, poly: &[u64], part: &Part) -> Option<Vec<ModEchelon>> {
+    let goal = part.degree() * part.multiplicity;
+    let mut power = image.poly_times(poly, None);
+    let mut levels: Vec<ModEchelon> = Vec::new();
+    loop {
+        let next = (part.multiplicity > levels.len() + 1).then(|| power.clone());
+        let echelon = ModEchelon::new(&image.field, power);
+        let (nullity, before) = (echelon.nullity(), levels.last().map_or(0, ModEchelon::nullity));
+        if nullity > goal || nullity <= before || nullity % part.degree() != 0 {
+            return None;
+        }
+        levels.push(echelon);
+        if nullity == goal {
+            return Some(levels);
+        }
+        power = image.poly_times(poly, Some(&next?));
+    }
+}
+
+/// Chooses kernel vectors whose images in the socle are independent over the field.
+fn picks(image: &ModOperator, poly: &[u64], part: &Part, levels: &[ModEchelon]) -> Option<Vec<Pick>> {
+    let degree = part.degree();
+    let mut picks = Vec::new();
+    if levels.len() == 1 && (degree == 1 || levels[0].nullity() == degree) {
+        // Vectors of an echelon basis are independent, and one nonzero vector always is.
+        let columns = levels[0].free_columns().take(levels[0].nullity() / degree);
+        return Some(columns.map(|column| Pick { size: 1, column }).collect());
+    }
+    let mut span = ModSpan::default();
+    for size in (1..=levels.len()).rev() {
+        let below = if size == 1 { 0 } else { levels[size - 2].nullity() };
+        let count = (levels[size - 1].nullity() - below) / degree;
+        for column in levels[size - 1].free_columns() {
+            if picks.len() == count {
                 break;
             }
-            let vector = kernels[size - 1].column(column);
-            let socle = if size == 1 { vector.clone() } else { powers[size - 2].apply(&vector) };
-            if span.extend(a, socle, degree) {
-                found.push(Generator { vector, size });
+            let mut socle = levels[size - 1].kernel_vector(&image.field, column);
+            for _ in 1..size {
+                socle = image.apply_poly(poly, &socle);
+            }
+            if socle.iter().any(|x| *x != 0) && span.extend(image, socle, degree) {
+                picks.push(Pick { size, column });
             }
         }
-        debug_assert_eq!(found.len(), count);
+        if picks.len() != count {
+            return None;
+        }
     }
-    found
+    Some(picks)
 }
 
-/// A subspace that the matrix maps to itself, by a reduced basis.
-#[derive(Default)]
-struct Span {
-    rows: Vec<(usize, Vec<Rational>)>,
+/// The most primes tried before the first one is suspected of being unlucky.
+const MAX_PRIMES: usize = 100_000;
+
+/// The exact kernel vectors of `F(N)^size` at the given free columns.
+fn reconstruct(
+    operator: &Operator,
+    part: &Part,
+    size: usize,
+    columns: &[usize],
+    first: (&PrimeField, &ModEchelon),
+) -> Option<Vec<Vec<Integer>>> {
+    let (first_field, first_echelon) = first;
+    let mut known: Vec<Residues> = columns.iter().map(|_| Residues::default()).collect();
+    let absorb = |known: &mut [Residues], field: &PrimeField, echelon: &ModEchelon| {
+        for (residues, column) in known.iter_mut().zip(columns) {
+            residues.absorb(field, &echelon.kernel_vector(field, *column));
+        }
+    };
+    absorb(&mut known, first_field, first_echelon);
+    let (mut count, mut next_try) = (1, 1);
+    let mut primes = large_primes().filter(|p| *p != first_field.modulus());
+    loop {
+        if count >= next_try {
+            if let Some(vectors) = verified(operator, part, size, &known) {
+                return Some(vectors);
+            }
+            next_try = count + count / 4 + 1;
+        }
+        if count > MAX_PRIMES {
+            return None;
+        }
+        let field = PrimeField::new(primes.next()?);
+        let echelon = kernel_echelon(operator, part, size, &field);
+        if echelon.pivots.len() > first_echelon.pivots.len() {
+            return None;
+        }
+        if echelon.pivots == first_echelon.pivots {
+            absorb(&mut known, &field, &echelon);
+            count += 1;
+        } else if echelon.pivots < first_echelon.pivots {
+            // Pivots can only move right modulo an unlucky prime, so the first one was.
+            return None;
+        }
+    }
 }
 
-impl Span {
-    fn reduced(&self, mut v: Vec<Rational>) -> Vec<Rational> {
-        for (pivot, row) in &self.rows {
-            let factor = v[*pivot].clone();
-            if factor != 0 {
-                for (x, y) in v.iter_mut().zip(row) {
-                    *x -= &factor * y;
-                }
-            }
-        }
-        v
+fn kernel_echelon(operator: &Operator, part: &Part, size: usize, field: &PrimeField) -> ModEchelon {
+    let image = operator.modulo(field);
+    let poly = residues(part, field);
+    let mut power = image.poly_times(&poly, None);
+    for _ in 1..size {
+        power = image.poly_times(&poly, Some(&power));
     }
+    ModEchelon::new(field, power)
+}
 
-    /// Adds `v, A v, ..., A^(degree - 1) v`; false when `v` is in the span already (then all of them are).
-    fn extend(&mut self, a: &Matrix, mut v: Vec<Rational>, degree: usize) -> bool {
-        for step in 0..degree {
-            let mut row = self.reduced(v.clone());
-            let Some(pivot) = row.iter().position(|x| *x != 0) else {
-                debug_assert_eq!(step, 0);
-                return false;
-            };
-            let inverse = Rational::from(1) / &row[pivot];
-            row.iter_mut().for_each(|x| *x *= &inverse);
-            self.rows.push((pivot, row));
-            if step + 1 < degree {
-                v = a.apply(&v);
-            }
+/// The reconstructed vectors, when all of them are in the kernel exactly.
+fn verified(operator: &Operator, part: &Part, size: usize, known: &[Residues]) -> Option<Vec<Vec<Integer>>> {
+    let mut vectors = Vec::with_capacity(known.len());
+    for residues in known {
+        let mut vector = residues.vector()?;
+        make_primitive(&mut vector);
+        let mut image = vector.clone();
+        for _ in 0..size {
+            image = operator.apply_poly(&part.poly, &image);
         }
-        true
+        if image.iter().any(|x| *x != 0) {
+            return None;
+        }
+        vectors.push(vector);
     }
+    debug_assert!(vectors.iter().all(|v| ints::content(v) == 1));
+    Some(vectors)
 }

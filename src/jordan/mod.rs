@@ -3,12 +3,17 @@
 
 mod chains;
 mod classes;
+mod echelon;
 mod generators;
+mod operator;
+mod reconstruct;
+mod summand;
+mod symmetry;
 
 use crate::algebraic::{Elem, Root, roots};
-use crate::linalg::{Matrix, char_poly_blocks};
-use crate::poly::{IntPoly, Poly, factor, ints};
-use std::collections::BTreeMap;
+use crate::linalg::Matrix;
+use crate::poly::Poly;
+use rayon::prelude::*;
 
 pub use crate::linalg::char_poly;
 
@@ -79,13 +84,47 @@ impl Spectrum {
     #[must_use]
     pub fn of(a: &Matrix) -> Self {
         assert_eq!(a.rows(), a.cols(), "square matrix");
-        let blocks = char_poly_blocks(a);
-        let transpose = a.transpose();
-        let factors: Vec<Factor> =
-            factor_blocks(&blocks).into_iter().map(|(poly, m)| Factor::of(a, &transpose, poly, m)).collect();
-        let product = blocks.iter().fold(vec![1.into()], |acc: IntPoly, f| ints::mul(&acc, f));
+        Self::from_summands(a.rows(), &summand::split(a))
+    }
+
+    /// The same as [`Spectrum::of`], with a declared symmetry: a permutation of the indices with
+    /// `A[p[i]][p[j]] = A[i][j]`, all of whose cycles have length 1 or one common length. The blocks of the Fourier
+    /// transform are then treated one by one. `None` when the matrix does not have the symmetry.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    #[must_use]
+    pub fn with_symmetry(a: &Matrix, permutation: &[usize]) -> Option<Self> {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        let symmetry = symmetry::Symmetry::declared(a, permutation)?;
+        Some(Self::from_summands(a.rows(), &symmetry.split(a)))
+    }
+
+    /// The same as [`Spectrum::of`], without any search for a symmetry; slower, for comparison.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    #[must_use]
+    pub fn without_symmetry(a: &Matrix) -> Self {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        Self::from_summands(a.rows(), &[summand::Summand::whole(a)])
+    }
+
+    fn from_summands(size: usize, summands: &[summand::Summand]) -> Self {
+        let parts = summand::decompose(summands);
+        let char_poly = summand::product(&parts);
+        let build = |part: summand::Merged| {
+            let roots = roots(&part.poly);
+            let summand::Merged { poly, multiplicity, blocks, right, left } = part;
+            Factor { poly, multiplicity, blocks, roots, right, left }
+        };
+        let factors: Vec<Factor> = if size < PARALLEL {
+            parts.into_iter().map(build).collect()
+        } else {
+            parts.into_par_iter().map(build).collect()
+        };
         let classes = classes::modulus_classes(&factors);
-        Self { size: a.rows(), char_poly: Poly::from_ints(&product).monic(), factors, classes }
+        Self { size, char_poly, factors, classes }
     }
 
     /// The minimal polynomial, monic.
@@ -126,14 +165,6 @@ impl Spectrum {
 }
 
 impl Factor {
-    fn of(a: &Matrix, transpose: &Matrix, poly: Poly, multiplicity: usize) -> Self {
-        let (blocks, right) = chains::chains(a, &poly, multiplicity);
-        let (left_blocks, left) = chains::chains(transpose, &poly, multiplicity);
-        debug_assert_eq!(blocks, left_blocks);
-        let roots = roots(&poly);
-        Self { poly, multiplicity, blocks, roots, right, left }
-    }
-
     /// The degree of the factor.
     #[must_use]
     pub fn degree(&self) -> usize {
@@ -141,17 +172,18 @@ impl Factor {
     }
 }
 
-/// The irreducible factors of a product, with the exponents of equal ones added.
-fn factor_blocks(blocks: &[IntPoly]) -> Vec<(Poly, usize)> {
-    let mut distinct: BTreeMap<&IntPoly, usize> = BTreeMap::new();
-    for block in blocks {
-        *distinct.entry(block).or_default() += 1;
-    }
-    let mut found: BTreeMap<Poly, usize> = BTreeMap::new();
-    for (block, count) in distinct {
-        for (poly, exponent) in factor(&Poly::from_ints(block)) {
-            *found.entry(poly).or_default() += exponent * count;
-        }
-    }
-    found.into_iter().collect()
+/// Smaller matrices are not worth a second thread.
+const PARALLEL: usize = 24;
+
+/// Only the classes of eigenvalues of equal modulus, descending, as lists of roots: no chains are computed.
+///
+/// # Panics
+/// If the matrix is not square.
+#[must_use]
+pub fn modulus_classes(a: &Matrix) -> Vec<Vec<Root>> {
+    assert_eq!(a.rows(), a.cols(), "square matrix");
+    let factors: Vec<Vec<Root>> = summand::polynomials(&summand::split(a)).iter().map(|(f, _)| roots(f)).collect();
+    let lists: Vec<&[Root]> = factors.iter().map(Vec::as_slice).collect();
+    let resolve = |e: &Eigenvalue| factors[e.factor][e.root].clone();
+    classes::group(&lists).iter().map(|c| c.members.iter().map(resolve).collect()).collect()
 }

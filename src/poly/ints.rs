@@ -3,7 +3,7 @@
 use super::modp;
 use crate::arith::modular::{PrimeField, large_primes};
 use crate::arith::{Integer, Natural, Rational};
-use malachite_base::num::arithmetic::traits::{AddMulAssign, DivExact, DivExactAssign, DivRem, Gcd, Lcm, SubMulAssign};
+use malachite_base::num::arithmetic::traits::{AddMulAssign, DivExactAssign, DivRem, Gcd, Lcm, SubMulAssign};
 use malachite_base::num::logic::traits::SignificantBits;
 
 /// Integer coefficients, low degree first, without trailing zeros.
@@ -237,11 +237,6 @@ impl CrtPoly {
 pub(crate) fn deflate(f: &[Integer]) -> (IntPoly, usize) {
     let k = f.iter().enumerate().skip(1).filter(|(_, c)| **c != 0).fold(0usize, |k, (i, _)| k.gcd(i)).max(1);
     (f.iter().step_by(k).cloned().collect(), k)
-}
-
-/// The exact quotient of two integers.
-pub(crate) fn quotient(a: &Integer, b: &Integer) -> Integer {
-    a.div_exact(b)
 }
 
 #[cfg(test)]

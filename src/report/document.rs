@@ -23,6 +23,8 @@ pub enum Block {
     Formula(Math),
     /// Points of a list.
     List(Vec<Line>),
+    /// Terms with what is to be said about them.
+    Facts(Vec<(String, Line)>),
     /// Conditions with what was found about them.
     Checks(Vec<Check>),
     /// A table.

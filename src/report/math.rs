@@ -26,6 +26,8 @@ pub enum Math {
         /// The superscript.
         sup: Option<Box<Math>>,
     },
+    /// A square root.
+    Root(Box<Math>),
     /// A matrix, by rows.
     Matrix(Vec<Vec<Math>>),
 }

@@ -65,6 +65,14 @@ impl Writer {
                     self.paragraph(item, &format!("{pad}  - "), &format!("{pad}    "));
                 }
             }
+            Block::Facts(facts) => {
+                let width = facts.iter().map(|(term, _)| term.width()).max().unwrap_or(0);
+                for (term, text) in facts {
+                    let gap = " ".repeat(width - term.width() + 2);
+                    let first = format!("{pad}    {}{gap}", self.painted("2", term));
+                    self.paragraph(text, &first, &format!("{pad}    {}", " ".repeat(width + 2)));
+                }
+            }
             Block::Checks(checks) => {
                 for Check { tone, text } in checks {
                     let mark = self.painted(tone_style(*tone), tone_mark(*tone));
@@ -300,6 +308,7 @@ pub fn math_line(math: &Math) -> String {
         Math::Letter(c) | Math::Symbol(c) => c.to_string(),
         Math::Row(parts) => row_text(parts),
         Math::Script { base, sub, sup } => script_text(base, sub.as_deref(), sup.as_deref()),
+        Math::Root(inner) => format!("√{}", math_line(inner)),
         Math::Matrix(rows) => {
             let row = |cells: &Vec<Math>| cells.iter().map(math_line).collect::<Vec<_>>().join(", ");
             format!("[{}]", rows.iter().map(row).collect::<Vec<_>>().join("; "))
@@ -320,9 +329,16 @@ fn row_text(parts: &[Math]) -> String {
 
 /// For every part of a row, whether a space stands before it.
 fn gaps(parts: &[Math]) -> Vec<bool> {
-    let kind = |m: &Math| if let Math::Symbol(c) = m { spacing(*c) } else { Spacing::Tight };
+    let kind = |m: &Math| match m {
+        Math::Symbol(c) => spacing(*c),
+        Math::Script { base, .. } => match base.as_ref() {
+            Math::Symbol(c) => spacing(*c),
+            _ => Spacing::Tight,
+        },
+        _ => Spacing::Tight,
+    };
     let symbol = |m: &Math| matches!(m, Math::Symbol(_));
-    let apart = |m: &Math| matches!(m, Math::Number(_) | Math::Digits(_) | Math::Word(_));
+    let apart = |m: &Math| matches!(m, Math::Number(_) | Math::Digits(_) | Math::Word(_) | Math::Root(_));
     let mut gaps = vec![false; parts.len()];
     let mut sign = false;
     for k in 0..parts.len() {

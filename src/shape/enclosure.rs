@@ -1,6 +1,7 @@
-//! Balls that hold the attractors, and what a functional does on a cell (theory §7).
+//! Balls (and polygons) that hold the attractors, and what a functional does on a cell (theory §7).
 
 use super::contraction::{Contracting, norm1};
+use super::hull::{Hulls, hulls};
 use super::{Shape, Spaces, difference};
 use crate::arith::{Interval, Rational};
 use crate::linalg::dot;
@@ -9,6 +10,7 @@ use crate::linalg::dot;
 #[derive(Debug, Clone)]
 pub struct Balls {
     radius: Vec<Rational>,
+    hulls: Option<Hulls>,
 }
 
 impl Balls {
@@ -41,7 +43,19 @@ impl Balls {
                 })
                 .collect();
         }
-        Self { radius }
+        Self { radius, hulls: None }
+    }
+
+    /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
+    #[must_use]
+    pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
+        Some(Self { radius: self.radius.clone(), hulls: Some(hulls(shape, spaces)?) })
+    }
+
+    /// The vertices of the polygon of a state, where polygons are used.
+    #[must_use]
+    pub fn hull(&self, state: usize) -> Option<&[Vec<Rational>]> {
+        Some(&self.hulls.as_ref()?[state])
     }
 
     /// The radius at a state.
@@ -59,6 +73,12 @@ impl Balls {
     /// Encloses `row · a` for all `a` in the attractor of `state`; `row` is already multiplied by the operator of the cell.
     #[must_use]
     pub fn enclose(&self, spaces: &Spaces, state: usize, row: &[Rational]) -> Interval {
+        if let Some(vertices) = self.hull(state) {
+            let values = || vertices.iter().map(|v| dot(row, v));
+            if let (Some(lo), Some(hi)) = (values().min(), values().max()) {
+                return Interval { lo, hi };
+            }
+        }
         let centre = dot(row, &spaces.of(state).base);
         let spread = oscillation(row) / Rational::from(2) * &self.radius[state];
         Interval { lo: &centre - &spread, hi: centre + spread }

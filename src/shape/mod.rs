@@ -4,8 +4,11 @@ mod address;
 mod contraction;
 mod curve;
 mod enclosure;
+mod hull;
+mod identities;
 mod model;
 mod space;
+mod unknown;
 
 pub use address::{Address, AddressError, fixed_point, word_text};
 pub use contraction::{
@@ -13,5 +16,7 @@ pub use contraction::{
 };
 pub use curve::{CurveError, End};
 pub use enclosure::{Balls, oscillation};
+pub use identities::{Complex, ComplexError, Face, Failure, Identity, IdentityKind, Layout, OpName, Reversal, Side};
 pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
 pub use space::{Spaces, StateSpace, difference};
+pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError, characteristic};

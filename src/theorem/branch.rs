@@ -8,6 +8,12 @@ use crate::arith::Rational;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
+use std::cell::OnceCell;
+
+/// Products of a row and an operator that one ring condition may cost.
+const MAX_ROWS: usize = 6_000;
+/// The same for the first try with balls, where polygons may do better.
+const FIRST_ROWS: usize = 1_000;
 
 /// What all branches of a shape share.
 pub struct Context<'a> {
@@ -17,6 +23,8 @@ pub struct Context<'a> {
     pub spaces: &'a Spaces,
     /// Balls that hold its attractors.
     pub balls: &'a Balls,
+    /// The same with convex polygons, tried where the balls do not suffice.
+    pub hulls: &'a OnceCell<Option<Balls>>,
     /// The state from which addresses are read.
     pub root: usize,
     /// The map from that state into the space where the shape is looked at: control points, identity, or a quotient.
@@ -155,6 +163,20 @@ impl Analysis<'_> {
         }
     }
 
+    /// The ring condition with balls, then with polygons where there are any.
+    fn decide(&self, functionals: &[Functional]) -> RingAnswer {
+        let small = self.branch.relevant <= 2;
+        let answer = self.ring().decide(functionals, if small { FIRST_ROWS } else { MAX_ROWS });
+        if !small || !matches!(answer, RingAnswer::Open { .. }) {
+            return answer;
+        }
+        let cx = self.cx;
+        match cx.hulls.get_or_init(|| cx.balls.with_hulls(cx.shape, cx.spaces)) {
+            Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, MAX_ROWS),
+            None => self.ring().decide(functionals, MAX_ROWS),
+        }
+    }
+
     fn outcome(&self) -> Outcome {
         let b = self.branch;
         if b.linear.rows() == 0 {
@@ -182,15 +204,20 @@ impl Analysis<'_> {
         // From the index of nilpotency on, the images of the ring are the point itself.
         while !power(&self.branch.linear, turns).is_zero() {
             let ring = Ring { pieces: &images, ..self.ring() };
-            match ring.decide(&coordinates) {
+            match ring.decide(&coordinates, FIRST_ROWS) {
                 RingAnswer::Holds(_) => {}
                 RingAnswer::Fails(_) => {
                     let reason = "L is nilpotent and the ring passes through the point: its germ is that of finitely many pieces";
-                    return Outcome::Open { reason: reason.to_owned(), place: None, at_least: 0 };
+                    return Outcome::Open { reason: reason.to_owned(), place: None, at_least: 0, direction: None };
                 }
                 RingAnswer::Open { place } => {
                     let reason = "L is nilpotent and it is not decided whether the ring passes through the point";
-                    return Outcome::Open { reason: reason.to_owned(), place: Some(place), at_least: 0 };
+                    return Outcome::Open {
+                        reason: reason.to_owned(),
+                        place: Some(place),
+                        at_least: 0,
+                        direction: None,
+                    };
                 }
             }
             for piece in &mut images {
@@ -216,7 +243,7 @@ impl Analysis<'_> {
             };
         }
         let reason = "several directions of the largest modulus, which the control points may fold into one line";
-        Outcome::Open { reason: reason.to_owned(), place: None, at_least: 1 }
+        Outcome::Open { reason: reason.to_owned(), place: None, at_least: 1, direction: None }
     }
 
     /// `dim U = 1`: one real eigenvalue with one longest block.
@@ -228,7 +255,7 @@ impl Analysis<'_> {
             root: Some(top.root.clone()),
             part: Part::Real,
         };
-        let answer = self.ring().decide(std::slice::from_ref(&functional));
+        let answer = self.decide(std::slice::from_ref(&functional));
         let statement = if top.block == 1 { Statement::Theorem2 } else { Statement::Theorem3 };
         let line = |statement, proof: Option<RingProof>| {
             let direction = self.direction(top).normalised();
@@ -260,8 +287,13 @@ impl Analysis<'_> {
 
     /// The ring condition fails or is open: isolation first, then what the witness gives.
     fn ring_fails(&self, top: &Top, functional: &Functional, answer: RingAnswer) -> Outcome {
-        let open = |reason: &str, place| Outcome::Open { reason: reason.to_owned(), place, at_least: 1 };
-        let isolation = match self.ring().decide(&isolation_functionals(&self.branch.linear)) {
+        let open = |reason: &str, place| Outcome::Open {
+            reason: reason.to_owned(),
+            place,
+            at_least: 1,
+            direction: Some(self.direction(top).normalised()),
+        };
+        let isolation = match self.decide(&isolation_functionals(&self.branch.linear)) {
             RingAnswer::Holds(proof) => proof,
             RingAnswer::Fails(Witness::Point { address, .. }) => {
                 let mut place = address.prefix;
@@ -299,14 +331,14 @@ impl Analysis<'_> {
         }
         if top.block == 2 && injective && self.is_single_block(top) {
             let c1 = Functional { row: second_functional(top.factor), ..functional.clone() };
-            if let Some(crossing) = self.ring().crossing(&c1, functional) {
+            if let Some(crossing) = self.ring().crossing(&c1, functional, MAX_ROWS) {
                 return refuted(Statement::Section6, crossing);
             }
         }
         let place = match witness {
             Witness::Point { address, .. } => address.prefix.into_iter().chain(address.cycle).collect(),
-            Witness::SignChange { positive, .. } => positive,
-            Witness::Crossing { cell, .. } => cell,
+            Witness::SignChange { positive, .. } => positive.prefix.into_iter().chain(positive.cycle).collect(),
+            Witness::Crossing { positive, .. } => positive.prefix,
         };
         open("the ring condition fails, but what follows for the tangent is not decided", Some(place))
     }

@@ -96,7 +96,8 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
     let balls = Balls::new(shape, &spaces, &proof);
-    let cx = Context { shape, spaces: &spaces, balls: &balls, root: shape.start, view: shape.view() };
+    let hulls = std::cell::OnceCell::new();
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
     let mut found = Certified {
         claims: Vec::new(),
         verdict: Verdict::Undetermined,
@@ -217,14 +218,12 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
 
 fn certify_set(cx: &Context, asked: &[Address], found: &mut Certified) {
     let start = cx.shape.start;
-    let mut addresses: Vec<Address> = asked.to_vec();
-    if addresses.is_empty() {
-        for (i, piece) in cx.shape.states[start].pieces.iter().enumerate() {
-            if piece.target == start {
-                addresses.push(Address::periodic(vec![i]));
-            }
-        }
-    }
+    let pieces = cx.shape.states[start].pieces.iter().enumerate();
+    let mut addresses: Vec<Address> =
+        pieces.filter(|(_, p)| p.target == start).map(|(i, _)| Address::periodic(vec![i])).collect();
+    addresses.extend(asked.iter().cloned());
+    let mut seen = std::collections::BTreeSet::new();
+    addresses.retain(|a| seen.insert(a.clone()));
     for address in &addresses {
         if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
             found.claims.push(point_claim(found, index, address));

@@ -155,6 +155,9 @@ fn conclude(
         report.reason = Some("the tangent subspace has more than one dimension".to_owned());
         return report;
     }
+    if let Some(known) = spread(&report.branches) {
+        return PointReport { verdict: Verdict::Refuted, dimension: known, reason: Some(SPREAD.to_owned()), ..report };
+    }
     let mut lines = Vec::new();
     for branch in &report.branches {
         match &branch.outcome {
@@ -192,6 +195,24 @@ fn conclude(
     report
 }
 
+const SPREAD: &str =
+    "directions that the tangent subspaces of the two sides are known to contain lie on different lines";
+
+/// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.
+fn spread(branches: &[BranchReport]) -> Option<Dimension> {
+    let open = branches.iter().any(|b| matches!(b.outcome, Outcome::Open { .. }));
+    let known: Vec<&Direction> = branches
+        .iter()
+        .filter_map(|b| match &b.outcome {
+            Outcome::Line { direction, .. } => Some(direction),
+            Outcome::Open { direction, .. } => direction.as_ref(),
+            _ => None,
+        })
+        .collect();
+    let differ = open && known.len() == 2 && known[0].same_line(known[1]).is_none();
+    differ.then_some(Dimension { at_least: 2, exact: false })
+}
+
 fn lower_bound(branch: &BranchReport) -> usize {
     match &branch.outcome {
         Outcome::Line { .. } => 1,
@@ -206,7 +227,6 @@ fn kind(report: &PointReport) -> Kind {
     let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd | Role::SetPoint);
     let opposite = |a: &Direction, b: &Direction| a.same_line(b) == Some(-1);
     match (left.len(), right.len()) {
-        (2, _) | (_, 2) if report.role == Role::SetPoint => Kind::Regular,
         (2, _) | (_, 2) => Kind::Oscillating,
         (1, 0) | (0, 1) if one_sided => Kind::HalfTangent,
         (1, 1) if opposite(&left[0], &right[0]) => Kind::Regular,

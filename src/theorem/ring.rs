@@ -1,7 +1,7 @@
 //! The ring of a branch, and the ring condition `0 ∉ π(X)` by branch and bound (theory §3, §7).
 
 use crate::algebraic::{Elem, Root};
-use crate::arith::{Integer, Interval, Rational, abs, sign};
+use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::{Matrix, dot};
 use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference, oscillation};
 use std::collections::VecDeque;
@@ -113,6 +113,8 @@ pub struct RingProof {
     pub discharged: Vec<Discharged>,
     /// Binary digits used for irrational entries.
     pub bits: u64,
+    /// Whether polygons were used instead of balls.
+    pub polygons: bool,
 }
 
 /// A proof that the functionals do have a common zero on the ring.
@@ -125,23 +127,30 @@ pub enum Witness {
         /// The point minus `q`, in coordinates of `Y`.
         offset: Vec<Rational>,
     },
-    /// Two cells of one connected part of the ring on which the only functional has opposite signs.
+    /// Two points of one connected part of the ring at which the only functional has opposite signs.
     SignChange {
-        /// A cell where it is positive.
-        positive: Vec<usize>,
-        /// Bounds there.
+        /// Address, from the branch's state, of a point where it is positive.
+        positive: Address,
+        /// Bounds of its value there.
         above: Interval,
-        /// A cell where it is negative.
-        negative: Vec<usize>,
-        /// Bounds there.
+        /// Address of a point where it is negative.
+        negative: Address,
+        /// Bounds of its value there.
         below: Interval,
     },
-    /// A cell on which `c_1` keeps its sign while `c_2` changes sign (theory §6).
+    /// A connected part of the ring on which `c_2` changes sign while `c_1` has one strict sign wherever `c_2` vanishes
+    /// (theory §6).
     Crossing {
-        /// The cell.
-        cell: Vec<usize>,
-        /// The sign of `c_1` on it.
+        /// The part.
+        part: Position,
+        /// The sign of `c_1` at the zeros of `c_2`.
         sign: i32,
+        /// Address of a point where `c_2` is positive.
+        positive: Address,
+        /// Address of a point where it is negative.
+        negative: Address,
+        /// Cells that cover the part, on each of which `c_2` (functional 0) or `c_1` (functional 1) has a strict sign.
+        cover: RingProof,
     },
 }
 
@@ -184,8 +193,9 @@ struct Node {
     rows: Vec<Vec<Rational>>,
 }
 
-const MAX_ROWS: usize = 6_000;
 const MAX_BITS: u64 = 1_024;
+/// How many cells have their ends evaluated in search of a sign change.
+const SIGN_NODES: usize = 1_000;
 /// Levels of cells on which points are tried as witnesses although they are not the last ones.
 const WITNESS_NODES: usize = 400;
 
@@ -237,12 +247,12 @@ impl Ring<'_> {
     /// Decides whether the functionals have a common zero on the ring.
     ///
     /// # Cost
-    /// At most [`MAX_ROWS`] products of a row and an operator per precision.
+    /// At most `budget` products of a row and an operator per precision.
     #[must_use]
-    pub fn decide(&self, functionals: &[Functional]) -> RingAnswer {
+    pub fn decide(&self, functionals: &[Functional], budget: usize) -> RingAnswer {
         let mut bits = 64;
         loop {
-            match self.attempt(functionals, bits) {
+            match self.attempt(functionals, bits, budget) {
                 Attempt::Answer(answer) => return answer,
                 Attempt::MoreBits(place) if bits >= MAX_BITS => return RingAnswer::Open { place },
                 Attempt::MoreBits(_) => bits *= 2,
@@ -263,22 +273,14 @@ impl Ring<'_> {
         row.into_iter().map(|x| x - &at_q).collect()
     }
 
-    fn attempt(&self, functionals: &[Functional], bits: u64) -> Attempt {
+    fn attempt(&self, functionals: &[Functional], bits: u64, budget: usize) -> Attempt {
         let bound = self.chart_bound();
         let approximations: Vec<(Vec<Rational>, Rational)> = functionals.iter().map(|f| f.approximate(bits)).collect();
         let errors: Vec<Rational> = approximations.iter().map(|(_, e)| e * &bound).collect();
         let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| self.row_on_points(row)).collect();
-        let mut queue: VecDeque<Node> = self
-            .pieces
-            .iter()
-            .map(|p| Node {
-                word: p.word.clone(),
-                end: p.end,
-                position: p.position,
-                rows: rows.iter().map(|r| p.op.apply_left(r)).collect(),
-            })
-            .collect();
+        let mut queue = self.roots(&rows);
         let mut discharged: Vec<Discharged> = Vec::new();
+        let mut signs = Signs::default();
         let mut count = 0;
         while let Some(node) = queue.pop_front() {
             count += 1;
@@ -288,18 +290,19 @@ impl Ring<'_> {
                 .zip(&errors)
                 .map(|(row, e)| &self.balls.enclose(self.spaces, node.end, row) + &Interval::symmetric(e.clone()))
                 .collect();
+            if functionals.len() == 1
+                && node.position != Position::Unordered
+                && count <= SIGN_NODES
+                && let Some(witness) = self.sign_change(&mut signs, &node, &errors[0])
+            {
+                return Attempt::Answer(RingAnswer::Fails(witness));
+            }
             let strict = bounds.iter().position(|b| matches!(b.sign(), Some(1 | -1)));
             if let Some(functional) = strict {
                 let bound = bounds[functional].clone();
                 let sign = bound.sign().unwrap_or(0);
                 let Node { word, end, position, .. } = node;
-                let cell = Discharged { word, end, functional, sign, position, bound };
-                if functionals.len() == 1
-                    && let Some(witness) = sign_change(&discharged, &cell)
-                {
-                    return Attempt::Answer(RingAnswer::Fails(witness));
-                }
-                discharged.push(cell);
+                discharged.push(Discharged { word, end, functional, sign, position, bound });
                 continue;
             }
             if count <= WITNESS_NODES
@@ -307,7 +310,7 @@ impl Ring<'_> {
             {
                 return Attempt::Answer(RingAnswer::Fails(witness));
             }
-            if count * functionals.len() > MAX_ROWS {
+            if count * functionals.len() > budget {
                 return Attempt::Answer(RingAnswer::Open { place: node.word });
             }
             let hopeless = |(b, e): (&Interval, &Rational)| *e > 0 && b.width() < e * Rational::from(16);
@@ -316,7 +319,39 @@ impl Ring<'_> {
             }
             queue.extend(self.children(&node));
         }
-        Attempt::Answer(RingAnswer::Holds(RingProof { functionals: functionals.to_vec(), discharged, bits }))
+        Attempt::Answer(RingAnswer::Holds(RingProof {
+            functionals: functionals.to_vec(),
+            discharged,
+            bits,
+            polygons: self.balls.hull(self.state).is_some(),
+        }))
+    }
+
+    /// Points of opposite sign of one functional in one connected part, looked for among the ends of the first cells.
+    fn find_sign_change(&self, functional: &Functional) -> Option<Witness> {
+        let (row, error) = functional.approximate(256);
+        let error = error * self.chart_bound();
+        let mut queue = self.roots(&[self.row_on_points(&row)]);
+        let mut signs = Signs::default();
+        for _ in 0..SIGN_NODES {
+            let node = queue.pop_front()?;
+            if let Some(witness) = self.sign_change(&mut signs, &node, &error) {
+                return Some(witness);
+            }
+            queue.extend(self.children(&node));
+        }
+        None
+    }
+
+    /// The pieces of the ring as cells, with the rows carried to them.
+    fn roots(&self, rows: &[Vec<Rational>]) -> VecDeque<Node> {
+        let node = |p: &RingPiece| Node {
+            word: p.word.clone(),
+            end: p.end,
+            position: p.position,
+            rows: rows.iter().map(|r| p.op.apply_left(r)).collect(),
+        };
+        self.pieces.iter().map(node).collect()
     }
 
     fn children(&self, node: &Node) -> Vec<Node> {
@@ -329,6 +364,26 @@ impl Ring<'_> {
                 Node { word, end: piece.target, position: node.position, rows }
             })
             .collect()
+    }
+
+    /// Evaluates the only functional at the ends of the cell and compares with the signs met before in the same part.
+    fn sign_change(&self, signs: &mut Signs, node: &Node, error: &Rational) -> Option<Witness> {
+        let part = usize::from(node.position == Position::After);
+        for address in self.shape.landmarks(node.end) {
+            let value = dot(&node.rows[0], &self.shape.point(node.end, &address)?);
+            if abs(&value) <= *error {
+                continue;
+            }
+            let known = &mut signs.0[part][usize::from(value > 0)];
+            if known.is_none() {
+                let prefix = [node.word.as_slice(), &address.prefix].concat();
+                let address = Address { prefix, cycle: address.cycle };
+                let bound = &Interval::point(value) + &Interval::symmetric(error.clone());
+                *known = Some((address, bound));
+            }
+        }
+        let [Some((negative, below)), Some((positive, above))] = signs.0[part].clone() else { return None };
+        Some(Witness::SignChange { positive, above, negative, below })
     }
 
     /// Tries the points of the cell with known addresses as exact common zeros.
@@ -352,72 +407,27 @@ impl Ring<'_> {
         None
     }
 
-    /// Looks for a cell on which `c_1` keeps one sign while `c_2` takes both at its end points (theory §6).
+    /// Looks for a connected part of the ring on which `c_2` takes both signs while `c_1` has one strict sign wherever `c_2`
+    /// vanishes (theory §6).
     #[must_use]
-    pub fn crossing(&self, c1: &Functional, c2: &Functional) -> Option<Witness> {
-        let bits = 256;
-        let bound = self.chart_bound();
-        let (a1, e1) = c1.approximate(bits);
-        let (a2, e2) = c2.approximate(bits);
-        let (r1, r2) = (self.row_on_points(&a1), self.row_on_points(&a2));
-        let (e1, e2) = (e1 * &bound, e2 * &bound);
-        let mut queue: VecDeque<Node> = self
-            .pieces
-            .iter()
-            .filter(|p| p.position != Position::Unordered)
-            .map(|p| Node {
-                word: p.word.clone(),
-                end: p.end,
-                position: p.position,
-                rows: vec![p.op.apply_left(&r1), p.op.apply_left(&r2)],
-            })
-            .collect();
-        let mut count = 0;
-        while let Some(node) = queue.pop_front() {
-            count += 1;
-            if count > 600 {
-                return None;
-            }
-            let enclose = |k: usize, e: &Rational| {
-                &self.balls.enclose(self.spaces, node.end, &node.rows[k]) + &Interval::symmetric(e.clone())
-            };
-            if enclose(1, &e2).sign().is_some() {
-                continue;
-            }
-            if let Some(s) = enclose(0, &e1).sign() {
-                let strict = |value: Rational| if abs(&value) > e2 { sign(&value) } else { 0 };
-                let ends = self.shape.landmarks(node.end);
-                let signs: Vec<i32> = ends
-                    .iter()
-                    .filter_map(|a| self.shape.point(node.end, a))
-                    .map(|x| strict(dot(&node.rows[1], &x)))
-                    .collect();
-                if signs.contains(&1) && signs.contains(&-1) {
-                    return Some(Witness::Crossing { cell: node.word, sign: s });
-                }
-            }
-            queue.extend(self.children(&node));
-        }
-        None
+    pub fn crossing(&self, c1: &Functional, c2: &Functional, budget: usize) -> Option<Witness> {
+        [Position::Before, Position::After].into_iter().find_map(|part| {
+            let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| p.position == part).cloned().collect();
+            let ring = Ring { pieces: &pieces, ..*self };
+            let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2)? else { return None };
+            let RingAnswer::Holds(cover) = ring.decide(&[c2.clone(), c1.clone()], budget) else { return None };
+            let mut signs = cover.discharged.iter().filter(|d| d.functional == 1).map(|d| d.sign);
+            let sign = signs.next()?;
+            signs.all(|s| s == sign).then_some(Witness::Crossing { part, sign, positive, negative, cover })
+        })
     }
 }
+
+/// A point of negative and one of positive sign, for the parts before and after.
+#[derive(Default)]
+struct Signs([[Option<(Address, Interval)>; 2]; 2]);
 
 enum Attempt {
     Answer(RingAnswer),
     MoreBits(Vec<usize>),
-}
-
-/// A cell of opposite sign in the same connected part.
-fn sign_change(discharged: &[Discharged], cell: &Discharged) -> Option<Witness> {
-    if cell.position == Position::Unordered {
-        return None;
-    }
-    let other = discharged.iter().find(|d| d.position == cell.position && d.sign == -cell.sign)?;
-    let (p, n) = if cell.sign > 0 { (cell, other) } else { (other, cell) };
-    Some(Witness::SignChange {
-        positive: p.word.clone(),
-        above: p.bound.clone(),
-        negative: n.word.clone(),
-        below: n.bound.clone(),
-    })
 }

@@ -229,6 +229,8 @@ pub enum Outcome {
         place: Option<Vec<usize>>,
         /// A proved lower bound of `dim D*`.
         at_least: usize,
+        /// A direction that `D*` is known to contain (`U ⊂ D*`, the corollary).
+        direction: Option<Direction>,
     },
 }
 

@@ -169,3 +169,22 @@ def show_address(prefix, cycle):
         p, c = ",".join(map(str, prefix)), ",".join(map(str, cycle))
         return f"{p}{',' if p else ''}({c}{',' if len(prefix) + len(cycle) == 1 else ''})"
     return "".join(map(str, prefix)) + "(" + "".join(map(str, cycle)) + ")"
+
+
+def main():
+    """Validates every file; refused files must be refused with the code they name, unless only the geometry is wrong."""
+    good = refused = 0
+    for f in all_cases():
+        try:
+            case = load(f)
+            good += 1
+            assert case.expect or f.parent.name == "refused", f
+        except Bad as err:
+            refused += 1
+            assert f.parent.name == "refused", (f, err)
+            assert err.code == "secant::case::empty" or f'error = "{err.code}"' in f.read_text(), (f, err)
+    print(f"{good} files read, {refused} refused as they should be")
+
+
+if __name__ == "__main__":
+    main()

@@ -7,6 +7,10 @@ import numpy as np
 from linear import apply, identity, kernel, matmul, rank, rref, solve, transpose
 
 
+class NotUnique(Exception):
+    """An operator with more than one fixed point: the system does not contract."""
+
+
 def path(case, start, word):
     states = [start]
     for i in word:
@@ -33,7 +37,8 @@ def orientation(case, start, word):
 def fixed(m):
     n = len(m)
     k = kernel([[m[i][j] - (i == j) for j in range(n)] for i in range(n)], n)
-    assert len(k) == 1, "the fixed point is not unique"
+    if len(k) != 1:
+        raise NotUnique
     return [x / sum(k[0]) for x in k[0]]
 
 
@@ -278,5 +283,5 @@ def spectral_refutation(case, longest=8):
                 basis = np.vstack([np.eye(n - 1), -np.ones((1, n - 1))]) if n > 1 else np.zeros((1, 0))
                 lin = np.linalg.lstsq(basis, m @ basis, rcond=None)[0] if n > 1 else np.zeros((0, 0))
                 if lin.size and max(abs(np.linalg.eigvals(lin))) >= 1 - 1e-12:
-                    return e, w, max(abs(np.linalg.eigvals(lin)))
+                    return e, w, round(float(max(abs(np.linalg.eigvals(lin)))), 9)
     return None

@@ -1,0 +1,181 @@
+//! `secant certify` of a single case.
+
+use super::output::{complain, print, stdout_colour, write_file};
+use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, approximate, many};
+use crate::arith::Rational;
+use crate::case::{Case, MAX_LETTERS};
+use crate::diagnostic::Problem;
+use crate::report::math::Math;
+use crate::report::{figures, html, json, markdown, proof, summary, text};
+use crate::shape::{Address, CurveError, Frame, word_text};
+use crate::theorem::{Certified, ModelError, Verdict, certify};
+use std::path::Path;
+
+/// The exit code of a verdict.
+#[must_use]
+pub fn exit_code(verdict: Verdict) -> u8 {
+    match verdict {
+        Verdict::Proved => PROVED,
+        Verdict::Refuted => REFUTED,
+        Verdict::Undetermined => UNDETERMINED,
+    }
+}
+
+/// Certifies the cases and prints, draws and writes what was asked for.
+pub fn run(args: &CertifyArgs) -> u8 {
+    if let Err(problem) = check_arguments(args) {
+        complain(&problem);
+        return BAD_INPUT;
+    }
+    if args.approx {
+        return approximate::run(args);
+    }
+    let [path] = args.cases.as_slice() else { return many::run(args) };
+    let done = one(path, args).and_then(|(case, found)| {
+        write_files(&case, &found, args)?;
+        Ok((case, found))
+    });
+    match done {
+        Ok((case, found)) => {
+            if !args.quiet {
+                print(&printed(&case, &found, args));
+            }
+            exit_code(found.verdict)
+        }
+        Err(problem) => {
+            if args.json || args.jsonl {
+                print(&json_text(&json::refusal(&path.display().to_string(), &problem), args.json));
+            }
+            complain(&problem);
+            BAD_INPUT
+        }
+    }
+}
+
+fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
+    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.json) {
+        return Err(Problem::new("secant::usage", "--json, --report and --svg are for a single case")
+            .with_help("use --jsonl for many cases, and write the reports one by one"));
+    }
+    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm");
+    if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
+        return Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
+            .with_help("the ending of --report says the format: .md or .html"));
+    }
+    Ok(())
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// Reads and certifies one case.
+///
+/// # Errors
+/// The [`Problem`] of the file, of an address, or of the model.
+pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified), Problem> {
+    let (case, addresses) = read(path, args)?;
+    let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
+    Ok((case, found))
+}
+
+/// Reads a case and the addresses asked for.
+///
+/// # Errors
+/// The [`Problem`] of the file or of an address.
+pub fn read(path: &Path, args: &CertifyArgs) -> Result<(Case, Vec<Address>), Problem> {
+    let case = Case::read(path)?;
+    let mut addresses = case.examine.clone();
+    for text in &args.address {
+        addresses.push(read_address(&case, text)?);
+    }
+    Ok((case, addresses))
+}
+
+fn read_address(case: &Case, text: &str) -> Result<Address, Problem> {
+    let problem = |error: String| {
+        Problem::new("secant::usage::address", error)
+            .with_help("letters first, then the repeated letters in brackets: `0(1)` is 0111…")
+    };
+    let address = Address::parse(text).map_err(|e| problem(e.to_string()))?;
+    if address.prefix.len() + address.cycle.len() > MAX_LETTERS {
+        return Err(problem("the address is too long".to_owned()));
+    }
+    address.normalise(&case.shape, case.shape.start).map_err(|e| problem(e.to_string()))?;
+    Ok(address)
+}
+
+/// What the engine refuses, shown where it stands in the file.
+fn model_problem(case: &Case, error: &ModelError) -> Problem {
+    let code = error.code();
+    match error {
+        ModelError::Curve(CurveError::Apart { state, index, piece, ends, begins }) => {
+            // Affine maps are read as operators on the simplex 0, e_1, …; the user knows the coordinates after the first.
+            let skip = usize::from(case.shape.frame == Frame::Affine);
+            let tuple = |v: &[Rational]| text::math_line(&Math::vector(v.get(skip..).unwrap_or_default()));
+            let place = if case.shape.states.len() > 1 { format!(" of state `{state}`") } else { String::new() };
+            let before = piece.saturating_sub(1);
+            let (begins, ends) = (tuple(begins), tuple(ends));
+            let message = format!("piece {piece}{place} begins at {begins}, but piece {before} ends at {ends}");
+            let help = "each piece of a curve begins where the one before ends; mark a piece that runs backwards as \
+                        reversed, or declare kind = \"set\"";
+            case.problem_at_joint(*index, before, code, &message, help)
+        }
+        ModelError::Curve(CurveError::Identity { index, piece, .. }) => {
+            let help = "the operators and boundaries of an edge must satisfy its identities exactly";
+            case.problem_at_piece(*index, *piece, code, &error.to_string(), help)
+        }
+        ModelError::Expands { state, index, word } => {
+            let message = format!(
+                "the system does not contract: the product of the cycle {} at state `{state}` has a linear part of \
+                 spectral radius at least 1",
+                word_text(word)
+            );
+            let help =
+                "an attractor inside a smaller invariant space may still exist; write the operators on that space";
+            match word.first() {
+                Some(&letter) => case.problem_at_piece(*index, letter, code, &message, help),
+                None => case.problem_at_state(*index, code, &message, help),
+            }
+        }
+        _ => case.problem_at_state(case.shape.start, code, &error.to_string(), "see docs/theory.md §1"),
+    }
+}
+
+/// Writes the report and the picture that were asked for; both are made before the first is written.
+fn write_files(case: &Case, found: &Certified, args: &CertifyArgs) -> Result<(), Problem> {
+    let report = args.report.as_deref().map(|path| {
+        let document = proof::document(case, found);
+        let written = if extension(path) == "md" { markdown::render(&document) } else { html::render(&document) };
+        (path, written)
+    });
+    let svg = match args.svg.as_deref() {
+        None => None,
+        Some(path) => Some((path, picture(case, found)?)),
+    };
+    for (path, content) in report.into_iter().chain(svg) {
+        write_file(path, &content)?;
+    }
+    Ok(())
+}
+
+fn picture(case: &Case, found: &Certified) -> Result<String, Problem> {
+    let drawn = figures::attractor(case, found);
+    drawn.map(|p| p.svg).ok_or_else(|| {
+        Problem::new("secant::picture", format!("{} cannot be drawn", case.name))
+            .with_help("no point of the shape can be computed, because contraction is not decided")
+    })
+}
+
+fn printed(case: &Case, found: &Certified, args: &CertifyArgs) -> String {
+    if args.json || args.jsonl {
+        return json_text(&json::report(case, found), args.json);
+    }
+    text::render(&summary::summary(case, found, args.verbose), stdout_colour())
+}
+
+/// A value as JSON text, indented or in one line.
+#[must_use]
+pub fn json_text(value: &serde_json::Value, indented: bool) -> String {
+    if indented { format!("{value:#}\n") } else { format!("{value}\n") }
+}

@@ -1,0 +1,64 @@
+//! Writing: whole files or none, colours only for people.
+
+use crate::diagnostic::Problem;
+use std::io::{IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes a file so that it is either there in full or not touched: a temporary file beside it, then a rename.
+///
+/// A target that exists and is no regular file (such as `/dev/stdout`) is written to directly.
+///
+/// # Errors
+/// A [`Problem`] that names the file.
+pub fn write_file(path: &Path, content: &str) -> Result<(), Problem> {
+    let problem = |error: &std::io::Error| {
+        Problem::new("secant::output", format!("{} cannot be written: {error}", path.display()))
+            .with_help("the directory must exist and be writable; nothing was left half-written")
+    };
+    // A link stays a link: what it points to is replaced.
+    let target: PathBuf = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if std::fs::metadata(&target).is_ok_and(|m| !m.is_file()) {
+        return std::fs::write(&target, content).map_err(|e| problem(&e));
+    }
+    let directory = match target.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".secant-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let mode = std::fs::metadata(&target).map_or(0o666, |m| m.permissions().mode() & 0o777);
+        builder.permissions(std::fs::Permissions::from_mode(mode));
+    }
+    let mut file = builder.tempfile_in(directory).map_err(|e| problem(&e))?;
+    file.write_all(content.as_bytes()).and_then(|()| file.flush()).map_err(|e| problem(&e))?;
+    file.persist(&target).map_err(|e| problem(&e.error))?;
+    Ok(())
+}
+
+/// Prints to the standard output; a reader that went away is no mistake.
+pub fn print(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Prints a problem to the standard error.
+pub fn complain(problem: &Problem) {
+    let colour = colour_for(std::io::stderr().is_terminal());
+    let mut err = std::io::stderr().lock();
+    let _ = err.write_all(problem.render(colour).as_bytes());
+}
+
+/// Whether the standard output takes colours.
+#[must_use]
+pub fn stdout_colour() -> bool {
+    colour_for(std::io::stdout().is_terminal())
+}
+
+fn colour_for(terminal: bool) -> bool {
+    let no_color = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
+    let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
+    terminal && !no_color && !dumb
+}

@@ -1,0 +1,162 @@
+//! A rational matrix as an integer operator with a common denominator, exact and modulo a prime.
+
+use crate::arith::modular::PrimeField;
+use crate::arith::{Integer, Natural};
+use crate::linalg::Matrix;
+use crate::poly::{IntPoly, Poly, ints};
+use malachite_base::num::arithmetic::traits::{AddMulAssign, DivExact, DivExactAssign, Gcd, Pow};
+
+/// The integer matrix `N = D A`, by sparse rows.
+pub(super) struct Operator {
+    /// The common denominator `D`.
+    pub denominator: Integer,
+    rows: Vec<Vec<(usize, Integer)>>,
+}
+
+impl Operator {
+    pub fn new(a: &Matrix) -> Self {
+        let n = a.rows();
+        let d = ints::common_denominator((0..n).flat_map(|i| a.row(i)));
+        let entry = |(j, x)| (j, ints::cleared(x, &d));
+        let rows = (0..n).map(|i| a.row(i).iter().enumerate().filter(|(_, x)| **x != 0).map(entry).collect()).collect();
+        Self { denominator: Integer::from(d), rows }
+    }
+
+    pub fn size(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// `N v`.
+    pub fn apply(&self, v: &[Integer]) -> Vec<Integer> {
+        self.rows
+            .iter()
+            .map(|row| {
+                let mut sum = Integer::from(0);
+                for (j, x) in row.iter().filter(|(j, _)| v[*j] != 0) {
+                    sum.add_mul_assign(x, &v[*j]);
+                }
+                sum
+            })
+            .collect()
+    }
+
+    /// `F(N) v`, by Horner's scheme.
+    pub fn apply_poly(&self, f: &[Integer], v: &[Integer]) -> Vec<Integer> {
+        let mut sum = vec![Integer::from(0); v.len()];
+        for (k, c) in f.iter().enumerate().rev() {
+            if k + 1 < f.len() {
+                sum = self.apply(&sum);
+            }
+            add_multiple(&mut sum, c, v);
+        }
+        sum
+    }
+
+    /// The monic integer polynomial whose roots are `D` times those of a monic factor of the characteristic polynomial.
+    pub fn scaled(&self, f: &Poly) -> IntPoly {
+        let d = f.degree().unwrap_or(0);
+        let scale = |(k, c): (usize, _)| {
+            let power = (&self.denominator).pow((d - k) as u64).unsigned_abs_ref().clone();
+            let value: &crate::arith::Rational = c;
+            let numerator = value.numerator_ref() * power;
+            Integer::from_sign_and_abs(*value >= 0, numerator.div_exact(value.denominator_ref()))
+        };
+        f.coeffs().iter().enumerate().map(scale).collect()
+    }
+
+    pub fn modulo(&self, field: &PrimeField) -> ModOperator {
+        let row = |row: &Vec<(usize, Integer)>| row.iter().map(|(j, x)| (*j, field.from_integer(x))).collect();
+        ModOperator { field: *field, rows: self.rows.iter().map(row).collect() }
+    }
+}
+
+/// `v += factor * u`.
+pub(super) fn add_multiple(v: &mut [Integer], factor: &Integer, u: &[Integer]) {
+    if *factor == 1 {
+        v.iter_mut().zip(u).for_each(|(x, y)| *x += y);
+    } else if *factor != 0 {
+        for (x, y) in v.iter_mut().zip(u).filter(|(_, y)| **y != 0) {
+            x.add_mul_assign(factor, y);
+        }
+    }
+}
+
+/// The greatest common divisor of all entries.
+pub(super) fn content<'a>(entries: impl IntoIterator<Item = &'a Integer>) -> Natural {
+    let mut g = Natural::from(0u32);
+    for x in entries {
+        if *x != 0 {
+            g = g.gcd(x.unsigned_abs_ref());
+            if g == 1 {
+                break;
+            }
+        }
+    }
+    g
+}
+
+/// Divides by the greatest common divisor of the entries.
+pub(super) fn make_primitive(v: &mut [Integer]) {
+    let g = content(v.iter());
+    if g > 1 {
+        let g = Integer::from(g);
+        v.iter_mut().for_each(|x| x.div_exact_assign(&g));
+    }
+}
+
+/// The operator modulo a prime.
+pub(super) struct ModOperator {
+    pub field: PrimeField,
+    rows: Vec<Vec<(usize, u64)>>,
+}
+
+impl ModOperator {
+    pub fn apply(&self, v: &[u64]) -> Vec<u64> {
+        let f = &self.field;
+        self.rows.iter().map(|row| row.iter().fold(0, |sum, (j, x)| f.add(sum, f.mul(*x, v[*j])))).collect()
+    }
+
+    pub fn apply_poly(&self, poly: &[u64], v: &[u64]) -> Vec<u64> {
+        let f = &self.field;
+        let mut sum = vec![0; v.len()];
+        for (k, c) in poly.iter().enumerate().rev() {
+            if k + 1 < poly.len() {
+                sum = self.apply(&sum);
+            }
+            sum.iter_mut().zip(v).for_each(|(s, x)| *s = f.add(*s, f.mul(*c, *x)));
+        }
+        sum
+    }
+
+    /// `F(N) M` for a dense matrix `M`; the identity where `M` is absent. The polynomial is monic.
+    pub fn poly_times(&self, poly: &[u64], m: Option<&[Vec<u64>]>) -> Vec<Vec<u64>> {
+        let (f, n) = (&self.field, self.rows.len());
+        let start = || match m {
+            Some(m) => m.to_vec(),
+            None => (0..n).map(|i| (0..n).map(|j| if i == j { f.one() } else { 0 }).collect()).collect(),
+        };
+        let mut value = start();
+        for c in poly.iter().rev().skip(1) {
+            let mut next: Vec<Vec<u64>> = self.rows.iter().map(|row| self.combine(row, &value)).collect();
+            for (i, row) in next.iter_mut().enumerate() {
+                match m {
+                    Some(m) => row.iter_mut().zip(&m[i]).for_each(|(x, y)| *x = f.add(*x, f.mul(*c, *y))),
+                    None => row[i] = f.add(row[i], *c),
+                }
+            }
+            value = next;
+        }
+        value
+    }
+
+    fn combine(&self, row: &[(usize, u64)], rows: &[Vec<u64>]) -> Vec<u64> {
+        let f = &self.field;
+        let mut sum = vec![0; rows.len()];
+        for (j, x) in row {
+            for (s, y) in sum.iter_mut().zip(&rows[*j]).filter(|(_, y)| **y != 0) {
+                *s = f.add(*s, f.mul(*x, *y));
+            }
+        }
+        sum
+    }
+}

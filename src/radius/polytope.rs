@@ -1,0 +1,121 @@
+//! Invariant polytopes as plain exact data, and what they prove.
+
+use super::System;
+use super::simplex::Body;
+use crate::arith::{Rational, abs};
+
+/// A vertex.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Point {
+    /// The state in whose space it lies.
+    pub state: usize,
+    /// Its coordinates.
+    pub coordinates: Vec<Rational>,
+}
+
+/// The proof that a matrix maps a point into a multiple of the polytope: `T p = Σ c_k q_k + e` with a small rest `e`
+/// (of a monotone body: `T p <= Σ c_k q_k`).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inclusion {
+    /// Index of the point.
+    pub point: usize,
+    /// Position of the arrow.
+    pub arrow: usize,
+    /// Index of a point of the arrow's state, and its coefficient.
+    pub terms: Vec<(usize, Rational)>,
+}
+
+/// One polytope for every state, with the inclusions of all images.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Polytope {
+    /// What is meant by the hull of the points.
+    pub body: Body,
+    /// The points of all states.
+    pub points: Vec<Point>,
+    /// For every point and every arrow that ends in its state, an inclusion.
+    pub inclusions: Vec<Inclusion>,
+    /// For every state and axis, coefficients that nearly combine the unit vector from points of the state
+    /// (symmetric bodies only): they show that the polytope has an interior.
+    pub axes: Vec<Vec<Vec<(usize, Rational)>>>,
+}
+
+impl Polytope {
+    /// The smallest `r` for which the data prove `T Q ⊂ r Q` for all arrows, or `None` where they prove nothing.
+    ///
+    /// For a symmetric body with points `q`: every unit vector lies in `K Q`, where with `e_j = Σ d_k q_k + s_j`,
+    /// `K = max Σ|d| / (1 − max ‖s_j‖_1)`; then `T p ∈ (Σ|c| + K ‖e‖_1) Q`. For a monotone body all matrices and points are
+    /// nonnegative, some point of the state is positive at every coordinate, and `T p <= Σ c q` gives `r = Σ c`.
+    #[must_use]
+    pub fn bound(&self, system: &System) -> Option<Rational> {
+        let scale: Vec<Rational> = match self.body {
+            Body::Symmetric => (0..system.dims.len()).map(|s| self.axis_bound(system, s)).collect::<Option<_>>()?,
+            Body::Monotone => self.monotone_interior(system)?,
+        };
+        let mut covered = 0;
+        let mut bound = Rational::from(0);
+        let mut seen = std::collections::BTreeSet::new();
+        for inclusion in &self.inclusions {
+            let arrow = system.arrows.get(inclusion.arrow)?;
+            let point = self.points.get(inclusion.point)?;
+            if point.state != arrow.to || !seen.insert((inclusion.point, inclusion.arrow)) {
+                return None;
+            }
+            let rest = self.rest(system, inclusion)?;
+            let mut sum = inclusion.terms.iter().fold(Rational::from(0), |s, t| s + abs(&t.1));
+            match self.body {
+                Body::Symmetric => sum += &scale[arrow.from] * norm1(&rest),
+                Body::Monotone if rest.iter().all(|x| *x <= 0) && inclusion.terms.iter().all(|t| t.1 >= 0) => {}
+                Body::Monotone => return None,
+            }
+            bound = bound.max(sum);
+            covered += 1;
+        }
+        let needed: usize = self.points.iter().map(|p| system.arrows.iter().filter(|a| a.to == p.state).count()).sum();
+        (covered == needed).then_some(bound)
+    }
+
+    /// `T p − Σ c q`.
+    fn rest(&self, system: &System, inclusion: &Inclusion) -> Option<Vec<Rational>> {
+        let arrow = &system.arrows[inclusion.arrow];
+        let image = arrow.matrix.apply(&self.points[inclusion.point].coordinates);
+        self.subtract(image, arrow.from, &inclusion.terms)
+    }
+
+    fn subtract(&self, mut rest: Vec<Rational>, state: usize, terms: &[(usize, Rational)]) -> Option<Vec<Rational>> {
+        for (k, c) in terms {
+            let point = self.points.get(*k).filter(|p| p.state == state)?;
+            for (r, x) in rest.iter_mut().zip(&point.coordinates) {
+                if *x != 0 {
+                    *r -= c * x;
+                }
+            }
+        }
+        Some(rest)
+    }
+
+    /// `K` with `e_j ∈ K Q` for all axes of the state.
+    pub(super) fn axis_bound(&self, system: &System, state: usize) -> Option<Rational> {
+        let dim = system.dims[state];
+        let axes = self.axes.get(state).filter(|a| a.len() == dim)?;
+        let (mut size, mut error) = (Rational::from(0), Rational::from(0));
+        for (axis, terms) in axes.iter().enumerate() {
+            let unit = (0..dim).map(|i| Rational::from(u8::from(i == axis))).collect();
+            error = error.max(norm1(&self.subtract(unit, state, terms)?));
+            size = size.max(terms.iter().fold(Rational::from(0), |s, t| s + abs(&t.1)));
+        }
+        (error < 1).then(|| size / (Rational::from(1) - error))
+    }
+
+    fn monotone_interior(&self, system: &System) -> Option<Vec<Rational>> {
+        let nonnegative = |p: &Point| p.coordinates.iter().all(|x| *x >= 0);
+        let positive = |state: usize, axis: usize| {
+            self.points.iter().any(|p| p.state == state && p.coordinates.get(axis).is_some_and(|x| *x > 0))
+        };
+        let interior = system.dims.iter().enumerate().all(|(s, &dim)| (0..dim).all(|axis| positive(s, axis)));
+        (system.is_nonnegative() && self.points.iter().all(nonnegative) && interior).then(Vec::new)
+    }
+}
+
+pub(super) fn norm1(v: &[Rational]) -> Rational {
+    v.iter().fold(Rational::from(0), |s, x| s + abs(x))
+}

@@ -1,0 +1,130 @@
+//! Quadratic norms: `T^t P_from T <= r² P_to` proves that the radius is at most `r`.
+
+use super::System;
+use crate::arith::Rational;
+use crate::linalg::Matrix;
+
+/// Positive definite forms, one for every state, that no arrow expands by more than `r`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Quadratic {
+    /// The forms.
+    pub forms: Vec<Matrix>,
+    /// The square of the bound.
+    pub square: Rational,
+}
+
+impl Quadratic {
+    /// Whether the forms are positive definite and no arrow expands them.
+    #[must_use]
+    pub fn holds(&self, system: &System) -> bool {
+        self.forms.len() == system.dims.len()
+            && self.forms.iter().zip(&system.dims).all(|(f, d)| f.rows() == *d && definite(f, true))
+            && system.arrows.iter().all(|a| {
+                let image = &(&a.matrix.transpose() * &self.forms[a.from]) * &a.matrix;
+                definite(&(&self.forms[a.to].scale(&self.square) - &image), false)
+            })
+    }
+
+    /// Forms that prove the bound with this square: the Euclidean ones, or ones that all arrows preserve exactly.
+    #[must_use]
+    pub fn find(system: &System, square: &Rational) -> Option<Self> {
+        let forms = system.dims.iter().map(|d| Matrix::identity(*d)).collect();
+        let euclidean = Self { forms, square: square.clone() };
+        if euclidean.holds(system) {
+            return Some(euclidean);
+        }
+        let found = Self { forms: preserved(system, square)?, square: square.clone() };
+        found.holds(system).then_some(found)
+    }
+}
+
+/// Symmetric forms with `T^t P T = square P` for all arrows, if they are unique up to a factor.
+fn preserved(system: &System, square: &Rational) -> Option<Vec<Matrix>> {
+    let mut unknowns: Vec<(usize, usize, usize)> = Vec::new();
+    for (s, &d) in system.dims.iter().enumerate() {
+        unknowns.extend((0..d).flat_map(|i| (0..=i).map(move |j| (s, i, j))));
+    }
+    if unknowns.len() > 60 {
+        return None;
+    }
+    let mut rows: Vec<Vec<Rational>> = Vec::new();
+    for a in &system.arrows {
+        for p in 0..a.matrix.cols() {
+            for q in 0..=p {
+                let coefficient = |&(s, i, j): &(usize, usize, usize)| {
+                    let mut c = Rational::from(0);
+                    if s == a.from {
+                        c += &a.matrix[(i, p)] * &a.matrix[(j, q)];
+                        if i != j {
+                            c += &a.matrix[(j, p)] * &a.matrix[(i, q)];
+                        }
+                    }
+                    if s == a.to && (i, j) == (p, q) {
+                        c -= square;
+                    }
+                    c
+                };
+                rows.push(unknowns.iter().map(coefficient).collect());
+            }
+        }
+    }
+    let kernel = Matrix::from_rows(unknowns.len(), rows).kernel();
+    if kernel.cols() != 1 {
+        return None;
+    }
+    let mut forms: Vec<Matrix> = system.dims.iter().map(|d| Matrix::zero(*d, *d)).collect();
+    for (k, &(s, i, j)) in unknowns.iter().enumerate() {
+        forms[s][(i, j)] = kernel[(k, 0)].clone();
+        forms[s][(j, i)] = kernel[(k, 0)].clone();
+    }
+    if forms.first().is_some_and(|f| f.rows() > 0 && f[(0, 0)] < 0) {
+        forms = forms.into_iter().map(|f| f.scale(&Rational::from(-1))).collect();
+    }
+    Some(forms)
+}
+
+/// Whether a symmetric matrix is positive definite (or, not `strict`, positive semidefinite), by exact elimination.
+#[must_use]
+pub(super) fn definite(m: &Matrix, strict: bool) -> bool {
+    let n = m.rows();
+    let mut a = m.clone();
+    for k in 0..n {
+        let pivot = a[(k, k)].clone();
+        if pivot < 0 || (strict && pivot == 0) {
+            return false;
+        }
+        if pivot == 0 {
+            if (k..n).any(|j| a[(k, j)] != 0) {
+                return false;
+            }
+            continue;
+        }
+        for i in k + 1..n {
+            let factor = &a[(i, k)] / &pivot;
+            if factor != 0 {
+                for j in k..n {
+                    let change = &factor * &a[(k, j)];
+                    a[(i, j)] -= change;
+                }
+            }
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+
+    #[test]
+    fn rotations_keep_the_circle() {
+        let rotation = |c: (i64, i64), s: (i64, i64)| {
+            let (c, s) = (ratio(c.0, c.1), ratio(s.0, s.1));
+            Matrix::from_rows(2, vec![vec![c.clone(), -&s], vec![s, c]])
+        };
+        let system = System::plain(&[rotation((3, 5), (4, 5)), rotation((5, 13), (12, 13))]).unwrap();
+        assert!(Quadratic::find(&system, &ratio(1, 1)).is_some());
+        assert!(Quadratic::find(&system, &ratio(99, 100)).is_none());
+    }
+}

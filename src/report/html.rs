@@ -1,0 +1,163 @@
+//! Documents as self-contained HTML: MathML formulas, inline SVG, light and dark, fit for printing.
+
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::mathml::math_element;
+
+const STYLE: &str = include_str!("style.css");
+
+/// Writes a document as one HTML file that needs nothing else.
+#[must_use]
+pub fn render(document: &Document) -> String {
+    let title = escaped(&document.title);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
+    );
+    for block in &document.blocks {
+        write_block(&mut out, block);
+    }
+    out.push_str("</main>\n</body>\n</html>\n");
+    out
+}
+
+fn write_block(out: &mut String, block: &Block) {
+    match block {
+        Block::Heading(level, text) => {
+            let level = (*level).clamp(2, 6);
+            out.push_str(&format!("<h{level}>{}</h{level}>\n", inline(text)));
+        }
+        Block::Paragraph(text) => out.push_str(&format!("<p>{}</p>\n", inline(text))),
+        Block::Formula(math) => {
+            out.push_str(&format!("<div class=\"formula\">{}</div>\n", math_element(math, true)));
+        }
+        Block::List(items) => {
+            let items: String = items.iter().map(|i| format!("<li>{}</li>\n", inline(i))).collect();
+            out.push_str(&format!("<ul>\n{items}</ul>\n"));
+        }
+        Block::Facts(facts) => {
+            let facts: String =
+                facts.iter().map(|(t, d)| format!("<dt>{}</dt><dd>{}</dd>\n", escaped(t), inline(d))).collect();
+            out.push_str(&format!("<dl>\n{facts}</dl>\n"));
+        }
+        Block::Checks(checks) => {
+            out.push_str("<ul class=\"checks\">\n");
+            for check in checks {
+                write_check(out, check);
+            }
+            out.push_str("</ul>\n");
+        }
+        Block::Table(table) => write_table(out, table),
+        Block::Statement { name, body } => {
+            let name = escaped(name);
+            out.push_str(&format!("<blockquote><p><strong>{name}.</strong> {}</p></blockquote>\n", inline(body)));
+        }
+        Block::Figure { svg, alt, caption } => {
+            let svg = svg.replacen("<svg ", &format!("<svg aria-label=\"{}\" ", escaped(alt)), 1);
+            out.push_str(&format!("<figure>\n{svg}<figcaption>{}</figcaption>\n</figure>\n", inline(caption)));
+        }
+        Block::Details { summary, blocks } => {
+            out.push_str(&format!("<details>\n<summary>{}</summary>\n", inline(summary)));
+            for block in blocks {
+                write_block(out, block);
+            }
+            out.push_str("</details>\n");
+        }
+    }
+}
+
+fn write_check(out: &mut String, Check { tone, text }: &Check) {
+    let (mark, word) = match tone {
+        Tone::Good => ("✔", "holds"),
+        Tone::Bad => ("✘", "fails"),
+        Tone::Open => ("?", "not decided"),
+        Tone::Neutral => ("·", "not needed"),
+    };
+    let class = tone_class(*tone);
+    out.push_str(&format!(
+        "<li><span class=\"mark {class}\" role=\"img\" aria-label=\"{word}\">{mark}</span> {}</li>\n",
+        inline(text)
+    ));
+}
+
+fn write_table(out: &mut String, table: &Table) {
+    let cells = |tag: &str, row: &[Line]| -> String {
+        row.iter().map(|c| format!("<{tag}>{}</{}>", inline(c), tag.split(' ').next().unwrap_or(tag))).collect()
+    };
+    out.push_str("<div class=\"wide\"><table>\n");
+    if !table.caption.is_empty() {
+        out.push_str(&format!("<caption>{}</caption>\n", inline(&table.caption)));
+    }
+    out.push_str(&format!("<thead><tr>{}</tr></thead>\n<tbody>\n", cells("th scope=\"col\"", &table.header)));
+    for row in &table.rows {
+        out.push_str(&format!("<tr>{}</tr>\n", cells("td", row)));
+    }
+    out.push_str("</tbody></table></div>\n");
+}
+
+/// A line as HTML.
+#[must_use]
+pub fn inline(text: &[Inline]) -> String {
+    text.iter()
+        .map(|run| match run {
+            Inline::Text(t) => escaped(t),
+            Inline::Strong(t) => format!("<strong>{}</strong>", escaped(t)),
+            Inline::Code(t) => format!("<code>{}</code>", escaped(t)),
+            Inline::Math(m) => math_element(m, false),
+            Inline::Mark(tone, t) => format!("<strong class=\"{}\">{}</strong>", tone_class(*tone), escaped(t)),
+        })
+        .collect()
+}
+
+fn tone_class(tone: Tone) -> &'static str {
+    match tone {
+        Tone::Good => "good",
+        Tone::Bad => "bad",
+        Tone::Open => "open",
+        Tone::Neutral => "neutral",
+    }
+}
+
+/// Text with the characters that HTML reads as markup replaced, and without control characters.
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '&' => out.push_str("&amp;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            c if c.is_control() && c != '\n' => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::document::{line, words};
+    use super::super::math::Math;
+    use super::*;
+
+    #[test]
+    fn nothing_from_outside_becomes_markup() {
+        let document = Document {
+            title: "<script>alert(1)</script>".into(),
+            blocks: vec![
+                Block::Paragraph(words("<img src=x>")),
+                Block::text("$x<y$ `<b>`", []),
+                Block::Formula(Math::of("a<b")),
+                Block::Checks(vec![Check { tone: Tone::Bad, text: line("**<i>**", []) }]),
+            ],
+        };
+        let html = render(&document);
+        for tag in ["<script>", "<img", "<b>", "<i>"] {
+            assert!(!html.contains(tag), "{tag}");
+        }
+        assert!(html.contains("<mo>&lt;</mo>"));
+        assert!(!html.contains("http"), "no network");
+    }
+}

@@ -1,0 +1,238 @@
+//! The JSON report, version 1; documented in `docs/json.md`.
+
+use super::text::math_line;
+use super::theorems;
+use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
+use super::words::ratio;
+use crate::algebraic::Root;
+use crate::arith::Rational;
+use crate::case::Case;
+use crate::diagnostic::Problem;
+use crate::shape::{Contraction, word_text};
+use crate::theorem::{
+    BranchReport, Certified, Claim, Direction, Outcome, PointReport, Rate, Role, Side, Verdict, Witness,
+};
+use serde_json::{Value, json};
+
+/// The version of the format; it changes when a field changes its meaning or goes away.
+pub const VERSION: u32 = 1;
+
+/// Everything that was found, as data.
+#[must_use]
+pub fn report(case: &Case, found: &Certified) -> Value {
+    json!({
+        "version": VERSION,
+        "case": case.name,
+        "title": case.title,
+        "verdict": found.verdict.word(),
+        "claim": found.claims.first().map(|c| c.text.clone()),
+        "claims": found.claims.iter().map(claim).collect::<Vec<_>>(),
+        "contraction": contraction(&found.contraction),
+        "points": found.points.iter().map(|p| point(case, p)).collect::<Vec<_>>(),
+    })
+}
+
+/// A refused case as data.
+#[must_use]
+pub fn refusal(name: &str, problem: &Problem) -> Value {
+    let (line, column) = problem.position().unzip();
+    json!({
+        "version": VERSION,
+        "case": name,
+        "verdict": Value::Null,
+        "error": {
+            "code": problem.id(),
+            "message": problem.message(),
+            "file": problem.file(),
+            "line": line,
+            "column": column,
+            "help": problem.remedy(),
+        },
+    })
+}
+
+fn claim(c: &Claim) -> Value {
+    json!({
+        "claim": c.text,
+        "verdict": c.verdict.word(),
+        "theorem": c.statement.map(|s| theorems::of(s).id),
+        "reason": c.reason,
+    })
+}
+
+fn contraction(c: &Contraction) -> Value {
+    match c {
+        Contraction::Proved(proof) => json!({
+            "verdict": "proved",
+            "length": proof.length,
+            "words": proof.codes.iter().map(Vec::len).sum::<usize>(),
+            "constant": proof.constant.to_string(),
+        }),
+        Contraction::Refuted { state, word } => {
+            json!({ "verdict": "refuted", "state": state, "word": word_text(word) })
+        }
+        Contraction::Undetermined { length, open } => {
+            json!({ "verdict": "undetermined", "length": length, "open": open })
+        }
+    }
+}
+
+fn point(case: &Case, p: &PointReport) -> Value {
+    let lead = p.branches.iter().find(|b| matches!(b.outcome, Outcome::AtLeast { .. } | Outcome::Open { .. }));
+    let lead = lead.or_else(|| p.branches.first());
+    let mut out = json!({
+        "address": p.branches.first().map(|b| b.address.to_string()),
+        "addresses": p.branches.iter().map(|b| b.address.to_string()).collect::<Vec<_>>(),
+        "role": role(case, &p.role),
+        "position": rationals(&p.position),
+        "image": p.image.as_ref().map(|x| rationals(x)),
+        "verdict": p.verdict.word(),
+        "dimension": { "at_least": p.dimension.at_least, "exact": p.dimension.exact },
+        "kind": p.kind.word(),
+        "rays": {
+            "left": p.left.iter().map(direction).collect::<Vec<_>>(),
+            "right": p.right.iter().map(direction).collect::<Vec<_>>(),
+        },
+        "tangent": p.tangent.as_ref().map(direction),
+    });
+    if let (Value::Object(map), Some(branch)) = (&mut out, lead) {
+        for (key, value) in branch_fields(branch) {
+            map.insert(key.to_owned(), value);
+        }
+        if p.verdict != Verdict::Proved {
+            map.insert("reason".to_owned(), json!(p.reason));
+        }
+        map.insert("branches".to_owned(), p.branches.iter().map(branch_value).collect());
+    }
+    out
+}
+
+fn role(case: &Case, role: &Role) -> Value {
+    match role {
+        Role::LeftEnd => json!({ "kind": "left-end" }),
+        Role::RightEnd => json!({ "kind": "right-end" }),
+        Role::Interior => json!({ "kind": "interior" }),
+        Role::SetPoint => json!({ "kind": "set-point" }),
+        Role::Joint { path, state, left, right } => json!({
+            "kind": "joint",
+            "cell": word_text(path),
+            "state": case.shape.states[*state].name,
+            "pieces": [left, right],
+        }),
+    }
+}
+
+/// What is said of a branch: eigenvalue, Jordan block, theorem, rate, Hölder exponent, witness or reason.
+fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
+    match &b.outcome {
+        Outcome::Line { statement, eigenvalue, block, rate, holder, .. } => {
+            let root = &b.spectrum.factors[eigenvalue.0].roots[eigenvalue.1];
+            let exponent = exponent(&holder.eigenvalue.modulus(80), &holder.scale);
+            vec![
+                ("eigenvalue", root_value(root)),
+                ("jordan", json!({ "block": block, "blocks": b.spectrum.factors[eigenvalue.0].blocks })),
+                ("theorem", json!(theorems::of(*statement).id)),
+                ("rate", rate_value(rate)),
+                ("holder", json!({ "decimal": exponent, "scale": holder.scale.to_string(), "power": holder.power })),
+            ]
+        }
+        Outcome::AtLeast { statement, eigenvalues, witness, .. } => {
+            let mut fields = vec![("theorem", json!(theorems::of(*statement).id))];
+            if let Some(&(f, r)) = eigenvalues.first() {
+                fields.insert(0, ("eigenvalue", root_value(&b.spectrum.factors[f].roots[r])));
+                fields.insert(1, ("jordan", json!({ "blocks": b.spectrum.factors[f].blocks })));
+            }
+            fields.push(("witness", witness.as_ref().map_or_else(|| spanning(b, eigenvalues), witness_value)));
+            fields
+        }
+        Outcome::NoGerm { reason } => vec![("reason", json!(reason))],
+        Outcome::Open { reason, place, .. } => {
+            vec![("reason", json!(reason)), ("cell", json!(place.as_ref().map(|w| word_text(w))))]
+        }
+    }
+}
+
+/// The eigenvalues whose directions span more than a line: they are the witness of the corollary.
+fn spanning(b: &BranchReport, eigenvalues: &[(usize, usize)]) -> Value {
+    let roots: Vec<Value> = eigenvalues.iter().map(|&(f, r)| root_value(&b.spectrum.factors[f].roots[r])).collect();
+    json!({ "kind": "eigenvalues", "eigenvalues": roots })
+}
+
+fn branch_value(b: &BranchReport) -> Value {
+    let mut out = json!({
+        "address": b.address.to_string(),
+        "side": match b.side { Side::Left => "left", Side::Right => "right", Side::Both => "both" },
+        "relevant": b.relevant,
+        "visible": b.linear.rows(),
+        "spectrum": b.spectrum.classes.iter().map(|class| {
+            class.members.iter().map(|m| {
+                let mut value = root_value(b.spectrum.root(*m));
+                value["multiplicity"] = json!(b.spectrum.factor(*m).multiplicity);
+                value["blocks"] = json!(b.spectrum.factor(*m).blocks);
+                value
+            }).collect::<Vec<_>>()
+        }).collect::<Vec<_>>(),
+    });
+    if let Value::Object(map) = &mut out {
+        for (key, value) in branch_fields(b) {
+            map.insert(key.to_owned(), value);
+        }
+    }
+    out
+}
+
+fn root_value(root: &Root) -> Value {
+    let (re, im) = root.enclosure(64);
+    let interval = |x: &crate::arith::Interval| json!([x.lo.to_string(), x.hi.to_string()]);
+    let (re_decimal, im_decimal) = root_decimals(root);
+    json!({
+        "minimal_polynomial": root.minpoly().display("x"),
+        "enclosure": { "re": interval(&re), "im": interval(&im) },
+        "decimal": { "re": re_decimal, "im": im_decimal },
+        "exact": root.rational().map(|x| x.to_string()),
+    })
+}
+
+fn direction(d: &Direction) -> Value {
+    let exact: Vec<String> = match d.rational() {
+        Some(v) => v.iter().map(ToString::to_string).collect(),
+        None => d.coords.iter().map(|c| math_line(&elem_math(c)).replace('−', "-")).collect(),
+    };
+    let generator = if d.rational().is_some() { Value::Null } else { root_value(&d.root) };
+    json!({ "exact": exact, "lambda": generator, "decimal": direction_decimals(d) })
+}
+
+fn rate_value(rate: &Rate) -> Value {
+    match rate {
+        Rate::Exact => json!({ "kind": "exact" }),
+        Rate::Harmonic => json!({ "kind": "harmonic" }),
+        Rate::Geometric { slower, dominant, power } => {
+            let decimals = decimal(&(slower.modulus(80).mid() / dominant.modulus(80).mid()), 6);
+            let exact = ratio(slower, dominant).map(|x| x.to_string());
+            json!({ "kind": "geometric", "power": power, "factor": { "exact": exact, "decimal": decimals } })
+        }
+    }
+}
+
+fn witness_value(w: &Witness) -> Value {
+    match w {
+        Witness::Point { address, offset } => {
+            json!({ "kind": "point", "address": address.to_string(), "offset": rationals(offset) })
+        }
+        Witness::SignChange { positive, above, negative, below } => json!({
+            "kind": "sign-change",
+            "positive": { "address": positive.to_string(), "values": [above.lo.to_string(), above.hi.to_string()] },
+            "negative": { "address": negative.to_string(), "values": [below.lo.to_string(), below.hi.to_string()] },
+        }),
+        Witness::Crossing { sign, positive, negative, .. } => json!({
+            "kind": "crossing",
+            "sign": sign,
+            "positive": { "address": positive.to_string() },
+            "negative": { "address": negative.to_string() },
+        }),
+    }
+}
+
+fn rationals(v: &[Rational]) -> Vec<String> {
+    v.iter().map(ToString::to_string).collect()
+}

@@ -1,0 +1,135 @@
+//! One section for each examined point: its branches brought together.
+
+use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
+use super::super::math::Math;
+use super::super::words::{addresses, dimension, direction, mark, point_name, ray_line};
+use super::{cycles, equation, quoted_id};
+use crate::case::Case;
+use crate::shape::word_text;
+use crate::theorem::{BranchReport, Certified, Kind, Outcome, PointReport, Role, Side, Verdict};
+
+pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport]) -> Vec<Block> {
+    let mut blocks = vec![Block::heading(2, "The points")];
+    if found.points.iter().any(|p| p.branches.len() > 1) {
+        blocks.push(quoted_id("joint"));
+    }
+    for point in &found.points {
+        blocks.extend(one(case, point, listed));
+    }
+    blocks
+}
+
+fn one(case: &Case, point: &PointReport, listed: &[&BranchReport]) -> Vec<Block> {
+    let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
+    for (k, address) in addresses(point).into_iter().enumerate() {
+        if k > 0 {
+            head.extend(words(" = "));
+        }
+        head.push(Inline::Code(address));
+    }
+    let mut blocks = vec![Block::Heading(3, head)];
+    let place = match &point.image {
+        Some(image) => line("The point is $p=@$, that is $@$.", [Math::vector(&point.position), Math::vector(image)]),
+        None => line("The point is $p=@$.", [Math::vector(&point.position)]),
+    };
+    blocks.push(Block::Paragraph(place));
+    for branch in &point.branches {
+        blocks.extend(branch_blocks(case, branch, listed));
+    }
+    if point.branches.len() > 1 {
+        blocks.extend(agreement(point));
+    }
+    blocks.push(Block::Paragraph(conclusion(point)));
+    blocks
+}
+
+fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -> Vec<Block> {
+    let side = match branch.side {
+        Side::Left => "Left branch",
+        Side::Right => "Right branch",
+        Side::Both => "Branch",
+    };
+    let name = cycles::index_of(listed, branch).map(|k| cycles::name(case, listed[k], k)).unwrap_or_default();
+    let mut blocks = Vec::new();
+    let from = if branch.address.prefix.is_empty() {
+        "no prefix".to_owned()
+    } else {
+        format!("the prefix `{}`", word_text(&branch.address.prefix))
+    };
+    let mut text = line(&format!("**{side}** `{}`: {from}, then ", branch.address), []);
+    text.push(Inline::Strong(name));
+    text.extend(line(". Directions in coordinates of $V$ are brought to the point by", []));
+    blocks.push(Block::Paragraph(text));
+    blocks.push(equation("G", Math::matrix(&branch.view)));
+    match &branch.outcome {
+        Outcome::Line { direction: d, rays, .. } => {
+            let mut text = line("The tangent line of this branch has the direction $G v$: ", []);
+            text.extend(direction(d));
+            text.extend(words("."));
+            blocks.push(Block::Paragraph(text));
+            let lists = [("before", &rays.left), ("after", &rays.right)];
+            for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
+                let mut text = words(format!("Rays of the points {name} $p$: ").replace(" $p$", " it"));
+                text.extend(super::super::words::rays(list));
+                text.extend(words("."));
+                blocks.push(Block::Paragraph(text));
+            }
+        }
+        Outcome::AtLeast { dimension, .. } => {
+            blocks.push(Block::text("On this branch $\\dim D^*≥@$.", [Math::count(*dimension)]))
+        }
+        Outcome::NoGerm { reason } => blocks.push(Block::Paragraph(words(format!("{reason}.")))),
+        Outcome::Open { reason, .. } => blocks.push(Block::Paragraph(words(format!("Not decided: {reason}.")))),
+    }
+    blocks
+}
+
+/// Whether the two lines of a joint agree.
+fn agreement(point: &PointReport) -> Option<Block> {
+    let lines: Vec<_> = point
+        .branches
+        .iter()
+        .filter_map(|b| match &b.outcome {
+            Outcome::Line { direction, .. } => Some(direction),
+            _ => None,
+        })
+        .collect();
+    let [left, right] = lines[..] else { return None };
+    let agree = left.same_line(right).is_some();
+    let tone = if agree { Tone::Good } else { Tone::Bad };
+    let mut text: Line = words(if agree { "The two lines agree: " } else { "The two lines differ: " });
+    text.extend(direction(left));
+    text.extend(words(" and "));
+    text.extend(direction(right));
+    text.extend(words(if agree { " are multiples of one another." } else { " are not multiples of one another." }));
+    Some(Block::Checks(vec![Check { tone, text }]))
+}
+
+fn conclusion(point: &PointReport) -> Line {
+    let mut out = line("**Conclusion.** ", []);
+    out.push(mark(point.verdict));
+    out.extend(words(": "));
+    let kind = match (point.verdict, point.kind) {
+        (Verdict::Proved, Kind::None) => "a tangent line exists; its rays are not settled".to_owned(),
+        (Verdict::Refuted, Kind::None) => "no tangent line".to_owned(),
+        (Verdict::Undetermined, _) => "not decided".to_owned(),
+        (_, kind) => kind.word().to_owned(),
+    };
+    out.push(Inline::Strong(kind));
+    out.extend(words(", "));
+    out.extend(dimension(point.dimension));
+    if let Some(tangent) = &point.tangent {
+        out.extend(words("; tangent line of "));
+        out.extend(direction(tangent));
+    }
+    let rays = ray_line(point);
+    if !rays.is_empty() {
+        out.extend(words(if point.role == Role::SetPoint { "; limit rays: " } else { "; limit rays by side: " }));
+        out.extend(rays);
+    }
+    if let Some(reason) = &point.reason {
+        out.extend(words(format!("; {reason}")));
+    }
+    out.extend(words("."));
+    out
+}

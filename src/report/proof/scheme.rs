@@ -1,0 +1,196 @@
+//! The scheme, its contraction, and the identities of a curve.
+
+use super::super::document::{Block, Check, Line, Table, Tone, code, formula, line, words};
+use super::super::math::Math;
+use super::super::words::{contraction, count};
+use super::{equation, quoted_id};
+use crate::case::{Case, Convention};
+use crate::shape::{CellKind, Contraction, End, Frame, Shape, word_text};
+use crate::theorem::Certified;
+
+/// Most code words that are listed.
+const MAX_WORDS: usize = 400;
+
+/// The sections on the operators, contraction, identities and relevant spaces.
+pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
+    let shape = &case.shape;
+    let mut blocks = vec![Block::heading(2, "The scheme")];
+    blocks.push(Block::Paragraph(convention(case)));
+    for (e, state) in shape.states.iter().enumerate() {
+        if shape.states.len() > 1 {
+            blocks.push(Block::Paragraph(state_line(shape, e)));
+        }
+        for (i, piece) in state.pieces.iter().enumerate() {
+            let name = if shape.states.len() > 1 { format!("T_{{{i}}}^{{@}}") } else { format!("T_{{{i}}}") };
+            let mut values = vec![Math::matrix(&piece.op)];
+            if shape.states.len() > 1 {
+                values.insert(0, Math::Word(state.name.clone()));
+            }
+            blocks.push(Block::Formula(Math::parse(&format!("{name}=@"), &mut values.into_iter())));
+        }
+    }
+    if let Some(control) = shape.control.as_ref().filter(|_| shape.frame == Frame::Barycentric) {
+        blocks.push(Block::text("The control points are the columns of", []));
+        blocks.push(equation("P", Math::matrix(control)));
+    }
+    blocks.push(Block::heading(2, "Contraction"));
+    blocks.push(quoted_id("lemma-1"));
+    let mut result = words("Here contraction is ");
+    result.extend(contraction(&found.contraction));
+    result.extend(words("."));
+    blocks.push(Block::Paragraph(result));
+    blocks.extend(code_words(shape, &found.contraction));
+    if shape.states[shape.start].kind == CellKind::Edge && !found.states.is_empty() {
+        blocks.extend(identities(shape));
+    }
+    if !found.states.is_empty() {
+        blocks.extend(spaces(shape, found));
+    }
+    blocks
+}
+
+fn convention(case: &Case) -> Line {
+    let reversed: Vec<String> = case.shape.states[case.shape.start]
+        .pieces
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| p.reversed)
+        .map(|(i, _)| i.to_string())
+        .collect();
+    let mut out = match case.convention {
+        Convention::Columns => line(
+            "The operators act on columns of barycentric coordinates; every column sums to 1. The case gives them in this form.",
+            [],
+        ),
+        Convention::Rows => line(
+            "The case gives subdivision matrices $S$ that act on rows of control points, with row sums 1; the operators on columns of \
+             barycentric coordinates are the transposes, with column sums 1.",
+            [],
+        ),
+        Convention::Affine => line(
+            "The case gives affine maps $x↦Bx+t$ of $ℝ^{@}$. They are written as operators on columns of barycentric coordinates with \
+             respect to the points $0, e_1, …$; every column sums to 1.",
+            [Math::count(case.shape.states[case.shape.start].dim.saturating_sub(1))],
+        ),
+    };
+    if !reversed.is_empty() {
+        out.extend(words(format!(" These pieces run backwards: {}.", reversed.join(", "))));
+    }
+    out
+}
+
+fn state_line(shape: &Shape, e: usize) -> Line {
+    let state = &shape.states[e];
+    let kind = match state.kind {
+        CellKind::Vertex => "vertex",
+        CellKind::Edge => "edge",
+        CellKind::Set => "set",
+        CellKind::Face => "face",
+    };
+    let pieces: Vec<String> = state
+        .pieces
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let back = if p.reversed { " backwards" } else { "" };
+            format!("{i} to {}{back}", shape.states[p.target].name)
+        })
+        .collect();
+    let start = if e == shape.start { ", the start" } else { "" };
+    let text = format!(
+        "State {} ({kind}{start}), {}; pieces: {}.",
+        state.name,
+        count(state.dim, "coordinate"),
+        pieces.join(", ")
+    );
+    words(text)
+}
+
+fn code_words(shape: &Shape, found: &Contraction) -> Option<Block> {
+    let Contraction::Proved(proof) = found else { return None };
+    let total: usize = proof.codes.iter().map(Vec::len).sum();
+    let several = shape.states.len() > 1;
+    let mut rows = Vec::new();
+    for (e, code_of_state) in proof.codes.iter().enumerate() {
+        for word in code_of_state {
+            let mut row = vec![code(word_text(&word.word)), formula(Math::number(&word.tau))];
+            if several {
+                row.insert(0, words(shape.states[e].name.clone()));
+            }
+            rows.push(row);
+        }
+    }
+    let mut caption = words("The words of the prefix code");
+    if total > MAX_WORDS {
+        rows.truncate(MAX_WORDS);
+        caption.extend(words(format!(", the first {MAX_WORDS} of {total}")));
+    }
+    let mut header = vec![words("word"), line("$τ(T_w)$", [])];
+    if several {
+        header.insert(0, words("state"));
+    }
+    let table = Block::Table(Table { caption: Line::new(), header, rows });
+    Some(if total > 12 { Block::Details { summary: caption, blocks: vec![table] } } else { table })
+}
+
+/// The end points and the meeting points of neighbouring pieces.
+fn identities(shape: &Shape) -> Vec<Block> {
+    let mut blocks = vec![Block::heading(2, "Identities of the curve")];
+    blocks.push(Block::text(
+        "Every piece begins where the one before ends; so the attractors of the edge states are curves, and their cells are connected.",
+        [],
+    ));
+    let mut rows = Vec::new();
+    for e in shape.reachable() {
+        let state = &shape.states[e];
+        if state.kind != CellKind::Edge {
+            continue;
+        }
+        let mut push = |what: String, point: Option<Vec<crate::arith::Rational>>| {
+            if let Some(point) = point {
+                rows.push(vec![words(what), formula(Math::vector(&point))]);
+            }
+        };
+        push(format!("start of state {}", state.name), shape.end_point(e, End::Start));
+        push(format!("end of state {}", state.name), shape.end_point(e, End::Finish));
+        for j in 1..state.pieces.len() {
+            let piece = &state.pieces[j];
+            let meeting = shape.end_point(piece.target, End::Start.in_piece(piece)).map(|x| piece.op.apply(&x));
+            push(format!("end of piece {} of state {}, start of piece {j}", j - 1, state.name), meeting);
+        }
+    }
+    let header = vec![words("point"), words("barycentric coordinates")];
+    blocks.push(Block::Table(Table { caption: Line::new(), header, rows }));
+    blocks
+}
+
+fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
+    let mut blocks = vec![Block::heading(2, "Relevant spaces and enclosures")];
+    blocks.push(Block::text(
+        "$V_e$ is the span of the differences of points of the attractor $A_e$, computed by closing the differences of one point of each \
+         attractor under the operators. Each attractor lies in the 1-norm ball around its base point with the radius given.",
+        [],
+    ));
+    let rows = found.states.iter().map(|s| {
+        vec![
+            words(shape.states[s.state].name.clone()),
+            formula(Math::count(s.relevant)),
+            formula(Math::count(s.visible)),
+            formula(Math::vector(&s.base)),
+            formula(Math::number(&s.radius)),
+        ]
+    });
+    let header = vec![words("state"), line("$\\dim V_e$", []), words("seen"), words("base point"), words("radius")];
+    blocks.push(Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }));
+    if let Some(similar) = &found.similarities {
+        blocks.push(quoted_id("similarities"));
+        blocks.push(Block::Checks(vec![Check {
+            tone: Tone::Good,
+            text: line(
+                "In the basis of $V$ all linear parts satisfy $L_i^T Q L_i = c_i Q$ with the positive definite $Q=@$ and $c=@$.",
+                [Math::matrix(&similar.gram), Math::vector(&similar.squared_ratios)],
+            ),
+        }]));
+    }
+    blocks
+}

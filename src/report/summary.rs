@@ -1,0 +1,174 @@
+//! The short report that `secant certify` prints.
+
+use super::document::{Block, Document, Inline, Line, Tone, line, words};
+use super::math::Math;
+use super::words::{
+    addresses, contraction, count, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
+    spectrum_line, statement,
+};
+use crate::case::Case;
+use crate::shape::{CellKind, Frame};
+use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Side, Verdict};
+
+/// How many classes of eigenvalues are shown without `--verbose`.
+const CLASSES: usize = 3;
+
+/// Sums up what was found; `verbose` adds branches, rates and exponents.
+#[must_use]
+pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
+    let mut blocks = Vec::new();
+    if case.title != case.name {
+        blocks.push(Block::Paragraph(words(case.title.clone())));
+    }
+    if let Some(source) = &case.source {
+        blocks.push(Block::Paragraph(vec![Inline::Mark(Tone::Neutral, source.clone())]));
+    }
+    blocks.push(Block::heading(2, "Claims"));
+    for claim in &found.claims {
+        blocks.push(Block::Paragraph(claim_line(claim)));
+    }
+    blocks.push(Block::heading(2, "Shape"));
+    blocks.push(Block::Facts(shape_facts(case, found)));
+    for point in &found.points {
+        blocks.extend(point_blocks(case, point, verbose));
+    }
+    blocks.push(Block::heading(2, "Verdict"));
+    let mut verdict = vec![mark(found.verdict)];
+    verdict.extend(words(match found.verdict {
+        Verdict::Proved => ": every claim holds.",
+        Verdict::Refuted => ": a claim fails, with the witness given above.",
+        Verdict::Undetermined => ": some claim is neither proved nor refuted.",
+    }));
+    blocks.push(Block::Paragraph(verdict));
+    Document { title: case.name.clone(), blocks }
+}
+
+/// A claim with its verdict, statement and reason.
+pub(super) fn claim_line(claim: &Claim) -> Line {
+    let mut out = vec![mark(claim.verdict)];
+    out.extend(words(format!("  {}", claim.text)));
+    if let Some(s) = claim.statement {
+        out.extend(words(format!(" [{}]", statement(s))));
+    }
+    if let Some(reason) = &claim.reason {
+        out.extend(words(format!(": {reason}")));
+    }
+    out
+}
+
+/// What the shape is, in one line.
+pub(super) fn shape_line(case: &Case) -> Line {
+    let shape = &case.shape;
+    let start = &shape.states[shape.start];
+    let what = if start.kind == CellKind::Edge { "curve" } else { "set" };
+    let pieces = count(start.pieces.len(), "piece");
+    let states = if shape.states.len() == 1 {
+        String::new()
+    } else {
+        format!(", an automaton of {} started at `{}`", count(shape.states.len(), "state"), start.name)
+    };
+    let template = format!("{what} of {pieces}{states}");
+    match (shape.frame, &shape.control) {
+        (Frame::Affine, _) => line(&format!("{template}, affine maps of $ℝ^{{@}}$"), [Math::count(start.dim - 1)]),
+        (_, Some(control)) => line(
+            &format!("{template}, with {} in $ℝ^{{@}}$", count(control.cols(), "control point")),
+            [Math::count(control.rows())],
+        ),
+        _ => line(
+            &format!(
+                "{template}, in the barycentric space of {}; no control points are given, so this is what the verdict is about",
+                count(start.dim, "coordinate")
+            ),
+            [],
+        ),
+    }
+}
+
+fn shape_facts(case: &Case, found: &Certified) -> Vec<(String, Line)> {
+    let mut facts = vec![("shape".to_owned(), shape_line(case))];
+    facts.push(("contraction".to_owned(), contraction(&found.contraction)));
+    if let Some(start) = found.states.iter().find(|s| s.state == case.shape.start) {
+        let text = if start.visible == start.relevant {
+            line("$\\dim V=@$", [Math::count(start.relevant)])
+        } else {
+            let values = [Math::count(start.relevant), Math::count(start.visible)];
+            line("$\\dim V=@$, of which $@$ are seen through the control points", values)
+        };
+        facts.push(("relevant space".to_owned(), text));
+    }
+    facts
+}
+
+fn point_blocks(case: &Case, point: &PointReport, verbose: bool) -> Vec<Block> {
+    let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
+    for (k, address) in addresses(point).into_iter().enumerate() {
+        if k > 0 {
+            head.extend(words(" = "));
+        }
+        head.push(Inline::Code(address));
+    }
+    let mut facts = vec![("verdict".to_owned(), verdict_line(point))];
+    let place = point.image.as_ref().unwrap_or(&point.position);
+    facts.push(("point".to_owned(), vec![Inline::Math(Math::vector(place))]));
+    if let Some(tangent) = &point.tangent {
+        facts.push(("tangent".to_owned(), direction(tangent)));
+    }
+    let rays = ray_line(point);
+    if !rays.is_empty() {
+        facts.push(("rays".to_owned(), rays));
+    }
+    let branches = shown_branches(point);
+    for branch in &branches {
+        facts.extend(branch_facts(branches.len() > 1, branch, verbose));
+    }
+    vec![Block::Heading(3, head), Block::Facts(facts)]
+}
+
+fn verdict_line(point: &PointReport) -> Line {
+    let mut out = vec![mark(point.verdict)];
+    match (point.verdict, point.kind) {
+        (Verdict::Proved, Kind::None) => out.extend(words(": a tangent line exists (its rays are not settled)")),
+        (_, Kind::None) => {}
+        (_, kind) => {
+            out.extend(words(": "));
+            out.push(Inline::Strong(kind.word().to_owned()));
+        }
+    }
+    out.extend(words(", "));
+    out.extend(dimension(point.dimension));
+    if let Some(reason) = &point.reason {
+        out.extend(words(format!("; {reason}")));
+    }
+    out
+}
+
+/// Both branches, or one where they are the same.
+fn shown_branches(point: &PointReport) -> Vec<&BranchReport> {
+    let mut out: Vec<&BranchReport> = Vec::new();
+    for branch in &point.branches {
+        let same = |b: &&BranchReport| b.linear == branch.linear && b.address.cycle == branch.address.cycle;
+        if !out.iter().any(same) {
+            out.push(branch);
+        }
+    }
+    out
+}
+
+fn branch_facts(several: bool, branch: &BranchReport, verbose: bool) -> Vec<(String, Line)> {
+    let side = match branch.side {
+        Side::Left => " (left)",
+        Side::Right => " (right)",
+        Side::Both => "",
+    };
+    let side = if several { side } else { "" };
+    let name = |text: &str| format!("{text}{side}");
+    let most = if verbose { usize::MAX } else { CLASSES };
+    let mut facts = vec![(name("spectrum"), spectrum_line(&branch.spectrum, most)), (name("theorem"), outcome(branch))];
+    if let Outcome::Line { rate: r, holder: h, .. } = &branch.outcome {
+        facts.push((name("rate"), rate(r)));
+        if verbose {
+            facts.push((name("Hölder exponent"), holder(h)));
+        }
+    }
+    facts
+}

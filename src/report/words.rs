@@ -1,0 +1,345 @@
+//! The words and formulas shared by all reports: points, branches, spectra, rates.
+
+use super::document::{Inline, Line, Tone, line, words};
+use super::math::Math;
+use super::theorems;
+use super::values::{
+    decimal_math, decimals_math, direction_decimals, direction_math, exponent, is_rational, polynomial, root_math,
+};
+use crate::algebraic::Root;
+use crate::arith::Rational;
+use crate::jordan::{Eigenvalue, Spectrum};
+use crate::shape::{Contraction, Shape, word_text};
+use crate::theorem::{
+    BranchReport, Dimension, Direction, Holder, Outcome, PointReport, Rate, RingProof, Role, Statement, Verdict,
+    Witness,
+};
+
+/// The colour of a verdict.
+#[must_use]
+pub fn tone(verdict: Verdict) -> Tone {
+    match verdict {
+        Verdict::Proved => Tone::Good,
+        Verdict::Refuted => Tone::Bad,
+        Verdict::Undetermined => Tone::Open,
+    }
+}
+
+/// A verdict in its colour.
+#[must_use]
+pub fn mark(verdict: Verdict) -> Inline {
+    Inline::Mark(tone(verdict), verdict.word().to_owned())
+}
+
+/// `a`, `b` and `c`.
+#[must_use]
+pub fn listed(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [head @ .., last] => format!("{} and {last}", head.join(", ")),
+    }
+}
+
+/// `1 piece`, `2 pieces`.
+#[must_use]
+pub fn count(number: usize, noun: &str) -> String {
+    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
+}
+
+/// What a point is called: `Left end`, `Joint of pieces 0 and 1`.
+#[must_use]
+pub fn point_name(shape: &Shape, point: &PointReport) -> String {
+    match &point.role {
+        Role::LeftEnd => "Left end".to_owned(),
+        Role::RightEnd => "Right end".to_owned(),
+        Role::Interior => "Interior point".to_owned(),
+        Role::SetPoint => "Point".to_owned(),
+        Role::Joint { path, state, left, right } => {
+            let mut name = format!("Joint of pieces {left} and {right}");
+            if shape.states.len() > 1 {
+                name.push_str(&format!(" of state {}", shape.states[*state].name));
+            }
+            if !path.is_empty() {
+                name.push_str(&format!(" in cell {}", word_text(path)));
+            }
+            name
+        }
+    }
+}
+
+/// The addresses of the branches, without repetition.
+#[must_use]
+pub fn addresses(point: &PointReport) -> Vec<String> {
+    let mut out: Vec<String> = Vec::new();
+    for branch in &point.branches {
+        let text = branch.address.to_string();
+        if !out.contains(&text) {
+            out.push(text);
+        }
+    }
+    out
+}
+
+/// A direction, exactly, with decimals where it is irrational.
+#[must_use]
+pub fn direction(d: &Direction) -> Line {
+    let exact = direction_math(d);
+    if is_rational(d) {
+        return vec![Inline::Math(exact)];
+    }
+    let decimals = decimals_math(&direction_decimals(d));
+    line("$@$ with $λ=@$, which is $≈@$", [exact, root_math(&d.root), decimals])
+}
+
+/// The rays of one side.
+#[must_use]
+pub fn rays(list: &[Direction]) -> Line {
+    let mut out = Line::new();
+    for (k, ray) in list.iter().enumerate() {
+        if k > 0 {
+            out.extend(words(" and "));
+        }
+        out.extend(direction(ray));
+    }
+    out
+}
+
+/// The rays of both sides in one line.
+#[must_use]
+pub fn ray_line(point: &PointReport) -> Line {
+    let mut out = Line::new();
+    for (side, list) in [("left", &point.left), ("right", &point.right)] {
+        if list.is_empty() {
+            continue;
+        }
+        if !out.is_empty() {
+            out.extend(words("; "));
+        }
+        if point.role != Role::SetPoint {
+            out.extend(words(format!("{side} ")));
+        }
+        out.extend(rays(list));
+    }
+    out
+}
+
+/// An eigenvalue with its multiplicity and blocks, as in `1/2 (one block of size 2)`.
+#[must_use]
+pub fn eigenvalue(spectrum: &Spectrum, member: Eigenvalue) -> Line {
+    let factor = spectrum.factor(member);
+    let mut out = vec![Inline::Math(root_math(spectrum.root(member)))];
+    if factor.multiplicity > 1 {
+        out.extend(words(format!(" ({})", blocks(&factor.blocks))));
+    }
+    out
+}
+
+/// `2 blocks of size 1`, `blocks of sizes 2 and 1`.
+#[must_use]
+pub fn blocks(sizes: &[usize]) -> String {
+    match sizes {
+        [one] => format!("1 Jordan block of size {one}"),
+        _ if sizes.iter().all(|s| *s == sizes[0]) => format!("{} Jordan blocks of size {}", sizes.len(), sizes[0]),
+        _ => format!("Jordan blocks of sizes {}", listed(&sizes.iter().map(ToString::to_string).collect::<Vec<_>>())),
+    }
+}
+
+/// The eigenvalues by descending modulus, at most `most` classes of them.
+#[must_use]
+pub fn spectrum_line(spectrum: &Spectrum, most: usize) -> Line {
+    let mut out = Line::new();
+    for (k, class) in spectrum.classes.iter().take(most).enumerate() {
+        if k > 0 {
+            out.extend(words("; then "));
+        }
+        for (j, member) in class.members.iter().enumerate() {
+            if j > 0 {
+                out.extend(words(if j + 1 == class.members.len() { " and " } else { ", " }));
+            }
+            out.extend(eigenvalue(spectrum, *member));
+        }
+        if class.members.len() > 1 {
+            out.extend(words(" of equal modulus"));
+        }
+    }
+    if spectrum.classes.len() > most {
+        out.extend(words(format!("; {} of smaller modulus", count(spectrum.classes.len() - most, "class"))));
+    }
+    out
+}
+
+/// The rate of convergence.
+#[must_use]
+pub fn rate(rate: &Rate) -> Line {
+    match rate {
+        Rate::Exact => words("the cell has no component off the line"),
+        Rate::Harmonic => line("$O(1/m)$ after $m$ turns of the cycle", []),
+        Rate::Geometric { slower, dominant, power } => {
+            let prefix = match power {
+                0 => String::new(),
+                1 => "m ".to_owned(),
+                k => format!("m^{k} "),
+            };
+            match ratio(slower, dominant) {
+                Some(q) => line(&format!("$O({prefix}(@)^m)$ after $m$ turns of the cycle"), [Math::number(&q)]),
+                None => {
+                    let (a, b) = (slower.modulus(80).mid(), dominant.modulus(80).mid());
+                    let template = format!("$O({prefix}r^m)$ with $r=|@|/|@|≈@$ after $m$ turns of the cycle");
+                    line(&template, [plain_root(slower), plain_root(dominant), decimal_math(&(a / b), 6)])
+                }
+            }
+        }
+    }
+}
+
+/// An eigenvalue without the sign ≈ in front.
+fn plain_root(root: &Root) -> Math {
+    match root_math(root) {
+        Math::Row(mut row) if row.first() == Some(&Math::Symbol('≈')) => {
+            row.remove(0);
+            Math::Row(row)
+        }
+        other => other,
+    }
+}
+
+/// `|slower| / |dominant|` where both are rational.
+#[must_use]
+pub fn ratio(slower: &Root, dominant: &Root) -> Option<Rational> {
+    let (a, b) = (slower.rational()?, dominant.rational()?);
+    Some(crate::arith::abs(&a) / crate::arith::abs(&b))
+}
+
+/// The local Hölder exponent.
+#[must_use]
+pub fn holder(h: &Holder) -> Line {
+    let modulus = h.eigenvalue.modulus(80);
+    let value = Math::Digits(exponent(&modulus, &h.scale));
+    let size = match h.eigenvalue.rational() {
+        Some(x) => Math::number(&crate::arith::abs(&x)),
+        None => decimal_math(&modulus.mid(), 6),
+    };
+    let mut out = line("$\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]);
+    if h.power > 0 {
+        out.extend(line("; the quotient diverges like $m^{@}$", [Math::count(h.power)]));
+    }
+    out
+}
+
+/// The dimension of the tangent subspace.
+#[must_use]
+pub fn dimension(d: Dimension) -> Line {
+    if d.exact {
+        line("$\\dim D^*=@$", [Math::count(d.at_least)])
+    } else {
+        line("$\\dim D^*≥@$", [Math::count(d.at_least)])
+    }
+}
+
+/// A cell as an address prefix.
+#[must_use]
+pub fn cell(word: &[usize]) -> String {
+    if word.is_empty() { "the whole cell".to_owned() } else { format!("`{}`", word_text(word)) }
+}
+
+/// A witness in words.
+#[must_use]
+pub fn witness(w: &Witness) -> Line {
+    match w {
+        Witness::Point { address, offset } => line(
+            &format!(
+                "the point of the ring with address `{address}` has no component along it: $x=@$ in coordinates of $V$"
+            ),
+            [Math::vector(offset)],
+        ),
+        Witness::SignChange { positive, above, negative, below } => line(
+            &format!(
+                "the functional changes sign on a connected part of the ring: it is positive at the point with address `{positive}` \
+                 (between $@$ and $@$) and negative at the one with address `{negative}` (between $@$ and $@$)"
+            ),
+            [&above.lo, &above.hi, &below.lo, &below.hi].map(|x| decimal_math(x, 6)),
+        ),
+        Witness::Crossing { sign, positive, negative, cover, .. } => line(
+            &format!(
+                "the coefficient $c_2$ is positive at the point with address `{positive}` and negative at `{negative}` of a connected \
+                 part of the ring, and on {} that cover that part either $c_2$ has a strict sign or $c_1$ is {}",
+                count(cover.discharged.len(), "cell"),
+                if *sign > 0 { "positive" } else { "negative" }
+            ),
+            [],
+        ),
+    }
+}
+
+/// The name of a statement.
+#[must_use]
+pub fn statement(s: Statement) -> &'static str {
+    theorems::of(s).name
+}
+
+/// How the ring condition was proved.
+#[must_use]
+pub fn ring_proof(proof: &RingProof) -> String {
+    format!("ring condition proved on {}", count(proof.discharged.len(), "cell"))
+}
+
+/// What follows at a branch, in one line.
+#[must_use]
+pub fn outcome(branch: &BranchReport) -> Line {
+    match &branch.outcome {
+        Outcome::Line { statement: s, proof, .. } => {
+            let how = proof.as_ref().map_or_else(|| "no ring condition needed".to_owned(), ring_proof);
+            words(format!("{}; {how}", statement(*s)))
+        }
+        Outcome::AtLeast { dimension, statement: s, witness: w, .. } => {
+            let mut out = line(&format!("{}: $\\dim D^*≥@$", statement(*s)), [Math::count(*dimension)]);
+            if let Some(w) = w {
+                out.extend(words("; "));
+                out.extend(witness(w));
+            }
+            out
+        }
+        Outcome::NoGerm { reason } => words(reason.clone()),
+        Outcome::Open { reason, place, .. } => match place {
+            Some(place) => line(&format!("not decided: {reason} (cell {})", cell(place)), []),
+            None => words(format!("not decided: {reason}")),
+        },
+    }
+}
+
+/// The minimal polynomial of an eigenvalue.
+#[must_use]
+pub fn minimal_polynomial(root: &Root) -> Math {
+    polynomial(root.minpoly(), 'x')
+}
+
+/// The finding on contraction, in one line.
+#[must_use]
+pub fn contraction(c: &Contraction) -> Line {
+    match c {
+        Contraction::Proved(proof) => {
+            let total: usize = proof.codes.iter().map(Vec::len).sum();
+            line(
+                &format!("proved by {} of length at most {}: $τ(T_w)≤@$ for each", count(total, "word"), proof.length),
+                [short_bound(&proof.constant)],
+            )
+        }
+        Contraction::Refuted { word, .. } => {
+            line(&format!("refuted: the cycle `{}` has spectral radius at least 1", word_text(word)), [])
+        }
+        Contraction::Undetermined { length, open } => {
+            words(format!("not decided: {} of length {length} are left", count(*open, "word")))
+        }
+    }
+}
+
+/// A bound, exactly where it is short, otherwise rounded upwards.
+fn short_bound(x: &Rational) -> Math {
+    if x.to_string().len() <= 16 {
+        return Math::number(x);
+    }
+    use malachite_base::num::arithmetic::traits::Ceiling;
+    let million = Rational::from(1_000_000);
+    decimal_math(&(Rational::from((x * &million).ceiling()) / million), 6)
+}

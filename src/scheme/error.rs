@@ -1,0 +1,126 @@
+use crate::arith::Rational;
+use crate::shape::{CurveError, ShapeError};
+use thiserror::Error;
+
+/// Why a scheme could not be built.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum SchemeError {
+    /// No scheme of that name.
+    #[error("there is no scheme `{name}`; did you mean `{near}`?")]
+    Unknown {
+        /// The name given.
+        name: String,
+        /// The listed name nearest to it.
+        near: String,
+    },
+    /// A parameter that the scheme does not have.
+    #[error("scheme `{scheme}` has no parameter `{parameter}`; it has {known}")]
+    Parameter {
+        /// The scheme.
+        scheme: String,
+        /// The name given.
+        parameter: String,
+        /// The names it has.
+        known: String,
+    },
+    /// A parameter without a default was not given.
+    #[error("scheme `{scheme}` needs the parameter `{parameter}`: {summary}")]
+    Missing {
+        /// The scheme.
+        scheme: String,
+        /// The parameter.
+        parameter: String,
+        /// What it is.
+        summary: String,
+    },
+    /// A parameter out of range.
+    #[error("{parameter} = {value}: {expected}")]
+    Value {
+        /// The parameter.
+        parameter: String,
+        /// The value given.
+        value: String,
+        /// What it must be.
+        expected: String,
+    },
+    /// The arity is not in the range that is built.
+    #[error("a mask of arity {0} cannot be used; the arity is an integer from 2 to 64")]
+    Arity(usize),
+    /// A mask too short for a curve.
+    #[error(
+        "the mask gives a constant, not a curve; it needs at least {needed} coefficients between its first and last nonzero one, and has {found}"
+    )]
+    Short {
+        /// Coefficients needed.
+        needed: usize,
+        /// Coefficients found.
+        found: usize,
+    },
+    /// More than is built.
+    #[error("{what} {size} is over the limit of {limit}")]
+    Large {
+        /// What is too large.
+        what: &'static str,
+        /// Its size.
+        size: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// A sum rule fails: the scheme does not reproduce constants.
+    #[error(
+        "the mask violates a sum rule: the coefficients with index {residue} modulo {arity} add up to {sum}, not to 1{hint}"
+    )]
+    SumRule {
+        /// The arity.
+        arity: usize,
+        /// The residue class.
+        residue: usize,
+        /// Its sum.
+        sum: Rational,
+        /// How to mend it, where the cause is plain.
+        hint: String,
+    },
+    /// A Laurent symbol that cannot be read.
+    #[error("the symbol cannot be read at character {position}: {message}")]
+    Symbol {
+        /// Position of the character, from 0.
+        position: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// Irrational numbers are needed.
+    #[error("{0} needs irrational weights, and the operators of a shape are rational")]
+    Irrational(String),
+    /// The operators do not contract, so there is no curve.
+    #[error("the scheme does not converge: {0}")]
+    Divergent(String),
+    /// The pieces do not meet.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
+    /// The result is not a model.
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+    /// A mesh rule that cannot be applied.
+    #[error("{rule}: {message}")]
+    Mesh {
+        /// The rule.
+        rule: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// An import that cannot be read.
+    #[error("line {line}: {message}")]
+    Import {
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+impl SchemeError {
+    /// A [`SchemeError::Value`].
+    pub(crate) fn value(parameter: &str, value: &impl ToString, expected: &str) -> Self {
+        Self::Value { parameter: parameter.to_owned(), value: value.to_string(), expected: expected.to_owned() }
+    }
+}

@@ -1,0 +1,36 @@
+//! Schemes turned into shapes: masks, named curves, tensor products, mesh rules at extraordinary vertices, imports.
+
+mod curves;
+mod error;
+mod fractint;
+mod json;
+mod laurent;
+mod mask;
+mod mesh;
+mod patch;
+mod refine;
+mod registry;
+mod rules;
+mod tensor;
+mod univariate;
+mod vertex;
+
+pub use curves::{
+    PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, fractal_interpolation, hilbert, koch, lebesgue, levy,
+    minkowski_sausage, okamoto, peano, plane_shape, sierpinski, takagi, terdragon,
+};
+pub use error::SchemeError;
+pub use fractint::{FractintEntry, parse_fractint};
+pub use json::parse_json;
+pub use laurent::{Laurent, MAX_WIDTH};
+pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
+pub use mesh::Sector;
+pub use patch::patch;
+pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
+pub use registry::{Parameter, SchemeInfo, build, list};
+pub use rules::{RuleInfo, mesh_rule, mesh_rules};
+pub use tensor::{MAX_COORDINATES, kronecker, tensor};
+pub use univariate::{
+    MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
+};
+pub use vertex::{LocalMatrix, MAX_POINTS, MAX_VALENCE, local_matrix, local_matrix_of};

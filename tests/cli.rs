@@ -1,0 +1,251 @@
+//! The program as a user meets it: exit codes, diagnostics, JSON, files.
+
+use assert_cmd::Command;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn secant(args: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("secant").expect("the program is built");
+    command.current_dir(env!("CARGO_MANIFEST_DIR")).args(args).env_remove("NO_COLOR").env("TERM", "xterm");
+    command
+}
+
+fn output(args: &[&str], code: i32) -> (String, String) {
+    let out = secant(args).output().expect("the program runs");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
+    assert_eq!(out.status.code(), Some(code), "{args:?}\n{}", String::from_utf8_lossy(&out.stderr));
+    (text(out.stdout), text(out.stderr))
+}
+
+const HALF: &str = "cases/thesis/half-tangent.toml";
+
+#[test]
+fn exit_codes_tell_the_verdict() {
+    output(&["certify", HALF], 0);
+    output(&["certify", "cases/classical/levy.toml"], 1);
+    output(&["certify", "cases/refused/one-over-zero.toml"], 2);
+    output(&["certify", "no/such/file.toml"], 2);
+    output(&["certify"], 2);
+    output(&["frobnicate"], 2);
+    output(&["--version"], 0);
+    output(&["--help"], 0);
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let (out, err) = output(&["certify", "-q", HALF], 0);
+    assert_eq!((out.as_str(), err.as_str()), ("", ""));
+}
+
+#[test]
+fn the_summary_says_what_was_found() {
+    let (out, err) = output(&["certify", HALF], 0);
+    for piece in ["(−1, 1, 0)", "3/4; then −1/4", "cusp", "Theorem 2", "Theorem 5", "half-tangent", "(1, −1/4, 1/4)"]
+    {
+        assert!(out.contains(piece), "{piece} is missing in\n{out}");
+    }
+    assert_eq!(err, "");
+    assert!(!out.contains('\u{1b}'), "no colours in a pipe");
+    assert!(out.lines().all(|l| l.chars().count() <= 80), "80 columns\n{out}");
+}
+
+#[test]
+fn standard_input_is_a_case() {
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(HALF)).unwrap();
+    let out = secant(&["certify", "-"]).write_stdin(text).output().unwrap();
+    assert_eq!(out.status.code(), Some(0));
+    let refused = secant(&["certify", "-"]).write_stdin("name = 1").output().unwrap();
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(String::from_utf8(refused.stderr).unwrap().contains("<stdin>:1:8"));
+}
+
+/// Every refused case: the code that it declares, and the diagnostic as it was when it was last approved.
+/// `SECANT_BLESS=1 cargo test` writes the snapshots anew.
+#[test]
+fn diagnostics_are_as_approved() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(root.join("cases/refused")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.sort();
+    let mut all = String::new();
+    for file in files.iter().filter(|f| f.extension().is_some_and(|e| e == "toml")) {
+        let shown = format!("cases/refused/{}", file.file_name().unwrap().to_string_lossy());
+        let (out, err) = output(&["certify", &shown], 2);
+        assert_eq!(out, "", "{shown}");
+        if let Some(code) = secant::case::expected_error(&std::fs::read_to_string(file).unwrap()) {
+            assert!(err.starts_with(&format!("{code}\n")), "{shown} expects {code}\n{err}");
+        }
+        all.push_str(&format!("$ secant certify {shown}\n{err}\n"));
+    }
+    approved("diagnostics.txt", &all);
+}
+
+#[test]
+fn the_summaries_are_as_approved() {
+    let mut all = String::new();
+    for (case, code) in [(HALF, 0), ("cases/classical/takagi.toml", 0), ("cases/two-parameter/corner-34-100.toml", 1)] {
+        all.push_str(&format!("$ secant certify -v {case}\n{}\n", output(&["certify", "-v", case], code).0));
+    }
+    approved("summaries.txt", &all);
+}
+
+fn approved(name: &str, text: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots").join(name);
+    if std::env::var_os("SECANT_BLESS").is_some() {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    for (k, (a, b)) in text.lines().zip(expected.lines()).enumerate() {
+        assert_eq!(a, b, "line {} of {name}; SECANT_BLESS=1 approves", k + 1);
+    }
+    assert_eq!(text, expected, "{name}; SECANT_BLESS=1 approves");
+}
+
+fn json(case: &str, code: i32) -> Value {
+    serde_json::from_str(&output(&["certify", "--json", case], code).0).expect("JSON")
+}
+
+#[test]
+fn json_has_the_documented_fields() {
+    let value = json(HALF, 0);
+    assert_eq!(value["version"], 1);
+    assert_eq!(value["case"], "half-tangent");
+    assert_eq!(value["verdict"], "proved");
+    assert_eq!(value["contraction"]["verdict"], "proved");
+    assert!(value["claim"].is_string());
+    let points = value["points"].as_array().unwrap();
+    assert_eq!(points.len(), 3);
+    for point in points {
+        for key in [
+            "address",
+            "verdict",
+            "dimension",
+            "kind",
+            "rays",
+            "tangent",
+            "eigenvalue",
+            "jordan",
+            "theorem",
+            "rate",
+            "holder",
+        ] {
+            assert!(!point[key].is_null(), "{key} in {point}");
+        }
+    }
+    let left = &points[0];
+    assert_eq!(left["address"], "(0)");
+    assert_eq!(left["kind"], "half-tangent");
+    assert_eq!(left["dimension"]["at_least"], 1);
+    assert_eq!(left["rays"]["right"][0]["exact"], serde_json::json!(["-1", "1", "0"]));
+    assert_eq!(left["eigenvalue"]["minimal_polynomial"], "x - 3/4");
+    assert_eq!(left["rate"]["factor"]["exact"], "1/3");
+    assert_eq!(points[2]["kind"], "cusp");
+    assert_eq!(points[2]["addresses"], serde_json::json!(["0(1)", "1(0)"]));
+}
+
+#[test]
+fn json_has_a_witness_or_a_reason() {
+    let levy = json("cases/classical/levy.toml", 1);
+    for point in levy["points"].as_array().unwrap() {
+        assert_eq!(point["verdict"], "refuted");
+        assert!(!point["witness"].is_null() || !point["reason"].is_null());
+    }
+    let refused = json("cases/refused/one-over-zero.toml", 2);
+    assert_eq!(refused["error"]["code"], "secant::case::number");
+    assert_eq!(refused["error"]["line"], 6);
+}
+
+#[test]
+fn json_lines_come_in_the_order_given() {
+    let cases = ["cases/classical/levy.toml", HALF, "cases/refused/empty.toml", "cases/bspline/degree-2.toml"];
+    let args: Vec<&str> = ["certify", "--jsonl"].into_iter().chain(cases).collect();
+    let (out, _) = output(&args, 2);
+    let lines: Vec<Value> = out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    let names: Vec<&str> = lines.iter().map(|v| v["case"].as_str().unwrap()).collect();
+    assert_eq!(names, ["levy", "half-tangent", "cases/refused/empty.toml", "degree-2"]);
+}
+
+#[test]
+fn several_cases_give_a_table_and_the_gravest_code() {
+    let (out, _) = output(&["certify", HALF, "cases/bspline/degree-2.toml"], 0);
+    assert!(out.contains("2 cases: 2 proved"), "{out}");
+    output(&["certify", HALF, "cases/classical/levy.toml"], 1);
+    output(&["certify", "--json", HALF, "cases/classical/levy.toml"], 2);
+}
+
+#[test]
+fn an_address_can_be_asked_for() {
+    let (out, _) = output(&["certify", HALF, "--address", "0(01)"], 0);
+    assert!(out.contains("0(01)"), "{out}");
+    for bad in ["01", "(2)", "x", "()"] {
+        let (_, err) = output(&["certify", HALF, "--address", bad], 2);
+        assert!(err.starts_with("secant::usage::address"), "{err}");
+    }
+}
+
+#[test]
+fn files_are_written_whole_or_not_at_all() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).display().to_string();
+    let (md, html, svg) = (path("a.md"), path("a.html"), path("a.svg"));
+    output(&["certify", "-q", HALF, "--report", &md, "--svg", &svg], 0);
+    output(&["certify", "-q", HALF, "--report", &html], 0);
+    let read = |p: &str| std::fs::read_to_string(p).unwrap();
+    assert!(read(&md).contains("\\frac{3}{4}") && read(&md).contains("# The thesis's example"));
+    assert!(read(&html).contains("<math") && read(&html).contains("<svg"));
+    assert!(read(&svg).starts_with("<svg"));
+    // The same input gives the same bytes.
+    let again = path("b.html");
+    output(&["certify", "-q", HALF, "--report", &again], 0);
+    assert_eq!(read(&html), read(&again));
+    // A refused case leaves nothing behind, and an existing file alone.
+    output(&["certify", "cases/refused/gap.toml", "--report", &html, "--svg", &path("c.svg")], 2);
+    assert_eq!(read(&html), read(&again));
+    output(&["certify", HALF, "--report", &path("no/such/dir/a.md")], 2);
+    output(&["certify", HALF, "--report", &path("a.docx")], 2);
+    let mut names: Vec<String> =
+        std::fs::read_dir(dir.path()).unwrap().map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    assert_eq!(names, ["a.html", "a.md", "a.svg", "b.html"]);
+}
+
+#[test]
+fn reports_of_one_case_of_each_kind_are_as_approved() {
+    let dir = tempfile::tempdir().unwrap();
+    for (case, code) in [
+        (HALF, 0),
+        ("cases/classical/takagi.toml", 0),
+        ("cases/classical/levy.toml", 1),
+        ("cases/two-parameter/corner-34-100.toml", 1),
+    ] {
+        let file = dir.path().join("r.md").display().to_string();
+        output(&["certify", "-q", case, "--report", &file], code);
+        let name = Path::new(case).file_stem().unwrap().to_string_lossy().into_owned();
+        // The picture is tested by itself; its bytes would only swell the snapshot.
+        let text: String = std::fs::read_to_string(&file)
+            .unwrap()
+            .lines()
+            .map(|l| if l.starts_with("![") { "![picture]\n".to_owned() } else { format!("{l}\n") })
+            .collect();
+        approved(&format!("{name}.md"), &text);
+    }
+}
+
+#[test]
+fn statements_are_explained() {
+    let (out, _) = output(&["explain", "theorem-3"], 0);
+    assert!(out.contains("Theorem 3") && out.contains("Proof."));
+    assert!(output(&["explain"], 0).0.contains("theorem-5"));
+    output(&["explain", "theorem-99"], 2);
+}
+
+#[test]
+fn the_float_fallback_is_labelled_and_never_a_success() {
+    let (out, _) = output(&["certify", "--approx", HALF], 3);
+    assert!(out.contains("approximate") && out.contains("0.75"), "{out}");
+    let (out, _) = output(&["certify", "--approx", "--json", HALF], 3);
+    let value: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((&value["approximate"], &value["verdict"]), (&Value::Bool(true), &Value::String("undetermined".into())));
+    output(&["certify", "--approx", "cases/refused/empty.toml"], 2);
+}

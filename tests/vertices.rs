@@ -1,0 +1,336 @@
+//! Subdivision matrices at extraordinary vertices against an outside oracle (FLINT) and the published eigenvalues.
+
+use secant::arith::{Rational, parse_rational, ratio};
+use secant::linalg::Matrix;
+use secant::scheme::{
+    DualWeights, LocalMatrix, LoopWeights, MeshRule, SchemeError, Sector, VertexWeights, local_matrix, local_matrix_of,
+};
+use secant::shape::characteristic;
+use std::collections::BTreeMap;
+
+fn local(rule: &MeshRule, valence: usize, rings: usize) -> LocalMatrix {
+    let result = local_matrix(rule, valence, rings).unwrap_or_else(|e| panic!("valence {valence}: {e}"));
+    let m = &result.matrix;
+    for i in 0..m.rows() {
+        assert_eq!(m.row(i).iter().fold(ratio(0, 1), |s, x| s + x), 1, "row sums");
+    }
+    assert_eq!(*result.rings.last().unwrap(), m.rows());
+    result
+}
+
+/// `p(m)` for coefficients from the constant one upwards.
+fn polynomial(m: &Matrix, p: &[Rational]) -> Matrix {
+    let id = Matrix::identity(m.rows());
+    p.iter().rev().fold(Matrix::zero(m.rows(), m.rows()), |v, c| &(&v * m) + &id.scale(c))
+}
+
+/// The dimension of the kernel of `p(m)`.
+fn nullity(m: &Matrix, p: &[(i64, i64)]) -> usize {
+    let p: Vec<Rational> = p.iter().map(|(a, b)| ratio(*a, *b)).collect();
+    m.rows() - polynomial(m, &p).rank()
+}
+
+#[test]
+fn characteristic_polynomials_agree_with_flint() {
+    let oracle: BTreeMap<String, Vec<String>> =
+        serde_json::from_str(include_str!("oracle/vertex_charpoly.json")).unwrap();
+    assert_eq!(oracle.len(), 25);
+    for (name, expected) in &oracle {
+        let (family, valence) = name.split_once('_').unwrap();
+        let valence: usize = valence.parse().unwrap();
+        let (rule, rings) = match family {
+            "cc1" => (MeshRule::CatmullClark(None), 1),
+            "cc2" => (MeshRule::CatmullClark(None), 2),
+            "loop1" => (MeshRule::Loop(LoopWeights::Warren), 1),
+            "loop2" => (MeshRule::Loop(LoopWeights::Warren), 2),
+            _ => (MeshRule::DooSabin(DualWeights::CatmullClark), 1),
+        };
+        let found = local(&rule, valence, rings).matrix;
+        let expected: Vec<Rational> = expected.iter().map(|c| parse_rational(c).unwrap()).collect();
+        assert_eq!(characteristic(&found), expected, "{name}");
+    }
+}
+
+#[test]
+fn regular_valences_give_the_spline_spectra() {
+    // Catmull–Clark of valence 4: 1, 1/2 twice, 1/4 three times, 1/8 twice, 1/16.
+    let m = local(&MeshRule::CatmullClark(None), 4, 1).matrix;
+    for (root, times) in [(1, 1), (2, 2), (4, 3), (8, 2), (16, 1)] {
+        assert_eq!(nullity(&m, &[(-1, root), (1, 1)]), times, "1/{root}");
+    }
+    // Loop of valence 6: 1, 1/2 twice, 1/4 three times, 1/8.
+    for weights in [LoopWeights::Original, LoopWeights::Warren] {
+        let m = local(&MeshRule::Loop(weights), 6, 1).matrix;
+        for (root, times) in [(1, 1), (2, 2), (4, 3), (8, 1)] {
+            assert_eq!(nullity(&m, &[(-1, root), (1, 1)]), times, "1/{root}");
+        }
+    }
+    // The butterfly scheme reproduces cubics at valence 6: 1, 1/2 twice, 1/4 three times, 1/8 four times at least.
+    let m = local(&MeshRule::Butterfly { w: ratio(1, 16), modified: true }, 6, 2).matrix;
+    for (root, times) in [(1, 1), (2, 2)] {
+        assert_eq!(nullity(&m, &[(-1, root), (1, 1)]), times, "1/{root}");
+    }
+    assert!(nullity(&m, &[(-1, 4), (1, 1)]) >= 3);
+}
+
+#[test]
+fn catmull_clark_eigenvalues_solve_their_quadratic() {
+    // 16x² − (10 + 2c)x + 1, c = cos(2πk/n), for every frequency k.
+    let rule = MeshRule::CatmullClark(None);
+    assert_eq!(nullity(&local(&rule, 3, 1).matrix, &[(1, 1), (-9, 1), (16, 1)]), 4);
+    assert_eq!(nullity(&local(&rule, 6, 1).matrix, &[(1, 1), (-11, 1), (16, 1)]), 4);
+    // n = 5: A² + Ax − x² with A = 16x² − 10x + 1, the norm over the conjugates of c.
+    let quartic = [(1, 1), (-19, 1), (121, 1), (-304, 1), (256, 1)];
+    assert_eq!(nullity(&local(&rule, 5, 1).matrix, &quartic), 8);
+    assert_eq!(nullity(&local(&rule, 5, 2).matrix, &quartic), 8);
+    // The rings of the characteristic map: 12n + 1 points, the same leading part.
+    let characteristic_ring = local(&rule, 5, 3);
+    assert_eq!(characteristic_ring.rings, [1, 11, 31, 61]);
+    assert_eq!(nullity(&characteristic_ring.matrix, &quartic), 8);
+}
+
+#[test]
+fn catmull_clark_variants_move_the_symmetric_part() {
+    // x² − (α − 1/4)x + (1/2 − β)/8 for frequency 0.
+    for (n, a, b) in [(6, (1, 1), (0, 1)), (5, (3, 4), (1, 4)), (3, (1, 2), (1, 2)), (4, (7, 8), (1, 8))] {
+        let (alpha, beta) = (ratio(a.0, a.1), ratio(b.0, b.1));
+        let gamma = ratio(1, 1) - &alpha - &beta;
+        let rule = MeshRule::CatmullClark(Some(VertexWeights { alpha: alpha.clone(), beta: beta.clone(), gamma }));
+        let m = local(&rule, n, 1).matrix;
+        let p = [(ratio(1, 2) - beta) / ratio(8, 1), ratio(1, 4) - alpha, ratio(1, 1)];
+        assert_eq!(m.rows() - polynomial(&m, &p).rank(), 2, "n = {n}");
+    }
+    let bad = VertexWeights { alpha: ratio(1, 1), beta: ratio(1, 1), gamma: ratio(0, 1) };
+    assert!(matches!(local_matrix(&MeshRule::CatmullClark(Some(bad)), 5, 1), Err(SchemeError::Mesh { .. })));
+}
+
+#[test]
+fn loop_eigenvalues_are_those_published() {
+    let original = MeshRule::Loop(LoopWeights::Original);
+    // λ = 3/8 + cos(2π/n)/4 twice, μ₀ = (3/8 + c/4)².
+    for (n, lambda, symmetric) in [(3, (1, 4), (1, 16)), (4, (3, 8), (9, 64)), (6, (1, 2), (1, 4))] {
+        let m = local(&original, n, 1).matrix;
+        let times = nullity(&m, &[(-lambda.0, lambda.1), (1, 1)]);
+        assert_eq!(times, 2, "n = {n}");
+        assert!(nullity(&m, &[(-symmetric.0, symmetric.1), (1, 1)]) >= 1, "n = {n}");
+    }
+    assert!(matches!(local_matrix(&original, 5, 1), Err(SchemeError::Irrational(_))));
+    // n = 5: (5 ± √5)/16, each twice, 64x² − 40x + 5.
+    let warren = local(&MeshRule::Loop(LoopWeights::Warren), 5, 1).matrix;
+    assert_eq!(nullity(&warren, &[(5, 1), (-40, 1), (64, 1)]), 4);
+    // Given β: μ₀ = 5/8 − nβ.
+    for (n, beta, mu) in [
+        (6, (0, 1), (5, 8)),
+        (3, (1, 8), (1, 4)),
+        (4, (1, 16), (3, 8)),
+        (4, (1, 20), (17, 40)),
+        (4, (1, 40), (21, 40)),
+        (5, (1, 32), (15, 32)),
+        (5, (1, 40), (1, 2)),
+        (5, (1, 100), (23, 40)),
+        (8, (0, 1), (5, 8)),
+        (12, (0, 1), (5, 8)),
+        (6, (1, 4), (-7, 8)),
+    ] {
+        let rule = MeshRule::Loop(LoopWeights::Given(ratio(beta.0, beta.1)));
+        let m = local(&rule, n, 1).matrix;
+        let shared = nullity(&m, &[(-mu.0, mu.1), (1, 1)]);
+        // Where λ has the same value the eigenvalue is triple.
+        let expected = if (n, mu) == (3, (1, 4)) || (n, mu) == (4, (3, 8)) { 3 } else { 1 };
+        assert_eq!(shared, expected, "n = {n}");
+    }
+    assert_eq!(local(&original, 6, 3).rings, [1, 7, 19, 37]);
+}
+
+#[test]
+fn dual_schemes_have_their_published_eigenvalues() {
+    for n in [3, 4, 6] {
+        let m = local(&MeshRule::DooSabin(DualWeights::Original), n, 1).matrix;
+        assert_eq!(nullity(&m, &[(-1, 2), (1, 1)]), 2, "n = {n}");
+        assert_eq!(nullity(&m, &[(-1, 4), (1, 1)]), n - 3, "n = {n}");
+        let wide = local(&MeshRule::DooSabin(DualWeights::Original), n, 3);
+        assert_eq!(wide.rings, [0, n, 4 * n, 9 * n]);
+        assert_eq!(nullity(&wide.matrix, &[(-1, 2), (1, 1)]), 2, "n = {n}");
+    }
+    assert!(matches!(local_matrix(&MeshRule::DooSabin(DualWeights::Original), 5, 1), Err(SchemeError::Irrational(_))));
+    // Midedge: cos²(π k/n); n = 5: (3 ± √5)/8, 16x² − 12x + 1; n = 6: 3/4.
+    let midedge = MeshRule::DooSabin(DualWeights::Midedge);
+    assert_eq!(nullity(&local(&midedge, 5, 1).matrix, &[(1, 1), (-12, 1), (16, 1)]), 4);
+    assert_eq!(nullity(&local(&midedge, 6, 1).matrix, &[(-3, 4), (1, 1)]), 2);
+    assert_eq!(nullity(&local(&midedge, 4, 1).matrix, &[(-1, 2), (1, 1)]), 2);
+    // n = 3, two rings: x(x−1)(4x−1)² once and x(4x−1)³ twice, with a block of size 2 in each of the latter.
+    let m = local(&midedge, 3, 2).matrix;
+    assert_eq!(m.rows(), 12);
+    let expected = {
+        let mut p = vec![ratio(1, 1)];
+        let roots = [(0, 3), (1, 1)].map(|(r, k)| (ratio(r, 1), k)).into_iter().chain([(ratio(1, 4), 8)]);
+        for (root, times) in roots {
+            for _ in 0..times {
+                let mut next = vec![ratio(0, 1); p.len() + 1];
+                for (k, c) in p.iter().enumerate() {
+                    next[k + 1] += c;
+                    next[k] -= c * &root;
+                }
+                p = next;
+            }
+        }
+        p
+    };
+    assert_eq!(characteristic(&m), expected);
+    assert_eq!(nullity(&m, &[(-1, 4), (1, 1)]), 2 + 2 * 2);
+    assert_eq!(nullity(&m, &[(1, 16), (-1, 2), (1, 1)]), 8);
+}
+
+#[test]
+fn turning_schemes_have_their_published_eigenvalues() {
+    // √3, two steps: λ = (2 + 2cos(2π/n))/9.
+    for (n, lambda) in [(3, (1, 9)), (4, (2, 9)), (6, (1, 3))] {
+        let result = local(&MeshRule::Sqrt3(None), n, 1);
+        assert_eq!(result.steps, 2);
+        assert_eq!(nullity(&result.matrix, &[(-lambda.0, lambda.1), (1, 1)]), 2, "n = {n}");
+    }
+    // n = 5 with given weight: (3 ± √5)/18, 81x² − 27x + 1.
+    let m = local(&MeshRule::Sqrt3(Some(ratio(3, 8))), 5, 1).matrix;
+    assert_eq!(nullity(&m, &[(1, 1), (-27, 1), (81, 1)]), 4);
+    // 4-8: at valence 4 the double eigenvalue is 1/2; at valence 6 (c = 1/2) and 3 (c = −1/2) the published quintic divides.
+    assert_eq!(nullity(&local(&MeshRule::FourEight, 4, 2).matrix, &[(-1, 2), (1, 1)]), 2);
+    for (n, c) in [(3, ratio(-1, 2)), (6, ratio(1, 2)), (4, ratio(0, 1))] {
+        let c2 = &c * &c;
+        let p = [
+            -(&c2 * (ratio(1, 1) + &c)) / ratio(1 << 21, 1),
+            (ratio(8, 1) + ratio(3, 1) * &c + ratio(3, 1) * &c2) / ratio(32768, 1),
+            -(ratio(50, 1) + ratio(13, 1) * &c + ratio(3, 1) * &c2) / ratio(4096, 1),
+            (ratio(42, 1) + ratio(10, 1) * &c + &c2) / ratio(256, 1),
+            -(ratio(25, 1) + ratio(5, 1) * &c) / ratio(32, 1),
+            ratio(1, 1),
+        ];
+        let m = local(&MeshRule::FourEight, n, 2).matrix;
+        let found = m.rows() - polynomial(&m, &p).rank();
+        assert!(found >= 8, "n = {n}: {found}");
+    }
+}
+
+#[test]
+fn the_butterfly_scheme_has_its_cubic() {
+    // 64x³ + (64h⁴ − 96h² − 16)x² + (23h² − 12h⁴ + 1)x − h² with h = cos(πk/n), so h² = (1 + cos(2πk/n))/2.
+    let rule = MeshRule::Butterfly { w: ratio(1, 16), modified: false };
+    assert!(matches!(local_matrix(&rule, 6, 1), Err(SchemeError::Mesh { .. })));
+    for (n, h2) in [(3, ratio(1, 4)), (4, ratio(1, 2)), (6, ratio(3, 4))] {
+        let h4 = &h2 * &h2;
+        let p = [
+            -&h2,
+            ratio(23, 1) * &h2 - ratio(12, 1) * &h4 + ratio(1, 1),
+            ratio(64, 1) * &h4 - ratio(96, 1) * &h2 - ratio(16, 1),
+            ratio(64, 1),
+        ];
+        let m = local(&rule, n, 2).matrix;
+        assert_eq!(m.rows(), 3 * n + 1);
+        let found = m.rows() - polynomial(&m, &p).rank();
+        assert!(found >= 6 - usize::from(n == 3), "n = {n}: {found}");
+    }
+    for n in [3, 4] {
+        let m = local(&MeshRule::Butterfly { w: ratio(1, 16), modified: true }, n, 2).matrix;
+        assert_eq!(nullity(&m, &[(-1, 2), (1, 1)]), 2, "modified, n = {n}");
+    }
+    assert!(matches!(
+        local_matrix(&MeshRule::Butterfly { w: ratio(1, 16), modified: true }, 7, 2),
+        Err(SchemeError::Irrational(_))
+    ));
+}
+
+#[test]
+fn mixed_meshes_contain_both_regular_schemes() {
+    let mixed = MeshRule::QuadTriangle;
+    let quads = local_matrix_of(&mixed, &[Sector::Quads; 4], 2).unwrap().matrix;
+    assert_eq!(quads, local(&MeshRule::CatmullClark(None), 4, 2).matrix);
+    let triangles = local_matrix_of(&mixed, &[Sector::Triangles; 6], 2).unwrap().matrix;
+    assert_eq!(triangles, local(&MeshRule::Loop(LoopWeights::Warren), 6, 2).matrix);
+    // Two quadrangles and three triangles: regular, 1/2 twice.
+    use Sector::{Quads, Triangles};
+    let seam = local_matrix_of(&mixed, &[Quads, Quads, Triangles, Triangles, Triangles], 2).unwrap();
+    assert_eq!(nullity(&seam.matrix, &[(-1, 2), (1, 1)]), 2);
+}
+
+#[test]
+fn limits_are_diagnosed() {
+    let rule = MeshRule::CatmullClark(None);
+    assert!(matches!(local_matrix(&rule, 2, 1), Err(SchemeError::Value { .. })));
+    assert!(matches!(local_matrix(&rule, 5, 0), Err(SchemeError::Value { .. })));
+    assert!(matches!(local_matrix(&rule, 100_000, 1), Err(SchemeError::Large { .. })));
+    assert!(matches!(local_matrix(&rule, 5, 100_000), Err(SchemeError::Large { .. })));
+    let short = MeshRule::DooSabin(DualWeights::Given(vec![ratio(1, 1)]));
+    assert!(matches!(local_matrix(&short, 5, 1), Err(SchemeError::Mesh { .. })));
+    assert!(matches!(local_matrix_of(&rule, &[Sector::Triangles; 5], 1), Err(SchemeError::Mesh { .. })));
+}
+
+#[test]
+fn patches_at_extraordinary_vertices_are_complexes() {
+    use secant::scheme::patch;
+    let face_dim = |rule: &MeshRule, n: usize| {
+        let complex = patch(rule, n).unwrap_or_else(|e| panic!("valence {n}: {e}"));
+        assert!(complex.check().unwrap() > 12);
+        complex.shape.states[0].dim
+    };
+    let cc = MeshRule::CatmullClark(None);
+    let warren = MeshRule::Loop(LoopWeights::Warren);
+    assert_eq!([3, 4, 5, 6, 9].map(|n| face_dim(&cc, n)), [14, 16, 18, 20, 26]);
+    assert_eq!([3, 4, 5, 6, 7].map(|n| face_dim(&warren, n)), [9, 10, 11, 12, 13]);
+    let given = MeshRule::Loop(LoopWeights::Given(ratio(1, 20)));
+    assert_eq!(face_dim(&given, 6), 12);
+    assert!(matches!(patch(&MeshRule::FourEight, 5), Err(SchemeError::Mesh { .. })));
+}
+
+#[test]
+fn the_regular_patches_are_the_splines() {
+    use secant::scheme::{bspline, patch, tensor};
+    let complex = patch(&MeshRule::CatmullClark(None), 4).unwrap();
+    let dims: Vec<usize> = complex.shape.states.iter().map(|s| s.dim).collect();
+    assert_eq!(dims, [16, 12, 12, 9]);
+    let curve = bspline(3, 2).unwrap().curve_with_vertices().unwrap();
+    let product = tensor(&curve, &curve).unwrap();
+    for letter in 0..4 {
+        let op = |c: &secant::shape::Complex| characteristic(&c.shape.states[0].pieces[letter].op);
+        assert_eq!(op(&complex), op(&product), "piece {letter}");
+    }
+    let loops = patch(&MeshRule::Loop(LoopWeights::Original), 6).unwrap();
+    let dims: Vec<usize> = loops.shape.states.iter().map(|s| s.dim).collect();
+    assert_eq!(dims, [12, 12, 10, 10, 10, 7]);
+    // Corner pieces: 1, 1/2, 1/2, 1/4, 1/4, 1/4, and 1/8 three times, 1/16 three times.
+    let corner = &loops.shape.states[0].pieces[0].op;
+    for (root, times) in [(1, 1), (2, 2), (4, 3)] {
+        assert_eq!(nullity(corner, &[(-1, root), (1, 1)]), times, "1/{root}");
+    }
+}
+
+#[test]
+fn irregular_patches_keep_the_vertex_spectrum() {
+    use secant::scheme::patch;
+    let rule = MeshRule::CatmullClark(None);
+    let complex = patch(&rule, 5).unwrap();
+    let quartic = [(1, 1), (-19, 1), (121, 1), (-304, 1), (256, 1)];
+    let state = |name: &str| complex.shape.states.iter().find(|s| s.name == name).unwrap();
+    assert_eq!(nullity(&state("vertex*").pieces[0].op, &quartic), 8);
+    assert_eq!(nullity(&state("face*").pieces[0].op, &quartic), 8);
+    assert_eq!(state("vertex*").pieces[0].op, local(&rule, 5, 1).matrix.transpose());
+}
+
+#[test]
+fn mesh_rules_have_names() {
+    use secant::scheme::{mesh_rule, mesh_rules};
+    let given: BTreeMap<String, Rational> =
+        [("alpha", ratio(3, 4)), ("beta", ratio(1, 16))].map(|(k, v)| (k.to_owned(), v)).into();
+    assert!(mesh_rules().iter().map(|r| r.name).is_sorted());
+    for info in mesh_rules() {
+        let own: BTreeMap<String, Rational> = given
+            .iter()
+            .filter(|(k, _)| info.parameters.iter().any(|p| p.name == *k))
+            .map(|(k, v)| (k.clone(), v.clone()))
+            .collect();
+        let rule = mesh_rule(info.name, &own).unwrap_or_else(|e| panic!("{}: {e}", info.name));
+        local(&rule, 4, 2);
+    }
+    assert!(matches!(mesh_rule("loop-variant", &BTreeMap::new()), Err(SchemeError::Missing { .. })));
+    assert!(
+        matches!(mesh_rule("catmul-clark", &BTreeMap::new()), Err(SchemeError::Unknown { near, .. }) if near == "catmull-clark")
+    );
+}
