@@ -21,19 +21,23 @@ enum Question {
     AnyPoint,
 }
 
-/// The questions of a case: of a curve its end points, its joints and the addresses to examine; of a set those addresses,
-/// or, where there are none, the fixed points of the maps of the start state to itself.
+/// The questions of a case: of a curve its end points and its joints, of a set the fixed points of the maps of the start state
+/// to itself; then the addresses to examine, each once.
 fn questions(case: &Case) -> Vec<Question> {
     let start = &case.shape.states[case.shape.start];
-    let asked = case.examine.iter().cloned().map(Question::Address);
+    let mut questions = Vec::new();
     if start.kind == Kind::Edge {
-        return [Question::Ends, Question::Joints].into_iter().chain(asked).collect();
+        questions = vec![Question::Ends, Question::Joints];
+    } else {
+        let own = (0..start.pieces.len()).filter(|&i| start.pieces[i].target == case.shape.start);
+        questions.extend(own.map(|i| Question::Address(Address { prefix: Vec::new(), cycle: vec![i] })));
     }
-    if !case.examine.is_empty() {
-        return asked.collect();
+    for address in case.examine.iter().cloned().map(Question::Address) {
+        if !questions.contains(&address) {
+            questions.push(address);
+        }
     }
-    let own = (0..start.pieces.len()).filter(|&i| start.pieces[i].target == case.shape.start);
-    own.map(|i| Question::Address(Address { prefix: Vec::new(), cycle: vec![i] })).collect()
+    questions
 }
 
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.

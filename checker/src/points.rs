@@ -203,7 +203,7 @@ impl Point {
 }
 
 /// The conclusions: `plane` (a branch has more than one dimension), `line` (all branches have the same line), `differ` (the
-/// two branches have different lines).
+/// two branches have different lines, or their tangent subspaces contain different lines).
 fn conclude(
     place: Place,
     rule: &str,
@@ -211,31 +211,36 @@ fn conclude(
     found: &[(Side, Option<Found>)],
 ) -> Result<Point, Rejected> {
     let mut lines: Vec<(Side, &Line)> = Vec::new();
-    let mut planes = 0;
+    let (mut planes, mut directions) = (0, Vec::new());
     for (side, result) in found {
         match result {
             Some(Found::Line(line)) => lines.push((*side, line)),
+            Some(Found::Direction(line)) => directions.push(line),
             Some(Found::Plane) => planes += 1,
             None => {}
         }
     }
     if rule == "plane" {
-        if planes != 1 || !lines.is_empty() || common.is_some() {
+        if planes != 1 || !lines.is_empty() || !directions.is_empty() || common.is_some() {
             return reject("plane", "", "one branch with a plane, and nothing else, is needed");
         }
         return Ok(Point { place, verdict: Verdict::Refuted, kind: "none", common: None });
+    }
+    if rule == "differ" {
+        let contained: Vec<&Line> = lines.iter().map(|(_, line)| *line).chain(directions).collect();
+        let ([a, b], true) = (&contained[..], common.is_none() && found.len() == 2) else {
+            return reject("differ", "", "two branches with a line each, and nothing else, are needed");
+        };
+        if !a.differs(b) {
+            return reject("differ", "", "the two lines are not seen to be different");
+        }
+        let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
+        return Ok(Point { place, verdict: Verdict::Refuted, kind: if corner { "corner" } else { "none" }, common: None });
     }
     if lines.len() != found.len() {
         return reject("point", "", "every branch needs a proved line");
     }
     match (rule, &lines[..]) {
-        ("differ", [(_, a), (_, b)]) => {
-            if common.is_some() || !a.differs(b) {
-                return reject("differ", "", "the two lines are not seen to be different");
-            }
-            let kind = if a.left.len() == 1 && b.right.len() == 1 { "corner" } else { "none" };
-            Ok(Point { place, verdict: Verdict::Refuted, kind, common: None })
-        }
         ("line", [(first_side, first), rest @ ..]) => {
             let (mut left, mut right) = (Vec::new(), Vec::new());
             let base = match &common {
@@ -271,7 +276,6 @@ fn add_rays(side: Side, line: &Line, factor: i32, left: &mut Vec<i32>, right: &m
 /// The kind from the rays of the two sides.
 fn kind(place: &Place, left: &[i32], right: &[i32]) -> &'static str {
     match (left, right) {
-        ([_, _], _) | (_, [_, _]) if matches!(place, Place::OfSet(_)) => "regular",
         ([_, _], _) | (_, [_, _]) => "oscillating",
         ([_], []) | ([], [_]) if matches!(place, Place::End(_) | Place::OfSet(_)) => "half-tangent",
         ([a], [b]) if a == b => "cusp",

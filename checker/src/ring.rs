@@ -38,6 +38,7 @@ pub struct Model<'a> {
     /// Their spaces.
     pub spaces: Spaces,
     radius: Vec<Q>,
+    hulls: Vec<Vec<Scaled>>,
     operators: Vec<Vec<Scaled>>,
     bases: Vec<Scaled>,
 }
@@ -76,7 +77,9 @@ pub struct Functional {
 pub struct Cell {
     /// On which side of the germ's point it lies.
     pub position: Position,
-    /// The sign of the functional there.
+    /// The index of the functional.
+    pub functional: usize,
+    /// Its sign there.
     pub sign: i32,
 }
 
@@ -93,7 +96,7 @@ impl<'a> Model<'a> {
         let mut radius = vec![Q::zero(); shape.states.len()];
         let mut codes = Vec::new();
         for (item, &e) in items.iter().zip(&reachable) {
-            let [state, bound, code] = item.fields(["state", "radius", "code"])?;
+            let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;
             if state.index(shape.states.len())? != e {
                 return reject("contraction", &state.place, format!("state {e} is expected here"));
             }
@@ -101,17 +104,64 @@ impl<'a> Model<'a> {
             if !matches!(code.value, Json::List(_)) {
                 return reject("contraction", &code.place, "the empty word does not contract");
             }
-            codes.push((e, code));
+            codes.push((e, code, hull));
         }
         let per_state = |s: &crate::shape::State| s.pieces.iter().map(|p| Scaled::new(p.op.entries())).collect();
         let operators = shape.states.iter().map(per_state).collect();
         let base = |e: usize| Scaled::new(spaces.of(e).map_or(&[], |s| &s.base));
         let bases = (0..shape.states.len()).map(base).collect();
-        let model = Self { shape, reachable, spaces, radius, operators, bases };
-        for (e, code) in codes {
-            at(&code.place, model.contracts(e, e, &Matrix::identity(shape.states[e].dim), code.value))?;
+        let hulls = (0..shape.states.len()).map(|_| Vec::new()).collect();
+        let mut model = Self { shape, reachable, spaces, radius, hulls, operators, bases };
+        let mut vertices = vec![Vec::new(); shape.states.len()];
+        for (e, code, hull) in &codes {
+            at(&code.place, model.contracts(*e, *e, &Matrix::identity(shape.states[*e].dim), code.value))?;
+            if !matches!(hull.value, Json::Null) {
+                let [points, _] = hull.fields(["points", "images"])?;
+                for point in points.list()? {
+                    let point = point.vector(shape.states[*e].dim)?;
+                    model.hulls[*e].push(Scaled::new(&point));
+                    vertices[*e].push(point);
+                }
+            }
+        }
+        for (e, _, hull) in codes.iter().filter(|(_, _, hull)| !matches!(hull.value, Json::Null)) {
+            at(&hull.place, model.hull_maps_into(*e, &vertices, hull))?;
         }
         Ok(model)
+    }
+
+    /// Rule `hull`: the image of each vertex of the target's hull under each piece is a convex combination of vertices, so
+    /// that the hulls, mapped into themselves by a contracting system, hold the attractors.
+    fn hull_maps_into(&self, e: usize, vertices: &[Vec<Vec<Q>>], hull: &Node<'_>) -> Result<(), Rejected> {
+        let [_, images] = hull.fields(["points", "images"])?;
+        let (images, pieces) = (images.list()?, &self.shape.states[e].pieces);
+        if images.len() != pieces.len() || vertices[e].iter().any(|v| !v.iter().sum::<Q>().is_one()) {
+            return reject("hull", "", "one list of images for each piece, and points of coordinate sum 1, are needed");
+        }
+        for (piece, of_piece) in pieces.iter().zip(&images) {
+            let of_piece = of_piece.list()?;
+            if of_piece.len() != vertices[piece.target].len() || of_piece.is_empty() {
+                return reject("hull", "", "one image for each vertex of the target's hull is needed");
+            }
+            for (vertex, combination) in vertices[piece.target].iter().zip(&of_piece) {
+                let mut rest = piece.op.apply(vertex)?;
+                let mut total = Q::zero();
+                for term in combination.list()? {
+                    let [index, weight] = term.fields(["vertex", "weight"])?;
+                    let (k, weight) = (index.index(vertices[e].len())?, weight.rational()?);
+                    if !weight.is_positive() {
+                        return reject("hull", &term.place, "weights are positive");
+                    }
+                    spend(rest.len(), crate::number::size(&rest) + crate::number::bits(&weight))?;
+                    rest.iter_mut().zip(&vertices[e][k]).for_each(|(x, v)| *x -= &weight * v);
+                    total += weight;
+                }
+                if !total.is_one() || rest.iter().any(|x| !x.is_zero()) {
+                    return reject("hull", &combination.place, "the image is not this convex combination");
+                }
+            }
+        }
+        Ok(())
     }
 
     fn contracts(&self, from: usize, end: usize, product: &Matrix, tree: &Json) -> Result<(), Rejected> {
@@ -190,32 +240,37 @@ impl<'a> Model<'a> {
             (Some(hi), Some(lo)) => Q::new(hi - lo, &row.denominator * 2) * &self.radius[state] + error,
             _ => error.clone(),
         };
-        Ok(Interval { lo: &centre - &spread, hi: centre + spread })
-    }
-
-    /// An enclosure of a functional on the cell of a word from the germ's state.
-    pub fn on_cell(&self, germ: &Germ, f: &Functional, word: &[usize]) -> Result<Interval, Rejected> {
-        let (moved, end) = self.moved(germ.state, f, word)?;
-        self.enclose(&moved.row, &moved.error, end)
-    }
-
-    /// An enclosure of a functional at a point of the attractor at the end of a word.
-    pub fn at_point(&self, germ: &Germ, f: &Functional, word: &[usize], point: &[Q]) -> Result<Interval, Rejected> {
-        let (moved, _) = self.moved(germ.state, f, word)?;
-        let numbers = moved.row.numerators.iter().map(|x| Q::new(x.clone(), moved.row.denominator.clone()));
-        let value = dot(&numbers.collect::<Vec<_>>(), point)?;
-        Ok(Interval { lo: &value - &moved.error, hi: value + moved.error })
+        let mut bound = Interval { lo: &centre - &spread, hi: centre + spread };
+        let mut values = Vec::new();
+        for vertex in &self.hulls[state] {
+            spend(4 * row.numerators.len(), row.bits().max(vertex.bits()))?;
+            let sum: BigInt = row.numerators.iter().zip(&vertex.numerators).map(|(a, b)| a * b).sum();
+            values.push(Q::new(sum, &row.denominator * &vertex.denominator));
+        }
+        if let (Some(lo), Some(hi)) = (values.iter().min(), values.iter().max()) {
+            bound.lo = bound.lo.max(lo - error);
+            bound.hi = bound.hi.min(hi + error);
+        }
+        Ok(bound)
     }
 
     /// Rule `cover`: every piece of the ring that is seen is cut into cells on each of which one of the functionals has one
-    /// strict sign. The pieces come in the order of the ring; leaves are `"+0"`, `"-0"`, `"+1"`, ….
-    pub fn cover(&self, germ: &Germ, functionals: &[Functional], node: &Node<'_>) -> Result<Vec<Cell>, Rejected> {
+    /// strict sign. The pieces come in the order of the ring (of one part of it, where `part` is given); leaves are `"+0"`,
+    /// `"-0"`, `"+1"`, ….
+    pub fn cover(
+        &self,
+        germ: &Germ,
+        functionals: &[Functional],
+        part: Option<Position>,
+        node: &Node<'_>,
+    ) -> Result<Vec<Cell>, Rejected> {
         let items = node.list()?;
-        if items.len() != germ.ring.len() {
-            return reject("cover", &node.place, format!("the ring has {} pieces that are seen", germ.ring.len()));
+        let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
+        if items.len() != pieces.len() {
+            return reject("cover", &node.place, format!("{} pieces of the ring are seen here", pieces.len()));
         }
         let mut cells = Vec::new();
-        for (item, piece) in items.iter().zip(&germ.ring) {
+        for (item, piece) in items.iter().zip(pieces) {
             let [word, tree] = item.fields(["piece", "cells"])?;
             if word.word()? != piece.word {
                 return reject("cover", &word.place, format!("the piece {:?} of the ring is expected here", piece.word));
@@ -254,7 +309,7 @@ impl<'a> Model<'a> {
                             if self.enclose(&f.row, &f.error, state)?.sign() != wanted {
                                 return reject("cover", "", "a functional does not keep the sign of its cell");
                             }
-                            cells.push(Cell { position, sign: wanted });
+                            cells.push(Cell { position, functional: k, sign: wanted });
                             return Ok(());
                         }
                     }

@@ -6,12 +6,12 @@ use crate::matrix::Matrix;
 use crate::number::{Q, sign};
 use crate::poly::{Field, Interval, Poly, combine, weighted};
 use crate::ring::{Functional, Model};
-use crate::shape::{Address, End, Kind};
+use crate::shape::Address;
 use crate::spectrum::{Chain, Top, not_parallel, seen, span_a_plane};
 use crate::{Rejected, at, reject};
 use num_traits::{One, Zero};
 
-/// A proved tangent line.
+/// A proved tangent line, or a line in the tangent subspace.
 pub struct Line {
     /// The field of its coordinates.
     pub field: Field,
@@ -29,6 +29,8 @@ pub struct Line {
 pub enum Found {
     /// The tangent subspace is this line.
     Line(Line),
+    /// The tangent subspace contains this line.
+    Direction(Line),
     /// Its dimension is at least 2.
     Plane,
 }
@@ -59,6 +61,7 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
         "sign-change" => branch.sign_change(node),
         "orbit" => branch.orbit(node),
         "crossing" => branch.crossing(node),
+        "direction" => branch.direction(node),
         _ => node.malformed("unknown rule for a branch"),
     })
 }
@@ -136,7 +139,7 @@ impl Branch<'_> {
         }
         let (row, pairing) = self.leading_row(&top, &functional)?;
         let functional = self.model.functional(&self.germ, &top.field, &row)?;
-        let cells = self.model.cover(&self.germ, &[functional], &cover)?;
+        let cells = self.model.cover(&self.germ, &[functional], None, &cover)?;
         // L^m x is about C(m, l) λ^(m-l) (g x / g v) v_1 with l = length - 1; m runs over all large numbers.
         let lambda = top.eigenvalue_sign();
         let parity = if length % 2 == 0 { lambda } else { 1 };
@@ -199,26 +202,43 @@ impl Branch<'_> {
         }
     }
 
-    /// The piece of the ring in which a word lies.
-    fn ring_position(&self, word: &[usize], node: &Node<'_>) -> Result<Position, Rejected> {
-        if self.model.shape.path(self.germ.state, word).is_none() {
-            return reject("ring", &node.place, "a letter does not exist");
-        }
-        match self.germ.ring.iter().find(|p| word.starts_with(&p.word)) {
-            Some(piece) => Ok(piece.position),
-            None => reject("ring", &node.place, "the word lies in no piece of the ring that is seen"),
-        }
-    }
-
     /// The coordinates of a point of the ring with an address.
     fn ring_point(&self, node: &Node<'_>) -> Result<Vec<Q>, Rejected> {
+        Ok(self.placed_point(node)?.0)
+    }
+
+    /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
+    fn placed_point(&self, node: &Node<'_>) -> Result<(Vec<Q>, Position), Rejected> {
         let address = read_address(node)?;
         let letters = self.germ.ring.iter().map(|p| p.word.len()).max().unwrap_or(0);
         let word: Vec<usize> = (0..letters).map(|k| address.letter(k)).collect();
-        if !self.germ.ring.iter().any(|p| word.starts_with(&p.word)) {
+        let Some(piece) = self.germ.ring.iter().find(|p| word.starts_with(&p.word)) else {
             return reject("ring", &node.place, "the address begins with no piece of the ring that is seen");
+        };
+        let point = at(&node.place, self.model.shape.point(self.germ.state, &address))?;
+        Ok((self.germ.coordinates(&point)?, piece.position))
+    }
+
+    /// The part of the ring in which a row is positive at one point and negative at another.
+    fn changing_part(
+        &self,
+        field: &Field,
+        row: &[Poly],
+        positive: &Node<'_>,
+        negative: &Node<'_>,
+    ) -> Result<Position, Rejected> {
+        let mut parts = Vec::new();
+        for (node, wanted) in [(positive, 1), (negative, -1)] {
+            let (y, part) = self.placed_point(node)?;
+            parts.push(part);
+            if field.enclose(&weighted(&y, row)?)?.sign() != wanted {
+                return reject("sign-change", &node.place, "the functional does not have this sign at the point");
+            }
         }
-        self.germ.coordinates(&at(&node.place, self.model.shape.point(self.germ.state, &address))?)
+        if parts[0] != parts[1] || parts[0] == Position::Unordered {
+            return self.fails("sign-change", "the points do not lie in one connected part of the ring");
+        }
+        Ok(parts[0])
     }
 
     /// Theorem 4 with a point of the ring at which the leading functional vanishes.
@@ -240,7 +260,7 @@ impl Branch<'_> {
         Ok(Found::Plane)
     }
 
-    /// Theorem 4 with two cells of one connected part of the ring on which the leading functional has opposite signs.
+    /// Theorem 4 with two points of one connected part of the ring at which the leading functional has opposite signs.
     fn sign_change(&self, node: &Node<'_>) -> Result<Found, Rejected> {
         let [_, top, functional, isolation, positive, negative] =
             node.fields(["rule", "top", "functional", "isolation", "positive", "negative"])?;
@@ -249,22 +269,11 @@ impl Branch<'_> {
             return self.fails("sign-change", "a simple eigenvalue is needed");
         }
         let (row, _) = self.leading_row(&top, &functional)?;
-        let functional = self.model.functional(&self.germ, &top.field, &row)?;
-        let mut parts = Vec::new();
-        for (word, wanted) in [(&positive, 1), (&negative, -1)] {
-            let letters = word.word()?;
-            parts.push(self.ring_position(&letters, word)?);
-            if self.model.on_cell(&self.germ, &functional, &letters)?.sign() != wanted {
-                return reject("sign-change", &word.place, "the functional does not have this sign on the cell");
-            }
-        }
-        if parts[0] != parts[1] || parts[0] == Position::Unordered {
-            return self.fails("sign-change", "the cells do not lie in one connected part of the ring");
-        }
+        self.changing_part(&top.field, &row, &positive, &negative)?;
         // Isolation: the rows of L^dim have no common zero on the ring.
         let rows = self.germ.linear.power(self.germ.dim())?.echelon()?.0;
         let rows = (0..rows.rows).map(|i| self.model.rational_functional(&self.germ, rows.row(i)));
-        self.model.cover(&self.germ, &rows.collect::<Result<Vec<Functional>, _>>()?, &isolation)?;
+        self.model.cover(&self.germ, &rows.collect::<Result<Vec<Functional>, _>>()?, None, &isolation)?;
         self.injective("sign-change")?;
         Ok(Found::Plane)
     }
@@ -294,9 +303,11 @@ impl Branch<'_> {
         self.plane("orbit", &vectors)
     }
 
-    /// Section 6: one real block of length 2, and a connected cell on which `c_1` keeps its sign while `c_2` takes both.
+    /// Section 6: one real block of length 2, and a connected part of the ring on which `c_2` takes both signs while `c_1` has
+    /// one sign wherever `c_2` vanishes.
     fn crossing(&self, node: &Node<'_>) -> Result<Found, Rejected> {
-        let [_, top, second, first, cell] = node.fields(["rule", "top", "second", "first", "cell"])?;
+        let [_, top, second, first, positive, negative, cover] =
+            node.fields(["rule", "top", "second", "first", "positive", "negative", "cover"])?;
         let top = self.leading(&top)?;
         if top.chains.len() != 1 || top.chain().vectors.len() != 2 {
             return self.fails("crossing", "one block of length 2 is needed");
@@ -306,27 +317,27 @@ impl Branch<'_> {
         if top.residual(&self.germ.linear, &c1)? != c2 {
             return reject("crossing", &first.place, "g_1 L = λ g_1 + g_2 does not hold");
         }
-        let word = cell.word()?;
-        self.ring_position(&word, &cell)?;
-        let f1 = self.model.functional(&self.germ, &top.field, &c1)?;
-        let f2 = self.model.functional(&self.germ, &top.field, &c2)?;
-        let end = self.model.shape.path(self.germ.state, &word).and_then(|p| p.last().copied()).unwrap_or(0);
-        if self.model.shape.states[end].kind != Kind::Edge {
-            return reject("crossing", &cell.place, "the cell is not seen to be connected");
-        }
-        if self.model.on_cell(&self.germ, &f1, &word)?.sign() == 0 {
-            return reject("crossing", &first.place, "g_1 does not keep its sign on the cell");
-        }
-        let mut product = 1;
-        for side in [End::Start, End::Finish] {
-            let point = self.model.shape.end_point(end, side)?;
-            product *= self.model.at_point(&self.germ, &f2, &word, &point)?.sign();
-        }
-        if product != -1 {
-            return reject("crossing", &second.place, "g_2 does not have opposite signs at the ends of the cell");
+        let part = self.changing_part(&top.field, &c2, &positive, &negative)?;
+        let rows = [&c2, &c1].map(|row| self.model.functional(&self.germ, &top.field, row));
+        let [f2, f1] = rows;
+        let cells = self.model.cover(&self.germ, &[f2?, f1?], Some(part), &cover)?;
+        let mut signs = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign);
+        let first_sign = signs.next();
+        if signs.any(|s| Some(s) != first_sign) {
+            return reject("crossing", &cover.place, "g_1 takes both signs where g_2 may vanish");
         }
         let vectors = top.chain().vectors.iter().map(|v| seen(&top.field, &self.germ.view, v));
         self.plane("crossing", &vectors.collect::<Result<Vec<_>, _>>()?)
+    }
+
+    /// The corollary for one direction: `G v_1` lies in `D*`.
+    fn direction(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+        let [_, top] = node.fields(["rule", "top"])?;
+        let top = self.leading(&top)?;
+        match self.found_line(&top.field, &top.chain().vectors[0], Vec::new(), Vec::new())? {
+            Found::Line(line) => Ok(Found::Direction(line)),
+            other => Ok(other),
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use super::top::{elements, longest, top};
 use super::{Unsupported, address_json, numbers, tree, unsupported};
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
-use crate::shape::{Shape, word_text};
+use crate::shape::Shape;
 use crate::theorem::{BranchReport, Outcome, PointReport, RingProof, Statement, Verdict, Witness};
 use serde_json::{Value, json};
 
@@ -69,7 +69,7 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
             "rule": if *block == 1 { "theorem-2" } else { "theorem-3" },
             "top": top(&b.linear, &b.spectrum, eigenvalue(lead), &branch_name(b))?,
             "functional": elements(functional),
-            "cover": tree::cover(shape, b, proof)?,
+            "cover": tree::cover(shape, b, proof, None)?,
         })),
         Outcome::AtLeast { statement, eigenvalues, isolation, witness, .. } => {
             let lead = eigenvalue(&eigenvalues[0]);
@@ -77,7 +77,7 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
             match (statement, witness, isolation) {
                 (Statement::Corollary, _, _) => Ok(json!({"rule": "corollary", "top": top})),
                 (Statement::Theorem4, Some(witness), Some(isolation)) => theorem4(shape, b, lead, &top, witness, isolation),
-                (Statement::Section6, Some(Witness::Crossing { cell, .. }), _) => {
+                (Statement::Section6, Some(Witness::Crossing { part, positive, negative, cover, .. }), _) => {
                     let Some(chain) = longest(&b.spectrum.factor(lead).left) else {
                         return unsupported("an empty chain", branch_name(b));
                     };
@@ -86,11 +86,18 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
                         "top": top,
                         "second": elements(&chain.vectors[0]),
                         "first": elements(&chain.vectors[1]),
-                        "cell": cell,
+                        "positive": address_json(positive),
+                        "negative": address_json(negative),
+                        "cover": tree::cover(shape, b, cover, Some(*part))?,
                     }))
                 }
                 _ => unsupported("this evidence", branch_name(b)),
             }
+        }
+        Outcome::Open { direction: Some(_), .. } => {
+            let longest = b.spectrum.classes[0].members.iter().max_by_key(|m| b.spectrum.factor(**m).blocks[0]);
+            let Some(&lead) = longest else { return unsupported("an empty spectrum", branch_name(b)) };
+            Ok(json!({"rule": "direction", "top": top(&b.linear, &b.spectrum, lead, &branch_name(b))?}))
         }
         _ => unsupported("a branch that is not decided", branch_name(b)),
     }
@@ -135,14 +142,14 @@ fn theorem4(
             "rule": "sign-change",
             "top": top,
             "functional": functional,
-            "isolation": tree::cover(shape, b, isolation)?,
-            "positive": positive,
-            "negative": negative,
+            "isolation": tree::cover(shape, b, isolation, None)?,
+            "positive": address_json(positive),
+            "negative": address_json(negative),
         })),
         Witness::SignChange { positive, .. } => {
-            unsupported("a change of sign seen through a map that is not injective", word_text(positive))
+            unsupported("a change of sign seen through a map that is not injective", positive.to_string())
         }
-        Witness::Crossing { cell, .. } => unsupported("this evidence", word_text(cell)),
+        Witness::Crossing { positive, .. } => unsupported("this evidence", positive.to_string()),
     }
 }
 

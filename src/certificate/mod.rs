@@ -4,6 +4,7 @@
 //! shares no code with this crate.
 
 mod branch;
+mod hull;
 mod radius;
 mod top;
 mod tree;
@@ -76,7 +77,11 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     let mut states = Vec::new();
     for report in &found.states {
         let code = tree::code(&case.shape, report.state, &contraction.codes[report.state])?;
-        states.push(json!({"state": report.state, "radius": number(&report.radius), "code": code}));
+        let hull = match &found.polygons {
+            Some(polygons) => hull::hull(&case.shape, report.state, polygons)?,
+            None => Value::Null,
+        };
+        states.push(json!({"state": report.state, "radius": number(&report.radius), "code": code, "hull": hull}));
     }
     let mut points = Points { case, places: Vec::new(), json: Vec::new() };
     for point in &found.points {
@@ -157,26 +162,23 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         answers.push(joints(case, found, points)?);
     }
     let mut asked: Vec<Address> = Vec::new();
+    if !curve {
+        let pieces = shape.states[shape.start].pieces.iter().enumerate();
+        asked.extend(pieces.filter(|(_, p)| p.target == shape.start).map(|(i, _)| Address::periodic(vec![i])));
+    }
     for address in &case.examine {
         match address.normalise(shape, shape.start) {
+            Ok(address) if asked.contains(&address) => {}
             Ok(address) => asked.push(address),
             Err(error) => return unsupported(error.to_string(), "examine"),
         }
     }
-    if asked.is_empty() && !curve {
-        let pieces = shape.states[shape.start].pieces.iter().enumerate();
-        asked = pieces.filter(|(_, p)| p.target == shape.start).map(|(i, _)| Address::periodic(vec![i])).collect();
-    }
     // Addresses that were asked for besides those of the case come after them.
     let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict, c.asked.as_ref()?))).collect();
-    let listed = asked.len();
     for (_, (address, _)) in &claims {
         if !asked.contains(address) {
             asked.push(address.clone());
         }
-    }
-    if asked.len() > listed && !curve && case.examine.is_empty() {
-        return unsupported("further addresses of a set whose case lists none", "answers");
     }
     for address in &asked {
         let claim = claims.iter().find(|(_, (a, _))| a == address);

@@ -2,7 +2,7 @@
 
 use super::{Unsupported, unsupported};
 use crate::shape::{ContractingWord, Shape};
-use crate::theorem::{BranchReport, RingProof};
+use crate::theorem::{BranchReport, Position, RingProof};
 use serde_json::{Value, json};
 
 /// JSON readers refuse deeper nesting.
@@ -38,8 +38,13 @@ pub fn code(shape: &Shape, state: usize, words: &[ContractingWord]) -> Result<Va
     grow(shape, state, &mut Vec::new(), 0, &leaf)
 }
 
-/// The cover of the ring of a branch by discharged cells, piece by piece.
-pub fn cover(shape: &Shape, branch: &BranchReport, proof: &RingProof) -> Result<Value, Unsupported> {
+/// The cover of the ring of a branch (or of one part of it) by discharged cells, piece by piece.
+pub fn cover(
+    shape: &Shape,
+    branch: &BranchReport,
+    proof: &RingProof,
+    part: Option<Position>,
+) -> Result<Value, Unsupported> {
     let mut cells: Vec<(&[usize], Value)> = Vec::new();
     for cell in &proof.discharged {
         let sign = if cell.sign > 0 { "+" } else { "-" };
@@ -48,7 +53,8 @@ pub fn cover(shape: &Shape, branch: &BranchReport, proof: &RingProof) -> Result<
     cells.sort_unstable_by(|a, b| a.0.cmp(b.0));
     let leaf = |word: &[usize]| cells.binary_search_by(|c| c.0.cmp(word)).ok().map(|k| cells[k].1.clone());
     let mut pieces = Vec::new();
-    for piece in branch.ring.iter().filter(|p| !p.collapses) {
+    let wanted = |p: Position| part.is_none_or(|part| p == part);
+    for piece in branch.ring.iter().filter(|p| !p.collapses && wanted(p.position)) {
         let tree = grow(shape, piece.end, &mut piece.word.clone(), 0, &leaf)?;
         pieces.push(json!({"piece": piece.word, "cells": tree}));
     }

@@ -105,6 +105,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         states: shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect(),
         points: Vec::new(),
         dense: None,
+        polygons: None,
         similarities: similarity::similarities(&cx),
     };
     let mut asked = Vec::new();
@@ -115,6 +116,10 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         certify_curve(&cx, &asked, &mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
+    }
+    if let Some(Some(balls)) = hulls.get() {
+        let polygon = |e: usize| balls.hull(e).map(<[_]>::to_vec).unwrap_or_default();
+        found.polygons = Some((0..shape.states.len()).map(polygon).collect());
     }
     if found.similarities.is_some() {
         found.claims.push(Claim {
@@ -147,6 +152,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         states: Vec::new(),
         points: Vec::new(),
         dense: None,
+        polygons: None,
         similarities: None,
     }
 }
