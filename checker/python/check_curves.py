@@ -313,7 +313,7 @@ class Model:
         self.reachable = [case.start]
         for e in self.reachable:
             self.reachable += [t for t in dict.fromkeys(p[0] for p in self.states[e][1]) if t not in self.reachable]
-        self.base, self.basis, self.pivots, self.visible, self.radius = {}, {}, {}, {}, {}
+        self.base, self.basis, self.pivots, self.visible, self.radius, self.hull = {}, {}, {}, {}, {}, {}
         for e in self.reachable:
             self.base[e] = self.point(e, self.normalise(([], [0]), e))
         self.spaces()
@@ -409,10 +409,23 @@ class Model:
         need(len(entries) == len(self.reachable), "contraction")
         codes = []
         for entry, e in zip(entries, self.reachable):
-            state, radius, code = fields(entry, "state", "radius", "code")
+            state, radius, code, hull = fields(entry, "state", "radius", "code", "hull")
             need(index(state, len(self.states)) == e and isinstance(code, list), "contraction")
             self.radius[e] = rational(radius)
             codes.append((e, e, identity(self.case.dims[e]), code))
+            points = [] if hull is None else fields(hull, "points", "images")[0]
+            self.hull[e] = [vector(v, self.case.dims[e]) for v in points]
+            need(all(sum(v) == 1 for v in self.hull[e]) and (hull is None or self.hull[e]), "hull")
+        for entry, e in zip(entries, self.reachable):
+            if self.hull[e]:
+                need(len(entry["hull"]["images"]) == len(self.states[e][1]), "hull")
+                for (target, op, _), images in zip(self.states[e][1], entry["hull"]["images"]):
+                    need(len(images) == len(self.hull[target]) > 0, "hull")
+                    for v, terms in zip(self.hull[target], images):
+                        pairs = [fields(term, "vertex", "weight") for term in terms]
+                        pairs = [(rational(w), self.hull[e][index(k, len(self.hull[e]))]) for k, w in pairs]
+                        need(all(w > 0 for w, _ in pairs) and sum(w for w, _ in pairs) == 1, "hull")
+                        need(apply(op, v) == [sum(w * x[i] for w, x in pairs) for i in range(len(op))], "hull")
         while codes:
             start, e, op, tree = codes.pop()
             if tree == ".":
@@ -493,29 +506,27 @@ class Germ:
         row, error = f
         centre = apply([row], self.model.base[e])[0]
         spread = (max(row) - min(row)) / 2 * self.model.radius[e] + error
-        return centre - spread, centre + spread
+        lo, hi = centre - spread, centre + spread
+        values = [apply([row], v)[0] for v in self.model.hull[e]]
+        return (max(lo, min(values) - error), min(hi, max(values) + error)) if values else (lo, hi)
 
     def moved(self, f, letters):
         op, e = self.model.product(self.state, letters)
         return (mul([f[0]], op)[0], f[1]), e
 
-    def position(self, letters):
-        self.model.path(self.state, letters)
-        return next((p for w, _, p in self.ring if letters[:len(w)] == w), None)
-
-    def ring_point(self, value):
+    def placed_point(self, value):
+        """The coordinates of a point of the ring, and the part of the ring where it lies."""
         addr = address(value)
-        longest = max((len(w) for w, _, _ in self.ring), default=0)
-        need(self.position_of([letter(addr, k) for k in range(longest)]), "ring")
-        return self.coordinates(self.model.point(self.state, addr))
+        letters = [letter(addr, k) for k in range(max((len(w) for w, _, _ in self.ring), default=0))]
+        parts = [part for w, _, part in self.ring if letters[:len(w)] == w]
+        need(parts, "ring")
+        return self.coordinates(self.model.point(self.state, addr)), parts[0]
 
-    def position_of(self, letters):
-        return any(letters[:len(w)] == w for w, _, _ in self.ring)
-
-    def cover(self, functionals, items):
-        need(isinstance(items, list) and len(items) == len(self.ring), "cover")
+    def cover(self, functionals, items, part=None):
+        pieces_seen = [piece for piece in self.ring if part in (None, piece[2])]
+        need(isinstance(items, list) and len(items) == len(pieces_seen), "cover")
         cells = []
-        for item, (piece, end, position) in zip(items, self.ring):
+        for item, (piece, end, position) in zip(items, pieces_seen):
             letters, tree = fields(item, "piece", "cells")
             need(word(letters) == piece, "cover")
             stack = [([self.moved(f, piece)[0] for f in functionals], end, tree)]
@@ -526,7 +537,7 @@ class Germ:
                     need(tree in names, "cover")
                     k, sign = names[tree]
                     need(i_sign(self.enclose(rows[k], e)) == sign, "cover")
-                    cells.append((position, sign))
+                    cells.append((position, sign, k))
                 else:
                     pieces = self.model.states[e][1]
                     need(isinstance(tree, list) and len(tree) == len(pieces), "cover")
@@ -622,7 +633,7 @@ def positive(gram, n):
 
 class Line:
     def __init__(self, germ, field, v, left=(), right=()):
-        self.field, self.left, self.right = field, list(left), list(right)
+        self.field, self.left, self.right, self.exact = field, list(left), list(right), True
         self.vector = [weighted(row, v) for row in germ.view]
         self.values = [field.value(x) for x in self.vector]
         need(any(map(i_sign, self.values)), "line")
@@ -643,7 +654,8 @@ class Branch:
             "theorem-2": ["top", "functional", "cover"], "theorem-3": ["top", "functional", "cover"],
             "corollary-line": [], "corollary": ["top"], "null-point": ["top", "functional", "address"],
             "sign-change": ["top", "functional", "isolation", "positive", "negative"],
-            "orbit": ["top", "address", "own"], "crossing": ["top", "second", "first", "cell"]}
+            "orbit": ["top", "address", "own"], "direction": ["top"],
+            "crossing": ["top", "second", "first", "positive", "negative", "cover"]}
         rule = value.get("rule") if isinstance(value, dict) else None
         need(rule in rules, "format")
         _, *rest = fields(value, "rule", *rules[rule])
@@ -684,7 +696,7 @@ class Branch:
         need((self.length == 1) == (length == 1), "theorem")
         parity = self.eigenvalue_sign if self.length % 2 == 0 else 1
         rays = {-1: [], 1: []}
-        for position, sign in germ.cover([germ.functional(self.field, row)], cover):
+        for position, sign, _ in germ.cover([germ.functional(self.field, row)], cover):
             for m in (0, 1):
                 side = (position or 1) * germ.turn ** m * germ.prefix
                 ray = sign * self.pairing * parity * self.eigenvalue_sign ** m
@@ -706,42 +718,48 @@ class Branch:
         need(len(echelon(self.germ.view)[1]) == self.germ.n, "injective")
 
     def null_point(self, top, functional, addr):
-        row, y = self.leading_row(top, functional), self.germ.ring_point(addr)
+        row, y = self.leading_row(top, functional), self.germ.placed_point(addr)[0]
         need(self.length == 1 and not weighted(y, row) and any(apply(self.germ.falls, y)), "null-point")
         self.injective()
 
-    def sign_change(self, top, functional, isolation, positive_word, negative_word):
+    def changing_part(self, row, positive_point, negative_point):
+        parts = []
+        for value, sign in ((positive_point, 1), (negative_point, -1)):
+            y, part = self.germ.placed_point(value)
+            need(i_sign(self.field.value(weighted(y, row))) == sign, "sign-change")
+            parts.append(part)
+        need(parts[0] == parts[1] != 0, "sign-change")
+        return parts[0]
+
+    def sign_change(self, top, functional, isolation, positive_point, negative_point):
         row, germ = self.leading_row(top, functional), self.germ
         need(self.length == 1, "sign-change")
-        positions = []
-        for letters, sign in ((word(positive_word), 1), (word(negative_word), -1)):
-            positions.append(germ.position(letters))
-            need(i_sign(germ.enclose(*germ.moved(germ.functional(self.field, row), letters))) == sign, "sign-change")
-        need(positions[0] == positions[1] and positions[0] in (1, -1), "sign-change")
+        self.changing_part(row, positive_point, negative_point)
         germ.cover([(germ.on_points(r), Q(0)) for r in echelon(germ.falls)[0]], isolation)
         self.injective()
 
+    def direction(self, top):
+        self.leading(top)
+        line = Line(self.germ, self.field, self.vectors[0])
+        line.exact = False
+        return line
+
     def orbit(self, top, addr, own):
-        y = self.germ.ring_point(addr)
+        y, _ = self.germ.placed_point(addr)
         hull, pivots = grow([y], transpose(self.germ.linear))
         need(hull, "orbit")
         images = mul(hull, transpose(self.germ.linear))
         own = Top(own, [[images[j][p] for j in range(len(hull))] for p in pivots])
         plane(top.directions(self.germ.view) + own.directions(mul(self.germ.view, transpose(hull))), "orbit")
 
-    def crossing(self, top, second, first, cell):
+    def crossing(self, top, second, first, positive_point, negative_point, cover):
         c2, germ = self.leading_row(top, second), self.germ
         need(len(top.chains) == 1 and self.length == 2, "crossing")
-        c1, letters = self.row(first), word(cell)
-        need(self.residual(c1) == c2 and germ.position(letters) is not None, "crossing")
-        f1, end = germ.moved(germ.functional(self.field, c1), letters)
-        (row, error), _ = germ.moved(germ.functional(self.field, c2), letters)
-        need(germ.model.states[end][0] == "edge" and i_sign(germ.enclose(f1, end)) != 0, "crossing")
-        product = 1
-        for finish in (False, True):
-            value = apply([row], germ.model.end_point(end, finish))[0]
-            product *= i_sign((value - error, value + error))
-        need(product == -1, "crossing")
+        c1 = self.row(first)
+        need(self.residual(c1) == c2, "crossing")
+        part = self.changing_part(c2, positive_point, negative_point)
+        cells = germ.cover([germ.functional(self.field, c) for c in (c2, c1)], cover, part)
+        need(len({sign for _, sign, k in cells if k == 1}) <= 1, "crossing")
         plane([[self.field.value(weighted(r, v)) for r in germ.view] for v in self.vectors], "crossing")
 
 
@@ -782,10 +800,10 @@ def check_point(model, root, view, value):
         conclusion = ("refuted", "none")
     elif rule == "differ":
         need(len(lines) == 2 == len(found) and common is None and not_parallel(lines[0].values, lines[1].values), "differ")
-        single = len(lines[0].left) == 1 == len(lines[1].right)
+        single = len(lines[0].left) == 1 == len(lines[1].right) and lines[0].exact and lines[1].exact
         conclusion = ("refuted", "corner" if single else "none")
     else:
-        need(rule == "line" and len(lines) == len(found), "point")
+        need(rule == "line" and len(lines) == len(found) and all(line.exact for line in lines), "point")
         left, right = [], []
         for side, line in found:
             if common is not None:
@@ -799,7 +817,7 @@ def check_point(model, root, view, value):
             right += [s * factor for s in line.right] if side != "left" else []
         sizes, at = (len(left), len(right)), place["at"]
         if 2 in sizes:
-            name = "regular" if at == "of set" else "oscillating"
+            name = "oscillating"
         elif sum(sizes) == 1 and at in ("left end", "right end", "of set"):
             name = "half-tangent"
         else:
@@ -858,9 +876,9 @@ class Certificate:
     def questions(self, answers):
         kind, pieces = self.model.states[self.case.start]
         asked = [self.model.normalise(a, self.case.start) for a in self.case.examine]
-        if kind != "edge" and not asked:
-            asked = [([], [k]) for k, p in enumerate(pieces) if p[0] == self.case.start]
-        asked = (["ends", "joints"] if kind == "edge" else []) + asked
+        own = [([], [k]) for k, p in enumerate(pieces) if p[0] == self.case.start]
+        asked = (["ends", "joints"] if kind == "edge" else own) + asked
+        asked = [a for k, a in enumerate(asked) if a not in asked[:k]]
         need(len(answers) >= len(asked), "answers")
         for k in range(len(asked), len(answers)):
             question = "any point"
