@@ -5,6 +5,7 @@ pub mod algebraic;
 pub mod approx;
 pub mod arith;
 pub mod case;
+pub mod certificate;
 pub mod cli;
 pub mod diagnostic;
 pub mod jordan;

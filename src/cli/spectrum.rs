@@ -5,13 +5,10 @@ use super::{BAD_INPUT, PROVED, SpectrumArgs, UNDETERMINED};
 use crate::approx::approximate_spectrum;
 use crate::case::{Case, matrix_file};
 use crate::diagnostic::Problem;
-use crate::jordan::Spectrum;
+use crate::jordan::{BUDGET, Spectrum, estimated_work};
 use crate::linalg::Matrix;
 use crate::report::spectrum as report;
 use std::path::Path;
-
-/// Largest matrix whose exact spectrum is computed; larger ones are left to `--approx`.
-const MAX_EXACT: usize = 400;
 
 /// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
 pub fn run(args: &SpectrumArgs) -> u8 {
@@ -65,8 +62,8 @@ fn render(args: &SpectrumArgs, name: &str, matrix: &Matrix) -> Result<String, Pr
             Problem::new("secant::approx", error.to_string()).with_help("leave out --approx for the exact spectrum")
         });
     }
-    if matrix.rows() > MAX_EXACT {
-        let message = format!("{name} has size {}; exact spectra are computed up to {MAX_EXACT}", matrix.rows());
+    if estimated_work(&matrix) > BUDGET {
+        let message = format!("the exact spectrum of {name}, of size {}, is over the budget", matrix.rows());
         return Err(Problem::new("secant::limit", message).with_help("use --approx for a labelled approximation"));
     }
     let spectrum = Spectrum::of(&matrix);

@@ -67,7 +67,7 @@ const PROJECTED: &str = "the projected curve has a tangent line at every joint w
                          killed by it; in every cell that is more than a point there are such joints";
 
 fn claim(statement: Statement, text: &str, verdict: Verdict, reason: Option<&str>) -> Claim {
-    Claim { text: text.to_owned(), verdict, statement: Some(statement), reason: reason.map(str::to_owned) }
+    Claim { text: text.to_owned(), verdict, statement: Some(statement), reason: reason.map(str::to_owned), asked: None }
 }
 
 /// Examines joints of deeper levels one by one, and claims a tangent at all joints examined.

@@ -109,6 +109,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         states: shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect(),
         points: Vec::new(),
         dense: None,
+        polygons: None,
         similarities: similarity::similarities(&cx),
     };
     let mut asked = Vec::new();
@@ -120,6 +121,10 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     } else {
         certify_set(&cx, &asked, &mut found);
     }
+    if let Some(Some(balls)) = hulls.get() {
+        let polygon = |e: usize| balls.hull(e).map(<[_]>::to_vec).unwrap_or_default();
+        found.polygons = Some((0..shape.states.len()).map(polygon).collect());
+    }
     if found.similarities.is_some() {
         found.claims.push(Claim {
             text: "some point of the shape has a tangent line".to_owned(),
@@ -128,6 +133,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
             reason: Some(
                 "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned(),
             ),
+            asked: None,
         });
     }
     found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
@@ -141,6 +147,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         verdict: Verdict::Undetermined,
         statement: None,
         reason: Some(reason),
+        asked: None,
     };
     Certified {
         claims: vec![claim],
@@ -149,6 +156,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         states: Vec::new(),
         points: Vec::new(),
         dense: None,
+        polygons: None,
         similarities: None,
     }
 }
@@ -205,7 +213,7 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
     if cx.spaces.of(shape.start).basis.cols() == 0 {
         let reason = Some("the attractor is a single point".to_owned());
         let text = "the curve has a tangent at a dense set of points".to_owned();
-        found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason });
+        found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason, asked: None });
         return;
     }
     let dense = dense::dense_set(cx, joints);
@@ -263,6 +271,7 @@ fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
         verdict: verdict.unwrap_or(Verdict::Undetermined),
         statement: None,
         reason,
+        asked: None,
     }
 }
 
@@ -279,5 +288,6 @@ fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
         verdict: point.verdict,
         statement: None,
         reason: point.reason.clone(),
+        asked: Some((address.clone(), index)),
     }
 }

@@ -307,6 +307,8 @@ pub struct Claim {
     pub statement: Option<Statement>,
     /// The reason where it is not proved; what exactly is claimed where it is.
     pub reason: Option<String>,
+    /// For a claim about one address: the address, normalised, and the index of its point in [`Certified::points`].
+    pub asked: Option<(Address, usize)>,
 }
 
 /// The hypotheses of Theorem 5 as found.
@@ -352,6 +354,8 @@ pub struct Certified {
     pub points: Vec<PointReport>,
     /// The evidence for the dense set; `None` for shapes that are no curves.
     pub dense: Option<DenseSet>,
+    /// Convex polygons by state (vertices in its barycentric space) that hold the attractors, where some ring proof uses them.
+    pub polygons: Option<Vec<Vec<Vec<Rational>>>>,
     /// The scalar product for which all maps are similarities, where there is one.
     pub similarities: Option<super::similarity::Similarities>,
 }

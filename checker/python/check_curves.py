@@ -1,0 +1,1002 @@
+#!/usr/bin/env python3
+"""A second opinion on secant's certificates, by docs/certificate.md, with the standard library only.
+
+Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
+
+It covers every rule of the format except boundary operators of vertices.  It is written for reading, not for hostile input:
+use secant-check where limits matter.
+"""
+import json
+import sys
+import tomllib
+from fractions import Fraction as Q
+
+
+class Rejected(Exception):
+    pass
+
+
+def need(condition, rule):
+    if not condition:
+        raise Rejected(rule)
+
+
+# ---- rational linear algebra: a matrix is a list of rows -------------------------------------------------------------
+
+def mul(a, b):
+    columns = list(zip(*b))
+    return [[sum((x * y for x, y in zip(row, col)), Q(0)) for col in columns] for row in a]
+
+
+def apply(a, v):
+    return [sum((x * y for x, y in zip(row, v)), Q(0)) for row in a]
+
+
+def transpose(a, width=0):
+    return [list(col) for col in zip(*a)] if a else [[] for _ in range(width)]
+
+
+def identity(n):
+    return [[Q(int(i == j)) for j in range(n)] for i in range(n)]
+
+
+def sub(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def echelon(rows):
+    rows, pivots = [list(r) for r in rows], []
+    for j in range(len(rows[0]) if rows else 0):
+        top = len(pivots)
+        found = next((i for i in range(top, len(rows)) if rows[i][j] != 0), None)
+        if found is None:
+            continue
+        rows[top], rows[found] = rows[found], rows[top]
+        rows[top] = [x / rows[top][j] for x in rows[top]]
+        for i, row in enumerate(rows):
+            if i != top and row[j] != 0:
+                rows[i] = [x - row[j] * p for x, p in zip(row, rows[top])]
+        pivots.append(j)
+    return rows[:len(pivots)], pivots
+
+
+def grow(rows, matrix):
+    """The smallest row space that contains `rows` and is closed under right multiplication."""
+    rows, pivots = echelon(rows)
+    while True:
+        more, more_pivots = echelon(rows + (mul(rows, matrix) if rows else []))
+        if len(more_pivots) == len(pivots):
+            return rows, pivots
+        rows, pivots = more, more_pivots
+
+
+def fixed_point(op):
+    n = len(op)
+    rows, pivots = echelon([[x - y for x, y in zip(r, s)] for r, s in zip(op, identity(n))])
+    need(len(pivots) == n - 1, "fixed-point")
+    free = next(j for j in range(n) if j not in pivots)
+    v = [Q(0)] * n
+    v[free] = Q(1)
+    for i, p in enumerate(pivots):
+        v[p] = -rows[i][free]
+    need(sum(v) != 0, "fixed-point")
+    return [x / sum(v) for x in v]
+
+
+def characteristic(a):
+    n = len(a)
+    c, m, adjugate = [Q(0)] * n + [Q(1)], identity(n), []
+    for k in range(1, n + 1):
+        adjugate.insert(0, m)
+        product = mul(a, m)
+        c[n - k] = -sum(product[i][i] for i in range(n)) / k
+        m = [[x + c[n - k] * int(i == j) for j, x in enumerate(row)] for i, row in enumerate(product)]
+    return c, adjugate
+
+
+def power(a, k):
+    p = identity(len(a))
+    for _ in range(k):
+        p = mul(p, a)
+    return p
+
+
+# ---- intervals, polynomials, fields ----------------------------------------------------------------------------------
+
+def i_add(a, b):
+    return a[0] + b[0], a[1] + b[1]
+
+
+def i_sub(a, b):
+    return a[0] - b[1], a[1] - b[0]
+
+
+def i_mul(a, b):
+    ends = [x * y for x in a for y in b]
+    return min(ends), max(ends)
+
+
+def i_sign(a):
+    return 1 if a[0] > 0 else -1 if a[1] < 0 else 0
+
+
+def horner(p, x):
+    value = (Q(0), Q(0))
+    for c in reversed(p):
+        value = i_add(i_mul(value, x), (c, c))
+    return value
+
+
+def horner_complex(p, z):
+    re = im = (Q(0), Q(0))
+    for c in reversed(p):
+        re, im = (i_add(i_sub(i_mul(re, z[0]), i_mul(im, z[1])), (c, c)), i_add(i_mul(re, z[1]), i_mul(im, z[0])))
+    return re, im
+
+
+def trim(p):
+    p = list(p)
+    while p and p[-1] == 0:
+        p.pop()
+    return p
+
+
+def combine(a, factor, b):
+    n = max(len(a), len(b))
+    at = lambda p, k: p[k] if k < len(p) else Q(0)
+    return trim(at(a, k) + factor * at(b, k) for k in range(n))
+
+
+def weighted(row, v):
+    total = []
+    for c, p in zip(row, v):
+        total = combine(total, c, p)
+    return total
+
+
+class Field:
+    def __init__(self, m, interval):
+        self.m, self.interval = m, interval
+        need(2 <= len(m) <= 65 and m[-1] == 1, "field")
+        lo, hi = interval
+        if len(m) == 2:
+            need(lo == hi == -m[0], "field")
+        else:
+            at = lambda x: horner(m, (x, x))[0]
+            need(lo < hi and at(lo) * at(hi) < 0, "field")
+            need(i_sign(horner([k * c for k, c in enumerate(m)][1:], interval)) != 0, "field")
+
+    def mul(self, a, b):
+        if not a or not b:
+            return []
+        p = [Q(0)] * (len(a) + len(b) - 1)
+        for i, x in enumerate(a):
+            for j, y in enumerate(b):
+                p[i + j] += x * y
+        p, d = trim(p), len(self.m) - 1
+        while len(p) > d:
+            lead, k = p[-1], len(p) - 1
+            for i, c in enumerate(self.m):
+                p[k - d + i] -= lead * c
+            p = trim(p)
+        return p
+
+    def dot(self, row, column):
+        total = []
+        for a, b in zip(row, column):
+            total = combine(total, 1, self.mul(a, b))
+        return total
+
+    def value(self, element):
+        return horner(element, self.interval)
+
+    def theta(self, sign):
+        return self.mul([Q(0), Q(sign)], [Q(1)])
+
+
+def inside(p):
+    if len(p) == 1:
+        need(p[0] != 0, "disc")
+        return 0
+    n = len(p) - 1
+    delta = p[0] ** 2 - p[n] ** 2
+    need(delta != 0, "disc")
+    count = inside([(p[0] * p[k] - p[n] * p[n - k]) / delta for k in range(n)])
+    return count if delta > 0 else n - count
+
+
+def not_parallel(v, w):
+    minors = (i_sub(i_mul(v[i], w[j]), i_mul(v[j], w[i])) for i in range(len(v)) for j in range(i))
+    return any(i_sign(m) for m in minors)
+
+
+def plane(vectors, rule):
+    need(any(not_parallel(v, w) for k, v in enumerate(vectors) for w in vectors[:k]), rule)
+
+
+# ---- reading ---------------------------------------------------------------------------------------------------------
+
+def rational(text):
+    need(isinstance(text, str) and len(text) <= 10000 and str(Q(text)) == text, "format")
+    return Q(text)
+
+
+def vector(items, count=None):
+    need(isinstance(items, list) and (count is None or len(items) == count), "format")
+    return [rational(x) for x in items]
+
+
+def poly(items, bound):
+    p = vector(items)
+    need(len(p) <= bound and (not p or p[-1] != 0), "format")
+    return p
+
+
+def fields(value, *names):
+    need(isinstance(value, dict) and list(value) == list(names), "format")
+    return [value[name] for name in names]
+
+
+def index(k, bound):
+    need(isinstance(k, int) and not isinstance(k, bool) and 0 <= k < bound, "format")
+    return k
+
+
+def word(items):
+    need(isinstance(items, list) and len(items) <= 1000, "format")
+    return [index(k, 64) for k in items]
+
+
+def address(value):
+    prefix, cycle = fields(value, "prefix", "cycle")
+    need(cycle, "format")
+    return word(prefix), word(cycle)
+
+
+def no_duplicates(pairs):
+    need(len({k for k, _ in pairs}) == len(pairs), "format")
+    return dict(pairs)
+
+
+class Case:
+    def __init__(self, text):
+        case = tomllib.loads(text, parse_float=lambda s: Q(s))
+        number = lambda x: (lambda parts: Q(parts[0]) / Q(parts[1] if parts[1:] else 1))(str(x).split("/"))
+        matrix = lambda m: [[number(x) for x in row] for row in m]
+        operator = lambda m: transpose(matrix(m)) if case.get("convention") == "rows" else matrix(m)
+        kind = {"curve": "edge", "set": "set"}[case.get("kind", "curve")]
+        self.name, self.start = case["name"], 0
+        if "map" in case:
+            pieces = []
+            for m in case["map"]:
+                a, s = matrix(m["linear"]), [number(x) for x in m["shift"]]
+                columns = [s] + [[s[i] + a[i][j] for i in range(len(s))] for j in range(len(s))]
+                pieces.append((0, transpose([[1 - sum(c)] + c for c in columns]), m.get("reversed", False)))
+            self.states = [(kind, pieces)]
+        elif "pieces" in case:
+            backwards = case.get("reversed", [])
+            self.states = [(kind, [(0, operator(m), k in backwards) for k, m in enumerate(case["pieces"])])]
+        else:
+            names = [s["name"] for s in case["state"]]
+            self.start = names.index(case["start"]) if "start" in case else 0
+            piece = lambda p: (names.index(p["to"]), operator(p["matrix"]), p.get("reversed", False))
+            self.states = [(s.get("kind", kind), [piece(p) for p in s["piece"]]) for s in case["state"]]
+        self.dims = [len(pieces[0][1]) for _, pieces in self.states]
+        for e, (_, pieces) in enumerate(self.states):
+            for target, op, _ in pieces:
+                need(len(op) == self.dims[e] and len(op[0]) == self.dims[target], "case")
+                need(all(sum(col) == 1 for col in zip(*op)), "case")
+        self.view = identity(self.dims[self.start])
+        if "map" in case:
+            self.view = self.view[1:]
+        if "control" in case:
+            self.view = transpose(matrix(case["control"]))
+        self.examine = [self.parse(e["address"]) for e in case.get("examine", [])]
+
+    @staticmethod
+    def parse(text):
+        prefix, cycle = text.strip().rstrip(")").split("(")
+        split = lambda part: [int(x) for x in (part.strip(",").split(",") if "," in text else part) if x.strip()]
+        return split(prefix.strip()), split(cycle.strip())
+
+
+def letter(addr, k):
+    prefix, cycle = addr
+    return prefix[k] if k < len(prefix) else cycle[(k - len(prefix)) % len(cycle)]
+
+
+# ---- the model -------------------------------------------------------------------------------------------------------
+
+class Model:
+    def __init__(self, case, contraction):
+        self.case, self.states = case, case.states
+        self.reachable = [case.start]
+        for e in self.reachable:
+            self.reachable += [t for t in dict.fromkeys(p[0] for p in self.states[e][1]) if t not in self.reachable]
+        self.base, self.basis, self.pivots, self.visible, self.radius, self.hull = {}, {}, {}, {}, {}, {}
+        for e in self.reachable:
+            self.base[e] = self.point(e, self.normalise(([], [0]), e))
+        self.spaces()
+        self.contract(contraction)
+        for e in self.reachable:
+            pieces = self.states[e][1]
+            if self.states[e][0] == "edge":
+                for a, b in zip(pieces, pieces[1:]):
+                    ends = apply(a[1], self.end_point(a[0], not a[2]))
+                    need(ends == apply(b[1], self.end_point(b[0], b[2])), "curve")
+
+    def spaces(self):
+        spans, rows = {}, {e: [] for e in self.reachable}
+        for e in self.reachable:
+            spans[e] = echelon([sub(apply(op, self.base[t]), self.base[e]) for t, op, _ in self.states[e][1]])[0]
+        rows[self.case.start] = echelon(self.case.view)[0]
+        size = None
+        while size != (size := [(len(spans[e]), len(rows[e])) for e in self.reachable]):
+            for e in self.reachable:
+                for t, op, _ in self.states[e][1]:
+                    if spans[t]:
+                        spans[e] = echelon(spans[e] + mul(spans[t], transpose(op)))[0]
+                    if rows[e]:
+                        rows[t] = echelon(rows[t] + mul(rows[e], op))[0]
+        for e in self.reachable:
+            self.basis[e], self.pivots[e] = echelon(spans[e])
+            on_v = mul(rows[e], transpose(self.basis[e], self.case.dims[e])) if self.basis[e] else []
+            self.visible[e] = echelon(on_v)[0]
+
+    def path(self, e, letters):
+        states = [e]
+        for k in letters:
+            need(k < len(self.states[states[-1]][1]), "word")
+            states.append(self.states[states[-1]][1][k][0])
+        return states
+
+    def product(self, e, letters):
+        p, states = identity(self.case.dims[e]), self.path(e, letters)
+        for k, s in zip(letters, states):
+            p = mul(p, self.states[s][1][k][1])
+        return p, states[-1]
+
+    def orientation(self, e, letters):
+        sign = 1
+        for k, s in zip(letters, self.path(e, letters)):
+            sign *= -1 if self.states[s][1][k][2] else 1
+        return sign
+
+    def point(self, e, addr):
+        p, s = self.product(e, addr[0])
+        m, back = self.product(s, addr[1])
+        need(back == s, "word")
+        return apply(p, fixed_point(m))
+
+    def normalise(self, addr, e):
+        length = len(addr[0]) + len(addr[1]) * (len(self.states) + 1)
+        letters = [letter(addr, k) for k in range(3 * length)]
+        pairs = list(zip(self.path(e, letters), letters))
+        repeats = lambda start, p: pairs[start + p:] == pairs[start:3 * length - p]
+        p = next(p for p in range(1, length + 1) if repeats(length, p))
+        start = next(s for s in range(length + 1) if repeats(s, p))
+        return letters[:start], letters[start:start + p]
+
+    def linear(self, op, to, source):
+        """Column k: the coordinates in V_to of op applied to basis vector k of V_source."""
+        images = [apply(op, v) for v in self.basis[source]]
+        return [[v[p] for v in images] for p in self.pivots[to]]
+
+    def is_point(self, piece):
+        return all(x == 0 for v in self.basis[piece[0]] for x in apply(piece[1], v))
+
+    def end_address(self, e, finish, skip):
+        seen, letters, at, side = [], [], e, finish
+        while (at, side) not in seen:
+            seen.append((at, side))
+            order = range(len(self.states[at][1]))
+            k = next((k for k in (reversed(order) if side else order) if not skip(self.states[at][1][k])), None)
+            need(k is not None, "end")
+            letters.append(k)
+            target, _, backwards = self.states[at][1][k]
+            at, side = target, side != backwards
+        k = seen.index((at, side))
+        return letters[:k], letters[k:]
+
+    def end_point(self, e, finish):
+        return self.point(e, self.end_address(e, finish, lambda p: False))
+
+    def joints(self, e):
+        solid = [k for k, p in enumerate(self.states[e][1]) if not self.is_point(p)]
+        return list(zip(solid, solid[1:]))
+
+    def contract(self, entries):
+        need(len(entries) == len(self.reachable), "contraction")
+        codes = []
+        for entry, e in zip(entries, self.reachable):
+            state, radius, code, hull = fields(entry, "state", "radius", "code", "hull")
+            need(index(state, len(self.states)) == e and isinstance(code, list), "contraction")
+            self.radius[e] = rational(radius)
+            codes.append((e, e, identity(self.case.dims[e]), code))
+            points = [] if hull is None else fields(hull, "points", "images")[0]
+            self.hull[e] = [vector(v, self.case.dims[e]) for v in points]
+            need(all(sum(v) == 1 for v in self.hull[e]) and (hull is None or self.hull[e]), "hull")
+        for entry, e in zip(entries, self.reachable):
+            if self.hull[e]:
+                need(len(entry["hull"]["images"]) == len(self.states[e][1]), "hull")
+                for (target, op, _), images in zip(self.states[e][1], entry["hull"]["images"]):
+                    need(len(images) == len(self.hull[target]) > 0, "hull")
+                    for v, terms in zip(self.hull[target], images):
+                        pairs = [fields(term, "vertex", "weight") for term in terms]
+                        pairs = [(rational(w), self.hull[e][index(k, len(self.hull[e]))]) for k, w in pairs]
+                        need(all(w > 0 for w, _ in pairs) and sum(w for w, _ in pairs) == 1, "hull")
+                        need(apply(op, v) == [sum(w * x[i] for w, x in pairs) for i in range(len(op))], "hull")
+        while codes:
+            start, e, op, tree = codes.pop()
+            if tree == ".":
+                columns = list(zip(*op))
+                norm = lambda v: sum(map(abs, v), Q(0))
+                tau = max((norm(sub(a, b)) for a in columns for b in columns), default=Q(0)) / 2
+                shift = norm(sub(apply(op, self.base[e]), self.base[start]))
+                need(tau < 1 and shift + tau * self.radius[e] <= self.radius[start], "contraction")
+            else:
+                pieces = self.states[e][1]
+                need(isinstance(tree, list) and len(tree) == len(pieces), "contraction")
+                codes += [(start, t, mul(op, piece), child) for (t, piece, _), child in zip(pieces, tree)]
+
+    def on_visible(self, e, piece):
+        onto = mul(self.visible[e], self.linear(piece[1], e, piece[0])) if self.visible[e] else []
+        _, pivots = echelon(self.visible[piece[0]])
+        return [[row[p] for p in pivots] for row in onto], len(pivots)
+
+
+class Germ:
+    def __init__(self, model, root, view, addr):
+        self.model = model
+        prefix, e = model.product(root, addr[0])
+        cycle, back = model.product(e, addr[1])
+        need(back == e and addr[1], "word")
+        self.state, self.fixed = e, fixed_point(cycle)
+        on_v = mul(mul(view, prefix), transpose(model.basis[e], model.case.dims[e]))
+        linear_v = model.linear(cycle, e, e)
+        rows, pivots = grow(on_v, linear_v)
+        self.n = len(pivots)
+        need(self.n > 0, "germ")
+        pick = lambda m: [[row[p] for p in pivots] for row in m]
+        self.linear, self.view = pick(mul(rows, linear_v)), pick(on_v)
+        reading = [[Q(int(p == j)) for j in range(model.case.dims[e])] for p in model.pivots[e]]
+        self.chart = mul(rows, reading)
+        self.turn = model.orientation(e, addr[1]) if model.states[e][0] == "edge" else 1
+        self.prefix = model.orientation(root, addr[0])
+        self.falls = power(self.linear, self.n)
+        self.ring = self.find_ring(addr[1])
+
+    def coordinates(self, x):
+        return apply(self.chart, sub(x, self.fixed))
+
+    def find_ring(self, cycle):
+        model, kept, product, at, forward = self.model, [], identity(self.model.case.dims[self.state]), self.state, True
+        for i, turn in enumerate(cycle):
+            kind, pieces = model.states[at]
+            level = []
+            for j, piece in enumerate(pieces):
+                op = mul(product, piece[1])
+                position = 0 if kind != "edge" else -1 if (j < turn) == forward else 1
+                repeated = position == 0 and (piece[:2] == pieces[turn][:2] or (piece[0], op) in level)
+                image = apply(op, model.base[piece[0]])
+                if j == turn or repeated or (model.is_point(piece) and image == self.fixed):
+                    continue
+                level.append((piece[0], op))
+                vectors = [self.coordinates(image)] + [apply(self.chart, apply(op, v)) for v in model.basis[piece[0]]]
+                if any(x != 0 for v in vectors for x in apply(self.falls, v)):
+                    kept.append((cycle[:i] + [j], piece[0], position))
+            product, at, forward = mul(product, pieces[turn][1]), pieces[turn][0], forward != pieces[turn][2]
+        return kept
+
+    def functional(self, field, row):
+        """The row on points and its error."""
+        middle, error = [], Q(0)
+        for g, chart in zip(row, self.chart):
+            lo, hi = field.value(g)
+            middle.append((lo + hi) / 2)
+            error += (hi - lo) / 2 * (max(chart) - min(chart)) * self.model.radius[self.state]
+        return self.on_points(middle), error
+
+    def on_points(self, on_y):
+        row = mul([on_y], self.chart)[0]
+        at_fixed = apply([row], self.fixed)[0]
+        return [x - at_fixed for x in row]
+
+    def enclose(self, f, e):
+        row, error = f
+        centre = apply([row], self.model.base[e])[0]
+        spread = (max(row) - min(row)) / 2 * self.model.radius[e] + error
+        lo, hi = centre - spread, centre + spread
+        values = [apply([row], v)[0] for v in self.model.hull[e]]
+        return (max(lo, min(values) - error), min(hi, max(values) + error)) if values else (lo, hi)
+
+    def moved(self, f, letters):
+        op, e = self.model.product(self.state, letters)
+        return (mul([f[0]], op)[0], f[1]), e
+
+    def placed_point(self, value):
+        """The coordinates of a point of the ring, and the part of the ring where it lies."""
+        addr = address(value)
+        letters = [letter(addr, k) for k in range(max((len(w) for w, _, _ in self.ring), default=0))]
+        parts = [part for w, _, part in self.ring if letters[:len(w)] == w]
+        need(parts, "ring")
+        return self.coordinates(self.model.point(self.state, addr)), parts[0]
+
+    def cover(self, functionals, items, part=None):
+        pieces_seen = [piece for piece in self.ring if part in (None, piece[2])]
+        need(isinstance(items, list) and len(items) == len(pieces_seen), "cover")
+        cells = []
+        for item, (piece, end, position) in zip(items, pieces_seen):
+            letters, tree = fields(item, "piece", "cells")
+            need(word(letters) == piece, "cover")
+            stack = [([self.moved(f, piece)[0] for f in functionals], end, tree)]
+            while stack:
+                rows, e, tree = stack.pop()
+                if isinstance(tree, str):
+                    names = {s + str(k): (k, v) for k in range(len(rows)) for s, v in (("+", 1), ("-", -1))}
+                    need(tree in names, "cover")
+                    k, sign = names[tree]
+                    need(i_sign(self.enclose(rows[k], e)) == sign, "cover")
+                    cells.append((position, sign, k))
+                else:
+                    pieces = self.model.states[e][1]
+                    need(isinstance(tree, list) and len(tree) == len(pieces), "cover")
+                    stack += [([(mul([r], p[1])[0], err) for r, err in rows], p[0], t) for p, t in zip(pieces, tree)]
+        return cells
+
+
+# ---- the top of a spectrum -------------------------------------------------------------------------------------------
+
+class Top:
+    def __init__(self, value, linear):
+        n = self.n = len(linear)
+        kind = self.kind = value.get("top") if isinstance(value, dict) else None
+        names = {"real": ["polynomial", "interval", "chains"], "pair": ["centre", "error"],
+                 "conformal": ["basis", "gram", "square"]}
+        need(kind in names, "format")
+        _, radius, *rest = fields(value, "top", "radius", *names[kind])
+        r = rational(radius)
+        chi, self.adjugate = characteristic(linear)
+        need(r > 0, "disc")
+        count = n - inside([c * r ** k for k, c in enumerate(chi)])
+        getattr(self, kind)(linear, r, count, chi, *rest)
+
+    def real(self, linear, r, count, chi, m, interval, chains):
+        f = self.field = Field(poly(m, 65), tuple(vector(interval, 2)))
+        need(f.interval[0] > r or f.interval[1] < -r, "top-real")
+        self.chains = []
+        for chain in chains:
+            sign, vectors = fields(chain, "sign", "vectors")
+            need(sign in ("+", "-") and vectors, "format")
+            need(all(len(v) == len(linear) for v in vectors), "format")
+            vectors = [[poly(x, len(f.m) - 1) for x in v] for v in vectors]
+            theta = f.theta(1 if sign == "+" else -1)
+            for k, v in enumerate(vectors):
+                for i, row in enumerate(linear):
+                    image = combine(weighted(row, v), -1, f.mul(theta, v[i]))
+                    need(image == (vectors[k - 1][i] if k else []), "top-real")
+            self.chains.append((1 if sign == "+" else -1, vectors))
+        need(sum(len(v) for _, v in self.chains) == count, "top-real")
+        for s in (1, -1):
+            starts = [[f.value(x) for x in v[0]] for t, v in self.chains if t == s]
+            need(len(starts) <= 2, "top-real")
+            need(len(starts) != 1 or any(map(i_sign, starts[0])), "top-real")
+            need(len(starts) != 2 or not_parallel(*starts), "top-real")
+
+    def pair(self, linear, r, count, chi, centre, error):
+        (x, y), e = vector(centre, 2), rational(error)
+        need(count == 2 and y > e > 0 and x * x + y * y > (r + e) ** 2, "top-pair")
+        size = lambda p: sum(part[0] ** 2 for part in horner_complex(p, ((x, x), (y, y))))
+        slope = size([k * c for k, c in enumerate(chi)][1:])
+        need(slope != 0 and self.n ** 2 * size(chi) <= e * e * slope, "top-pair")
+        self.value = ((x - e, x + e), (y - e, y + e))
+
+    def conformal(self, linear, r, count, chi, basis, gram, square):
+        rows, s = [vector(v, self.n) for v in basis], rational(square)
+        reduced, pivots = echelon(rows)
+        need(reduced == rows and len(rows) == count, "top-conformal")
+        images = mul(rows, transpose(linear))
+        b = [[v[p] for p in pivots] for v in images]
+        need(mul(b, rows) == images, "top-conformal")
+        h = positive(gram, count)
+        need(s > r * r and mul(mul(b, h), transpose(b)) == [[s * x for x in row] for row in h], "top-conformal")
+        self.basis = rows
+
+    def directions(self, view):
+        if self.kind == "real":
+            longest = max(len(v) for _, v in self.chains)
+            ends = [v[0] for _, v in self.chains if len(v) == longest]
+            return [[self.field.value(weighted(row, v)) for row in view] for v in ends]
+        if self.kind == "pair":
+            spanning = []
+            for j in range(self.n):
+                entry = lambda row: [sum(c * m[i][j] for i, c in enumerate(row)) for m in self.adjugate]
+                values = [horner_complex(entry(row), self.value) for row in view]
+                spanning += [[z[0] for z in values], [z[1] for z in values]]
+            return spanning
+        return [[(x, x) for x in apply(view, v)] for v in self.basis]
+
+
+def positive(gram, n):
+    rows = h = [vector(v, n) for v in gram]
+    need(len(h) == n and transpose(h) == h, "gram")
+    rows = [list(r) for r in rows]
+    for k in range(n):
+        need(rows[k][k] > 0, "gram")
+        for i in range(k + 1, n):
+            factor = rows[i][k] / rows[k][k]
+            rows[i] = [x - factor * p for x, p in zip(rows[i], rows[k])]
+    return h
+
+
+# ---- rules for a branch ----------------------------------------------------------------------------------------------
+
+class Line:
+    def __init__(self, germ, field, v, left=(), right=()):
+        self.field, self.left, self.right, self.exact = field, list(left), list(right), True
+        self.vector = [weighted(row, v) for row in germ.view]
+        self.values = [field.value(x) for x in self.vector]
+        need(any(map(i_sign, self.values)), "line")
+
+    def relation(self, w, signs):
+        for i in range(len(w)):
+            for j in range(i):
+                need(self.field.mul(self.vector[i], w[j]) == self.field.mul(self.vector[j], w[i]), "line")
+        return next((i_sign(x) * s for x, s in zip(self.values, signs) if i_sign(x) * s), None)
+
+
+class Branch:
+    def __init__(self, germ):
+        self.germ = germ
+
+    def check(self, value):
+        rules = {
+            "theorem-2": ["top", "functional", "cover"], "theorem-3": ["top", "functional", "cover"],
+            "corollary-line": [], "corollary": ["top"], "null-point": ["top", "functional", "address"],
+            "sign-change": ["top", "functional", "isolation", "positive", "negative"],
+            "orbit": ["top", "address", "own"], "direction": ["top"],
+            "crossing": ["top", "second", "first", "positive", "negative", "cover"]}
+        rule = value.get("rule") if isinstance(value, dict) else None
+        need(rule in rules, "format")
+        _, *rest = fields(value, "rule", *rules[rule])
+        if rest:
+            rest[0] = Top(rest[0], self.germ.linear)
+        return getattr(self, rule.replace("-", "_"))(*rest)
+
+    def leading(self, top):
+        need(top.kind == "real", "leading")
+        length = max(len(v) for _, v in top.chains)
+        longest = [k for k, (_, v) in enumerate(top.chains) if len(v) == length]
+        need(len(longest) == 1, "leading")
+        self.field, self.longest, self.length = top.field, longest[0], length
+        self.sign, self.vectors = top.chains[longest[0]]
+        self.eigenvalue_sign = self.sign * i_sign(top.field.interval)
+
+    def residual(self, row):
+        theta = self.field.theta(self.sign)
+        columns = transpose(self.germ.linear)
+        return [combine(weighted(c, row), -1, self.field.mul(theta, g)) for c, g in zip(columns, row)]
+
+    def row(self, items):
+        need(isinstance(items, list) and len(items) == self.germ.n, "format")
+        return [poly(g, len(self.field.m) - 1) for g in items]
+
+    def leading_row(self, top, items):
+        self.leading(top)
+        row = self.row(items)
+        need(not any(self.residual(row)), "leading")
+        for k, (_, v) in enumerate(top.chains):
+            need(k == self.longest or not self.field.dot(row, v[-1]), "leading")
+        self.pairing = i_sign(self.field.value(self.field.dot(row, self.vectors[-1])))
+        need(self.pairing != 0, "leading")
+        return row
+
+    def theorem_2(self, top, functional, cover, length=1):
+        row, germ = self.leading_row(top, functional), self.germ
+        need((self.length == 1) == (length == 1), "theorem")
+        parity = self.eigenvalue_sign if self.length % 2 == 0 else 1
+        rays = {-1: [], 1: []}
+        for position, sign, _ in germ.cover([germ.functional(self.field, row)], cover):
+            for m in (0, 1):
+                side = (position or 1) * germ.turn ** m * germ.prefix
+                ray = sign * self.pairing * parity * self.eigenvalue_sign ** m
+                if ray not in rays[side]:
+                    rays[side].append(ray)
+        return Line(germ, self.field, self.vectors[0], rays[-1], rays[1])
+
+    def theorem_3(self, top, functional, cover):
+        return self.theorem_2(top, functional, cover, length=2)
+
+    def corollary_line(self):
+        need(self.germ.n == 1 and self.germ.linear[0][0] != 0, "corollary-line")
+        return Line(self.germ, Field([Q(0), Q(1)], (Q(0), Q(0))), [[Q(1)]])
+
+    def corollary(self, top):
+        plane(top.directions(self.germ.view), "corollary")
+
+    def injective(self):
+        need(len(echelon(self.germ.view)[1]) == self.germ.n, "injective")
+
+    def null_point(self, top, functional, addr):
+        row, y = self.leading_row(top, functional), self.germ.placed_point(addr)[0]
+        need(self.length == 1 and not weighted(y, row) and any(apply(self.germ.falls, y)), "null-point")
+        self.injective()
+
+    def changing_part(self, row, positive_point, negative_point):
+        parts = []
+        for value, sign in ((positive_point, 1), (negative_point, -1)):
+            y, part = self.germ.placed_point(value)
+            need(i_sign(self.field.value(weighted(y, row))) == sign, "sign-change")
+            parts.append(part)
+        need(parts[0] == parts[1] != 0, "sign-change")
+        return parts[0]
+
+    def sign_change(self, top, functional, isolation, positive_point, negative_point):
+        row, germ = self.leading_row(top, functional), self.germ
+        need(self.length == 1, "sign-change")
+        self.changing_part(row, positive_point, negative_point)
+        germ.cover([(germ.on_points(r), Q(0)) for r in echelon(germ.falls)[0]], isolation)
+        self.injective()
+
+    def direction(self, top):
+        self.leading(top)
+        line = Line(self.germ, self.field, self.vectors[0])
+        line.exact = False
+        return line
+
+    def orbit(self, top, addr, own):
+        y, _ = self.germ.placed_point(addr)
+        hull, pivots = grow([y], transpose(self.germ.linear))
+        need(hull, "orbit")
+        images = mul(hull, transpose(self.germ.linear))
+        own = Top(own, [[images[j][p] for j in range(len(hull))] for p in pivots])
+        plane(top.directions(self.germ.view) + own.directions(mul(self.germ.view, transpose(hull))), "orbit")
+
+    def crossing(self, top, second, first, positive_point, negative_point, cover):
+        c2, germ = self.leading_row(top, second), self.germ
+        need(len(top.chains) == 1 and self.length == 2, "crossing")
+        c1 = self.row(first)
+        need(self.residual(c1) == c2, "crossing")
+        part = self.changing_part(c2, positive_point, negative_point)
+        cells = germ.cover([germ.functional(self.field, c) for c in (c2, c1)], cover, part)
+        need(len({sign for _, sign, k in cells if k == 1}) <= 1, "crossing")
+        plane([[self.field.value(weighted(r, v)) for r in germ.view] for v in self.vectors], "crossing")
+
+
+# ---- points and answers ----------------------------------------------------------------------------------------------
+
+def branches_of(model, root, place):
+    at = place.get("at") if isinstance(place, dict) else None
+    skip = model.is_point
+    if at in ("left end", "right end"):
+        fields(place, "at")
+        return [("right" if at == "left end" else "left", model.end_address(root, at == "right end", skip))]
+    if at == "joint":
+        _, path, left, right = fields(place, "at", "path", "left", "right")
+        path, state = word(path), model.path(root, word(path))[-1]
+        need((index(left, 64), index(right, 64)) in model.joints(state), "joint")
+        branches = []
+        for k, finish in ((left, True), (right, False)):
+            target, _, backwards = model.states[state][1][k]
+            prefix, cycle = model.end_address(target, finish != backwards, skip)
+            branches.append((path + [k] + prefix, cycle))
+        if model.orientation(root, path) < 0:
+            branches.reverse()
+        return list(zip(("left", "right"), branches))
+    need(at in ("inside", "of set"), "format")
+    return [("both", address(fields(place, "at", "address")[1]))]
+
+
+def check_point(model, root, view, value):
+    place, verdict, kind, rule, common, items = fields(value, "place", "verdict", "kind", "rule", "common", "branches")
+    addresses = branches_of(model, root, place)
+    need(len(addresses) == len(items), "point")
+    found = [(side, item and (Branch(Germ(model, root, view, a)).check(item) or "plane"))
+             for (side, a), item in zip(addresses, items)]
+    common = None if common is None else vector(common, len(view))
+    lines = [line for _, line in found if isinstance(line, Line)]
+    if rule == "plane":
+        need([f for _, f in found if f is not None] == ["plane"] and common is None, "plane")
+        conclusion = ("refuted", "none")
+    elif rule == "differ":
+        need(len(lines) == 2 == len(found) and common is None and not_parallel(lines[0].values, lines[1].values), "differ")
+        single = len(lines[0].left) == 1 == len(lines[1].right) and lines[0].exact and lines[1].exact
+        conclusion = ("refuted", "corner" if single else "none")
+    else:
+        need(rule == "line" and len(lines) == len(found) and all(line.exact for line in lines), "point")
+        left, right = [], []
+        for side, line in found:
+            if common is not None:
+                signs = [(x > 0) - (x < 0) for x in common]
+                factor = line.relation([trim([x]) for x in common], signs)
+            else:
+                need((line.field.m, line.field.interval) == (lines[0].field.m, lines[0].field.interval), "line")
+                factor = line.relation(lines[0].vector, map(i_sign, lines[0].values))
+            need(factor, "line")
+            left += [s * factor for s in line.left] if side != "right" else []
+            right += [s * factor for s in line.right] if side != "left" else []
+        sizes, at = (len(left), len(right)), place["at"]
+        if 2 in sizes:
+            name = "oscillating"
+        elif sum(sizes) == 1 and at in ("left end", "right end", "of set"):
+            name = "half-tangent"
+        else:
+            name = ("cusp" if left == right else "regular") if sizes == (1, 1) else "none"
+        conclusion = ("proved", name)
+    need((verdict, kind) == conclusion, "point")
+    return place, verdict, common
+
+
+def place_of(model, addr):
+    states = model.path(model.case.start, addr[0])
+    if any(model.states[e][0] != "edge" for e in states + model.path(states[-1], addr[1])):
+        return {"at": "of set", "address": {"prefix": addr[0], "cycle": addr[1]}}
+
+    def is_end(side):
+        at = states[-1]
+        for k in addr[1] * 2:
+            pieces = model.states[at][1]
+            if not all(model.is_point(p) for p in (pieces[k + 1:] if side else pieces[:k])):
+                return False
+            at, side = pieces[k][0], side != pieces[k][2]
+        return True
+
+    side = next((s for s in (False, True) if is_end(s)), None)
+    if side is None:
+        return {"at": "inside", "address": {"prefix": addr[0], "cycle": addr[1]}}
+    for k in reversed(range(len(addr[0]))):
+        side = side != model.states[states[k]][1][addr[0][k]][2]
+        for left, right in model.joints(states[k]):
+            if addr[0][k] == (left if side else right):
+                return {"at": "joint", "path": addr[0][:k], "left": left, "right": right}
+    return {"at": "right end" if side else "left end"}
+
+
+class Certificate:
+    def __init__(self, case, value):
+        form, version, name, verdict, contraction, points, answers = fields(
+            value, "format", "version", "case", "verdict", "contraction", "points", "answers")
+        need(form == "secant certificate" and version == 1 and name == case.name, "format")
+        self.case, self.model = case, Model(case, contraction)
+        self.points = [check_point(self.model, case.start, case.view, p) for p in points]
+        places = [p[0] for p in self.points]
+        need(all(p not in places[:k] for k, p in enumerate(places)), "points")
+        self.used, self.lines = set(), []
+        found = [self.answer(q, a) for q, a in zip(self.questions(answers), answers)]
+        need(self.used == set(range(len(points))), "points")
+        self.verdict = self.together(found)
+        need(verdict == self.verdict, "verdict")
+
+    @staticmethod
+    def together(verdicts):
+        if "refuted" in verdicts:
+            return "refuted"
+        return "proved" if verdicts and set(verdicts) == {"proved"} else "undetermined"
+
+    def questions(self, answers):
+        kind, pieces = self.model.states[self.case.start]
+        asked = [self.model.normalise(a, self.case.start) for a in self.case.examine]
+        own = [([], [k]) for k, p in enumerate(pieces) if p[0] == self.case.start]
+        asked = (["ends", "joints"] if kind == "edge" else own) + asked
+        asked = [a for k, a in enumerate(asked) if a not in asked[:k]]
+        need(len(answers) >= len(asked), "answers")
+        for k in range(len(asked), len(answers)):
+            question = "any point"
+            if k + 1 < len(answers) or answers[k].get("question") != "any point":
+                question = address(answers[k].get("address"))
+                normal = self.model.normalise(question, self.case.start)
+                need(normal == question and question not in asked, "answers")
+            asked.append(question)
+        return asked
+
+    def select(self, items):
+        chosen = [index(k, len(self.points)) for k in items]
+        need(chosen == sorted(set(chosen)), "answers")
+        self.used |= set(chosen)
+        return [self.points[k] for k in chosen]
+
+    def answer(self, question, value):
+        if question == "joints":
+            what, verdict, theorem, items, upstairs = fields(value, "question", "verdict", "theorem", "points", "upstairs")
+            found, text = self.joints(theorem, self.select(items), upstairs), "joints, theorem " + theorem
+        elif question == "any point":
+            what, verdict, products = fields(value, "question", "verdict", "products")
+            found, text = self.similarities(products), "any point"
+        else:
+            if question == "ends":
+                what, verdict, items = fields(value, "question", "verdict", "points")
+                places, text = [{"at": "left end"}, {"at": "right end"}], "ends"
+            else:
+                what, of, verdict, items = fields(value, "question", "address", "verdict", "points")
+                need(address(of) == question, "answers")
+                places, text, question = [place_of(self.model, question)], f"address {question}", "address"
+            chosen = self.select(items)
+            need(all(p[0] in places for p in chosen), "answers")
+            found = self.together([p[1] for p in chosen])
+            if found == "proved" and len(chosen) < len(places):
+                found = "undetermined"
+        need((what, verdict) == (question, found), "answers")
+        self.lines.append(f"{found}: {text}")
+        return found
+
+    def joints(self, theorem, chosen, upstairs):
+        model, start = self.model, self.case.start
+        need(all(p[0]["at"] == "joint" for p in chosen) and (theorem == "5'" or upstairs == []), "joints")
+        verdicts = [p[1] for p in chosen]
+        if theorem == "none":
+            return "refuted" if "refuted" in verdicts else "undetermined"
+        need(theorem in ("5", "5'") and chosen and set(verdicts) == {"proved"}, "joints")
+        required = {(e, *pair) for e in model.reachable for pair in model.joints(e)}
+        need(required == {(model.path(start, p["path"])[-1], p["left"], p["right"]) for p, _, _ in chosen}, "joints")
+        for e in model.reachable:
+            for piece in model.states[e][1]:
+                rows, width = model.on_visible(e, piece)
+                need(len(echelon(rows)[1]) == width, "joints")
+        if theorem == "5":
+            on_v = mul(self.case.view, transpose(model.basis[start], len(self.case.view[0])))
+            need(len(echelon(on_v)[1]) == len(model.visible[start]), "joints")
+            return "proved"
+        listed, spans = [], {e: [] for e in model.reachable}
+        for item in upstairs:
+            e, point = fields(item, "state", "point")
+            need(index(e, len(model.states)) in model.reachable, "joints")
+            reading = [[Q(int(p == j)) for j in range(model.case.dims[e])] for p in model.pivots[e]]
+            place, verdict, common = check_point(model, e, mul(model.visible[e], reading), point)
+            need(place["at"] == "joint" and place["path"] == [] and verdict == "proved", "joints")
+            listed.append((e, place["left"], place["right"]))
+            spans[e] += [common] if common is not None else []
+        need(len(set(listed)) == len(listed) and set(listed) == required, "joints")
+        size = None
+        while size != (size := [len(spans[e]) for e in model.reachable]):
+            for e in model.reachable:
+                for piece in model.states[e][1]:
+                    if spans[piece[0]]:
+                        spans[e] = spans[e] + mul(spans[piece[0]], transpose(model.on_visible(e, piece)[0]))
+                spans[e] = echelon(spans[e])[0]
+        need(all(len(spans[e]) == len(model.visible[e]) for e in model.reachable), "joints")
+        return "proved"
+
+    def similarities(self, products):
+        model = self.model
+        need(len(products) == len(model.reachable), "similarities")
+        h = {e: positive(p, len(model.basis[e])) for e, p in zip(model.reachable, products)}
+        for e in model.reachable:
+            need(len(model.basis[e]) >= 2, "similarities")
+            for target, op, _ in model.states[e][1]:
+                linear = model.linear(op, e, target)
+                pulled = mul(mul(transpose(linear), h[e]), linear)
+                ratio = pulled[0][0] / h[target][0][0]
+                need(ratio > 0 and pulled == [[ratio * x for x in row] for row in h[target]], "similarities")
+        on_v = mul(self.case.view, transpose(model.basis[self.case.start]))
+        need(len(echelon(on_v)[1]) == len(model.basis[self.case.start]), "similarities")
+        return "refuted"
+
+
+def check(case_text, certificate_text):
+    refuse = lambda text: need(False, "format")
+    value = json.loads(certificate_text, object_pairs_hook=no_duplicates, parse_float=refuse, parse_constant=refuse)
+    return Certificate(Case(case_text), value)
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        texts = [open(name, encoding="utf-8").read() for name in arguments]
+    except OSError as error:
+        print(f"unreadable: {error}", file=sys.stderr)
+        return 2
+    try:
+        found = check(*texts)
+    except (Rejected, ValueError, TypeError, KeyError, IndexError, AttributeError, ZeroDivisionError) as error:
+        print(f"rejected: {error or type(error).__name__}")
+        return 1
+    print(f"accepted: {found.case.name}: {found.verdict}")
+    for line in found.lines:
+        print(f"  {line}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,312 @@
+//! Reads the case file itself, so that a proof cannot be about another case.
+
+use crate::matrix::Matrix;
+use crate::number::{Q, bits, decimal_fraction};
+use crate::shape::{Address, Kind, Piece, Shape, State};
+use num_traits::{One, Zero};
+use std::cell::Cell;
+use toml::de::{DeTable, DeValue};
+
+/// Most states of a case.
+pub const MAX_STATES: usize = 64;
+/// Most pieces of a state.
+pub const MAX_PIECES: usize = 64;
+/// Most coordinates of a state.
+pub const MAX_COORDINATES: usize = 64;
+/// All numbers of a case together, in bits.
+const MAX_BITS: u64 = 1 << 22;
+
+/// A case: its name, its shape, and the addresses it asks about.
+pub struct Case {
+    /// The name.
+    pub name: String,
+    /// The shape.
+    pub shape: Shape,
+    /// The addresses under `[[examine]]`, as written.
+    pub examine: Vec<Address>,
+}
+
+/// Why a case cannot be read; the text names the key.
+pub type Problem = String;
+
+struct Reader {
+    bits: Cell<u64>,
+}
+
+fn known(table: &DeTable<'_>, keys: &[&str]) -> Result<(), Problem> {
+    match table.keys().find(|k| !keys.contains(&k.get_ref().as_ref())) {
+        Some(key) => Err(format!("unknown key `{}`", key.get_ref())),
+        None => Ok(()),
+    }
+}
+
+fn get<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Option<&'t DeValue<'a>> {
+    table.get(key).map(toml::Spanned::get_ref)
+}
+
+fn need<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Result<&'t DeValue<'a>, Problem> {
+    get(table, key).ok_or_else(|| format!("the key `{key}` is missing"))
+}
+
+fn text<'t>(value: &'t DeValue<'_>, key: &str) -> Result<&'t str, Problem> {
+    value.as_str().ok_or_else(|| format!("`{key}` must be a text"))
+}
+
+fn array<'t, 'a>(value: &'t DeValue<'a>, key: &str) -> Result<Vec<&'t DeValue<'a>>, Problem> {
+    match value {
+        DeValue::Array(items) => Ok(items.iter().map(toml::Spanned::get_ref).collect()),
+        _ => Err(format!("`{key}` must be a list")),
+    }
+}
+
+fn table<'t, 'a>(value: &'t DeValue<'a>, key: &str) -> Result<&'t DeTable<'a>, Problem> {
+    match value {
+        DeValue::Table(table) => Ok(table),
+        _ => Err(format!("`{key}` must be a table")),
+    }
+}
+
+fn flag(t: &DeTable<'_>, key: &str) -> Result<bool, Problem> {
+    get(t, key).map_or(Ok(false), |v| v.as_bool().ok_or_else(|| format!("`{key}` must be true or false")))
+}
+
+fn index(value: &DeValue<'_>, bound: usize, key: &str) -> Result<usize, Problem> {
+    let digits = match value {
+        DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str().parse::<usize>().ok(),
+        _ => None,
+    };
+    digits.filter(|k| *k < bound).ok_or_else(|| format!("`{key}` must be a whole number below {bound}"))
+}
+
+impl Reader {
+    fn number(&self, value: &DeValue<'_>) -> Result<Q, Problem> {
+        let text = match value {
+            DeValue::String(text) => text.as_ref(),
+            DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str(),
+            DeValue::Float(digits) => digits.as_str(),
+            _ => return Err("a number is needed".to_owned()),
+        };
+        let number = decimal_fraction(text).ok_or("not an exact number")?;
+        self.bits.set(self.bits.get().saturating_add(bits(&number)));
+        if self.bits.get() > MAX_BITS { Err("the numbers are too long".to_owned()) } else { Ok(number) }
+    }
+
+    fn matrix(&self, value: &DeValue<'_>, key: &str) -> Result<Matrix, Problem> {
+        let mut rows: Vec<Vec<Q>> = Vec::new();
+        for row in array(value, key)? {
+            rows.push(array(row, key)?.into_iter().map(|x| self.number(x)).collect::<Result<_, _>>()?);
+        }
+        let cols = rows.first().map_or(0, Vec::len);
+        let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
+        if !fits(rows.len()) || !fits(cols) || rows.iter().any(|r| r.len() != cols) {
+            return Err(format!("`{key}` is no matrix of 1 to {MAX_COORDINATES} rows and columns"));
+        }
+        Ok(Matrix::from_rows(cols, &rows))
+    }
+
+    /// An operator on columns of barycentric coordinates of the given size; all its columns sum to 1.
+    fn operator(&self, value: &DeValue<'_>, by_rows: bool, size: (usize, usize)) -> Result<Matrix, Problem> {
+        let written = self.matrix(value, "matrix")?;
+        let op = if by_rows { written.transpose() } else { written };
+        if (op.rows, op.cols) != size {
+            return Err(format!("an operator has the wrong size: {} x {}", op.rows, op.cols));
+        }
+        if (0..op.cols).any(|j| !op.column(j).iter().sum::<Q>().is_one()) {
+            return Err("a column of an operator does not sum to 1".to_owned());
+        }
+        Ok(op)
+    }
+
+    /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
+    fn affine(&self, map: &DeTable<'_>) -> Result<Piece, Problem> {
+        known(map, &["linear", "shift", "reversed"])?;
+        let linear = self.matrix(need(map, "linear")?, "linear")?;
+        let shift: Vec<Q> =
+            array(need(map, "shift")?, "shift")?.into_iter().map(|x| self.number(x)).collect::<Result<_, _>>()?;
+        let d = shift.len();
+        if d > 3 || (linear.rows, linear.cols) != (d, d) {
+            return Err("`linear` and `shift` do not fit".to_owned());
+        }
+        let image = |i: usize, j: usize| if j == 0 { shift[i].clone() } else { &shift[i] + linear.at(i, j - 1) };
+        let op = Matrix::from_fn(d + 1, d + 1, |i, j| match i {
+            0 => Q::one() - (0..d).map(|i| image(i, j)).sum::<Q>(),
+            _ => image(i - 1, j),
+        });
+        Ok(Piece { target: 0, op, reversed: flag(map, "reversed")? })
+    }
+
+    fn automaton(&self, case: &DeTable<'_>, default: Kind, by_rows: bool) -> Result<(Vec<State>, usize), Problem> {
+        let tables: Vec<&DeTable<'_>> =
+            array(need(case, "state")?, "state")?.into_iter().map(|v| table(v, "state")).collect::<Result<_, _>>()?;
+        if tables.is_empty() || tables.len() > MAX_STATES {
+            return Err("too few or too many states".to_owned());
+        }
+        let mut heads: Vec<(&str, Kind, usize)> = Vec::new();
+        for t in &tables {
+            known(t, &["name", "kind", "dimension", "left", "right", "piece"])?;
+            let name = text(need(t, "name")?, "name")?;
+            let kind = match get(t, "kind").map(|v| text(v, "kind")).transpose()? {
+                None => default,
+                Some("edge") => Kind::Edge,
+                Some("vertex") => Kind::Vertex,
+                Some("set") => Kind::Set,
+                Some(_) => return Err("unknown kind of a state".to_owned()),
+            };
+            let dim = match get(t, "dimension") {
+                Some(v) => index(v, MAX_COORDINATES + 1, "dimension")?,
+                None => {
+                    let pieces = array(need(t, "piece")?, "piece")?;
+                    let first = table(pieces.first().ok_or("a state has no piece")?, "piece")?;
+                    let matrix = self.matrix(need(first, "matrix")?, "matrix")?;
+                    if by_rows { matrix.cols } else { matrix.rows }
+                }
+            };
+            if dim == 0 || heads.iter().any(|h| h.0 == name) {
+                return Err("a state without coordinates, or two states of one name".to_owned());
+            }
+            heads.push((name, kind, dim));
+        }
+        let find = |value: &DeValue<'_>| -> Result<usize, Problem> {
+            let name = text(value, "to")?;
+            heads.iter().position(|h| h.0 == name).ok_or_else(|| format!("there is no state `{name}`"))
+        };
+        let mut states = Vec::new();
+        for (t, &(name, kind, dim)) in tables.iter().zip(&heads) {
+            let mut pieces = Vec::new();
+            for piece in array(need(t, "piece")?, "piece")? {
+                let piece = table(piece, "piece")?;
+                known(piece, &["to", "matrix", "reversed"])?;
+                let target = find(need(piece, "to")?)?;
+                let op = self.operator(need(piece, "matrix")?, by_rows, (dim, heads[target].2))?;
+                let fits = kind == Kind::Set || heads[target].1 == kind;
+                let reversed = flag(piece, "reversed")?;
+                if !fits || (reversed && kind != Kind::Edge) {
+                    return Err(format!("a piece of state `{name}` is of another kind, or runs backwards in no curve"));
+                }
+                pieces.push(Piece { target, op, reversed });
+            }
+            let boundary = |key: &str| -> Result<Option<(usize, Matrix)>, Problem> {
+                let Some(value) = get(t, key) else { return Ok(None) };
+                let b = table(value, key)?;
+                known(b, &["vertex", "matrix"])?;
+                let vertex = find(need(b, "vertex")?)?;
+                if kind != Kind::Edge || heads[vertex].1 != Kind::Vertex {
+                    return Err(format!("`{key}` joins a vertex to an edge"));
+                }
+                Ok(Some((vertex, self.operator(need(b, "matrix")?, by_rows, (dim, heads[vertex].2))?)))
+            };
+            let (left, right) = (boundary("left")?, boundary("right")?);
+            states.push(State { kind, dim, pieces, left, right });
+        }
+        let start = match get(case, "start") {
+            Some(value) => find(value)?,
+            None if states.len() == 1 => 0,
+            None => return Err("the key `start` is missing".to_owned()),
+        };
+        Ok((states, start))
+    }
+
+    fn shape(&self, case: &DeTable<'_>) -> Result<Shape, Problem> {
+        let kind = match get(case, "kind").map(|v| text(v, "kind")).transpose()? {
+            None | Some("curve") => Kind::Edge,
+            Some("set") => Kind::Set,
+            Some(_) => return Err("unknown kind".to_owned()),
+        };
+        let convention = get(case, "convention").map(|v| text(v, "convention")).transpose()?;
+        let by_rows = convention == Some("rows");
+        let forms = ["map", "state", "pieces"].into_iter().filter(|k| get(case, k).is_some()).count();
+        if forms != 1 || !matches!(convention, None | Some("rows" | "columns")) {
+            return Err("one of `pieces`, `map` and `state`, and a known convention, are needed".to_owned());
+        }
+        let simple = |pieces: Vec<Piece>| -> Result<State, Problem> {
+            let dim = pieces.first().ok_or("there is no piece")?.op.rows;
+            if pieces.iter().any(|p| p.op.rows != dim) || (kind != Kind::Edge && pieces.iter().any(|p| p.reversed)) {
+                return Err("operators of different sizes, or a set with reversed pieces".to_owned());
+            }
+            Ok(State { kind, dim, pieces, left: None, right: None })
+        };
+        let (states, start) = if let Some(maps) = get(case, "map") {
+            if by_rows || ["start", "reversed", "control"].iter().any(|k| get(case, k).is_some()) {
+                return Err("this key does not go with [[map]]".to_owned());
+            }
+            let maps = array(maps, "map")?.into_iter().map(|m| self.affine(table(m, "map")?));
+            (vec![simple(maps.collect::<Result<_, _>>()?)?], 0)
+        } else {
+            if convention.is_none() {
+                return Err("the key `convention` is missing".to_owned());
+            }
+            if get(case, "state").is_some() {
+                if get(case, "reversed").is_some() {
+                    return Err("`reversed` does not go with [[state]]".to_owned());
+                }
+                self.automaton(case, kind, by_rows)?
+            } else {
+                if get(case, "start").is_some() {
+                    return Err("`start` does not go with `pieces`".to_owned());
+                }
+                let mut pieces = Vec::new();
+                for value in array(need(case, "pieces")?, "pieces")? {
+                    let n = self.matrix(value, "pieces")?.rows;
+                    pieces.push(Piece { target: 0, op: self.operator(value, by_rows, (n, n))?, reversed: false });
+                }
+                for value in get(case, "reversed").map_or(Ok(Vec::new()), |v| array(v, "reversed"))? {
+                    let k = index(value, pieces.len(), "reversed")?;
+                    pieces[k].reversed = true;
+                }
+                (vec![simple(pieces)?], 0)
+            }
+        };
+        let dim = states[start].dim;
+        let view = match get(case, "control") {
+            Some(value) => self.matrix(value, "control")?.transpose(),
+            None if get(case, "map").is_some() => {
+                Matrix::from_fn(dim - 1, dim, |i, j| if i + 1 == j { Q::one() } else { Q::zero() })
+            }
+            None => Matrix::identity(dim),
+        };
+        let counts = states.iter().all(|s| (1..=MAX_PIECES).contains(&s.pieces.len()));
+        let vertices = states.iter().all(|s| s.kind != Kind::Vertex || s.pieces.len() == 1);
+        if view.cols != dim || !counts || !vertices {
+            return Err("a wrong number of control points or of pieces".to_owned());
+        }
+        Ok(Shape { states, start, view })
+    }
+}
+
+/// Reads a case file.
+///
+/// # Errors
+/// What is wrong, in words.
+pub fn read(source: &str) -> Result<Case, Problem> {
+    let parsed = DeTable::parse(source).map_err(|e| format!("not TOML: {}", e.message()))?;
+    let case = parsed.get_ref();
+    known(
+        case,
+        &[
+            "name",
+            "title",
+            "source",
+            "kind",
+            "convention",
+            "pieces",
+            "reversed",
+            "map",
+            "start",
+            "state",
+            "control",
+            "examine",
+            "expect",
+        ],
+    )?;
+    let reader = Reader { bits: Cell::new(0) };
+    let shape = reader.shape(case)?;
+    let mut examine = Vec::new();
+    for entry in get(case, "examine").map_or(Ok(Vec::new()), |v| array(v, "examine"))? {
+        let entry = table(entry, "examine")?;
+        known(entry, &["address"])?;
+        let written = text(need(entry, "address")?, "address")?;
+        let address = Address::parse(written).and_then(|a| a.normalise(&shape, shape.start));
+        examine.push(address.ok_or_else(|| format!("`{written}` is no address of this case"))?);
+    }
+    Ok(Case { name: text(need(case, "name")?, "name")?.to_owned(), shape, examine })
+}

@@ -1,0 +1,150 @@
+//! The germ of one branch `u w^ω`: its visible quotient `Y = V/N_G`, the map `L` on it, and its ring (theory §3, §9).
+
+use crate::matrix::{Matrix, difference};
+use crate::number::Q;
+use crate::ring::Model;
+use crate::shape::{Address, Kind};
+use crate::{Rejected, reject};
+use num_traits::{One, Zero};
+
+/// Where a piece of the ring lies with respect to the germ's point, in the order of the germ's state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Position {
+    /// Before it.
+    Before,
+    /// After it.
+    After,
+    /// The state has no order.
+    Unordered,
+}
+
+/// A piece of the ring that the germ sees.
+#[derive(Debug, Clone)]
+pub struct RingPiece {
+    /// The word that leaves the cycle with its last letter.
+    pub word: Vec<usize>,
+    /// The state where it ends.
+    pub end: usize,
+    /// Its place.
+    pub position: Position,
+}
+
+/// Where addresses are read and what is looked at: the start state with its view, or a state with its own visible quotient.
+pub struct Root {
+    /// The state.
+    pub state: usize,
+    /// The map from its coordinates into the space where the shape is looked at.
+    pub view: Matrix,
+}
+
+/// A germ with everything that is computed for it.
+pub struct Germ {
+    /// The state of the cycle.
+    pub state: usize,
+    /// The orientation of the prefix.
+    pub prefix_sign: i32,
+    /// The orientation of the cycle, `1` where the state is no curve.
+    pub turn: i32,
+    /// The fixed point `q` of the cycle.
+    pub fixed: Vec<Q>,
+    /// Coordinates on `Y`: those of a point `x` are `chart (x − q)`.
+    pub chart: Matrix,
+    /// `L` on `Y`.
+    pub linear: Matrix,
+    /// `G` on `Y`.
+    pub view: Matrix,
+    /// The pieces of the ring that are neither repeated nor the point itself and do not collapse.
+    pub ring: Vec<RingPiece>,
+}
+
+impl Germ {
+    /// Computes the germ of a branch.
+    pub fn new(model: &Model<'_>, root: &Root, address: &Address) -> Result<Self, Rejected> {
+        let shape = model.shape;
+        let (prefix, state) = shape.product(root.state, &address.prefix)?;
+        let (cycle, back) = shape.product(state, &address.cycle)?;
+        if back != state || address.cycle.is_empty() {
+            return reject("word", "", "the cycle does not return to its state");
+        }
+        let Some(fixed) = cycle.fixed_point()? else { return reject("fixed-point", "", "a fixed point is not unique") };
+        let space = model.spaces.of(state)?;
+        let view_on_v = root.view.times(&prefix)?.times(&space.basis.transpose())?;
+        let linear_v = model.spaces.linear(&cycle, state, state)?;
+        // The smallest L-invariant space of rows that contains those of G; its kernel is N_G.
+        let (mut rows, mut pivots) = view_on_v.echelon()?;
+        loop {
+            let (grown, grown_pivots) = rows.stack(&rows.times(&linear_v)?).echelon()?;
+            if grown_pivots.len() == pivots.len() {
+                break;
+            }
+            (rows, pivots) = (grown, grown_pivots);
+        }
+        if pivots.is_empty() {
+            return reject("germ", "", "the germ is a single point");
+        }
+        let one = |i: usize, k: usize| if pivots[k] == i { Q::one() } else { Q::zero() };
+        let lift = Matrix::from_fn(linear_v.rows, pivots.len(), one);
+        let chart = rows.times(&space.reading())?;
+        let linear = rows.times(&linear_v)?.times(&lift)?;
+        let view = view_on_v.times(&lift)?;
+        let ordered = shape.states[state].kind == Kind::Edge;
+        let turn = if ordered { shape.orientation(state, &address.cycle) } else { 1 };
+        let prefix_sign = shape.orientation(root.state, &address.prefix);
+        let mut germ = Self { state, prefix_sign, turn, fixed, chart, linear, view, ring: Vec::new() };
+        germ.ring = germ.ring_of(model, &address.cycle)?;
+        Ok(germ)
+    }
+
+    /// The dimension of `Y`.
+    pub fn dim(&self) -> usize {
+        self.linear.rows
+    }
+
+    /// The coordinates of a point of the attractor of the germ's state.
+    pub fn coordinates(&self, point: &[Q]) -> Result<Vec<Q>, Rejected> {
+        self.chart.apply(&difference(point, &self.fixed))
+    }
+
+    /// The standard ring of the cycle without repeated pieces of sets, copies of `q`, and pieces that collapse (Lemma 2).
+    fn ring_of(&self, model: &Model<'_>, cycle: &[usize]) -> Result<Vec<RingPiece>, Rejected> {
+        let falls = self.linear.power(self.dim())?.times(&self.chart)?;
+        let mut kept: Vec<RingPiece> = Vec::new();
+        let mut product = Matrix::identity(model.shape.states[self.state].dim);
+        let (mut at, mut forward) = (self.state, true);
+        for (i, &turn) in cycle.iter().enumerate() {
+            let state = &model.shape.states[at];
+            let mut level: Vec<(usize, Matrix)> = Vec::new();
+            for (letter, piece) in state.pieces.iter().enumerate().filter(|(j, _)| *j != turn) {
+                let op = product.times(&piece.op)?;
+                let ordered = state.kind == Kind::Edge;
+                let position = match (ordered, (letter < turn) == forward) {
+                    (false, _) => Position::Unordered,
+                    (true, true) => Position::Before,
+                    (true, false) => Position::After,
+                };
+                let cycled = &state.pieces[turn];
+                let repeated = !ordered
+                    && ((cycled.target == piece.target && cycled.op == piece.op)
+                        || level.contains(&(piece.target, op.clone())));
+                let space = model.spaces.of(piece.target)?;
+                let image = op.apply(&space.base)?;
+                let directions = op.times(&space.basis.transpose())?;
+                let is_fixed = model.spaces.is_point(piece)? && image == self.fixed;
+                if repeated || is_fixed {
+                    continue;
+                }
+                let offset = falls.apply(&difference(&image, &self.fixed))?;
+                let collapses = offset.iter().all(Zero::is_zero) && falls.times(&directions)?.is_zero();
+                if !collapses {
+                    let word = [&cycle[..i], &[letter]].concat();
+                    kept.push(RingPiece { word, end: piece.target, position });
+                }
+                level.push((piece.target, op));
+            }
+            product = product.times(&state.pieces[turn].op)?;
+            forward ^= state.pieces[turn].reversed;
+            at = state.pieces[turn].target;
+        }
+        Ok(kept)
+    }
+}

@@ -1,0 +1,126 @@
+//! Checks a secant certificate against its case, by the rules of `docs/certificate.md` and without any search.
+//!
+//! No code is shared with secant: this crate reads the case file itself, computes everything that is plain rational linear
+//! algebra again, and takes from the certificate only what had to be found. All arithmetic is exact.
+
+pub mod case;
+mod claims;
+mod germ;
+pub mod json;
+pub mod matrix;
+pub mod number;
+mod points;
+pub mod poly;
+mod ring;
+mod rules;
+pub mod shape;
+mod spectrum;
+
+use std::fmt;
+
+/// The version of the certificate format that is read.
+pub const VERSION: usize = 1;
+/// Largest case or certificate in bytes.
+pub const MAX_BYTES: usize = 16 << 20;
+/// Longest word of a certificate or address of a case.
+pub const MAX_LETTERS: usize = 1_000;
+
+/// What follows for a question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The answer is yes.
+    Proved,
+    /// The answer is no.
+    Refuted,
+    /// The certificate does not say.
+    Undetermined,
+}
+
+impl Verdict {
+    /// `proved`, `refuted` or `undetermined`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Proved => "proved",
+            Self::Refuted => "refuted",
+            Self::Undetermined => "undetermined",
+        }
+    }
+
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Refuted, _) | (_, Self::Refuted) => Self::Refuted,
+            (Self::Proved, Self::Proved) => Self::Proved,
+            _ => Self::Undetermined,
+        }
+    }
+}
+
+/// A certificate that was checked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Accepted {
+    /// The name of the case.
+    pub case: String,
+    /// The verdict on all questions of the case together.
+    pub verdict: Verdict,
+    /// What was proved or refuted, one claim a line.
+    pub claims: Vec<String>,
+    /// The points with their verdicts and kinds, one a line.
+    pub points: Vec<String>,
+}
+
+/// Why a certificate proves nothing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rejected {
+    /// The rule whose premise fails.
+    pub rule: String,
+    /// Where in the certificate.
+    pub place: String,
+    /// What is wrong.
+    pub why: String,
+    /// Whether the case or the certificate could not be read at all.
+    pub unreadable: bool,
+}
+
+impl fmt::Display for Rejected {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = if self.unreadable { "unreadable" } else { "rejected" };
+        write!(f, "{word}: {}, {}, {}", self.rule, if self.place.is_empty() { "-" } else { &self.place }, self.why)
+    }
+}
+
+impl std::error::Error for Rejected {}
+
+fn reject<T>(rule: &str, place: &str, why: impl Into<String>) -> Result<T, Rejected> {
+    Err(Rejected { rule: rule.to_owned(), place: place.to_owned(), why: why.into(), unreadable: false })
+}
+
+/// Gives a rejection that has no place yet one.
+fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
+    result.map_err(|r| if r.place.is_empty() { Rejected { place: place.to_owned(), ..r } } else { r })
+}
+
+/// Checks a certificate (JSON) against the text of its case (TOML).
+///
+/// # Errors
+/// [`Rejected`] with the rule, the place and the reason; `unreadable` is set where one of the two texts could not be read.
+///
+/// # Cost
+/// Bounded: the files by [`MAX_BYTES`], the nesting by 128, the numbers by 10000 digits, the arithmetic by a budget.
+pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
+    let unreadable =
+        |rule: &str, why: String| Err(Rejected { rule: rule.to_owned(), place: String::new(), why, unreadable: true });
+    if case.len() > MAX_BYTES || certificate.len() > MAX_BYTES {
+        return unreadable("limit", "a file is too large".to_owned());
+    }
+    number::refill();
+    let case = match case::read(case) {
+        Ok(case) => case,
+        Err(why) => return unreadable("case", why),
+    };
+    let tree: json::Json = match serde_json::from_str(certificate) {
+        Ok(tree) => tree,
+        Err(error) => return unreadable("json", error.to_string()),
+    };
+    claims::check(&case, &json::Node { value: &tree, place: "certificate".to_owned() })
+}

@@ -1,0 +1,290 @@
+//! From branches to points: which branches a point has, and what follows for it (theory §3, §5, §9).
+
+use crate::germ::Root;
+use crate::json::Node;
+use crate::number::Q;
+use crate::ring::Model;
+use crate::rules::{self, Found, Line};
+use crate::shape::{Address, End, Kind, Piece};
+use crate::{Rejected, Verdict, at, reject};
+
+/// Where a point sits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// An end of the start curve.
+    End(End),
+    /// The joint of two pieces of the state that a path reaches.
+    Joint {
+        /// The path.
+        path: Vec<usize>,
+        /// The piece before.
+        left: usize,
+        /// The piece after.
+        right: usize,
+    },
+    /// A point inside a curve, with one branch.
+    Inside(Address),
+    /// A point of a set, with the branch that is asked for.
+    OfSet(Address),
+}
+
+/// Which points a branch describes: earlier ones, later ones, or both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Left,
+    Right,
+    Both,
+}
+
+/// A checked point.
+pub struct Point {
+    /// Where it sits.
+    pub place: Place,
+    /// Whether it has a tangent line.
+    pub verdict: Verdict,
+    /// Its kind, such as `cusp`.
+    pub kind: &'static str,
+    /// A rational vector of its tangent line, where the certificate gives one.
+    pub common: Option<Vec<Q>>,
+}
+
+impl Place {
+    /// Reads a place.
+    pub fn read(node: &Node<'_>) -> Result<Self, Rejected> {
+        Ok(match node.tag("at")? {
+            "left end" => {
+                node.fields(["at"])?;
+                Self::End(End::Start)
+            }
+            "right end" => {
+                node.fields(["at"])?;
+                Self::End(End::Finish)
+            }
+            "joint" => {
+                let [_, path, left, right] = node.fields(["at", "path", "left", "right"])?;
+                let pieces = crate::case::MAX_PIECES;
+                Self::Joint { path: path.word()?, left: left.index(pieces)?, right: right.index(pieces)? }
+            }
+            "inside" => {
+                let [_, address] = node.fields(["at", "address"])?;
+                Self::Inside(rules::read_address(&address)?)
+            }
+            "of set" => {
+                let [_, address] = node.fields(["at", "address"])?;
+                Self::OfSet(rules::read_address(&address)?)
+            }
+            _ => return node.malformed("unknown place of a point"),
+        })
+    }
+
+    /// The branches of the point: for a curve through the outermost pieces that are more than a point.
+    fn branches(&self, model: &Model<'_>, root: &Root) -> Result<Vec<(Side, Address)>, Rejected> {
+        match self {
+            Self::End(end) => {
+                let side = if *end == End::Start { Side::Right } else { Side::Left };
+                Ok(vec![(side, end_branch(model, &[], root.state, *end)?)])
+            }
+            Self::Joint { path, left, right } => {
+                let state = model.shape.path(root.state, path).and_then(|p| p.last().copied());
+                let Some(state) = state else { return reject("joint", "", "a letter of the path does not exist") };
+                if !joints(model, state)?.contains(&(*left, *right)) {
+                    return reject("joint", "", "the pieces are no neighbours that are more than points");
+                }
+                let branch = |letter: usize, end: End| {
+                    let piece = &model.shape.states[state].pieces[letter];
+                    end_branch(model, &[path, &[letter][..]].concat(), piece.target, end.in_piece(piece))
+                };
+                let (before, after) = (branch(*left, End::Finish)?, branch(*right, End::Start)?);
+                let forward = model.shape.orientation(root.state, path) > 0;
+                let (first, second) = if forward { (before, after) } else { (after, before) };
+                Ok(vec![(Side::Left, first), (Side::Right, second)])
+            }
+            Self::Inside(address) | Self::OfSet(address) => Ok(vec![(Side::Both, address.clone())]),
+        }
+    }
+
+    /// The place of the point with a normalised address: an end, a joint, a point inside, or a point of a set.
+    pub fn of_address(model: &Model<'_>, address: &Address) -> Result<Self, Rejected> {
+        let shape = model.shape;
+        let unknown = || reject("word", "", "a letter of an address does not exist");
+        let Some(states) = shape.path(shape.start, &address.prefix) else { return unknown() };
+        let state = states[states.len() - 1];
+        let Some(cycle) = shape.path(state, &address.cycle) else { return unknown() };
+        if states.iter().chain(&cycle).any(|&e| shape.states[e].kind != Kind::Edge) {
+            return Ok(Self::OfSet(address.clone()));
+        }
+        let mut end = None;
+        for candidate in [End::Start, End::Finish] {
+            if end.is_none() && is_end(model, state, &address.cycle, candidate)? {
+                end = Some(candidate);
+            }
+        }
+        let Some(mut end) = end else { return Ok(Self::Inside(address.clone())) };
+        for (k, &letter) in address.prefix.iter().enumerate().rev() {
+            end = end.in_piece(&shape.states[states[k]].pieces[letter]);
+            let meets = |(l, r): &(usize, usize)| if end == End::Start { *r == letter } else { *l == letter };
+            if let Some((left, right)) = joints(model, states[k])?.into_iter().find(meets) {
+                return Ok(Self::Joint { path: address.prefix[..k].to_vec(), left, right });
+            }
+        }
+        Ok(Self::End(end))
+    }
+}
+
+/// The pairs of neighbouring pieces of a state that are more than points.
+pub fn joints(model: &Model<'_>, state: usize) -> Result<Vec<(usize, usize)>, Rejected> {
+    let pieces = &model.shape.states[state].pieces;
+    let mut solid = Vec::new();
+    for (k, piece) in pieces.iter().enumerate() {
+        if !model.spaces.is_point(piece)? {
+            solid.push(k);
+        }
+    }
+    Ok(solid.windows(2).map(|w| (w[0], w[1])).collect())
+}
+
+fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Result<Address, Rejected> {
+    let skip = |p: &Piece| model.spaces.is_point(p).unwrap_or(true);
+    match model.shape.end_address(state, end, &skip) {
+        Some(address) => Ok(Address { prefix: [path, &address.prefix].concat(), ..address }),
+        None => reject("end", "", "a curve all of whose pieces are points"),
+    }
+}
+
+/// Whether the fixed point of a cycle is this end of its cell: nothing but points lies on that side, for two turns.
+fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> Result<bool, Rejected> {
+    let (mut at, mut side) = (state, end);
+    for letter in cycle.iter().chain(cycle) {
+        let pieces = &model.shape.states[at].pieces;
+        let outside = if side == End::Start { 0..*letter } else { letter + 1..pieces.len() };
+        for i in outside {
+            if !model.spaces.is_point(&pieces[i])? {
+                return Ok(false);
+            }
+        }
+        side = side.in_piece(&pieces[*letter]);
+        at = pieces[*letter].target;
+    }
+    Ok(true)
+}
+
+impl Point {
+    /// Reads a point and checks what its certificate says.
+    pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Result<Self, Rejected> {
+        let [place_node, verdict, kind, rule, common, branches] =
+            node.fields(["place", "verdict", "kind", "rule", "common", "branches"])?;
+        let place = Place::read(&place_node)?;
+        let addresses = at(&place_node.place, place.branches(model, root))?;
+        let common = match common.value {
+            crate::json::Json::Null => None,
+            _ => Some(common.vector(root.view.rows)?),
+        };
+        let items = branches.list()?;
+        if items.len() != addresses.len() {
+            return reject("point", &branches.place, format!("the point has {} branches", addresses.len()));
+        }
+        let mut found: Vec<(Side, Option<Found>)> = Vec::new();
+        for ((side, address), item) in addresses.iter().zip(&items) {
+            let result = match item.value {
+                crate::json::Json::Null => None,
+                _ => Some(rules::check(model, root, address, item)?),
+            };
+            found.push((*side, result));
+        }
+        let point = at(&node.place, conclude(place, rule.text()?, common, &found))?;
+        if verdict.text()? != point.verdict.word() {
+            return reject("point", &verdict.place, format!("what follows is \"{}\"", point.verdict.word()));
+        }
+        if kind.text()? != point.kind {
+            return reject("point", &kind.place, format!("the kind is \"{}\"", point.kind));
+        }
+        Ok(point)
+    }
+}
+
+/// The conclusions: `plane` (a branch has more than one dimension), `line` (all branches have the same line), `differ` (the
+/// two branches have different lines, or their tangent subspaces contain different lines).
+fn conclude(
+    place: Place,
+    rule: &str,
+    common: Option<Vec<Q>>,
+    found: &[(Side, Option<Found>)],
+) -> Result<Point, Rejected> {
+    let mut lines: Vec<(Side, &Line)> = Vec::new();
+    let (mut planes, mut directions) = (0, Vec::new());
+    for (side, result) in found {
+        match result {
+            Some(Found::Line(line)) => lines.push((*side, line)),
+            Some(Found::Direction(line)) => directions.push(line),
+            Some(Found::Plane) => planes += 1,
+            None => {}
+        }
+    }
+    if rule == "plane" {
+        if planes != 1 || !lines.is_empty() || !directions.is_empty() || common.is_some() {
+            return reject("plane", "", "one branch with a plane, and nothing else, is needed");
+        }
+        return Ok(Point { place, verdict: Verdict::Refuted, kind: "none", common: None });
+    }
+    if rule == "differ" {
+        let contained: Vec<&Line> = lines.iter().map(|(_, line)| *line).chain(directions).collect();
+        let ([a, b], true) = (&contained[..], common.is_none() && found.len() == 2) else {
+            return reject("differ", "", "two branches with a line each, and nothing else, are needed");
+        };
+        if !a.differs(b) {
+            return reject("differ", "", "the two lines are not seen to be different");
+        }
+        let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
+        return Ok(Point {
+            place,
+            verdict: Verdict::Refuted,
+            kind: if corner { "corner" } else { "none" },
+            common: None,
+        });
+    }
+    if lines.len() != found.len() {
+        return reject("point", "", "every branch needs a proved line");
+    }
+    match (rule, &lines[..]) {
+        ("line", [(first_side, first), rest @ ..]) => {
+            let (mut left, mut right) = (Vec::new(), Vec::new());
+            let base = match &common {
+                Some(vector) => first.along(vector)?,
+                None => Some(1),
+            };
+            let Some(base) = base else { return reject("line", "", "the common vector is not on the line") };
+            add_rays(*first_side, first, base, &mut left, &mut right);
+            for (side, line) in rest {
+                let relation = match &common {
+                    Some(vector) => line.along(vector)?,
+                    None => line.agrees(first)?,
+                };
+                let Some(relation) = relation else { return reject("line", "", "the lines are not seen to agree") };
+                add_rays(*side, line, relation, &mut left, &mut right);
+            }
+            let kind = kind(&place, &left, &right);
+            Ok(Point { place, verdict: Verdict::Proved, kind, common })
+        }
+        _ => reject("point", "", "the rule is \"line\", \"differ\" (two branches) or \"plane\""),
+    }
+}
+
+fn add_rays(side: Side, line: &Line, factor: i32, left: &mut Vec<i32>, right: &mut Vec<i32>) {
+    if side != Side::Right {
+        left.extend(line.left.iter().map(|s| s * factor));
+    }
+    if side != Side::Left {
+        right.extend(line.right.iter().map(|s| s * factor));
+    }
+}
+
+/// The kind from the rays of the two sides.
+fn kind(place: &Place, left: &[i32], right: &[i32]) -> &'static str {
+    match (left, right) {
+        ([_, _], _) | (_, [_, _]) => "oscillating",
+        ([_], []) | ([], [_]) if matches!(place, Place::End(_) | Place::OfSet(_)) => "half-tangent",
+        ([a], [b]) if a == b => "cusp",
+        ([_], [_]) => "regular",
+        _ => "none",
+    }
+}

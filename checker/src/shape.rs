@@ -1,0 +1,369 @@
+//! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
+
+use crate::matrix::{Matrix, difference};
+use crate::number::{Q, spend};
+use crate::{MAX_LETTERS, Rejected, reject};
+
+/// What a state stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A point.
+    Vertex,
+    /// A curve; its pieces are in the order of the parameter.
+    Edge,
+    /// A set without order.
+    Set,
+}
+
+/// A piece `op · A_target` of a state.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// The state whose attractor is mapped.
+    pub target: usize,
+    /// The operator.
+    pub op: Matrix,
+    /// Whether it runs against the parameter.
+    pub reversed: bool,
+}
+
+/// A state of the automaton.
+#[derive(Debug)]
+pub struct State {
+    /// What it stands for.
+    pub kind: Kind,
+    /// Number of barycentric coordinates.
+    pub dim: usize,
+    /// Its pieces, by letter.
+    pub pieces: Vec<Piece>,
+    /// The boundary operator at the start: vertex and matrix.
+    pub left: Option<(usize, Matrix)>,
+    /// The boundary operator at the finish.
+    pub right: Option<(usize, Matrix)>,
+}
+
+/// An automaton of operators with a start state and a map into the space where the shape is looked at.
+#[derive(Debug)]
+pub struct Shape {
+    /// The states.
+    pub states: Vec<State>,
+    /// The start.
+    pub start: usize,
+    /// Control points (one column each), or the identity.
+    pub view: Matrix,
+}
+
+/// An eventually periodic address.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Address {
+    /// Letters before the cycle.
+    pub prefix: Vec<usize>,
+    /// The repeated letters.
+    pub cycle: Vec<usize>,
+}
+
+impl Address {
+    /// Reads `01(10)` or `3,12(0,4)`.
+    pub fn parse(text: &str) -> Option<Self> {
+        let body = text.trim().strip_suffix(')')?;
+        let (prefix, cycle) = body.split_once('(')?;
+        let commas = body.contains(',');
+        let word = |part: &str| -> Option<Vec<usize>> {
+            let part = part.trim().trim_end_matches(',');
+            match (part.is_empty(), commas) {
+                (true, _) => Some(Vec::new()),
+                (_, true) => part.split(',').map(|s| s.trim().parse().ok()).collect(),
+                _ => part.chars().map(|c| c.to_digit(10).map(|d| d as usize)).collect(),
+            }
+        };
+        let (prefix, cycle) = (word(prefix)?, word(cycle)?);
+        (!cycle.is_empty() && prefix.len() + cycle.len() <= MAX_LETTERS).then_some(Self { prefix, cycle })
+    }
+
+    /// The letter at a position of the infinite word.
+    pub fn letter(&self, k: usize) -> usize {
+        match self.prefix.get(k) {
+            Some(letter) => *letter,
+            None => self.cycle[(k - self.prefix.len()) % self.cycle.len()],
+        }
+    }
+
+    /// The address whose sequence of (state, letter) pairs is written with the shortest prefix and the shortest period.
+    pub fn normalise(&self, shape: &Shape, start: usize) -> Option<Self> {
+        // After the prefix and one round of the cycle per state, the pairs repeat.
+        let length = self.prefix.len() + self.cycle.len() * (shape.states.len() + 1);
+        if length > 10 * MAX_LETTERS {
+            return None;
+        }
+        let mut pairs = Vec::new();
+        let mut state = start;
+        for k in 0..3 * length {
+            let letter = self.letter(k);
+            pairs.push((state, letter));
+            state = shape.states[state].pieces.get(letter)?.target;
+        }
+        // The tail is twice as long as its shortest period can be, so that no shorter one passes by accident.
+        let repeats = |from: usize, p: usize| (from..3 * length - p).all(|k| pairs[k] == pairs[k + p]);
+        let period = (1..=length).find(|&p| repeats(length, p))?;
+        let prefix = (0..=length).find(|&from| repeats(from, period))?;
+        let letters = |range: std::ops::Range<usize>| pairs[range].iter().map(|p| p.1).collect();
+        Some(Self { prefix: letters(0..prefix), cycle: letters(prefix..prefix + period) })
+    }
+}
+
+/// An end of a curve; `Finish` is where its parameter ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The start.
+    Start,
+    /// The finish.
+    Finish,
+}
+
+impl End {
+    /// The end of a piece that lies at this end of its state.
+    pub fn in_piece(self, piece: &Piece) -> Self {
+        match (self, piece.reversed) {
+            (end, false) => end,
+            (Self::Start, true) => Self::Finish,
+            (Self::Finish, true) => Self::Start,
+        }
+    }
+}
+
+impl Shape {
+    /// The states that can be reached, breadth first.
+    pub fn reachable(&self) -> Vec<usize> {
+        let mut order = vec![self.start];
+        let mut next = 0;
+        while next < order.len() {
+            for piece in &self.states[order[next]].pieces {
+                if !order.contains(&piece.target) {
+                    order.push(piece.target);
+                }
+            }
+            next += 1;
+        }
+        order
+    }
+
+    /// The states passed when a word is read, or `None` where a letter does not exist.
+    pub fn path(&self, from: usize, word: &[usize]) -> Option<Vec<usize>> {
+        let mut states = vec![from];
+        for &letter in word {
+            let last = states[states.len() - 1];
+            states.push(self.states[last].pieces.get(letter)?.target);
+        }
+        Some(states)
+    }
+
+    /// The product of the operators of a word and the state where it ends.
+    pub fn product(&self, from: usize, word: &[usize]) -> Result<(Matrix, usize), Rejected> {
+        let mut state = from;
+        let mut product = Matrix::identity(self.states[from].dim);
+        for &letter in word {
+            let Some(piece) = self.states[state].pieces.get(letter) else {
+                return reject("word", "", format!("letter {letter} of a word does not exist"));
+            };
+            product = product.times(&piece.op)?;
+            state = piece.target;
+        }
+        Ok((product, state))
+    }
+
+    /// `+1` or `-1`: the product of the orientations along a word.
+    pub fn orientation(&self, from: usize, word: &[usize]) -> i32 {
+        let states = self.path(from, word).unwrap_or_default();
+        word.iter().zip(&states).map(|(&i, &e)| if self.states[e].pieces[i].reversed { -1 } else { 1 }).product()
+    }
+
+    /// The point with an address whose cycle returns to its state.
+    pub fn point(&self, from: usize, address: &Address) -> Result<Vec<Q>, Rejected> {
+        let (prefix, state) = self.product(from, &address.prefix)?;
+        let (cycle, back) = self.product(state, &address.cycle)?;
+        if back != state || address.cycle.is_empty() {
+            return reject("word", "", "the cycle of an address does not return to its state");
+        }
+        match cycle.fixed_point()? {
+            Some(fixed) => prefix.apply(&fixed),
+            None => reject("fixed-point", "", "a fixed point is not unique"),
+        }
+    }
+
+    /// The address of an end of the curve of a state, through its outermost pieces for which `skip` is false.
+    pub fn end_address(&self, state: usize, end: End, skip: &dyn Fn(&Piece) -> bool) -> Option<Address> {
+        let mut seen: Vec<(usize, End)> = Vec::new();
+        let mut letters: Vec<usize> = Vec::new();
+        let (mut at, mut side) = (state, end);
+        loop {
+            if let Some(k) = seen.iter().position(|s| *s == (at, side)) {
+                return Some(Address { prefix: letters[..k].to_vec(), cycle: letters[k..].to_vec() });
+            }
+            seen.push((at, side));
+            let pieces = &self.states[at].pieces;
+            let mut letters_in_order = 0..pieces.len();
+            let letter = match side {
+                End::Start => letters_in_order.find(|&i| !skip(&pieces[i]))?,
+                End::Finish => letters_in_order.rfind(|&i| !skip(&pieces[i]))?,
+            };
+            letters.push(letter);
+            side = side.in_piece(&pieces[letter]);
+            at = pieces[letter].target;
+        }
+    }
+
+    /// An end point of the curve of a state.
+    pub fn end_point(&self, state: usize, end: End) -> Result<Vec<Q>, Rejected> {
+        match self.end_address(state, end, &|_| false) {
+            Some(address) => self.point(state, &address),
+            None => reject("curve", "", "a state without pieces"),
+        }
+    }
+
+    /// Rule `curve`: in every reachable edge state each piece begins where the one before ends, and the boundary operators,
+    /// where the case gives them, satisfy the identities of incidence and adjacency.
+    pub fn check_curves(&self, reachable: &[usize]) -> Result<(), Rejected> {
+        for &e in reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
+            let pieces = &self.states[e].pieces;
+            for (j, pair) in pieces.windows(2).enumerate() {
+                let ends = pair[0].op.apply(&self.end_point(pair[0].target, End::Finish.in_piece(&pair[0]))?)?;
+                let begins = pair[1].op.apply(&self.end_point(pair[1].target, End::Start.in_piece(&pair[1]))?)?;
+                if ends != begins {
+                    return reject("curve", "", format!("pieces {j} and {} of state {e} do not meet", j + 1));
+                }
+                let (a, b) = (self.inner(&pair[0], End::Finish), self.inner(&pair[1], End::Start));
+                if let (Some((v, a)), Some((w, b))) = (a, b)
+                    && v == w
+                    && pair[0].op.times(a)? != pair[1].op.times(b)?
+                {
+                    return reject("curve", "", format!("the identity of adjacency fails in state {e}"));
+                }
+            }
+            let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { continue };
+            for (piece, outer, end) in
+                [(first, &self.states[e].left, End::Start), (last, &self.states[e].right, End::Finish)]
+            {
+                let (Some((v, outer)), Some((w, inner))) = (outer, self.inner(piece, end)) else { continue };
+                let vertex = &self.states[*v].pieces[0];
+                if vertex.target == *w && outer.times(&vertex.op)? != piece.op.times(inner)? {
+                    return reject("curve", "", format!("the identity of incidence fails in state {e}"));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn inner(&self, piece: &Piece, end: End) -> Option<&(usize, Matrix)> {
+        let target = &self.states[piece.target];
+        if end.in_piece(piece) == End::Start { target.left.as_ref() } else { target.right.as_ref() }
+    }
+}
+
+/// The relevant space of a state and its visible quotient.
+#[derive(Debug, Clone)]
+pub struct Space {
+    /// The point of the address that reads letter 0 for ever.
+    pub base: Vec<Q>,
+    /// A basis of `V_e` as rows, in reduced echelon form.
+    pub basis: Matrix,
+    /// The columns of the leading ones of the basis: reading them gives coordinates in `V_e`.
+    pub pivots: Vec<usize>,
+    /// Rows on coordinates of `V_e`, in reduced echelon form: coordinates of the visible quotient `W_e`.
+    pub visible: Matrix,
+}
+
+impl Space {
+    /// The matrix that reads the coordinates of a vector of `V_e`.
+    pub fn reading(&self) -> Matrix {
+        use num_traits::{One, Zero};
+        let one = |i: usize, j: usize| if self.pivots[i] == j { Q::one() } else { Q::zero() };
+        Matrix::from_fn(self.pivots.len(), self.basis.cols, one)
+    }
+}
+
+/// The spaces of all reachable states; the others keep empty ones.
+pub struct Spaces(Vec<Option<Space>>);
+
+impl Spaces {
+    /// The space of a reachable state.
+    pub fn of(&self, state: usize) -> Result<&Space, Rejected> {
+        match self.0.get(state) {
+            Some(Some(space)) => Ok(space),
+            _ => reject("word", "", "a state that cannot be reached"),
+        }
+    }
+
+    /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
+    pub fn new(shape: &Shape, reachable: &[usize]) -> Result<Self, Rejected> {
+        let mut base = vec![Vec::new(); shape.states.len()];
+        for &e in reachable {
+            let zero = Address { prefix: Vec::new(), cycle: vec![0] };
+            let Some(address) = zero.normalise(shape, e) else { return reject("word", "", "a state without pieces") };
+            base[e] = shape.point(e, &address)?;
+        }
+        let none = |e: usize| Matrix::from_rows(shape.states[e].dim, &[]);
+        let mut spans: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
+        for &e in reachable {
+            let offset = |p: &Piece| Ok(difference(&p.op.apply(&base[p.target])?, &base[e]));
+            let rows: Vec<Vec<Q>> = shape.states[e].pieces.iter().map(offset).collect::<Result<_, _>>()?;
+            spans[e] = Matrix::from_rows(shape.states[e].dim, &rows).echelon()?.0;
+        }
+        close(shape, reachable, &mut spans, |from, p| (p.target, from), |span, p| span.times(&p.op.transpose()))?;
+        let mut rows: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
+        rows[shape.start] = shape.view.echelon()?.0;
+        close(shape, reachable, &mut rows, |from, p| (from, p.target), |row, p| row.times(&p.op))?;
+        let mut spaces = vec![None; shape.states.len()];
+        for &e in reachable {
+            let (basis, pivots) = spans[e].echelon()?;
+            let visible = rows[e].times(&basis.transpose())?.echelon()?.0;
+            spaces[e] = Some(Space { base: base[e].clone(), basis, pivots, visible });
+        }
+        Ok(Self(spaces))
+    }
+
+    /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
+    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Result<Matrix, Rejected> {
+        self.of(to)?.reading().times(&op.times(&self.of(from)?.basis.transpose())?)
+    }
+
+    /// Whether a piece is a single point.
+    pub fn is_point(&self, piece: &Piece) -> Result<bool, Rejected> {
+        Ok(piece.op.times(&self.of(piece.target)?.basis.transpose())?.is_zero())
+    }
+
+    /// The map between visible quotients that a piece of a state induces.
+    pub fn on_visible(&self, state: usize, piece: &Piece) -> Result<Matrix, Rejected> {
+        let onto = self.of(state)?.visible.times(&self.linear(&piece.op, state, piece.target)?)?;
+        // Rows of `onto` are combinations of the echelon rows of the target; the leading columns give the coefficients.
+        let (_, pivots) = self.of(piece.target)?.visible.echelon()?;
+        let on_quotient = Matrix::from_fn(onto.rows, pivots.len(), |i, k| onto.at(i, pivots[k]).clone());
+        if on_quotient.times(&self.of(piece.target)?.visible)? != onto {
+            return reject("visible", "", "an operator does not act on the visible quotients");
+        }
+        Ok(on_quotient)
+    }
+}
+
+/// Enlarges a family of row spaces until it is closed: `images` of the space at the first state lie in that at the second.
+pub fn close(
+    shape: &Shape,
+    reachable: &[usize],
+    family: &mut [Matrix],
+    ends: impl Fn(usize, &Piece) -> (usize, usize),
+    images: impl Fn(&Matrix, &Piece) -> Result<Matrix, Rejected>,
+) -> Result<(), Rejected> {
+    loop {
+        let mut grown = false;
+        for &e in reachable {
+            for piece in &shape.states[e].pieces {
+                spend(1, 0)?;
+                let (from, to) = ends(e, piece);
+                let joined = family[to].stack(&images(&family[from], piece)?).echelon()?.0;
+                grown |= joined.rows > family[to].rows;
+                family[to] = joined;
+            }
+        }
+        if !grown {
+            return Ok(());
+        }
+    }
+}

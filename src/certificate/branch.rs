@@ -1,0 +1,168 @@
+//! Points and branches: which rule proves them, and the evidence it needs.
+
+use super::top::{elements, longest, top};
+use super::{Unsupported, address_json, numbers, tree, unsupported};
+use crate::jordan::{Eigenvalue, Spectrum};
+use crate::linalg::Matrix;
+use crate::shape::Shape;
+use crate::theorem::{BranchReport, Outcome, PointReport, RingProof, Statement, Verdict, Witness};
+use serde_json::{Value, json};
+
+/// A decided point.
+pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value, Unsupported> {
+    let mut common = Value::Null;
+    let mut branches = Vec::new();
+    let plane = |b: &&BranchReport| matches!(b.outcome, Outcome::AtLeast { dimension: 2.., .. });
+    let rule = match (point.verdict, point.branches.iter().find(plane)) {
+        (Verdict::Proved, _) => {
+            if let Some(vector) = point.tangent.as_ref().and_then(crate::theorem::Direction::rational) {
+                common = numbers(&vector);
+            } else if let [a, b] = &point.branches[..]
+                && !same_field(a, b)
+            {
+                return unsupported("equal irrational lines of different eigenvalues", branch_name(a));
+            }
+            "line"
+        }
+        (_, Some(refuted)) => {
+            for b in &point.branches {
+                let chosen = std::ptr::eq(b, refuted);
+                branches.push(if chosen { branch(shape, b)? } else { Value::Null });
+            }
+            "plane"
+        }
+        _ => "differ",
+    };
+    if branches.is_empty() {
+        branches = point.branches.iter().map(|b| branch(shape, b)).collect::<Result<_, _>>()?;
+    }
+    Ok(json!({
+        "place": place,
+        "verdict": point.verdict.word(),
+        "kind": point.kind.word(),
+        "rule": rule,
+        "common": common,
+        "branches": branches,
+    }))
+}
+
+fn branch_name(b: &BranchReport) -> String {
+    format!("branch {}", b.address)
+}
+
+fn same_field(a: &BranchReport, b: &BranchReport) -> bool {
+    let root = |b: &BranchReport| match &b.outcome {
+        Outcome::Line { eigenvalue: (f, r), .. } => Some(b.spectrum.factors[*f].roots[*r].clone()),
+        _ => None,
+    };
+    matches!((root(a), root(b)), (Some(x), Some(y)) if x.same(&y))
+}
+
+fn eigenvalue(pair: &(usize, usize)) -> Eigenvalue {
+    Eigenvalue { factor: pair.0, root: pair.1 }
+}
+
+fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
+    match &b.outcome {
+        Outcome::Line { statement: Statement::CorollaryLine, .. } => Ok(json!({"rule": "corollary-line"})),
+        Outcome::Line { eigenvalue: lead, block, functional, proof: Some(proof), .. } => Ok(json!({
+            "rule": if *block == 1 { "theorem-2" } else { "theorem-3" },
+            "top": top(&b.linear, &b.spectrum, eigenvalue(lead), &branch_name(b))?,
+            "functional": elements(functional),
+            "cover": tree::cover(shape, b, proof, None)?,
+        })),
+        Outcome::AtLeast { statement, eigenvalues, isolation, witness, .. } => {
+            let lead = eigenvalue(&eigenvalues[0]);
+            let top = top(&b.linear, &b.spectrum, lead, &branch_name(b))?;
+            match (statement, witness, isolation) {
+                (Statement::Corollary, _, _) => Ok(json!({"rule": "corollary", "top": top})),
+                (Statement::Theorem4, Some(witness), Some(isolation)) => {
+                    theorem4(shape, b, lead, &top, witness, isolation)
+                }
+                (Statement::Section6, Some(Witness::Crossing { part, positive, negative, cover, .. }), _) => {
+                    let Some(chain) = longest(&b.spectrum.factor(lead).left) else {
+                        return unsupported("an empty chain", branch_name(b));
+                    };
+                    Ok(json!({
+                        "rule": "crossing",
+                        "top": top,
+                        "second": elements(&chain.vectors[0]),
+                        "first": elements(&chain.vectors[1]),
+                        "positive": address_json(positive),
+                        "negative": address_json(negative),
+                        "cover": tree::cover(shape, b, cover, Some(*part))?,
+                    }))
+                }
+                _ => unsupported("this evidence", branch_name(b)),
+            }
+        }
+        Outcome::Open { direction: Some(_), .. } => {
+            let longest = b.spectrum.classes[0].members.iter().max_by_key(|m| b.spectrum.factor(**m).blocks[0]);
+            let Some(&lead) = longest else { return unsupported("an empty spectrum", branch_name(b)) };
+            Ok(json!({"rule": "direction", "top": top(&b.linear, &b.spectrum, lead, &branch_name(b))?}))
+        }
+        _ => unsupported("a branch that is not decided", branch_name(b)),
+    }
+}
+
+fn theorem4(
+    shape: &Shape,
+    b: &BranchReport,
+    lead: Eigenvalue,
+    top: &Value,
+    witness: &Witness,
+    isolation: &RingProof,
+) -> Result<Value, Unsupported> {
+    let Some(chain) = longest(&b.spectrum.factor(lead).left) else {
+        return unsupported("an empty chain", branch_name(b));
+    };
+    let functional = elements(&chain.vectors[0]);
+    let simple = chain.vectors.len() == 1 && b.view.rank() == b.linear.rows();
+    match witness {
+        Witness::Point { address, .. } if simple => Ok(json!({
+            "rule": "null-point",
+            "top": top,
+            "functional": functional,
+            "address": address_json(address),
+        })),
+        Witness::Point { address, offset } => {
+            let hull = krylov(&b.linear, offset);
+            let images = &hull.rows * &b.linear.transpose();
+            let k = hull.rows.rows();
+            let linear = Matrix::from_fn(k, k, |i, j| images[(j, hull.pivots[i])].clone());
+            let spectrum = Spectrum::of(&linear);
+            let longest = spectrum.classes[0].members.iter().max_by_key(|m| spectrum.factor(**m).blocks[0]);
+            let Some(&own) = longest else { return unsupported("an empty hull", branch_name(b)) };
+            Ok(json!({
+                "rule": "orbit",
+                "top": top,
+                "address": address_json(address),
+                "own": super::top::top(&linear, &spectrum, own, &branch_name(b))?,
+            }))
+        }
+        Witness::SignChange { positive, negative, .. } if simple => Ok(json!({
+            "rule": "sign-change",
+            "top": top,
+            "functional": functional,
+            "isolation": tree::cover(shape, b, isolation, None)?,
+            "positive": address_json(positive),
+            "negative": address_json(negative),
+        })),
+        Witness::SignChange { positive, .. } => {
+            unsupported("a change of sign seen through a map that is not injective", positive.to_string())
+        }
+        Witness::Crossing { positive, .. } => unsupported("this evidence", positive.to_string()),
+    }
+}
+
+/// The cyclic hull of `x`, as rows in echelon form.
+fn krylov(linear: &Matrix, x: &[crate::arith::Rational]) -> crate::linalg::Echelon {
+    let mut rows = Matrix::from_rows(x.len(), vec![x.to_vec()]).echelon();
+    loop {
+        let grown = rows.rows.stack(&(&rows.rows * &linear.transpose())).echelon();
+        if grown.pivots.len() == rows.pivots.len() {
+            return rows;
+        }
+        rows = grown;
+    }
+}

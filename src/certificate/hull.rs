@@ -1,0 +1,45 @@
+//! Convex hulls that hold the attractors, with the coefficients that show it.
+
+use super::{Unsupported, number, numbers, unsupported};
+use crate::arith::Rational;
+use crate::linalg::Matrix;
+use crate::shape::Shape;
+use serde_json::{Value, json};
+
+/// The vertices of the hull of a state, and the images of the hulls of its pieces as convex combinations.
+pub fn hull(shape: &Shape, state: usize, hulls: &[Vec<Vec<Rational>>]) -> Result<Value, Unsupported> {
+    let vertices = &hulls[state];
+    let mut images = Vec::new();
+    for piece in &shape.states[state].pieces {
+        let combinations = hulls[piece.target].iter().map(|v| combination(vertices, &piece.op.apply(v)));
+        let Some(combinations) = combinations.collect::<Option<Vec<Value>>>() else {
+            return unsupported("a hull that is not mapped into itself", shape.states[state].name.clone());
+        };
+        images.push(Value::Array(combinations));
+    }
+    let points: Vec<Value> = vertices.iter().map(|v| numbers(v)).collect();
+    Ok(json!({"points": points, "images": images}))
+}
+
+/// The point as a convex combination of the vertices of one triangle (or segment, or point) of a fan.
+fn combination(vertices: &[Vec<Rational>], point: &[Rational]) -> Option<Value> {
+    let n = vertices.len();
+    let corners: Vec<Vec<usize>> = match n {
+        0 => return None,
+        1 => vec![vec![0]],
+        2 => vec![vec![0, 1]],
+        _ => (1..n - 1).map(|k| vec![0, k, k + 1]).collect(),
+    };
+    let target = Matrix::from_columns(point.len(), &[point.to_vec()]);
+    for corners in corners {
+        let columns: Vec<Vec<Rational>> = corners.iter().map(|&k| vertices[k].clone()).collect();
+        // All points have coordinate sum 1, so the weights add up to 1 by themselves.
+        let Some(weights) = Matrix::from_columns(point.len(), &columns).solve(&target) else { continue };
+        let weights = weights.column(0);
+        if weights.iter().all(|w| *w >= 0) {
+            let terms = corners.iter().zip(&weights).filter(|(_, w)| **w != 0);
+            return Some(terms.map(|(k, w)| json!({"vertex": k, "weight": number(w)})).collect());
+        }
+    }
+    None
+}

@@ -1,0 +1,229 @@
+//! Certificates: everything that is needed to prove a verdict again without search, as `docs/certificate.md` specifies.
+//!
+//! The writer only collects what the theorem checker found. Whether it proves anything is decided by `secant-check`, which
+//! shares no code with this crate.
+
+mod branch;
+mod hull;
+mod radius;
+mod top;
+mod tree;
+
+use crate::arith::Rational;
+use crate::case::Case;
+use crate::shape::{Address, CellKind, Contraction};
+use crate::theorem::{Certified, PointReport, Role, Statement, Verdict};
+use serde_json::{Value, json};
+use thiserror::Error;
+
+/// A certificate in the format of `docs/certificate.md`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Certificate {
+    json: Value,
+}
+
+/// Why there is no certificate: something in the verdict has no rule in the format.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("no rule of the certificate format covers {what} ({place})")]
+pub struct Unsupported {
+    /// What cannot be expressed.
+    pub what: String,
+    /// Where it occurs.
+    pub place: String,
+}
+
+fn unsupported<T>(what: impl Into<String>, place: impl Into<String>) -> Result<T, Unsupported> {
+    Err(Unsupported { what: what.into(), place: place.into() })
+}
+
+impl Certificate {
+    /// The certificate as JSON.
+    #[must_use]
+    pub fn json(&self) -> &Value {
+        &self.json
+    }
+
+    /// The text of the certificate file: one line for each point and each answer.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut text = String::from("{");
+        let fields = self.json.as_object().into_iter().flatten();
+        for (k, (name, value)) in fields.enumerate() {
+            text += if k == 0 { "\n" } else { ",\n" };
+            text += &format!(" {}: ", json!(name));
+            match value {
+                Value::Array(items) if !items.is_empty() => {
+                    let lines: Vec<String> = items.iter().map(|item| format!("  {item}")).collect();
+                    text += &format!("[\n{}\n ]", lines.join(",\n"));
+                }
+                other => text += &other.to_string(),
+            }
+        }
+        text + "\n}\n"
+    }
+}
+
+/// Writes the certificate of what was found for a case.
+///
+/// # Errors
+/// [`Unsupported`] where a decided point or claim has no rule in the format, or contraction is not proved.
+///
+/// # Cost
+/// Linear in the evidence, apart from the choice of radii between neighbouring moduli.
+pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupported> {
+    let Contraction::Proved(contraction) = &found.contraction else {
+        return unsupported("a system whose contraction is not proved", "contraction");
+    };
+    let mut states = Vec::new();
+    for report in &found.states {
+        let code = tree::code(&case.shape, report.state, &contraction.codes[report.state])?;
+        let hull = match &found.polygons {
+            Some(polygons) => hull::hull(&case.shape, report.state, polygons)?,
+            None => Value::Null,
+        };
+        states.push(json!({"state": report.state, "radius": number(&report.radius), "code": code, "hull": hull}));
+    }
+    let mut points = Points { case, places: Vec::new(), json: Vec::new() };
+    for point in &found.points {
+        points.add(point)?;
+    }
+    let answers = answers(case, found, &points)?;
+    let json = json!({
+        "format": "secant certificate",
+        "version": 1,
+        "case": case.name,
+        "verdict": found.verdict.word(),
+        "contraction": states,
+        "points": points.json,
+        "answers": answers,
+    });
+    Ok(Certificate { json })
+}
+
+fn number(x: &Rational) -> Value {
+    Value::String(x.to_string())
+}
+
+fn numbers(v: &[Rational]) -> Value {
+    v.iter().map(number).collect()
+}
+
+fn address_json(address: &Address) -> Value {
+    json!({"prefix": address.prefix, "cycle": address.cycle})
+}
+
+fn place_json(point: &PointReport) -> Value {
+    match &point.role {
+        Role::LeftEnd => json!({"at": "left end"}),
+        Role::RightEnd => json!({"at": "right end"}),
+        Role::Joint { path, left, right, .. } => json!({"at": "joint", "path": path, "left": left, "right": right}),
+        Role::Interior => json!({"at": "inside", "address": address_json(&point.branches[0].address)}),
+        Role::SetPoint => json!({"at": "of set", "address": address_json(&point.branches[0].address)}),
+    }
+}
+
+/// The decided points, each once.
+struct Points<'a> {
+    case: &'a Case,
+    places: Vec<Value>,
+    json: Vec<Value>,
+}
+
+impl Points<'_> {
+    fn add(&mut self, point: &PointReport) -> Result<(), Unsupported> {
+        let place = place_json(point);
+        if point.verdict != Verdict::Undetermined && !self.places.contains(&place) {
+            self.json.push(branch::point(&self.case.shape, point, &place)?);
+            self.places.push(place);
+        }
+        Ok(())
+    }
+
+    /// The indices of the decided points among those for which `wanted` holds.
+    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Vec<usize> {
+        let places = found.points.iter().filter(|p| wanted(p)).map(place_json);
+        let mut indices: Vec<usize> = places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
+        indices.sort_unstable();
+        indices.dedup();
+        indices
+    }
+}
+
+/// The answers to the questions of the case, in their order.
+fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Value>, Unsupported> {
+    let shape = &case.shape;
+    let curve = shape.states[shape.start].kind == CellKind::Edge;
+    let mut answers = Vec::new();
+    if curve {
+        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd));
+        let verdict = found.claims.first().map_or(Verdict::Undetermined, |c| c.verdict);
+        answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
+        answers.push(joints(case, found, points)?);
+    }
+    let mut asked: Vec<Address> = Vec::new();
+    if !curve {
+        let pieces = shape.states[shape.start].pieces.iter().enumerate();
+        asked.extend(pieces.filter(|(_, p)| p.target == shape.start).map(|(i, _)| Address::periodic(vec![i])));
+    }
+    for address in &case.examine {
+        match address.normalise(shape, shape.start) {
+            Ok(address) if asked.contains(&address) => {}
+            Ok(address) => asked.push(address),
+            Err(error) => return unsupported(error.to_string(), "examine"),
+        }
+    }
+    // Addresses that were asked for besides those of the case come after them.
+    let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict, c.asked.as_ref()?))).collect();
+    for (_, (address, _)) in &claims {
+        if !asked.contains(address) {
+            asked.push(address.clone());
+        }
+    }
+    for address in &asked {
+        let claim = claims.iter().find(|(_, (a, _))| a == address);
+        let (verdict, place) = match claim {
+            Some((verdict, (_, k))) => (*verdict, Some(place_json(&found.points[*k]))),
+            None => (Verdict::Undetermined, None),
+        };
+        let index: Vec<usize> = points.places.iter().position(|p| Some(p) == place.as_ref()).into_iter().collect();
+        let address = address_json(address);
+        answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
+    }
+    if let Some(similarities) = &found.similarities {
+        let gram = &similarities.gram;
+        let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();
+        answers.push(json!({"question": "any point", "verdict": "refuted", "products": [product]}));
+    }
+    Ok(answers)
+}
+
+fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
+    let claim = found.claims.get(1);
+    let mut verdict = claim.map_or(Verdict::Undetermined, |c| c.verdict);
+    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
+    let mut upstairs = Vec::new();
+    let theorem = match (verdict, claim.and_then(|c| c.statement)) {
+        (Verdict::Proved, Some(Statement::Theorem5)) => "5",
+        (Verdict::Proved, Some(Statement::Theorem5Projected)) => {
+            for point in found.dense.iter().flat_map(|d| &d.upstairs) {
+                let Role::Joint { state, left, right, .. } = &point.role else { continue };
+                let place = json!({"at": "joint", "path": [], "left": left, "right": right});
+                let point = branch::point(&case.shape, point, &place)?;
+                upstairs.push(json!({"state": state, "point": point}));
+            }
+            "5'"
+        }
+        (Verdict::Proved, _) => return unsupported("this theorem", "joints"),
+        _ => "none",
+    };
+    if found.points.iter().any(|p| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted) {
+        verdict = Verdict::Refuted;
+    }
+    Ok(json!({
+        "question": "joints",
+        "verdict": verdict.word(),
+        "theorem": theorem,
+        "points": listed,
+        "upstairs": upstairs,
+    }))
+}

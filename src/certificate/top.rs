@@ -1,0 +1,143 @@
+//! The part of a spectrum with the largest modulus, in a form that is checked without factorisation.
+
+use super::{Unsupported, number, numbers, radius, unsupported};
+use crate::algebraic::{Elem, Root};
+use crate::arith::{Integer, Interval, Rational, abs};
+use crate::jordan::{Chain, Eigenvalue, Spectrum};
+use crate::linalg::Matrix;
+use crate::poly::Poly;
+use serde_json::{Value, json};
+
+/// An element of a number field: its coefficients, lowest first.
+pub fn element(e: &Elem) -> Value {
+    numbers(e.0.coeffs())
+}
+
+/// A vector of elements.
+pub fn elements(v: &[Elem]) -> Value {
+    v.iter().map(element).collect()
+}
+
+/// Evidence for the top of the spectrum of `linear`; `lead` is the eigenvalue whose root generates the field.
+pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) -> Result<Value, Unsupported> {
+    let Some(radius) = radius::between(spectrum) else { return unsupported("moduli this close", place) };
+    let members = &spectrum.classes[0].members;
+    if members.iter().all(|&m| spectrum.root(m).is_real()) {
+        let plus = members.iter().filter(|&&m| spectrum.root(m).same(spectrum.root(lead)));
+        let most = plus.map(|&m| spectrum.factor(m).blocks.len()).max().unwrap_or(0);
+        let others = members.iter().map(|&m| spectrum.factor(m).blocks.len()).max().unwrap_or(0);
+        if most.max(others) <= 2 {
+            return Ok(real(spectrum, lead, &radius));
+        }
+    }
+    let simple = |m: &Eigenvalue| spectrum.factor(*m).multiplicity == 1;
+    if members.len() == 2 && members.iter().all(simple) && !spectrum.root(members[0]).is_real() {
+        return Ok(pair(spectrum, &radius));
+    }
+    match conformal(linear, spectrum, &radius) {
+        Some(value) => Ok(value),
+        None => unsupported("a group of equal moduli that is neither real, nor one pair, nor conformal", place),
+    }
+}
+
+fn real(spectrum: &Spectrum, lead: Eigenvalue, radius: &Rational) -> Value {
+    let root = spectrum.root(lead);
+    let interval = root.enclosure(512).0;
+    let mut chains = Vec::new();
+    for &member in &spectrum.classes[0].members {
+        let same = spectrum.root(member).same(root);
+        for chain in &spectrum.factor(member).right {
+            let vectors: Value = chain.vectors.iter().map(|v| elements(&mirrored(v, same))).collect();
+            chains.push(json!({"sign": if same { "+" } else { "-" }, "vectors": vectors}));
+        }
+    }
+    json!({
+        "top": "real",
+        "radius": number(radius),
+        "polynomial": numbers(root.minpoly().coeffs()),
+        "interval": [number(&interval.lo), number(&interval.hi)],
+        "chains": chains,
+    })
+}
+
+/// The vector at `-θ` written at `θ`: `x` becomes `-x`.
+fn mirrored(v: &[Elem], same: bool) -> Vec<Elem> {
+    let flip = |e: &Elem| {
+        let coefficients = e.0.coeffs().iter().enumerate();
+        Elem(Poly::new(coefficients.map(|(k, c)| if k % 2 == 1 { -c } else { c.clone() }).collect()))
+    };
+    v.iter().map(|e| if same { e.clone() } else { flip(e) }).collect()
+}
+
+fn pair(spectrum: &Spectrum, radius: &Rational) -> Value {
+    let members = &spectrum.classes[0].members;
+    let upper = |root: &&Root| root.enclosure(64).1.lo > 0;
+    let roots = [spectrum.root(members[0]), spectrum.root(members[1])];
+    let root = roots.into_iter().find(upper).unwrap_or(roots[0]);
+    let (re, im) = root.enclosure(200);
+    let centre = |x: &Interval| number(&Interval::point(x.mid()).outward(200).lo);
+    let error = Rational::from(1) / Rational::from(Integer::from(1) << 120u64);
+    json!({
+        "top": "pair",
+        "radius": number(radius),
+        "centre": [centre(&re), centre(&im)],
+        "error": number(&error),
+    })
+}
+
+/// A rational invariant space with a scalar product that `L` stretches, where all eigenvalues are semisimple and the square
+/// of their modulus is rational.
+fn conformal(linear: &Matrix, spectrum: &Spectrum, radius: &Rational) -> Option<Value> {
+    let members = &spectrum.classes[0].members;
+    let mut factors: Vec<usize> = members.iter().map(|m| m.factor).collect();
+    factors.dedup();
+    let listed: usize = factors.iter().map(|&f| spectrum.factors[f].roots.len()).sum();
+    if listed != members.len() || factors.iter().any(|&f| spectrum.factors[f].blocks[0] != 1) {
+        return None;
+    }
+    let first = &spectrum.factors[factors[0]].poly;
+    let square = match first.degree()? {
+        1 => first.coeff(0) * first.coeff(0),
+        2 => abs(&first.coeff(0)),
+        _ => return None,
+    };
+    let n = linear.rows();
+    let product =
+        factors.iter().fold(Matrix::identity(n), |acc, &f| &acc * &evaluate(&spectrum.factors[f].poly, linear));
+    let space = product.kernel().transpose().echelon();
+    let k = space.rows.rows();
+    let images = &space.rows * &linear.transpose();
+    let b = Matrix::from_fn(k, k, |i, j| images[(i, space.pivots[j])].clone());
+    let gram = invariant_product(&b, &square)?;
+    let rows = |m: &Matrix| -> Value { (0..m.rows()).map(|i| numbers(m.row(i))).collect() };
+    Some(json!({
+        "top": "conformal",
+        "radius": number(radius),
+        "basis": rows(&space.rows),
+        "gram": rows(&gram),
+        "square": number(&square),
+    }))
+}
+
+fn evaluate(p: &Poly, at: &Matrix) -> Matrix {
+    let n = at.rows();
+    p.coeffs().iter().rev().fold(Matrix::zero(n, n), |acc, c| &(&acc * at) + &Matrix::identity(n).scale(c))
+}
+
+/// The mean of the identity under `H -> B H Bᵀ / c`: its component that is fixed, along the image of `Φ − 1`.
+fn invariant_product(b: &Matrix, square: &Rational) -> Option<Matrix> {
+    let k = b.rows();
+    let entry = |i: usize, j: usize| &b[(i / k, j / k)] * &b[(i % k, j % k)] / square;
+    let moved = &Matrix::from_fn(k * k, k * k, entry) - &Matrix::identity(k * k);
+    let fixed = moved.kernel();
+    let spanning = fixed.transpose().stack(&moved.transpose()).transpose();
+    let identity = Matrix::from_fn(k * k, 1, |i, _| Rational::from(u8::from(i / k == i % k)));
+    let weights = spanning.solve(&identity)?;
+    let mean = &fixed * &Matrix::from_fn(fixed.cols(), 1, |i, _| weights[(i, 0)].clone());
+    Some(Matrix::from_fn(k, k, |i, j| mean[(i * k + j, 0)].clone()))
+}
+
+/// The longest chain of a list.
+pub fn longest(chains: &[Chain]) -> Option<&Chain> {
+    chains.iter().max_by_key(|c| c.vectors.len())
+}

@@ -1,0 +1,62 @@
+//! Every decided case gets a certificate, and the checker accepts it.
+
+use secant::case::Case;
+use secant::certificate::certificate;
+use secant::theorem::certify;
+use std::path::{Path, PathBuf};
+
+fn case_files(dir: &Path, found: &mut Vec<PathBuf>) {
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            case_files(&path, found);
+        } else if path.extension().is_some_and(|e| e == "toml") {
+            found.push(path);
+        }
+    }
+}
+
+fn corpus() -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    case_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases"), &mut files);
+    files.retain(|f| !f.components().any(|c| c.as_os_str() == "refused"));
+    files
+}
+
+#[test]
+fn every_case_has_a_certificate_that_passes() {
+    let mut mistakes = Vec::new();
+    let (mut bytes, mut count, mut prove, mut check) = (0, 0, std::time::Duration::ZERO, std::time::Duration::ZERO);
+    for path in corpus() {
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let case = Case::read(&path).unwrap();
+        let begin = std::time::Instant::now();
+        let Ok(found) = certify(&case.shape, &case.examine) else { continue };
+        prove += begin.elapsed();
+        let text = match certificate(&case, &found) {
+            Ok(certificate) => certificate.text(),
+            Err(error) => {
+                mistakes.push(format!("{name}: {error}"));
+                continue;
+            }
+        };
+        if let Ok(dir) = std::env::var("SECANT_WRITE_CERTIFICATES") {
+            std::fs::write(Path::new(&dir).join(format!("{name}.json")), &text).unwrap();
+        }
+        (bytes, count) = (bytes + text.len(), count + 1);
+        let begin = std::time::Instant::now();
+        let checked = secant_check::check(&case.text.text, &text);
+        check += begin.elapsed();
+        match checked {
+            Ok(accepted) if accepted.verdict.word() == found.verdict.word() => {}
+            Ok(accepted) => {
+                mistakes.push(format!("{name}: {} instead of {}", accepted.verdict.word(), found.verdict.word()))
+            }
+            Err(rejected) => mistakes.push(format!("{name}: {rejected}")),
+        }
+    }
+    println!("{count} certificates, {bytes} bytes; proved in {prove:?}, checked in {check:?}");
+    assert!(mistakes.is_empty(), "{}", mistakes.join("\n"));
+    assert!(count >= 60, "only {count} certificates");
+}
