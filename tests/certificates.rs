@@ -55,7 +55,9 @@ fn every_case_has_a_certificate_that_passes() {
         check += begin.elapsed();
         match checked {
             Ok(accepted) if accepted.verdict.word() == found.verdict.word() => {}
-            Ok(accepted) => mistakes.push(format!("{name}: {} instead of {}", accepted.verdict.word(), found.verdict.word())),
+            Ok(accepted) => {
+                mistakes.push(format!("{name}: {} instead of {}", accepted.verdict.word(), found.verdict.word()))
+            }
             Err(rejected) => mistakes.push(format!("{name}: {rejected}")),
         }
     }

@@ -283,8 +283,19 @@ pub fn read(source: &str) -> Result<Case, Problem> {
     known(
         case,
         &[
-            "name", "title", "source", "kind", "convention", "pieces", "reversed", "map", "start", "state", "control",
-            "examine", "expect",
+            "name",
+            "title",
+            "source",
+            "kind",
+            "convention",
+            "pieces",
+            "reversed",
+            "map",
+            "start",
+            "state",
+            "control",
+            "examine",
+            "expect",
         ],
     )?;
     let reader = Reader { bits: Cell::new(0) };

@@ -143,7 +143,11 @@ impl Claims<'_> {
             }
         };
         if !what || verdict.text()? != found.word() {
-            return reject("answers", &node.place, format!("another question, or what follows is \"{}\"", found.word()));
+            return reject(
+                "answers",
+                &node.place,
+                format!("another question, or what follows is \"{}\"", found.word()),
+            );
         }
         Ok(found)
     }
@@ -206,7 +210,13 @@ impl Claims<'_> {
                     "the joints listed and every joint whose line upstairs is not killed, a dense set"
                 }
             }
-            _ => return reject("joints", &theorem.place, "a theorem proves that joints have tangents; \"none\" otherwise"),
+            _ => {
+                return reject(
+                    "joints",
+                    &theorem.place,
+                    "a theorem proves that joints have tangents; \"none\" otherwise",
+                );
+            }
         };
         let verdict = verdict.unwrap_or(Verdict::Undetermined);
         self.lines.push(format!("{}: the curve has a tangent line at {text}", verdict.word()));
@@ -319,7 +329,11 @@ impl Claims<'_> {
         }
         let start = spaces.of(shape.start)?;
         if shape.view.times(&start.basis.transpose())?.rank()? != start.basis.rows {
-            return reject("similarities", &node.place, "the map into the space where the shape is looked at is not injective");
+            return reject(
+                "similarities",
+                &node.place,
+                "the map into the space where the shape is looked at is not injective",
+            );
         }
         Ok(())
     }

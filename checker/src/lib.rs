@@ -108,9 +108,8 @@ fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
 /// # Cost
 /// Bounded: the files by [`MAX_BYTES`], the nesting by 128, the numbers by 10000 digits, the arithmetic by a budget.
 pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
-    let unreadable = |rule: &str, why: String| {
-        Err(Rejected { rule: rule.to_owned(), place: String::new(), why, unreadable: true })
-    };
+    let unreadable =
+        |rule: &str, why: String| Err(Rejected { rule: rule.to_owned(), place: String::new(), why, unreadable: true });
     if case.len() > MAX_BYTES || certificate.len() > MAX_BYTES {
         return unreadable("limit", "a file is too large".to_owned());
     }

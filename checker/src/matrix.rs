@@ -183,7 +183,15 @@ mod tests {
     #[test]
     fn fixed_points() {
         let half = Q::new(1.into(), 2.into());
-        let m = Matrix::from_fn(2, 2, |i, j| if (i, j) == (0, 1) { Q::zero() } else if (i, j) == (1, 1) { Q::one() } else { half.clone() });
+        let m = Matrix::from_fn(2, 2, |i, j| {
+            if (i, j) == (0, 1) {
+                Q::zero()
+            } else if (i, j) == (1, 1) {
+                Q::one()
+            } else {
+                half.clone()
+            }
+        });
         assert_eq!(m.fixed_point().unwrap().unwrap(), [0, 1].map(whole));
         assert!(Matrix::identity(2).fixed_point().unwrap().is_none());
     }

@@ -235,7 +235,12 @@ fn conclude(
             return reject("differ", "", "the two lines are not seen to be different");
         }
         let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
-        return Ok(Point { place, verdict: Verdict::Refuted, kind: if corner { "corner" } else { "none" }, common: None });
+        return Ok(Point {
+            place,
+            verdict: Verdict::Refuted,
+            kind: if corner { "corner" } else { "none" },
+            common: None,
+        });
     }
     if lines.len() != found.len() {
         return reject("point", "", "every branch needs a proved line");

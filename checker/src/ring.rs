@@ -58,7 +58,8 @@ pub struct Model<'a> {
 /// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator, given by its rows, on zero-sum vectors.
 fn dobrushin(rows: &[Scaled]) -> Q {
     let columns = rows.first().map_or(0, |r| r.numerators.len());
-    let distance = |i: usize, j: usize| rows.iter().map(|r| (&r.numerators[i] - &r.numerators[j]).abs()).sum::<BigInt>();
+    let distance =
+        |i: usize, j: usize| rows.iter().map(|r| (&r.numerators[i] - &r.numerators[j]).abs()).sum::<BigInt>();
     let pairs = (0..columns).flat_map(|i| (0..i).map(move |j| (i, j)));
     match (pairs.map(|(i, j)| distance(i, j)).max(), rows.first()) {
         (Some(largest), Some(row)) => Q::new(largest, &row.denominator * 2),
@@ -179,7 +180,8 @@ impl<'a> Model<'a> {
         match tree {
             Json::List(children) if children.len() == self.shape.states[end].pieces.len() => {
                 for (letter, child) in children.iter().enumerate() {
-                    let pushed = product.iter().map(|row| self.pushed(row, end, letter)).collect::<Result<Vec<_>, _>>()?;
+                    let pushed =
+                        product.iter().map(|row| self.pushed(row, end, letter)).collect::<Result<Vec<_>, _>>()?;
                     self.contracts(from, self.shape.states[end].pieces[letter].target, &pushed, child)?;
                 }
                 Ok(())
@@ -188,7 +190,10 @@ impl<'a> Model<'a> {
                 let bits = product.iter().map(Scaled::bits).max().unwrap_or(0);
                 spend(product.len() * self.shape.states[end].dim * self.shape.states[end].dim, bits)?;
                 let tau = dobrushin(product);
-                let image: Vec<Q> = product.iter().map(|row| row.at(&self.bases[end].numerators, &self.bases[end].denominator)).collect();
+                let image: Vec<Q> = product
+                    .iter()
+                    .map(|row| row.at(&self.bases[end].numerators, &self.bases[end].denominator))
+                    .collect();
                 let shift = difference(&image, &self.spaces.of(from)?.base);
                 if tau >= Q::one() {
                     return reject("contraction", "", "a word of the code does not contract");
@@ -287,7 +292,11 @@ impl<'a> Model<'a> {
         for (item, piece) in items.iter().zip(pieces) {
             let [word, tree] = item.fields(["piece", "cells"])?;
             if word.word()? != piece.word {
-                return reject("cover", &word.place, format!("the piece {:?} of the ring is expected here", piece.word));
+                return reject(
+                    "cover",
+                    &word.place,
+                    format!("the piece {:?} of the ring is expected here", piece.word),
+                );
             }
             let rows = functionals.iter().map(|f| Ok(self.moved(germ.state, f, &piece.word)?.0));
             let rows = rows.collect::<Result<Vec<_>, Rejected>>()?;

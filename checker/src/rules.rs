@@ -52,18 +52,21 @@ struct Branch<'a> {
 pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Result<Found, Rejected> {
     let germ = at(&node.place, Germ::new(model, root, address))?;
     let branch = Branch { model, germ, place: &node.place };
-    at(&node.place, match node.tag("rule")? {
-        "theorem-2" => branch.line(node, "theorem-2"),
-        "theorem-3" => branch.line(node, "theorem-3"),
-        "corollary-line" => branch.whole_line(node),
-        "corollary" => branch.corollary(node),
-        "null-point" => branch.null_point(node),
-        "sign-change" => branch.sign_change(node),
-        "orbit" => branch.orbit(node),
-        "crossing" => branch.crossing(node),
-        "direction" => branch.direction(node),
-        _ => node.malformed("unknown rule for a branch"),
-    })
+    at(
+        &node.place,
+        match node.tag("rule")? {
+            "theorem-2" => branch.line(node, "theorem-2"),
+            "theorem-3" => branch.line(node, "theorem-3"),
+            "corollary-line" => branch.whole_line(node),
+            "corollary" => branch.corollary(node),
+            "null-point" => branch.null_point(node),
+            "sign-change" => branch.sign_change(node),
+            "orbit" => branch.orbit(node),
+            "crossing" => branch.crossing(node),
+            "direction" => branch.direction(node),
+            _ => node.malformed("unknown rule for a branch"),
+        },
+    )
 }
 
 /// Evidence with real top eigenvalues and exactly one longest chain.
@@ -126,7 +129,11 @@ impl Branch<'_> {
         }
         let chain = top.chain();
         let pairing = top.field.enclose(&top.field.dot(&row, &chain.vectors[chain.vectors.len() - 1])?)?.sign();
-        if pairing == 0 { reject("leading", &node.place, "the row is not seen to be nonzero") } else { Ok((row, pairing)) }
+        if pairing == 0 {
+            reject("leading", &node.place, "the row is not seen to be nonzero")
+        } else {
+            Ok((row, pairing))
+        }
     }
 
     /// Theorems 2 and 3.
@@ -160,7 +167,8 @@ impl Branch<'_> {
     }
 
     fn found_line(&self, field: &Field, v: &[Poly], left: Vec<i32>, right: Vec<i32>) -> Result<Found, Rejected> {
-        let vector = (0..self.germ.view.rows).map(|i| weighted(self.germ.view.row(i), v)).collect::<Result<Vec<_>, _>>()?;
+        let vector =
+            (0..self.germ.view.rows).map(|i| weighted(self.germ.view.row(i), v)).collect::<Result<Vec<_>, _>>()?;
         let values = seen(field, &self.germ.view, v)?;
         if values.iter().all(|x| x.sign() == 0) {
             return self.fails("line", "the direction is not seen to be nonzero");

@@ -239,10 +239,9 @@ impl Shape {
                 }
             }
             let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { continue };
-            for (piece, outer, end) in [
-                (first, &self.states[e].left, End::Start),
-                (last, &self.states[e].right, End::Finish),
-            ] {
+            for (piece, outer, end) in
+                [(first, &self.states[e].left, End::Start), (last, &self.states[e].right, End::Finish)]
+            {
                 let (Some((v, outer)), Some((w, inner))) = (outer, self.inner(piece, end)) else { continue };
                 let vertex = &self.states[*v].pieces[0];
                 if vertex.target == *w && outer.times(&vertex.op)? != piece.op.times(inner)? {

@@ -59,12 +59,15 @@ fn outside(linear: &Matrix, radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
 impl Top {
     /// Reads and checks the evidence for the top of the spectrum of `linear`.
     pub fn read(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
-        crate::at(&node.place, match node.tag("top")? {
-            "real" => Self::real(node, linear),
-            "pair" => Self::pair(node, linear),
-            "conformal" => Self::conformal(node, linear),
-            _ => node.malformed("unknown kind of top"),
-        })
+        crate::at(
+            &node.place,
+            match node.tag("top")? {
+                "real" => Self::real(node, linear),
+                "pair" => Self::pair(node, linear),
+                "conformal" => Self::conformal(node, linear),
+                _ => node.malformed("unknown kind of top"),
+            },
+        )
     }
 
     fn real(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
@@ -109,7 +112,11 @@ impl Top {
             for i in 0..linear.rows {
                 let image = combine(&weighted(linear.row(i), v)?, &-Q::one(), &field.times(&theta, &v[i])?);
                 if image != if k == 0 { Poly::new() } else { read[k - 1][i].clone() } {
-                    return reject("top-real", &vectors.place, format!("vector {k} does not continue the Jordan chain"));
+                    return reject(
+                        "top-real",
+                        &vectors.place,
+                        format!("vector {k} does not continue the Jordan chain"),
+                    );
                 }
             }
         }
@@ -123,7 +130,11 @@ impl Top {
         let (x, y, e) = (&c[0], &c[1], &e[0]);
         let far = &r + e;
         if count != 2 || !e.is_positive() || y <= e || x * x + y * y <= &far * &far {
-            return reject("top-pair", &node.place, "two eigenvalues outside the disc and off the real axis are needed");
+            return reject(
+                "top-pair",
+                &node.place,
+                "two eigenvalues outside the disc and off the real axis are needed",
+            );
         }
         // A polynomial p of degree n has a root within n |p(c)/p'(c)| of c.
         let chi = linear.characteristic()?;
@@ -165,7 +176,11 @@ impl Top {
         // Rows are images of basis vectors: on_basis is the transpose of L on the space.
         let stretched = on_basis.times(&h)?.times(&on_basis.transpose())?;
         if c <= &r * &r || stretched != h.plus(&(&c - Q::one()), &h) {
-            return reject("top-conformal", &square.place, "the map does not stretch the scalar product by this factor");
+            return reject(
+                "top-conformal",
+                &square.place,
+                "the map does not stretch the scalar product by this factor",
+            );
         }
         Ok(Self::Conformal { basis: e })
     }

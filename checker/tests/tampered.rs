@@ -31,10 +31,40 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
 }
 
 const WORDS: [&str; 34] = [
-    "proved", "refuted", "undetermined", "half-tangent", "regular", "cusp", "oscillating", "corner", "none", "line",
-    "differ", "plane", "theorem-2", "theorem-3", "corollary-line", "corollary", "null-point", "sign-change", "orbit",
-    "crossing", "real", "pair", "conformal", "left end", "right end", "joint", "inside", "of set", "ends", "joints",
-    "address", "any point", "5", "5'",
+    "proved",
+    "refuted",
+    "undetermined",
+    "half-tangent",
+    "regular",
+    "cusp",
+    "oscillating",
+    "corner",
+    "none",
+    "line",
+    "differ",
+    "plane",
+    "theorem-2",
+    "theorem-3",
+    "corollary-line",
+    "corollary",
+    "null-point",
+    "sign-change",
+    "orbit",
+    "crossing",
+    "real",
+    "pair",
+    "conformal",
+    "left end",
+    "right end",
+    "joint",
+    "inside",
+    "of set",
+    "ends",
+    "joints",
+    "address",
+    "any point",
+    "5",
+    "5'",
 ];
 
 /// What may stand in the place of a value.
@@ -82,7 +112,8 @@ fn numbers(text: &str) -> Vec<Value> {
     let x = secant_check::number::canonical(text).unwrap();
     let whole = secant_check::number::whole;
     let tiny = secant_check::number::Q::new(1.into(), 1024.into());
-    let changed = [-x.clone(), &x + whole(1), &x - whole(1), &x * whole(2), &x / whole(2), &x + tiny, whole(0), whole(1)];
+    let changed =
+        [-x.clone(), &x + whole(1), &x - whole(1), &x * whole(2), &x / whole(2), &x + tiny, whole(0), whole(1)];
     let mut new: Vec<Value> = changed.iter().map(|y| json!(y.to_string())).collect();
     new.extend([json!(format!("{text}0")), json!(format!("0{text}")), json!(""), json!(format!("{text}/1"))]);
     new

@@ -76,7 +76,9 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
             let top = top(&b.linear, &b.spectrum, lead, &branch_name(b))?;
             match (statement, witness, isolation) {
                 (Statement::Corollary, _, _) => Ok(json!({"rule": "corollary", "top": top})),
-                (Statement::Theorem4, Some(witness), Some(isolation)) => theorem4(shape, b, lead, &top, witness, isolation),
+                (Statement::Theorem4, Some(witness), Some(isolation)) => {
+                    theorem4(shape, b, lead, &top, witness, isolation)
+                }
                 (Statement::Section6, Some(Witness::Crossing { part, positive, negative, cover, .. }), _) => {
                     let Some(chain) = longest(&b.spectrum.factor(lead).left) else {
                         return unsupported("an empty chain", branch_name(b));

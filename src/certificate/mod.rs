@@ -173,8 +173,7 @@ impl Points<'_> {
     /// The indices of the decided points among those for which `wanted` holds.
     fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Vec<usize> {
         let places = found.points.iter().filter(|p| wanted(p)).map(place_json);
-        let mut indices: Vec<usize> =
-            places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
+        let mut indices: Vec<usize> = places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
         indices.sort_unstable();
         indices.dedup();
         indices

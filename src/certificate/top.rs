@@ -104,7 +104,8 @@ fn conformal(linear: &Matrix, spectrum: &Spectrum, radius: &Rational) -> Option<
         _ => return None,
     };
     let n = linear.rows();
-    let product = factors.iter().fold(Matrix::identity(n), |acc, &f| &acc * &evaluate(&spectrum.factors[f].poly, linear));
+    let product =
+        factors.iter().fold(Matrix::identity(n), |acc, &f| &acc * &evaluate(&spectrum.factors[f].poly, linear));
     let space = product.kernel().transpose().echelon();
     let k = space.rows.rows();
     let images = &space.rows * &linear.transpose();

@@ -67,7 +67,8 @@ fn note_unconfirmed(case: &Case, found: &Certified) {
 }
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
-    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json) {
+    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json)
+    {
         return Err(Problem::new("secant::usage", "--json, --report, --svg and --certificate are for a single case")
             .with_help("use --jsonl for many cases, and write the reports one by one"));
     }
@@ -95,7 +96,9 @@ pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified), Problem
             Ok(_) | Err(Doubt::Unsupported(_)) => {}
             Err(doubt) => {
                 return Err(Problem::new("secant::certificate::rejected", format!("{}: {doubt}", case.name))
-                    .with_help("this is a mistake in secant: please report it with the case; --no-check leaves the check out"));
+                    .with_help(
+                        "this is a mistake in secant: please report it with the case; --no-check leaves the check out",
+                    ));
             }
         }
     }
