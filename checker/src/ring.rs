@@ -24,6 +24,18 @@ impl Scaled {
         Self { numerators, denominator }
     }
 
+    /// The identity as rows over the denominator 1.
+    fn identity(n: usize) -> Vec<Self> {
+        let row = |i: usize| (0..n).map(|j| BigInt::from(u8::from(i == j))).collect();
+        (0..n).map(|i| Self { numerators: row(i), denominator: BigInt::one() }).collect()
+    }
+
+    /// The scalar product with a column of integers over a denominator.
+    fn at(&self, column: &[BigInt], denominator: &BigInt) -> Q {
+        let sum: BigInt = self.numerators.iter().zip(column).map(|(a, b)| a * b).sum();
+        Q::new(sum, &self.denominator * denominator)
+    }
+
     fn bits(&self) -> u64 {
         self.numerators.iter().map(BigInt::bits).max().unwrap_or(0)
     }
@@ -38,21 +50,21 @@ pub struct Model<'a> {
     /// Their spaces.
     pub spaces: Spaces,
     radius: Vec<Q>,
-    hulls: Vec<Vec<Scaled>>,
+    hulls: Vec<Scaled>,
     operators: Vec<Vec<Scaled>>,
     bases: Vec<Scaled>,
 }
 
-/// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator on zero-sum vectors.
-fn dobrushin(op: &Matrix) -> Q {
-    let columns: Vec<Vec<Q>> = (0..op.cols).map(|j| op.column(j)).collect();
-    let mut largest = Q::zero();
-    for (i, a) in columns.iter().enumerate() {
-        for b in &columns[..i] {
-            largest = largest.max(norm(&difference(a, b)));
-        }
+/// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator, given by its rows, on zero-sum vectors.
+fn dobrushin(rows: &[Scaled]) -> Q {
+    let columns = rows.first().map_or(0, |r| r.numerators.len());
+    let distance =
+        |i: usize, j: usize| rows.iter().map(|r| (&r.numerators[i] - &r.numerators[j]).abs()).sum::<BigInt>();
+    let pairs = (0..columns).flat_map(|i| (0..i).map(move |j| (i, j)));
+    match (pairs.map(|(i, j)| distance(i, j)).max(), rows.first()) {
+        (Some(largest), Some(row)) => Q::new(largest, &row.denominator * 2),
+        _ => Q::zero(),
     }
-    largest / whole(2)
 }
 
 fn norm(v: &[Q]) -> Q {
@@ -110,18 +122,17 @@ impl<'a> Model<'a> {
         let operators = shape.states.iter().map(per_state).collect();
         let base = |e: usize| Scaled::new(spaces.of(e).map_or(&[], |s| &s.base));
         let bases = (0..shape.states.len()).map(base).collect();
-        let hulls = (0..shape.states.len()).map(|_| Vec::new()).collect();
+        let hulls = (0..shape.states.len()).map(|_| Scaled::new(&[])).collect();
         let mut model = Self { shape, reachable, spaces, radius, hulls, operators, bases };
         let mut vertices = vec![Vec::new(); shape.states.len()];
         for (e, code, hull) in &codes {
-            at(&code.place, model.contracts(*e, *e, &Matrix::identity(shape.states[*e].dim), code.value))?;
+            at(&code.place, model.contracts(*e, *e, &Scaled::identity(shape.states[*e].dim), code.value))?;
             if !matches!(hull.value, Json::Null) {
                 let [points, _] = hull.fields(["points", "images"])?;
                 for point in points.list()? {
-                    let point = point.vector(shape.states[*e].dim)?;
-                    model.hulls[*e].push(Scaled::new(&point));
-                    vertices[*e].push(point);
+                    vertices[*e].push(point.vector(shape.states[*e].dim)?);
                 }
+                model.hulls[*e] = Scaled::new(&vertices[*e].concat());
             }
         }
         for (e, _, hull) in codes.iter().filter(|(_, _, hull)| !matches!(hull.value, Json::Null)) {
@@ -164,18 +175,26 @@ impl<'a> Model<'a> {
         Ok(())
     }
 
-    fn contracts(&self, from: usize, end: usize, product: &Matrix, tree: &Json) -> Result<(), Rejected> {
+    /// Checks a tree below a word from `from` to `end`, given by the rows of its product (over one denominator).
+    fn contracts(&self, from: usize, end: usize, product: &[Scaled], tree: &Json) -> Result<(), Rejected> {
         match tree {
             Json::List(children) if children.len() == self.shape.states[end].pieces.len() => {
-                for (piece, child) in self.shape.states[end].pieces.iter().zip(children) {
-                    self.contracts(from, piece.target, &product.times(&piece.op)?, child)?;
+                for (letter, child) in children.iter().enumerate() {
+                    let pushed =
+                        product.iter().map(|row| self.pushed(row, end, letter)).collect::<Result<Vec<_>, _>>()?;
+                    self.contracts(from, self.shape.states[end].pieces[letter].target, &pushed, child)?;
                 }
                 Ok(())
             }
             Json::Text(leaf) if leaf == "." => {
-                spend(product.rows * product.cols * product.cols, crate::number::size(product.entries()))?;
+                let bits = product.iter().map(Scaled::bits).max().unwrap_or(0);
+                spend(product.len() * self.shape.states[end].dim * self.shape.states[end].dim, bits)?;
                 let tau = dobrushin(product);
-                let shift = difference(&product.apply(&self.spaces.of(end)?.base)?, &self.spaces.of(from)?.base);
+                let image: Vec<Q> = product
+                    .iter()
+                    .map(|row| row.at(&self.bases[end].numerators, &self.bases[end].denominator))
+                    .collect();
+                let shift = difference(&image, &self.spaces.of(from)?.base);
                 if tau >= Q::one() {
                     return reject("contraction", "", "a word of the code does not contract");
                 }
@@ -234,22 +253,22 @@ impl<'a> Model<'a> {
     fn enclose(&self, row: &Scaled, error: &Q, state: usize) -> Result<Interval, Rejected> {
         let base = &self.bases[state];
         spend(4 * row.numerators.len(), row.bits().max(base.bits()))?;
-        let sum: BigInt = row.numerators.iter().zip(&base.numerators).map(|(a, b)| a * b).sum();
-        let centre = Q::new(sum, &row.denominator * &base.denominator);
+        let centre = row.at(&base.numerators, &base.denominator);
         let spread = match (row.numerators.iter().max(), row.numerators.iter().min()) {
             (Some(hi), Some(lo)) => Q::new(hi - lo, &row.denominator * 2) * &self.radius[state] + error,
             _ => error.clone(),
         };
         let mut bound = Interval { lo: &centre - &spread, hi: centre + spread };
-        let mut values = Vec::new();
-        for vertex in &self.hulls[state] {
-            spend(4 * row.numerators.len(), row.bits().max(vertex.bits()))?;
-            let sum: BigInt = row.numerators.iter().zip(&vertex.numerators).map(|(a, b)| a * b).sum();
-            values.push(Q::new(sum, &row.denominator * &vertex.denominator));
+        let hull = &self.hulls[state];
+        let mut values: Vec<BigInt> = Vec::new();
+        for vertex in hull.numerators.chunks(row.numerators.len().max(1)) {
+            spend(row.numerators.len(), row.bits().max(hull.bits()))?;
+            values.push(row.numerators.iter().zip(vertex).map(|(a, b)| a * b).sum());
         }
         if let (Some(lo), Some(hi)) = (values.iter().min(), values.iter().max()) {
-            bound.lo = bound.lo.max(lo - error);
-            bound.hi = bound.hi.min(hi + error);
+            let value = |x: &BigInt| Q::new(x.clone(), &row.denominator * &hull.denominator);
+            bound.lo = bound.lo.max(value(lo) - error);
+            bound.hi = bound.hi.min(value(hi) + error);
         }
         Ok(bound)
     }

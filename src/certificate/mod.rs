@@ -100,6 +100,37 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     Ok(Certificate { json })
 }
 
+/// Why a decided verdict was not proved again.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Doubt {
+    /// It has no certificate.
+    #[error(transparent)]
+    Unsupported(#[from] Unsupported),
+    /// The checker does not accept its certificate.
+    #[error("the certificate is not accepted: {0}")]
+    Rejected(#[from] secant_check::Rejected),
+    /// The checker comes to another verdict.
+    #[error("the certificate proves \"{0}\", which is not the verdict found")]
+    Differs(&'static str),
+}
+
+/// Writes the certificate and has it checked by `secant-check` against the text of the case.
+///
+/// # Errors
+/// [`Doubt`] where there is no certificate, or the checker does not accept it with the same verdict.
+///
+/// # Cost
+/// That of [`certificate`] and of [`secant_check::check`].
+pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
+    let certificate = certificate(case, found)?;
+    let accepted = secant_check::check(&case.text.text, &certificate.text())?;
+    if accepted.verdict.word() == found.verdict.word() {
+        Ok(certificate)
+    } else {
+        Err(Doubt::Differs(accepted.verdict.word()))
+    }
+}
+
 fn number(x: &Rational) -> Value {
     Value::String(x.to_string())
 }

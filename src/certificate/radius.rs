@@ -5,17 +5,31 @@ use crate::jordan::Spectrum;
 use malachite_base::num::arithmetic::traits::Floor;
 
 /// How many digits after the binary point a radius has at most.
-const MAX_BITS: u64 = 96;
+const MAX_BITS: u64 = 4096;
 
 /// A radius `r > 0` below the modulus of the first class and above that of the second, if one is found.
 pub fn between(spectrum: &Spectrum) -> Option<Rational> {
+    let mut bits = 64;
+    while bits <= MAX_BITS {
+        if let Some(radius) = with_bits(spectrum, bits) {
+            return Some(radius);
+        }
+        bits *= 4;
+    }
+    None
+}
+
+fn with_bits(spectrum: &Spectrum, precision: u64) -> Option<Rational> {
     let modulus = |class: usize| {
         let class = spectrum.classes.get(class)?;
-        Some(spectrum.root(class.members[0]).modulus(2 * MAX_BITS))
+        Some(spectrum.root(class.members[0]).modulus(precision + 8))
     };
     let upper = modulus(0)?.lo;
     let lower = modulus(1).map_or_else(|| Rational::from(0), |m| m.hi);
-    for bits in 0..MAX_BITS {
+    if lower >= upper {
+        return None;
+    }
+    for bits in 0..precision {
         let scale = Rational::from(Integer::from(1) << bits);
         let mut multiple = Rational::from((&lower * &scale).floor()) + Rational::from(1);
         for _ in 0..16 {

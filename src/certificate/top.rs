@@ -6,6 +6,7 @@ use crate::arith::{Integer, Interval, Rational, abs};
 use crate::jordan::{Chain, Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::poly::Poly;
+use malachite_base::num::logic::traits::SignificantBits;
 use serde_json::{Value, json};
 
 /// An element of a number field: its coefficients, lowest first.
@@ -42,7 +43,8 @@ pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) 
 
 fn real(spectrum: &Spectrum, lead: Eigenvalue, radius: &Rational) -> Value {
     let root = spectrum.root(lead);
-    let interval = root.enclosure(512).0;
+    let bits = radius.denominator_ref().significant_bits();
+    let interval = root.enclosure(160 + bits).0;
     let mut chains = Vec::new();
     for &member in &spectrum.classes[0].members {
         let same = spectrum.root(member).same(root);

@@ -5,6 +5,7 @@ use super::progress::Waiting;
 use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::arith::Rational;
 use crate::case::{Case, MAX_LETTERS};
+use crate::certificate::{Doubt, certificate, confirm};
 use crate::diagnostic::Problem;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
@@ -37,6 +38,9 @@ pub fn run(args: &CertifyArgs) -> u8 {
     waiting.finish();
     let done = certified.and_then(|(case, found)| {
         write_files(&case, &found, args)?;
+        if !args.no_check && !args.quiet {
+            note_unconfirmed(&case, &found);
+        }
         Ok((case, found))
     });
     match done {
@@ -56,9 +60,20 @@ pub fn run(args: &CertifyArgs) -> u8 {
     }
 }
 
+/// Says so where a decided verdict has no certificate that could be checked.
+fn note_unconfirmed(case: &Case, found: &Certified) {
+    if found.verdict != Verdict::Undetermined
+        && let Err(unsupported) = certificate(case, found)
+    {
+        let message = format!("the verdict was not proved again: {unsupported}");
+        complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 9"));
+    }
+}
+
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
-    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.json) {
-        return Err(Problem::new("secant::usage", "--json, --report and --svg are for a single case")
+    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json)
+    {
+        return Err(Problem::new("secant::usage", "--json, --report, --svg and --certificate are for a single case")
             .with_help("use --jsonl for many cases, and write the reports one by one"));
     }
     let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
@@ -80,6 +95,17 @@ fn extension(path: &Path) -> String {
 pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified), Problem> {
     let (case, addresses) = read(path, args)?;
     let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
+    if !args.no_check && found.verdict != Verdict::Undetermined {
+        match confirm(&case, &found) {
+            Ok(_) | Err(Doubt::Unsupported(_)) => {}
+            Err(doubt) => {
+                return Err(Problem::new("secant::certificate::rejected", format!("{}: {doubt}", case.name))
+                    .with_help(
+                        "this is a mistake in secant: please report it with the case; --no-check leaves the check out",
+                    ));
+            }
+        }
+    }
     Ok((case, found))
 }
 
@@ -161,7 +187,17 @@ fn write_files(case: &Case, found: &Certified, args: &CertifyArgs) -> Result<(),
         None => None,
         Some(path) => Some((path, picture(case, found)?)),
     };
-    for (path, content) in report.into_iter().chain(svg) {
+    let proof = match args.certificate.as_deref() {
+        None => None,
+        Some(path) => {
+            let written = certificate(case, found).map_err(|unsupported| {
+                Problem::new("secant::certificate::none", unsupported.to_string())
+                    .with_help("see docs/certificate.md, section 9; nothing was written")
+            })?;
+            Some((path, written.text()))
+        }
+    };
+    for (path, content) in report.into_iter().chain(svg).chain(proof) {
         write_file(path, &content)?;
     }
     Ok(())

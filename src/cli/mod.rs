@@ -98,8 +98,14 @@ struct CertifyArgs {
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Write a certificate that secant-check proves again (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+    /// Do not have the verdict proved again by the checker before it is printed.
+    #[arg(long)]
+    no_check: bool,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "certificate"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]

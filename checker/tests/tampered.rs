@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 fn stored(kind: &str) -> Vec<(PathBuf, String, String)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/certs").join(kind);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/certs").join(kind);
     let mut names: Vec<PathBuf> = std::fs::read_dir(root).unwrap().map(|e| e.unwrap().path()).collect();
     names.sort();
     let read = |p: &Path| std::fs::read_to_string(p).unwrap();

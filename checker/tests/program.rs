@@ -1,0 +1,52 @@
+//! The program `secant-check`: exit codes, and a second opinion from the Python script.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+fn certs(kind: &str) -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/certs").join(kind);
+    let mut found: Vec<PathBuf> = std::fs::read_dir(root).unwrap().map(|e| e.unwrap().path()).collect();
+    found.retain(|p| p.extension().is_some_and(|e| e == "json"));
+    found.sort();
+    found
+}
+
+fn code(case: &Path, certificate: &Path) -> i32 {
+    let output = Command::new(env!("CARGO_BIN_EXE_secant-check")).args([case, certificate]).output().unwrap();
+    output.status.code().unwrap()
+}
+
+#[test]
+fn exit_codes() {
+    for path in certs("pass") {
+        assert_eq!(code(&path.with_extension("toml"), &path), 0, "{}", path.display());
+    }
+    for path in certs("fail") {
+        assert_eq!(code(&path.with_extension("toml"), &path), 1, "{}", path.display());
+    }
+    let runs = certs("run");
+    assert!(runs.len() >= 10);
+    for path in runs {
+        let wanted = path.file_name().unwrap().to_string_lossy().split('-').next().unwrap().parse::<i32>().unwrap();
+        assert_eq!(code(&path.with_file_name("case.toml"), &path), wanted, "{}", path.display());
+    }
+    assert_eq!(code(Path::new("missing.toml"), Path::new("missing.json")), 2);
+}
+
+#[test]
+fn the_python_script_agrees() {
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("python/check_curves.py");
+    let run = |path: &Path| {
+        let mut python = Command::new("python3");
+        let output = python.arg("-B").arg(&script).arg(path.with_extension("toml")).arg(path).output();
+        output.map(|o| (o.status.code(), String::from_utf8_lossy(&o.stdout).into_owned()))
+    };
+    for (kind, wanted) in [("pass", 0), ("fail", 1)] {
+        for path in certs(kind) {
+            match run(&path) {
+                Err(error) => return println!("python3 is not available: {error}"),
+                Ok((found, text)) => assert_eq!(found, Some(wanted), "{}: {text}", path.display()),
+            }
+        }
+    }
+}
