@@ -12,7 +12,7 @@ mod tree;
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::shape::{Address, CellKind, Contraction};
-use crate::theorem::{Certified, PointReport, Role, Statement, Verdict};
+use crate::theorem::{Certified, Claim, PointReport, Role, Statement, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
 
@@ -229,11 +229,14 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
 }
 
 fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
-    let claim = found.claims.get(1);
-    let mut verdict = claim.map_or(Verdict::Undetermined, |c| c.verdict);
+    let of_joints =
+        |c: &&Claim| matches!(c.statement, Some(Statement::Theorem5 | Statement::Theorem5Projected | Statement::Joint));
+    let claims: Vec<&Claim> = found.claims.iter().filter(of_joints).collect();
+    let mut verdict = claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
     let mut upstairs = Vec::new();
-    let theorem = match (verdict, claim.and_then(|c| c.statement)) {
+    // The last of the claims names the theorem; with Theorem 5′ the one before is about the joints examined.
+    let theorem = match (verdict, claims.last().and_then(|c| c.statement)) {
         (Verdict::Proved, Some(Statement::Theorem5)) => "5",
         (Verdict::Proved, Some(Statement::Theorem5Projected)) => {
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
