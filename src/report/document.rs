@@ -174,7 +174,7 @@ pub fn formula(math: Math) -> Line {
 }
 
 impl Block {
-    /// A paragraph from markup (see [`line`]).
+    /// A paragraph from markup (see [`line()`]).
     #[must_use]
     pub fn text(template: &str, values: impl IntoIterator<Item = Math>) -> Self {
         Self::Paragraph(line(template, values))

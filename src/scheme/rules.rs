@@ -25,7 +25,7 @@ pub fn mesh_rules() -> &'static [RuleInfo] {
     RULES
 }
 
-/// A mesh rule by name; see [`super::local_matrix`] and [`super::patch`].
+/// A mesh rule by name; see [`super::local_matrix`] and [`super::patch()`].
 ///
 /// # Errors
 /// [`SchemeError::Unknown`], [`SchemeError::Parameter`], [`SchemeError::Missing`].
