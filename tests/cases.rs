@@ -1,22 +1,13 @@
 //! Every case under `cases/` is certified and compared with what its file expects.
 
+mod corpus;
+
+use corpus::case_files;
 use secant::arith::Rational;
 use secant::case::{Case, ExpectPoint, expected_error};
 use secant::shape::Contraction;
 use secant::theorem::{Certified, Direction, PointReport, certify};
-use std::path::{Path, PathBuf};
-
-fn case_files(dir: &Path, found: &mut Vec<PathBuf>) {
-    let mut entries: Vec<PathBuf> = std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().path()).collect();
-    entries.sort();
-    for path in entries {
-        if path.is_dir() {
-            case_files(&path, found);
-        } else if path.extension().is_some_and(|e| e == "toml") {
-            found.push(path);
-        }
-    }
-}
+use std::path::Path;
 
 #[test]
 fn every_case_comes_out_as_its_file_expects() {

@@ -1,5 +1,8 @@
 //! Every decided case gets a certificate, and the checker accepts it.
 
+mod corpus;
+
+use corpus::case_files;
 use secant::case::Case;
 use secant::certificate::certificate;
 use secant::theorem::certify;
@@ -7,18 +10,6 @@ use std::path::{Path, PathBuf};
 
 /// Cases whose verdicts the format cannot express (docs/certificate.md, section 9).
 const UNSUPPORTED: [&str; 2] = ["same-line-two-polynomials", "complex-block"];
-
-fn case_files(dir: &Path, found: &mut Vec<PathBuf>) {
-    let mut entries: Vec<PathBuf> = std::fs::read_dir(dir).unwrap().map(|e| e.unwrap().path()).collect();
-    entries.sort();
-    for path in entries {
-        if path.is_dir() {
-            case_files(&path, found);
-        } else if path.extension().is_some_and(|e| e == "toml") {
-            found.push(path);
-        }
-    }
-}
 
 fn corpus() -> Vec<PathBuf> {
     let mut files = Vec::new();

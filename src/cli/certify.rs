@@ -5,7 +5,7 @@ use super::progress::Waiting;
 use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::arith::Rational;
 use crate::case::{Case, MAX_LETTERS};
-use crate::certificate::{Doubt, certificate, confirm};
+use crate::certificate::{Certificate, Doubt, Unsupported, certificate, confirm};
 use crate::diagnostic::Problem;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
@@ -36,10 +36,10 @@ pub fn run(args: &CertifyArgs) -> u8 {
     let waiting = Waiting::new(args.quiet);
     let certified = one(path, args);
     waiting.finish();
-    let done = certified.and_then(|(case, found)| {
-        write_files(&case, &found, args)?;
-        if !args.no_check && !args.quiet {
-            note_unconfirmed(&case, &found);
+    let done = certified.and_then(|(case, found, evidence)| {
+        write_files(&case, &found, evidence.as_ref(), args)?;
+        if let (Some(Err(unsupported)), false) = (&evidence, args.quiet) {
+            note_unconfirmed(unsupported);
         }
         Ok((case, found))
     });
@@ -61,14 +61,13 @@ pub fn run(args: &CertifyArgs) -> u8 {
 }
 
 /// Says so where a decided verdict has no certificate that could be checked.
-fn note_unconfirmed(case: &Case, found: &Certified) {
-    if found.verdict != Verdict::Undetermined
-        && let Err(unsupported) = certificate(case, found)
-    {
-        let message = format!("the verdict was not proved again: {unsupported}");
-        complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 9"));
-    }
+fn note_unconfirmed(unsupported: &Unsupported) {
+    let message = format!("the verdict was not proved again: {unsupported}");
+    complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 9"));
 }
+
+/// The certificate that the checker accepted, or why the format has none.
+pub type Evidence = Result<Certificate, Unsupported>;
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json)
@@ -88,25 +87,26 @@ fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// Reads and certifies one case.
+/// Reads and certifies one case, with the evidence where a decided verdict was to be checked.
 ///
 /// # Errors
 /// The [`Problem`] of the file, of an address, or of the model.
-pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified), Problem> {
+pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<Evidence>), Problem> {
     let (case, addresses) = read(path, args)?;
     let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
-    if !args.no_check && found.verdict != Verdict::Undetermined {
-        match confirm(&case, &found) {
-            Ok(_) | Err(Doubt::Unsupported(_)) => {}
-            Err(doubt) => {
-                return Err(Problem::new("secant::certificate::rejected", format!("{}: {doubt}", case.name))
-                    .with_help(
-                        "this is a mistake in secant: please report it with the case; --no-check leaves the check out",
-                    ));
-            }
-        }
+    if args.no_check || found.verdict == Verdict::Undetermined {
+        return Ok((case, found, None));
     }
-    Ok((case, found))
+    let evidence = match confirm(&case, &found) {
+        Ok(certificate) => Ok(certificate),
+        Err(Doubt::Unsupported(unsupported)) => Err(unsupported),
+        Err(doubt) => {
+            return Err(Problem::new("secant::certificate::rejected", format!("{}: {doubt}", case.name)).with_help(
+                "this is a mistake in secant: please report it with the case; --no-check leaves the check out",
+            ));
+        }
+    };
+    Ok((case, found, Some(evidence)))
 }
 
 /// Reads a case and the addresses asked for.
@@ -173,7 +173,7 @@ pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
 }
 
 /// Writes the report and the picture that were asked for; both are made before the first is written.
-fn write_files(case: &Case, found: &Certified, args: &CertifyArgs) -> Result<(), Problem> {
+fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &CertifyArgs) -> Result<(), Problem> {
     let report = args.report.as_deref().map(|path| {
         let document = proof::document(case, found);
         let written = match extension(path).as_str() {
@@ -190,7 +190,7 @@ fn write_files(case: &Case, found: &Certified, args: &CertifyArgs) -> Result<(),
     let proof = match args.certificate.as_deref() {
         None => None,
         Some(path) => {
-            let written = certificate(case, found).map_err(|unsupported| {
+            let written = evidence.cloned().unwrap_or_else(|| certificate(case, found)).map_err(|unsupported| {
                 Problem::new("secant::certificate::none", unsupported.to_string())
                     .with_help("see docs/certificate.md, section 9; nothing was written")
             })?;
