@@ -3,6 +3,7 @@
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
 mod expect;
+mod field;
 mod maps;
 mod matrix;
 pub mod matrix_file;
@@ -11,6 +12,7 @@ mod read;
 mod states;
 
 pub use expect::{Expect, ExpectPoint, expected_error};
+pub use field::FieldCase;
 
 use crate::diagnostic::{Problem, SourceText};
 use crate::shape::{Address, Shape};

@@ -82,6 +82,11 @@ impl Case {
     /// # Cost
     /// Linear in the text, apart from the arithmetic on the numbers.
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
+        Self::parse_as(name, text, File::new)
+    }
+
+    /// The same, with the file as `open` makes it.
+    pub(super) fn parse_as(name: &str, text: &str, open: impl FnOnce(SourceText) -> File) -> Result<Self, Problem> {
         let source = SourceText::new(name, text);
         if text.len() > MAX_BYTES {
             return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
@@ -92,7 +97,7 @@ impl Case {
             return Err(Problem::new("secant::case::empty", format!("{name} is empty"))
                 .with_help("a case needs at least `name`, `convention` and `pieces`; see docs/case-format.md"));
         }
-        let file = File::new(source);
+        let file = open(source);
         build(&file, &Table::root(&file, &table))
     }
 }

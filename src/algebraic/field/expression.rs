@@ -78,7 +78,6 @@ impl<'a> Expression<'a> {
         Self { text, at, tight, decimals: 0, bits: 0 }
     }
 
-    #[allow(dead_code)] // for the readers of matrices
     pub fn position(&self) -> usize {
         self.at
     }

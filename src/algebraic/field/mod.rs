@@ -16,8 +16,10 @@ mod named;
 mod over;
 
 pub use builder::{FieldBuilder, FieldError, Number};
+pub(crate) use expression::Expression;
 pub use expression::ExpressionError;
 pub use extension::Extension;
+pub(crate) use extension::place;
 pub use matrix::FieldMatrix;
 pub use named::{cosine, real_root};
 
@@ -26,6 +28,7 @@ use crate::arith::{Interval, Rational, sign, to_f64};
 use crate::linalg::Matrix;
 use crate::poly::Poly;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Largest degree of a field that is built.
@@ -179,13 +182,17 @@ impl NumberField {
     /// whole of a larger field, its generator stays.
     #[must_use]
     pub fn shrunk(&self, elements: &[Elem]) -> (Self, Vec<Elem>) {
-        let irrational: Vec<&Elem> = elements.iter().filter(|e| e.is_rational().is_none()).collect();
-        let Some(first) = irrational.first() else {
+        let irrational: BTreeMap<&[Rational], &Elem> =
+            elements.iter().filter(|e| e.is_rational().is_none()).map(|e| (e.0.coeffs(), e)).collect();
+        let Some(first) = irrational.values().next() else {
             return (Self::rationals(), elements.to_vec());
         };
         let mut base = (*first).clone();
         if self.degree() > 2 {
-            for e in &irrational {
+            for e in irrational.values() {
+                if base.minpoly(self.poly()).degree() == Some(self.degree()) {
+                    break;
+                }
                 base = self.joint_generator(&base, e);
             }
             if base.minpoly(self.poly()).degree() == Some(self.degree()) {
