@@ -80,7 +80,18 @@ fn index(value: &DeValue<'_>, bound: usize, key: &str) -> Result<usize, Problem>
 
 /// The keys of a state; those of the boundaries of faces and of reversals are allowed and not read.
 const STATE_KEYS: [&str; 13] = [
-    "name", "kind", "dimension", "left", "right", "piece", "reversal", "layout", "bottom", "top", "side01", "side12",
+    "name",
+    "kind",
+    "dimension",
+    "left",
+    "right",
+    "piece",
+    "reversal",
+    "layout",
+    "bottom",
+    "top",
+    "side01",
+    "side12",
     "side02",
 ];
 

@@ -7,9 +7,8 @@ use crate::diagnostic::Problem;
 use crate::shape::{CellKind, Face, Layout, OpName, Side};
 
 /// The keys of a face state.
-pub(super) const KEYS: [&str; 12] = [
-    "name", "kind", "dimension", "piece", "layout", "bottom", "right", "top", "left", "side01", "side12", "side02",
-];
+pub(super) const KEYS: [&str; 12] =
+    ["name", "kind", "dimension", "piece", "layout", "bottom", "right", "top", "left", "side01", "side12", "side02"];
 
 const QUAD: [&str; 4] = ["bottom", "right", "top", "left"];
 const TRIANGLE: [&str; 3] = ["side01", "side12", "side02"];
@@ -67,9 +66,9 @@ fn layout(node: &Node<'_>) -> Result<Layout, Problem> {
     let sizes = text.split_once('x').and_then(|(a, b)| Some((size(a)?, size(b)?)));
     match sizes {
         Some((columns, rows)) if columns * rows > 1 => Ok(Layout::Quad { columns, rows }),
-        _ => Err(node
-            .problem("layout", "the layout of a face is not known", "not a layout")
-            .with_help("it is \"2x2\" (columns x rows of a quadrangle, at least two pieces) or \"triangle\" (in four)")),
+        _ => Err(node.problem("layout", "the layout of a face is not known", "not a layout").with_help(
+            "it is \"2x2\" (columns x rows of a quadrangle, at least two pieces) or \"triangle\" (in four)",
+        )),
     }
 }
 

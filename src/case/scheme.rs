@@ -170,7 +170,7 @@ fn mesh(table: &Table<'_>) -> Result<(Complex, Origin), Problem> {
         refused(table, place, &error, &[])
     };
     let complex = if disc {
-        scheme::disc(&rule, valence).map(Complex::of_curves).map_err(problem)?
+        scheme::disc_complex(&rule, valence).map_err(problem)?
     } else {
         scheme::patch(&rule, valence).map_err(problem)?
     };
@@ -198,9 +198,9 @@ fn refused(table: &Table<'_>, node: &Node<'_>, error: &SchemeError, known: &[&st
         SchemeError::Value { parameter, .. } => {
             at(parameter, "scheme-parameter", "`secant schemes` lists every scheme with its parameters")
         }
-        SchemeError::SumRule { arity, .. } => node
-            .problem("sum-rule", error.to_string(), "these coefficients")
-            .with_help(sum_rule_help(*arity)),
+        SchemeError::SumRule { arity, .. } => {
+            node.problem("sum-rule", error.to_string(), "these coefficients").with_help(sum_rule_help(*arity))
+        }
         SchemeError::Symbol { position, .. } => {
             // Behind the opening quotation mark; exact unless the string has escapes.
             let span = node.span();
@@ -223,7 +223,11 @@ fn refused(table: &Table<'_>, node: &Node<'_>, error: &SchemeError, known: &[&st
 }
 
 fn sum_rule_help(arity: usize) -> String {
-    let which = if arity == 2 { "the even and the odd coefficients" } else { "the coefficients of each class modulo the arity" };
+    let which = if arity == 2 {
+        "the even and the odd coefficients"
+    } else {
+        "the coefficients of each class modulo the arity"
+    };
     format!(
         "{which} must each add up to 1 (the scheme must reproduce constants); another `arity`, or a filter with its \
          `normalisation`, may be meant"

@@ -247,7 +247,11 @@ impl Automaton<'_> {
         let draft = &self.drafts[index];
         let piece = &draft.pieces[letter];
         let kind = draft.kind;
-        piece.only(if kind == CellKind::Face { &["to", "matrix", "corners"] } else { &["to", "matrix", "reversed"] })?;
+        piece.only(if kind == CellKind::Face {
+            &["to", "matrix", "corners"]
+        } else {
+            &["to", "matrix", "reversed"]
+        })?;
         let to = piece.need("to", &format!("{:?}", draft.name))?;
         let target = state_index(&to, &self.drafts)?;
         if kind != CellKind::Set && self.drafts[target].kind != kind {
@@ -262,12 +266,7 @@ impl Automaton<'_> {
         Ok((Piece { target, op, reversed }, node.span()))
     }
 
-    fn boundary(
-        &mut self,
-        index: usize,
-        key: &str,
-        name: OpName,
-    ) -> Result<Option<(Boundary, Range<usize>)>, Problem> {
+    fn boundary(&mut self, index: usize, key: &str, name: OpName) -> Result<Option<(Boundary, Range<usize>)>, Problem> {
         let draft = &self.drafts[index];
         let Some(node) = draft.table.get(key) else { return Ok(None) };
         if draft.kind != CellKind::Edge {
@@ -316,7 +315,8 @@ impl Automaton<'_> {
         let source = &self.drafts[from];
         if source.kind != kind {
             let wanted = kind_word(kind);
-            let message = format!("{} must come from a state of kind {wanted}, but `{}` is none", table.what, source.name);
+            let message =
+                format!("{} must come from a state of kind {wanted}, but `{}` is none", table.what, source.name);
             return Err(from_node
                 .problem("boundary", message, format!("this is a state of kind {}", kind_word(source.kind)))
                 .with_help(format!("declare that state with kind = {wanted:?}, or name another one")));

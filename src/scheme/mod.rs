@@ -26,7 +26,7 @@ pub use json::parse_json;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use mesh::Sector;
-pub use patch::{disc, patch};
+pub use patch::{disc, disc_complex, patch};
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask};
 pub use rules::{RuleInfo, mesh_rule, mesh_rules};
