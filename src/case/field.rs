@@ -57,7 +57,7 @@ impl FieldCase {
         for k in 0..field.degree() {
             let at = Rational::from(k);
             let sample = Sample { builder: builder.clone(), at: at.clone() };
-            samples.push((at, Case::parse_as(name, text, |source| File::sampled(source, sample))?));
+            samples.push((at, Case::parse_as(name, text, |source| File::sampled(source, sample))?.closed()?));
         }
         let first = &samples[0].1.shape;
         let mut states = Vec::with_capacity(first.states.len());

@@ -32,6 +32,10 @@ impl File {
         Self { sample: Some(sample), ..Self::new(source) }
     }
 
+    pub fn is_sampled(&self) -> bool {
+        self.sample.is_some()
+    }
+
     pub fn problem(&self, code: &str, message: impl AsRef<str>, span: Range<usize>, note: impl AsRef<str>) -> Problem {
         Problem::new(format!("secant::case::{code}"), message).with_source(&self.source).with_label(span, note)
     }
@@ -115,6 +119,26 @@ impl<'a> Node<'a> {
                 .problem("range", format!("{} must be a whole number from 0 to {max}", self.what), "out of range")
                 .with_help("whole numbers are written with digits only")),
         }
+    }
+
+    /// Whether this is the word `"?"`, for a whole operator that is unknown.
+    pub fn is_question(&self) -> bool {
+        self.value.get_ref().as_str() == Some("?")
+    }
+
+    /// `"?"` or `"?name"`: an unknown entry with its name; `None` for anything else.
+    pub fn unknown(&self) -> Result<Option<Option<String>>, Problem> {
+        let Some(name) = self.value.get_ref().as_str().and_then(|text| text.trim().strip_prefix('?')) else {
+            return Ok(None);
+        };
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
+        if name.chars().count() > 40 || !name.chars().all(plain) {
+            let message = format!("{} is not the name of an unknown", self.what);
+            return Err(self
+                .problem("unknown-name", message, "not a name")
+                .with_help("an unknown entry is \"?\", or \"?a\" with a name of letters, digits, `_`, `-`, `.`"));
+        }
+        Ok(Some((!name.is_empty()).then(|| name.to_owned())))
     }
 
     /// An exact number: an integer, a fraction in quotes, or a decimal (read exactly, from its source text).
@@ -234,6 +258,11 @@ impl<'a> Table<'a> {
     /// Where the key itself stands.
     pub fn key_span(&self, key: &str) -> Option<Range<usize>> {
         self.table.keys().find(|k| k.get_ref() == key).map(Spanned::span)
+    }
+
+    /// All keys, in the order of the file.
+    pub fn keys(&self) -> Vec<String> {
+        self.table.keys().map(|k| k.get_ref().to_string()).collect()
     }
 
     pub fn need(&self, key: &str, example: &str) -> Result<Node<'a>, Problem> {

@@ -159,7 +159,11 @@ pub fn daubechies(moments: usize) -> Result<FieldMask, SchemeError> {
             "(1+sqrt(10)-sqrt(5+2*sqrt(10)))/16",
         ],
         _ => {
-            return Err(SchemeError::value("moments", &moments, "the filters with 2 and 3 vanishing moments are built"));
+            return Err(SchemeError::value(
+                "moments",
+                &moments,
+                "the filters with 2 and 3 vanishing moments are built",
+            ));
         }
     };
     match NumberField::read(texts) {
