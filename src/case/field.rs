@@ -139,7 +139,7 @@ pieces = [
     #[test]
     fn verdicts_are_refused_with_a_way_on() {
         let problem = Case::parse("golden.toml", CURVE).unwrap_err();
-        assert_eq!(problem.id(), "secant::case::irrational");
+        assert_eq!(problem.id(), "secant::case::irrational-entry");
         assert_eq!(problem.position(), Some((5, 10)));
         assert!(problem.remedy().unwrap().contains("secant spectrum"));
         let rational = CURVE.replace("sqrt(5)", "sqrt(4)");

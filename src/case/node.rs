@@ -192,7 +192,7 @@ impl<'a> Node<'a> {
             (None, None) => {
                 let field = builder.field().describe();
                 let message = format!("{} is irrational, a number of {field}", self.what);
-                Err(self.problem("irrational", message, "an irrational number").with_help(
+                Err(self.problem("irrational-entry", message, "an irrational number").with_help(
                     "verdicts are proved for rational operators only; `secant spectrum FILE` prints the exact spectra over \
                      the number field of this case",
                 ))

@@ -6,6 +6,7 @@ mod expand;
 mod explain;
 mod gallery;
 mod init;
+mod irrational;
 mod many;
 mod output;
 mod progress;

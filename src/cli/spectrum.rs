@@ -64,7 +64,7 @@ fn field_operators(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
 fn matrices(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
     if path.extension().is_some_and(|e| e == "toml") {
         let case = match Case::read(path) {
-            Err(p) if matches!(p.id(), "secant::case::irrational" | "secant::case::expression") => {
+            Err(p) if matches!(p.id(), "secant::case::irrational-entry" | "secant::case::expression") => {
                 return field_operators(path);
             }
             other => other?,

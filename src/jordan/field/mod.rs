@@ -200,7 +200,7 @@ pub fn estimated_field_work(a: &FieldMatrix) -> u64 {
     let a = a.shrunk();
     match a.rational() {
         Some(rational) => estimated_work(&rational),
-        None if a.rows() * a.field().degree() > 2_000 => u64::MAX,
+        None if a.rows() * a.field().degree() > 800 => u64::MAX,
         None => {
             let restricted: Matrix = a.restricted();
             estimated_work(&restricted).saturating_mul(4)

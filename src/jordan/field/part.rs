@@ -14,6 +14,9 @@ use std::collections::BTreeMap;
 /// Above this degree eigenvectors are not divided by one of their entries.
 const NORMALISED_DEGREE: usize = 32;
 
+/// Above this degree over the rationals a factor is not split over the field by its norm.
+const SPLIT_DEGREE: usize = 32;
+
 type Embedding = Option<Vec<Vec<(usize, crate::arith::Integer)>>>;
 
 /// The action on an invariant subspace of `K^n` (see [`Side`]).
@@ -124,8 +127,9 @@ pub(super) fn all(a: &FieldMatrix) -> Vec<Placed> {
     for (right, left) in split(a) {
         let parts = match (right.matrix.rational(), left.matrix.rational()) {
             (Some(r), Some(l)) => rational_parts(field, r, l),
-            _ => field_parts(field, &right.matrix, &left.matrix),
+            _ => None,
         };
+        let parts = parts.unwrap_or_else(|| field_parts(field, &right.matrix, &left.matrix));
         for mut part in parts {
             embed(&mut part.right, &right.embedding, a.rows());
             embed(&mut part.left, &left.embedding, a.rows());
@@ -152,23 +156,26 @@ fn embed(chains: &mut [Chain], embedding: &Embedding, size: usize) {
     }
 }
 
-/// The parts of a rational summand: its spectrum over the rationals, every factor split over the field.
-fn rational_parts(field: &NumberField, right: Matrix, left: Matrix) -> Vec<Part> {
+/// The parts of a rational summand: its spectrum over the rationals, every factor split over the field; `None` where that is
+/// more work than the restriction of scalars.
+fn rational_parts(field: &NumberField, right: Matrix, left: Matrix) -> Option<Vec<Part>> {
     let side = |matrix| Side { matrix, embedding: None };
     let summand = Summand { right: side(right), left: side(left) };
     let mut out = Vec::new();
     for merged in decompose(&[summand]) {
-        // Where the norm is too large for the splitting, the matrix itself was too large before.
-        let extensions = field.all_extensions(&merged.poly);
-        for extension in extensions {
-            let values = powers(&extension.lambda, merged.poly.degree().unwrap_or(1), &extension.poly);
+        let degree = merged.poly.degree().unwrap_or(1);
+        if degree > 1 && degree * field.degree() > SPLIT_DEGREE {
+            return None;
+        }
+        for extension in field.all_extensions(&merged.poly) {
+            let values = powers(&extension.lambda, degree, &extension.poly);
             let (mut right, mut left) = (merged.right.clone(), merged.left.clone());
             mapped(&mut right, |x| substituted(x, &values));
             mapped(&mut left, |x| substituted(x, &values));
             out.push(Part { extension, multiplicity: merged.multiplicity, blocks: merged.blocks.clone(), right, left });
         }
     }
-    out
+    Some(out)
 }
 
 /// 0, 1, -1, 2, …
