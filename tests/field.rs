@@ -53,8 +53,9 @@ fn loop_and_doo_sabin_have_their_known_eigenvalues_at_larger_valences() {
         assert_eq!(s.factors.iter().filter(|f| f.blocks == [1, 1]).count(), (n - 1) / 2, "{n}");
         let dual = field_local_matrix(&MeshRule::DooSabin(DualWeights::Original), n, 1).unwrap();
         let s = FieldSpectrum::of(&dual.matrix);
-        let values: Vec<(String, usize)> =
+        let mut values: Vec<(String, usize)> =
             s.factors.iter().map(|f| (s.field.display(&f.poly[0].neg()), f.multiplicity)).collect();
+        values.sort_by_key(|v| std::cmp::Reverse(v.1));
         let expected = [("1/4", n - 3), ("1/2", 2), ("1", 1)].map(|(t, m)| (t.to_owned(), m));
         assert_eq!(values, expected, "{n}");
     }
@@ -127,7 +128,7 @@ fn bad_entries_are_told_with_their_place() {
         ("2\n1 2\n0 pi\n", "3:3"),
         ("1\nroot(x^3-x-1,2,3)\n", "0 real roots"),
         ("1\n1/(sqrt(2)^2-2)\n", "division by zero"),
-        ("[[sqrt(2), sqrt(3)], [sqrt(5), sqrt(7)+sqrt(11)+sqrt(13)+sqrt(17)]]", "over the limit"),
+        ("[[sqrt(2), sqrt(3)], [sqrt(5), sqrt(7)+sqrt(11)+sqrt(13)+sqrt(17)]]", "secant::matrix::limit"),
     ] {
         let path = file("field-bad.txt", text);
         let (_, err) = output(&["spectrum", path.to_str().unwrap()], 2);

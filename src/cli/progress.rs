@@ -45,13 +45,13 @@ pub struct Waiting {
 }
 
 impl Waiting {
-    /// Starts waiting for a certification.
+    /// Starts waiting for a certificate.
     pub fn new(quiet: bool) -> Self {
-        Self::showing("certifying …", quiet)
+        Self::with("certifying …", quiet)
     }
 
-    /// Starts waiting for anything.
-    pub fn showing(message: &'static str, quiet: bool) -> Self {
+    /// Starts waiting for what the message says.
+    pub fn with(message: &'static str, quiet: bool) -> Self {
         use std::io::IsTerminal;
         if quiet || !std::io::stderr().is_terminal() {
             return Self { done: None };

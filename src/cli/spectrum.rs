@@ -90,7 +90,7 @@ fn matrices(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
 }
 
 fn rendered(args: &SpectrumArgs, name: &str, input: &Input) -> Result<String, Problem> {
-    let waiting = Waiting::showing("computing the spectrum …", false);
+    let waiting = Waiting::with("computing the spectrum …", false);
     let text = match input {
         Input::Rational(matrix) => render(args, name, matrix),
         Input::Field(matrix) => render_field(args, name, matrix),
