@@ -1,6 +1,7 @@
 //! Reports: one document model, and its renderings.
 
 pub mod document;
+pub mod every;
 pub mod figures;
 pub mod html;
 pub mod json;

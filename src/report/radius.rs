@@ -3,7 +3,6 @@
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::radius::{Growth, JointRadius, Proof};
 use crate::shape::word_text;
-use crate::theorem::cone::{CommonCone, ConeAnswer};
 use crate::theorem::regularity::{Attained, Regularity};
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor, Pow};
 use std::fmt::Write as _;
@@ -112,26 +111,6 @@ pub fn regularity(r: &Regularity) -> String {
         let _ = writeln!(out, "{sense}    {} ({note})", interval(e));
     }
     out
-}
-
-/// The answer to the search for a common cone.
-#[must_use]
-pub fn cone(answer: &ConeAnswer) -> String {
-    match answer {
-        ConeAnswer::Proved(c) => proved(c),
-        ConeAnswer::Refuted(o) => {
-            format!("no common cone: the cycle {} of state {} has {}\n", word_text(&o.word), o.state, o.reason)
-        }
-        ConeAnswer::Undetermined => "common cone: not found within the budget\n".to_owned(),
-    }
-}
-
-fn proved(c: &CommonCone) -> String {
-    let rays: Vec<usize> = c.cones.iter().map(|k| k.rays.cols()).collect();
-    format!(
-        "common cones with {rays:?} rays; they shrink by {} a letter: half-tangents exist at every point\n",
-        decimal(&c.shrink().hi, true, 6)
-    )
 }
 
 #[cfg(test)]

@@ -16,6 +16,80 @@ pub(super) struct Frame {
 
 type Rays = Vec<Vec<f64>>;
 
+/// Rays for cones that the maps do not leave, though images may lie on the boundary: chords and the rays to which short cycles
+/// pull, closed under the maps.
+pub(super) fn propose_closed(frame: &Frame) -> Option<Vec<Vec<Vec<Rational>>>> {
+    let mut cones: Vec<Vec<Vec<Rational>>> = frame.chords.iter().map(|c| Some(vec![scaled(c)?])).collect::<Option<_>>()?;
+    for (state, product) in short_cycles(frame) {
+        if let Some(ray) = super::slow::limit_ray(&product, &frame.chords[state]) {
+            cones[state].push(scaled(&ray)?);
+        }
+    }
+    for _ in 0..CLOSING_ROUNDS {
+        for rays in &mut cones {
+            prune_exactly(rays)?;
+        }
+        let mut grown = false;
+        for (from, _, to, matrix) in &frame.maps {
+            for ray in cones[*to].clone() {
+                let image = scaled(&matrix.apply(&ray))?;
+                if super::cone::combine(&cones[*from], &image).is_none() {
+                    cones[*from].push(image);
+                    grown = true;
+                }
+            }
+        }
+        if !grown {
+            return Some(cones);
+        }
+    }
+    None
+}
+
+const CLOSING_ROUNDS: usize = 12;
+const MAX_CLOSED_RAYS: usize = 24;
+
+/// The products of the cycles of up to three letters, by position of the state.
+fn short_cycles(frame: &Frame) -> Vec<(usize, Matrix)> {
+    let mut found = Vec::new();
+    let start = |s: usize| (s, s, Matrix::identity(frame.dims[s]));
+    let mut layer: Vec<(usize, usize, Matrix)> = (0..frame.dims.len()).map(start).collect();
+    for _ in 0..3 {
+        let mut longer = Vec::new();
+        for (home, at, product) in &layer {
+            for (_, _, to, matrix) in frame.maps.iter().filter(|m| m.0 == *at) {
+                longer.push((*home, *to, product * matrix));
+            }
+        }
+        found.extend(longer.iter().filter(|(home, at, _)| home == at).map(|(home, _, p)| (*home, p.clone())));
+        layer = longer;
+        if layer.len() > 100 {
+            break;
+        }
+    }
+    found
+}
+
+/// The vector divided by its largest entry in absolute value; `None` for 0.
+fn scaled(v: &[Rational]) -> Option<Vec<Rational>> {
+    let largest = v.iter().map(crate::arith::abs).max().filter(|x| *x > 0)?;
+    Some(v.iter().map(|x| x / &largest).collect())
+}
+
+/// `None` where the rays lie in no half-space, or are too many.
+fn prune_exactly(rays: &mut Vec<Vec<Rational>>) -> Option<()> {
+    functional(rays)?;
+    let mut k = 0;
+    while k < rays.len() && rays.len() > 1 {
+        let ray = rays.remove(k);
+        if super::cone::combine(rays, &ray).is_none() {
+            rays.insert(k, ray);
+            k += 1;
+        }
+    }
+    (rays.len() <= MAX_CLOSED_RAYS).then_some(())
+}
+
 const MAX_RAYS: usize = 160;
 
 /// How far the cone is thickened, and how far images are pushed when it is closed under the maps.

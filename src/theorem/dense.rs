@@ -89,7 +89,7 @@ fn examine_deeper(cx: &Context, dense: &DenseSet, found: &mut Certified) -> Clai
 /// Theorem 5′, its operators being injective.
 fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
     let claim = |verdict, reason| claim(Statement::Theorem5Projected, PROJECTED, verdict, reason);
-    dense.upstairs = upstairs(cx);
+    dense.upstairs = first_level_joints(cx);
     if dense.upstairs.iter().any(|p| p.verdict != Verdict::Proved) {
         let reason = "the projection is not injective, and before it a first-level joint is not proved";
         return claim(Verdict::Undetermined, Some(reason));
@@ -102,7 +102,7 @@ fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
 }
 
 /// The first-level joints of all reachable edge states, each in the visible quotient of its own state.
-fn upstairs(cx: &Context) -> Vec<PointReport> {
+pub fn first_level_joints(cx: &Context) -> Vec<PointReport> {
     let mut reports = Vec::new();
     for state in cx.shape.reachable() {
         if cx.shape.states[state].kind != CellKind::Edge {

@@ -5,17 +5,21 @@ pub mod cone;
 mod cone_search;
 mod dense;
 mod direction;
+mod everywhere;
 mod point;
 pub mod regularity;
 mod ring;
 mod similarity;
+mod slow;
 mod verdict;
 pub mod wavelet;
 
 pub use branch::Context;
+pub use everywhere::Everywhere;
 pub use direction::{Direction, primitive};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use similarity::Similarities;
+pub use slow::SlowCycle;
 pub use verdict::{
     BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
     StateReport, Statement, Verdict,
@@ -111,6 +115,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         dense: None,
         polygons: None,
         similarities: similarity::similarities(&cx),
+        everywhere: None,
     };
     let mut asked = Vec::new();
     for address in addresses {
@@ -118,6 +123,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
+        found.everywhere = everywhere::everywhere(&cx, &mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
@@ -158,6 +164,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         dense: None,
         polygons: None,
         similarities: None,
+        everywhere: None,
     }
 }
 
