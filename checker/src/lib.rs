@@ -5,6 +5,7 @@
 
 pub mod case;
 mod claims;
+mod everywhere;
 mod germ;
 pub mod json;
 pub mod matrix;

@@ -4,6 +4,7 @@
 //! shares no code with this crate.
 
 mod branch;
+mod everywhere;
 mod hull;
 mod radius;
 mod top;
@@ -231,6 +232,8 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
+    let place_of = |point: &PointReport| points.places.iter().position(|p| *p == place_json(point));
+    answers.extend(everywhere::answer(shape, found, place_of));
     if let Some(similarities) = &found.similarities {
         let gram = &similarities.gram;
         let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();

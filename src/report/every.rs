@@ -94,11 +94,8 @@ fn state_place(case: &Case, state: usize) -> String {
 }
 
 fn cones(case: &Case, cone: &CommonCone) -> Line {
-    let each: Vec<String> = cone
-        .cones
-        .iter()
-        .map(|c| format!("{}{}", count(c.rays.cols(), "ray"), state_place(case, c.state)))
-        .collect();
+    let each: Vec<String> =
+        cone.cones.iter().map(|c| format!("{}{}", count(c.rays.cols(), "ray"), state_place(case, c.state))).collect();
     let mut text = format!("{}; all pieces map them into themselves", listed(&each));
     if !cone.slow.is_empty() {
         let slow: Vec<String> = cone.slow.iter().map(|s| format!("`{}`", word_text(&s.word))).collect();

@@ -304,10 +304,11 @@ impl CommonCone {
     fn best_rate(&self, shape: &Shape) -> Option<ConeRate> {
         let pieces = most_pieces(shape);
         let states = shape.reachable().len();
+        let rays = self.cones.iter().map(|c| c.rays.cols()).max().unwrap_or(1);
         let mut best: Option<(Rational, ConeRate)> = None;
         for length in 1..=8 {
             let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
-            if words.is_none_or(|w| w > MAX_RATE_WORDS) {
+            if words.is_none_or(|w| w > MAX_RATE_WORDS || (length > 1 && w * rays.pow(3) > MAX_RATE_WORK)) {
                 break;
             }
             let length = length as usize;
@@ -324,6 +325,8 @@ impl CommonCone {
 
 /// How many products are formed to find how fast cones shrink.
 const MAX_RATE_WORDS: usize = 300;
+/// How many multiplications of numbers these may cost.
+const MAX_RATE_WORK: usize = 200_000;
 
 /// The largest number of pieces of a state.
 #[must_use]

@@ -19,7 +19,8 @@ type Rays = Vec<Vec<f64>>;
 /// Rays for cones that the maps do not leave, though images may lie on the boundary: chords and the rays to which short cycles
 /// pull, closed under the maps.
 pub(super) fn propose_closed(frame: &Frame) -> Option<Vec<Vec<Vec<Rational>>>> {
-    let mut cones: Vec<Vec<Vec<Rational>>> = frame.chords.iter().map(|c| Some(vec![scaled(c)?])).collect::<Option<_>>()?;
+    let mut cones: Vec<Vec<Vec<Rational>>> =
+        frame.chords.iter().map(|c| Some(vec![scaled(c)?])).collect::<Option<_>>()?;
     for (state, product) in short_cycles(frame) {
         if let Some(ray) = super::slow::limit_ray(&product, &frame.chords[state]) {
             cones[state].push(scaled(&ray)?);

@@ -34,9 +34,11 @@ pub struct Everywhere {
 
 /// Looks for common cones and decides G¹; `None` for shapes that are no curves or single points.
 pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
-    let edges = cx.shape.reachable().into_iter().all(|e| {
-        cx.shape.states[e].kind == CellKind::Edge && cx.spaces.of(e).basis.cols() > 0
-    });
+    let edges = cx
+        .shape
+        .reachable()
+        .into_iter()
+        .all(|e| cx.shape.states[e].kind == CellKind::Edge && cx.spaces.of(e).basis.cols() > 0);
     if !edges {
         return None;
     }
@@ -79,7 +81,8 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     Everywhere { verdict, cone: Some(cone), seen, joints, exponent, obstacle: None, witness, reason }
 }
 
-const UNSEEN: &str = "no functional was found that is positive on the projected cones, so that this holds before the projection only";
+const UNSEEN: &str =
+    "no functional was found that is positive on the projected cones, so that this holds before the projection only";
 
 fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstacle>) -> Everywhere {
     let mut witness = found.points.iter().position(breaks);

@@ -15,8 +15,8 @@ mod verdict;
 pub mod wavelet;
 
 pub use branch::Context;
-pub use everywhere::Everywhere;
 pub use direction::{Direction, primitive};
+pub use everywhere::Everywhere;
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use similarity::Similarities;
 pub use slow::SlowCycle;

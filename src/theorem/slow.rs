@@ -2,7 +2,7 @@
 //! that pulls the whole cone to one ray (Theorem 6′).
 
 use super::cone::CommonCone;
-use crate::algebraic::Elem;
+use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
 use crate::jordan::{Chain, Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
@@ -10,7 +10,8 @@ use crate::shape::{Shape, Spaces};
 use std::collections::BTreeMap;
 
 /// A cycle along which no product of the matrices `B` is positive, and why its cones shrink to a ray all the same: on `V` one
-/// positive eigenvalue has the one longest Jordan block of largest modulus, and its leading coefficient is positive on the cone.
+/// positive eigenvalue has the one longest Jordan block of largest modulus, and its leading coefficient is positive on all rays but its
+/// own eigenvector.
 #[derive(Debug, Clone)]
 pub struct SlowCycle {
     /// The state of the cycle.
@@ -67,10 +68,8 @@ pub fn cycles(cone: &CommonCone, shape: &Shape, window: usize) -> Option<Vec<(us
     let patterns: BTreeMap<(usize, usize), Pattern> =
         cone.maps.iter().map(|m| ((m.state, m.letter), Pattern::of(&m.matrix))).collect();
     let states = shape.reachable();
-    let mut words: Vec<Word> = states
-        .iter()
-        .map(|&state| Word { state, letters: Vec::new(), end: state, suffixes: Vec::new() })
-        .collect();
+    let mut words: Vec<Word> =
+        states.iter().map(|&state| Word { state, letters: Vec::new(), end: state, suffixes: Vec::new() }).collect();
     for _ in 0..window {
         let mut longer = Vec::new();
         for word in &words {
@@ -95,7 +94,8 @@ pub fn cycles(cone: &CommonCone, shape: &Shape, window: usize) -> Option<Vec<(us
 /// The cycles of the graph of overlapping words, if no two of them meet.
 fn simple_cycles(words: &[Word], shape: &Shape) -> Option<Vec<(usize, Vec<usize>)>> {
     let follows = |a: &Word, b: &Word| {
-        shape.states[a.state].pieces[a.letters[0]].target == b.state && a.letters[1..] == b.letters[..b.letters.len() - 1]
+        shape.states[a.state].pieces[a.letters[0]].target == b.state
+            && a.letters[1..] == b.letters[..b.letters.len() - 1]
     };
     let next: Vec<Vec<usize>> =
         words.iter().map(|a| (0..words.len()).filter(|&k| follows(a, &words[k])).collect()).collect();
@@ -145,7 +145,14 @@ impl SlowCycle {
         let functional = longest_chain(&spectrum.factor(lead).left, longest)?.vectors[0].clone();
         for sign in [1, -1] {
             let functional: Vec<Elem> = functional.iter().map(|x| x.scale(&Rational::from(sign))).collect();
-            let found = Self { state, word: word.to_vec(), linear: linear.clone(), spectrum: spectrum.clone(), lead, functional };
+            let found = Self {
+                state,
+                word: word.to_vec(),
+                linear: linear.clone(),
+                spectrum: spectrum.clone(),
+                lead,
+                functional,
+            };
             if found.positive(cone, spaces) {
                 return Some(found);
             }
@@ -161,16 +168,34 @@ impl SlowCycle {
             && self.positive(cone, spaces)
     }
 
+    /// Whether every ray has a positive leading coefficient, or is the ray to which the others are pulled.
     fn positive(&self, cone: &CommonCone, spaces: &Spaces) -> bool {
         let Some(own) = cone.cones.iter().find(|c| c.state == self.state) else { return false };
         let rays = &spaces.of(self.state).coordinates * &own.rays;
-        let root = self.spectrum.root(self.lead);
-        (0..rays.cols()).all(|j| {
-            let zero = Elem::from_rational(&Rational::from(0));
-            let value = self.functional.iter().zip(rays.column(j)).fold(zero, |s, (g, x)| s.add(&g.scale(&x)));
-            value.sign(root) > 0
+        let (root, factor) = (self.spectrum.root(self.lead), self.spectrum.factor(self.lead));
+        let Some(chain) = longest_chain(&factor.right, factor.blocks[0]) else { return false };
+        let Some(last) = chain.vectors.last() else { return false };
+        let zero = || Elem::from_rational(&Rational::from(0));
+        let pairing = self.functional.iter().zip(last).fold(zero(), |s, (g, v)| s.add(&g.mul(v, &factor.poly)));
+        let pairing = pairing.sign(root);
+        (0..rays.cols()).map(|j| rays.column(j)).all(|ray| {
+            let value = self.functional.iter().zip(&ray).fold(zero(), |s, (g, x)| s.add(&g.scale(x)));
+            value.sign(root) > 0 || along(&chain.vectors[0], &ray, root) == Some(pairing)
         })
     }
+}
+
+/// The sign of the factor by which a vector is a multiple of `v`; `None` where it is none.
+fn along(v: &[Elem], ray: &[Rational], root: &Root) -> Option<i32> {
+    for i in 0..v.len() {
+        for j in 0..i {
+            if !v[j].scale(&ray[i]).sub(&v[i].scale(&ray[j])).is_zero() {
+                return None;
+            }
+        }
+    }
+    let k = (0..v.len()).find(|&k| ray[k] != 0 && !v[k].is_zero())?;
+    Some(v[k].sign(root) * if ray[k] > 0 { 1 } else { -1 })
 }
 
 /// The positive eigenvalue of largest modulus with the one longest block.

@@ -7,8 +7,8 @@ use super::super::words::{mark, point_name, tone};
 use super::quoted_id;
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::theorem::cone::CommonCone;
 use crate::theorem::Certified;
+use crate::theorem::cone::CommonCone;
 
 pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
     let Some(result) = &found.everywhere else { return Vec::new() };
@@ -28,21 +28,31 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
         blocks.push(Block::Checks(checks));
     }
     if let Some(o) = &result.obstacle {
-        blocks.push(Block::text(
-            "In coordinates of $V$, with the orientation signs, the product of this cycle is",
-            [],
-        ));
+        blocks.push(Block::text("In coordinates of $V$, with the orientation signs, the product of this cycle is", []));
         blocks.push(Block::Formula(Math::matrix(&o.product)));
     }
     blocks.push(Block::Facts(every::facts(case, found, result)));
     blocks
 }
 
+/// Most rays that are printed.
+const MAX_RAYS: usize = 12;
+
 fn cones(case: &Case, cone: &CommonCone) -> Vec<Block> {
     let mut blocks = Vec::new();
+    if cone.cones.iter().any(|c| c.rays.cols() > MAX_RAYS) {
+        blocks.push(Block::text(
+            "The rays and the coefficients are given in the certificate; they are too many to be printed.",
+            [],
+        ));
+        return blocks;
+    }
     for own in &cone.cones {
         let name = &case.shape.states[own.state].name;
-        blocks.push(Block::text(&format!("State {name}: the cone of the columns of $G$, with $fG>0$ and chord $Gy$,"), []));
+        blocks.push(Block::text(
+            &format!("State {name}: the cone of the columns of $G$, with $fG>0$ and chord $Gy$,"),
+            [],
+        ));
         blocks.push(super::equation("G", Math::matrix(&own.rays)));
         blocks.push(Block::Paragraph(line("$f=@$, $y=@$.", [Math::vector(&own.functional), Math::vector(&own.chord)])));
     }
