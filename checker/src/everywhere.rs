@@ -57,7 +57,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Ans
     let exponent = at(&rate.place, found.rate(&rate))?;
     let agree = !together.list()?.is_empty() || found.without_joints()?;
     if agree {
-        at(&together.place, regular_joints(model, &together))?;
+        at(&together.place, regular_joints(model, points, &together))?;
     }
     let half = if first {
         "both half-tangents exist at every point"
@@ -85,20 +85,33 @@ fn refuting(points: &[Point], node: &Node<'_>) -> Result<Option<usize>, Rejected
     if broken { Ok(Some(k)) } else { reject("every-point", &item.place, "the point has a tangent like any other") }
 }
 
-/// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state.
-fn regular_joints(model: &Model<'_>, node: &Node<'_>) -> Result<(), Rejected> {
+/// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state, or as a listed
+/// point through a map that is injective on that quotient.
+fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<(), Rejected> {
     let mut listed = Vec::new();
     for item in node.list()? {
-        let [state, point] = item.fields(["state", "point"])?;
-        let e = state.index(model.shape.states.len())?;
-        let space = at(&state.place, model.spaces.of(e))?;
-        let root = Root { state: e, view: space.visible.times(&space.reading())? };
-        let point = Point::check(model, &root, &point)?;
-        let Place::Joint { path, left, right } = &point.place else {
+        let own;
+        let (point, e) = if item.field("listed").is_ok() {
+            let [state, index] = item.fields(["state", "listed"])?;
+            let (e, k) = (state.index(model.shape.states.len())?, index.index(points.len())?);
+            at(&item.place, injective(model, &points[k], e))?;
+            (&points[k], e)
+        } else {
+            let [state, point] = item.fields(["state", "point"])?;
+            let e = state.index(model.shape.states.len())?;
+            let space = at(&state.place, model.spaces.of(e))?;
+            let root = Root { state: e, view: space.visible.times(&space.reading())? };
+            own = Point::check(model, &root, &point)?;
+            if !matches!(&own.place, Place::Joint { path, .. } if path.is_empty()) {
+                return reject("every-point", &item.place, "a first-level joint is needed here");
+            }
+            (&own, e)
+        };
+        let Place::Joint { left, right, .. } = &point.place else {
             return reject("every-point", &item.place, "a joint is needed here");
         };
-        if !path.is_empty() || point.verdict != Verdict::Proved || point.kind != "regular" {
-            return reject("every-point", &item.place, "the joint must be regular, in its own state");
+        if point.verdict != Verdict::Proved || point.kind != "regular" {
+            return reject("every-point", &item.place, "the joint must be regular");
         }
         listed.push((e, *left, *right));
     }
@@ -109,6 +122,19 @@ fn regular_joints(model: &Model<'_>, node: &Node<'_>) -> Result<(), Rejected> {
                 return reject("every-point", &node.place, why);
             }
         }
+    }
+    Ok(())
+}
+
+/// The point is a joint of the state, and the map along its path to where it is looked at is injective on the quotient.
+fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<(), Rejected> {
+    let shape = model.shape;
+    let Place::Joint { path, .. } = &point.place else { return reject("every-point", "", "a joint is needed here") };
+    let (op, end) = shape.product(shape.start, path)?;
+    let space = model.spaces.of(e)?;
+    let seen = shape.view.times(&op)?.times(&space.basis.transpose())?;
+    if end != e || seen.rank()? != space.visible.rows {
+        return reject("every-point", "", "the joint of another state, or directions are lost where it is looked at");
     }
     Ok(())
 }

@@ -6,23 +6,19 @@ use super::{Unsupported, number, numbers};
 use crate::linalg::Matrix;
 use crate::shape::Shape;
 use crate::theorem::cone::CommonCone;
-use crate::theorem::{Certified, Everywhere, Role, SlowCycle, Verdict};
+use crate::theorem::{Certified, EveryJoint, Everywhere, PointReport, Role, SlowCycle, Verdict};
 use serde_json::{Value, json};
 
-/// The answer to "every point", where there is something to prove; `witness` is the position of the refuting point.
-pub fn answer(
-    shape: &Shape,
-    found: &Certified,
-    witness: impl Fn(&crate::theorem::PointReport) -> Option<usize>,
-) -> Option<Value> {
+/// The answer to "every point", where there is something to prove; `position` says where a point stands in the certificate.
+pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) -> Option<usize>) -> Option<Value> {
     let every = found.everywhere.as_ref()?;
-    let witness: Vec<usize> = every.witness.and_then(|k| witness(&found.points[k])).into_iter().collect();
+    let witness: Vec<usize> = every.witness.and_then(|k| position(&found.points[k])).into_iter().collect();
     if every.witness.is_some() && witness.is_empty() {
         return None;
     }
     match &every.cone {
         // What the format cannot express is left out: it is no claim of the case.
-        Some(cone) => with_cone(shape, every, cone, &witness).ok(),
+        Some(cone) => with_cone(shape, found, every, cone, &witness, &position).ok(),
         None if !witness.is_empty() => Some(json!({
             "question": "every point", "verdict": "refuted", "cones": [], "maps": [], "view": null, "window": 0,
             "slow": [], "rate": null, "joints": [], "witness": witness,
@@ -35,7 +31,14 @@ fn matrix(m: &Matrix) -> Value {
     (0..m.rows()).map(|i| numbers(m.row(i))).collect()
 }
 
-fn with_cone(shape: &Shape, every: &Everywhere, cone: &CommonCone, witness: &[usize]) -> Result<Value, Unsupported> {
+fn with_cone(
+    shape: &Shape,
+    found: &Certified,
+    every: &Everywhere,
+    cone: &CommonCone,
+    witness: &[usize],
+    position: &dyn Fn(&PointReport) -> Option<usize>,
+) -> Result<Value, Unsupported> {
     let states = shape.reachable();
     let own = |e: usize| cone.cones.iter().find(|c| c.state == e);
     let cones = states.iter().filter_map(|&e| own(e)).map(|c| {
@@ -52,10 +55,14 @@ fn with_cone(shape: &Shape, every: &Everywhere, cone: &CommonCone, witness: &[us
     });
     let mut joints = Vec::new();
     if every.verdict == Verdict::Proved {
-        for report in &every.joints {
+        for joint in &every.joints {
+            let report = joint.report(found);
             let Role::Joint { state, left, right, .. } = &report.role else { continue };
             let place = json!({"at": "joint", "path": [], "left": left, "right": right});
-            joints.push(json!({"state": state, "point": point(shape, report, &place)?}));
+            joints.push(match joint {
+                EveryJoint::Listed(_) => json!({"state": state, "listed": position(report)}),
+                EveryJoint::Own(_) => json!({"state": state, "point": point(shape, report, &place)?}),
+            });
         }
     }
     let slow = cone.slow.iter().map(slow_cycle).collect::<Result<Vec<_>, _>>()?;

@@ -72,6 +72,10 @@ pub fn joint_radius(radius: &JointRadius) -> String {
         let proof = match &block.proof {
             Some(Proof::Polytope(p)) => format!("polytope of {} points", p.points.len()),
             Some(Proof::Quadratic(_)) => "quadratic norm".to_owned(),
+            Some(Proof::Balanced(p)) => format!("complex balanced polytope of {} points", p.points.len()),
+            Some(Proof::Tree(t)) => {
+                format!("norms of the {} words of a tree", t.codes.iter().map(Vec::len).sum::<usize>())
+            }
             None => "no proof".to_owned(),
         };
         let bound = block.bound.as_ref().map_or_else(|| "-".to_owned(), |b| decimal(b, true, PLACES));

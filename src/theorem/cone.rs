@@ -101,24 +101,33 @@ pub fn common_cone(shape: &Shape, spaces: &Spaces) -> Option<ConeAnswer> {
     let frame = frame(shape, spaces)?;
     let attempts = if frame.dims.iter().any(|d| *d > 5) { 3 } else { 8 };
     for attempt in 0..attempts {
-        if let Some(cone) = propose(&frame, attempt).and_then(|rays| proved_cone(shape, spaces, &frame, &rays)) {
+        if let Some(cone) = propose(&frame, attempt).and_then(|rays| proved_cone(shape, spaces, &frame, &rays, 1)) {
             return Some(ConeAnswer::Proved(cone));
         }
-        if attempt == 1 {
-            if let Some(cone) = propose_closed(&frame).and_then(|rays| proved_cone(shape, spaces, &frame, &rays)) {
-                return Some(ConeAnswer::Proved(cone));
-            }
-            if let Some(obstacle) = obstacle(&frame) {
-                return Some(ConeAnswer::Refuted(obstacle));
-            }
+        if attempt == 1
+            && let Some(obstacle) = obstacle(&frame)
+        {
+            let cone = closed_cone(shape, spaces, &frame);
+            return Some(cone.map_or(ConeAnswer::Refuted(obstacle), ConeAnswer::Proved));
         }
     }
-    Some(ConeAnswer::Undetermined)
+    Some(closed_cone(shape, spaces, &frame).map_or(ConeAnswer::Undetermined, ConeAnswer::Proved))
 }
 
-fn proved_cone(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational>>]) -> Option<CommonCone> {
-    let mut cone = exact(shape, spaces, frame, rays)?;
-    for window in 1..=MAX_WINDOW {
+/// Cones of Theorem 6′.
+fn closed_cone(shape: &Shape, spaces: &Spaces, frame: &Frame) -> Option<CommonCone> {
+    proved_cone(shape, spaces, frame, &propose_closed(frame)?, MAX_WINDOW)
+}
+
+fn proved_cone(
+    shape: &Shape,
+    spaces: &Spaces,
+    frame: &Frame,
+    rays: &[Vec<Vec<Rational>>],
+    longest: usize,
+) -> Option<CommonCone> {
+    let mut cone = exact(shape, spaces, frame, rays, longest > 1)?;
+    for window in 1..=longest {
         let Some(cycles) = slow::cycles(&cone, shape, window) else { continue };
         let slow = cycles.iter().map(|(state, word)| SlowCycle::find(&cone, shape, spaces, *state, word));
         let Some(slow) = slow.collect::<Option<Vec<_>>>() else { continue };
@@ -152,7 +161,15 @@ fn frame(shape: &Shape, spaces: &Spaces) -> Option<Frame> {
 }
 
 /// The exact certificate for proposed rays (in coordinates of `V`).
-fn exact(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational>>]) -> Option<CommonCone> {
+///
+/// With `boundary`, images may lie on the boundary of the cone.
+fn exact(
+    shape: &Shape,
+    spaces: &Spaces,
+    frame: &Frame,
+    rays: &[Vec<Vec<Rational>>],
+    boundary: bool,
+) -> Option<CommonCone> {
     let mut cones = Vec::new();
     for (k, &state) in frame.states.iter().enumerate() {
         let local = Matrix::from_columns(frame.dims[k], &rays[k]);
@@ -165,7 +182,7 @@ fn exact(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational
     for (from, letter, to, matrix) in &frame.maps {
         let column = |r: &Vec<Rational>| {
             let image = matrix.apply(r);
-            interior(&rays[*from], &image).or_else(|| combine(&rays[*from], &image))
+            interior(&rays[*from], &image).or_else(|| if boundary { combine(&rays[*from], &image) } else { None })
         };
         let columns: Option<Vec<Vec<Rational>>> = rays[*to].iter().map(column).collect();
         let b = Matrix::from_columns(rays[*from].len(), &columns?);

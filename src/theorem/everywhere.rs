@@ -2,7 +2,7 @@
 
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
-use super::dense::first_level_joints;
+use super::dense::first_level_joint;
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
@@ -20,8 +20,8 @@ pub struct Everywhere {
     pub cone: Option<CommonCone>,
     /// Whether all this is known of the projected curve too: there are no control points, or a functional sees the cones.
     pub seen: bool,
-    /// The first-level joints of all reachable states, in the visible quotients of their own states, where cones were found.
-    pub joints: Vec<PointReport>,
+    /// The first-level joints of all reachable states, where cones were found.
+    pub joints: Vec<EveryJoint>,
     /// A lower bound of the Hölder exponent of the tangent in the uniform parameter, where cones shrink geometrically.
     pub exponent: Option<Rational>,
     /// A cycle that admits no strictly invariant cone.
@@ -30,6 +30,26 @@ pub struct Everywhere {
     pub witness: Option<usize>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<String>,
+}
+
+/// A first-level joint of a state, seen so that no direction of the visible quotient is lost.
+#[derive(Debug, Clone)]
+pub enum EveryJoint {
+    /// A point of [`Certified::points`], by index: the map to where the shape is looked at is injective on the quotient.
+    Listed(usize),
+    /// The joint in the visible quotient of its own state.
+    Own(Box<PointReport>),
+}
+
+impl EveryJoint {
+    /// What was found there.
+    #[must_use]
+    pub fn report<'a>(&'a self, found: &'a Certified) -> &'a PointReport {
+        match self {
+            Self::Listed(k) => &found.points[*k],
+            Self::Own(report) => report,
+        }
+    }
 }
 
 /// Looks for common cones and decides G¹; `None` for shapes that are no curves or single points.
@@ -67,10 +87,11 @@ fn breaks(p: &PointReport) -> bool {
 
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
-    let joints = first_level_joints(cx);
-    let agree = joints.iter().all(|p| p.verdict == Verdict::Proved && p.kind == Kind::Regular);
-    let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let witness = found.points.iter().position(breaks);
+    let joints = if witness.is_none() { joints(cx, found) } else { Vec::new() };
+    let regular = |p: &PointReport| p.verdict == Verdict::Proved && p.kind == Kind::Regular;
+    let agree = joints.iter().all(|j| regular(j.report(found)));
+    let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
         Some(_) => (Verdict::Refuted, Some("the half-tangents at a joint differ".to_owned())),
         None if !seen => (Verdict::Undetermined, Some(UNSEEN.to_owned())),
@@ -79,6 +100,31 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
     Everywhere { verdict, cone: Some(cone), seen, joints, exponent, obstacle: None, witness, reason }
+}
+
+/// The first-level joints of all reachable states; what was examined already is used where nothing is lost in it.
+fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
+    let mut out = Vec::new();
+    for state in cx.shape.reachable() {
+        let space = cx.spaces.of(state);
+        let injective = |path: &[usize]| {
+            let (op, _) = cx.shape.product(cx.root, path);
+            (&(&cx.view * &op) * &space.basis).rank() == space.visible.rows()
+        };
+        for pair in point::joint_pairs(cx, state) {
+            let listed = found.points.iter().position(|p| match &p.role {
+                Role::Joint { path, state: e, left, right } => {
+                    (*e, (*left, *right)) == (state, pair) && injective(path)
+                }
+                _ => false,
+            });
+            match listed {
+                Some(k) => out.push(EveryJoint::Listed(k)),
+                None => out.extend(first_level_joint(cx, state, pair).map(|p| EveryJoint::Own(Box::new(p)))),
+            }
+        }
+    }
+    out
 }
 
 const UNSEEN: &str =

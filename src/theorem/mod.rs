@@ -16,7 +16,7 @@ pub mod wavelet;
 
 pub use branch::Context;
 pub use direction::{Direction, primitive};
-pub use everywhere::Everywhere;
+pub use everywhere::{EveryJoint, Everywhere};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use similarity::Similarities;
 pub use slow::SlowCycle;

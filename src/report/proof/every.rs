@@ -17,8 +17,9 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
         blocks.push(quoted_id(every::theorem(cone)));
         blocks.extend(cones(case, cone));
     }
-    let checks = result.joints.iter().map(|point| {
-        let mut text = words(format!("in its own state, {}: ", point_name(&case.shape, point).to_lowercase()));
+    let checks = result.joints.iter().map(|joint| {
+        let point = joint.report(found);
+        let mut text = words(format!("{}: ", point_name(&case.shape, point)));
         text.push(mark(point.verdict));
         text.extend(words(format!(", {}", point.kind.word())));
         Check { tone: tone(point.verdict), text }
