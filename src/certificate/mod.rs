@@ -6,9 +6,12 @@
 mod branch;
 mod everywhere;
 mod hull;
+mod joint;
 mod radius;
 mod top;
 mod tree;
+
+pub use joint::radius_certificate;
 
 use crate::arith::Rational;
 use crate::case::Case;

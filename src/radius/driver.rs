@@ -2,7 +2,7 @@
 #![allow(clippy::float_arithmetic, reason = "chooses candidates and scales; every bound is recomputed exactly")]
 
 use super::balanced::{self, Balanced};
-use super::blocks::{Block, blocks};
+use super::blocks::{Block, Step, flag};
 use super::exact::{LeadingVector, closes, exact_points, grid, rational};
 use super::float::Floats;
 use super::grow::{Grown, Origin, Task, Vertex, grow, missing_axes};
@@ -84,6 +84,8 @@ pub struct JointRadius {
     pub growth: Growth,
     /// The diagonal blocks.
     pub blocks: Vec<BlockProof>,
+    /// The flag of invariant families to which the blocks belong, in its order.
+    pub flag: Vec<Step>,
 }
 
 /// Computes the joint spectral radius of a set or an automaton of rational matrices.
@@ -95,11 +97,12 @@ pub struct JointRadius {
 /// Bounded by the options; small sets take milliseconds.
 pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, SystemError> {
     let system = system.clone().checked()?;
-    let parts = blocks(&system);
+    let steps = flag(&system);
+    let parts: Vec<Block> = steps.iter().filter_map(|s| s.block.clone()).collect();
     let mut found: Vec<Vec<Candidate>> = parts.iter().map(|b| candidates(&b.system, options.longest, 1e-7)).collect();
     for _ in 0..8 {
         match attempt(&system, &parts, &found, options) {
-            Ok(result) => return Ok(result),
+            Ok(result) => return Ok(JointRadius { flag: steps, ..result }),
             Err((block, path)) => {
                 let word = canonical(&path);
                 let value = Floats::of(&parts[block].system.product(&word)).radius().powf(1.0 / word.len() as f64);
@@ -108,7 +111,8 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
             }
         }
     }
-    attempt_without_restart(&system, &parts, &found, options)
+    let result = attempt_without_restart(&system, &parts, &found, options)?;
+    Ok(JointRadius { flag: steps, ..result })
 }
 
 type Restart = (usize, Vec<usize>);
@@ -132,7 +136,14 @@ fn attempt(
     let Some(best) = best_word(parts, found) else {
         let exact = parts.is_empty();
         let upper = exact.then(|| Rational::from(0));
-        return Ok(JointRadius { lower: None, upper, exact, growth: Growth::Unknown, blocks: Vec::new() });
+        return Ok(JointRadius {
+            lower: None,
+            upper,
+            exact,
+            growth: Growth::Unknown,
+            blocks: Vec::new(),
+            flag: Vec::new(),
+        });
     };
     let mut proofs = Vec::new();
     for (k, block) in parts.iter().enumerate() {
@@ -200,7 +211,7 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     } else {
         Growth::Unknown
     };
-    JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs }
+    JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs, flag: Vec::new() }
 }
 
 fn prove(

@@ -19,7 +19,7 @@ mod system;
 mod tree;
 
 pub use balanced::{Balanced, Complex, ComplexInclusion, ComplexPoint};
-pub use blocks::{Block, blocks};
+pub use blocks::{Block, Step, blocks, flag};
 pub use contracts::{NormContraction, contraction_by_norms, linear_system};
 pub use driver::{BlockProof, Growth, JointRadius, Options, Proof, joint_radius};
 pub use exact::LeadingVector;

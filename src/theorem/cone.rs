@@ -1,6 +1,6 @@
 //! Theorems 6 and 6′: invariant cones, and what they say about every point of a curve.
 
-use super::cone_search::{Frame, propose, propose_closed};
+use super::cone_search::{BUDGET, Frame, propose, propose_closed};
 use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
 use crate::arith::{Interval, Rational};
@@ -141,7 +141,13 @@ fn proved_cone(
 
 fn frame(shape: &Shape, spaces: &Spaces) -> Option<Frame> {
     let states = shape.reachable();
-    let mut frame = Frame { states: states.clone(), dims: Vec::new(), chords: Vec::new(), maps: Vec::new() };
+    let mut frame = Frame {
+        states: states.clone(),
+        dims: Vec::new(),
+        chords: Vec::new(),
+        maps: Vec::new(),
+        budget: std::cell::Cell::new(BUDGET),
+    };
     for (k, &e) in states.iter().enumerate() {
         let state = &shape.states[e];
         if state.kind != CellKind::Edge || spaces.of(e).basis.cols() == 0 {

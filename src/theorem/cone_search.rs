@@ -4,6 +4,7 @@
 use crate::arith::{Integer, Rational, to_f64};
 use crate::linalg::Matrix;
 use crate::radius::cone_combination;
+use std::cell::Cell;
 
 /// The maps of a curve in coordinates of the relevant spaces, with orientation signs.
 pub(super) struct Frame {
@@ -12,7 +13,22 @@ pub(super) struct Frame {
     pub chords: Vec<Vec<Rational>>,
     /// State, letter, target (both as positions in `states`), signed linear part.
     pub maps: Vec<(usize, usize, usize, Matrix)>,
+    /// How much arithmetic the search may still do.
+    pub budget: Cell<usize>,
 }
+
+impl Frame {
+    /// Takes the cost of about one linear program over `rays` out of the budget; `None` where it is spent.
+    fn spend(&self, rays: &Rays) -> Option<()> {
+        let dim = rays.first().map_or(1, Vec::len);
+        let left = self.budget.get().checked_sub(3 * dim * dim * rays.len())?;
+        self.budget.set(left);
+        Some(())
+    }
+}
+
+/// The arithmetic that a search may do.
+pub(super) const BUDGET: usize = 300_000_000;
 
 type Rays = Vec<Vec<f64>>;
 
@@ -110,7 +126,7 @@ pub(super) fn propose(frame: &Frame, attempt: usize) -> Option<Vec<Vec<Vec<Ratio
             }
         }
         for rays in &mut cones {
-            prune(rays)?;
+            prune(frame, rays)?;
         }
     }
     for (rays, &dim) in cones.iter_mut().zip(&frame.dims) {
@@ -133,6 +149,7 @@ fn close(frame: &Frame, maps: &[Vec<Vec<f64>>], cones: &mut [Rays], push: f64) -
     for (map, (from, _, to, _)) in maps.iter().zip(&frame.maps) {
         for ray in cones[*to].clone() {
             let image = unit(apply(map, &ray));
+            frame.spend(&cones[*from])?;
             if !well_inside(&cones[*from], &image, 1e-5) {
                 let centre = centre(&cones[*from]);
                 let height: f64 = dot(&image, &centre) / dot(&centre, &centre);
@@ -141,16 +158,17 @@ fn close(frame: &Frame, maps: &[Vec<Vec<f64>>], cones: &mut [Rays], push: f64) -
                 grown = true;
             }
         }
-        prune(&mut cones[*from])?;
+        prune(frame, &mut cones[*from])?;
     }
     Some(grown)
 }
 
 /// `None` where the rays lie in no half-space, or are too many.
-fn prune(rays: &mut Rays) -> Option<()> {
+fn prune(frame: &Frame, rays: &mut Rays) -> Option<()> {
     direction(rays)?;
     let mut k = 0;
     while k < rays.len() && rays.len() > 1 {
+        frame.spend(rays)?;
         let others: Vec<&[f64]> = rays.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, r)| r.as_slice()).collect();
         if cone_combination(&others, &rays[k]).is_some() {
             rays.remove(k);

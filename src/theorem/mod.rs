@@ -11,6 +11,7 @@ pub mod regularity;
 mod ring;
 mod similarity;
 mod slow;
+pub mod smoothness;
 mod verdict;
 pub mod wavelet;
 
@@ -144,6 +145,20 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     }
     found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     Ok(found)
+}
+
+/// Decides whether a checked shape contracts.
+///
+/// # Errors
+/// [`ModelError::Expands`] with a cycle that does not contract.
+pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
+    shape.check()?;
+    match contraction(shape, expands) {
+        Contraction::Refuted { state, word } => {
+            Err(ModelError::Expands { state: shape.states[state].name.clone(), index: state, word })
+        }
+        found => Ok(found),
+    }
 }
 
 fn without_contraction(contraction: &Contraction, length: usize, open: usize) -> Certified {
