@@ -4,10 +4,14 @@
 //! shares no code with this crate.
 
 mod branch;
+mod everywhere;
 mod hull;
+mod joint;
 mod radius;
 mod top;
 mod tree;
+
+pub use joint::radius_certificate;
 
 use crate::arith::Rational;
 use crate::case::Case;
@@ -231,6 +235,8 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
+    let place_of = |point: &PointReport| points.places.iter().position(|p| *p == place_json(point));
+    answers.extend(everywhere::answer(shape, found, place_of));
     if let Some(similarities) = &found.similarities {
         let gram = &similarities.gram;
         let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();

@@ -28,6 +28,7 @@ pub fn report(case: &Case, found: &Certified) -> Value {
         "claim": found.claims.first().map(|c| c.text.clone()),
         "claims": found.claims.iter().map(claim).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
+        "every_point": super::every::value(found),
         "points": found.points.iter().map(|p| point(case, p)).collect::<Vec<_>>(),
     })
 }
@@ -181,7 +182,7 @@ fn branch_value(b: &BranchReport) -> Value {
     out
 }
 
-fn root_value(root: &Root) -> Value {
+pub(super) fn root_value(root: &Root) -> Value {
     let (re, im) = root.enclosure(64);
     let interval = |x: &crate::arith::Interval| json!([x.lo.to_string(), x.hi.to_string()]);
     let (re_decimal, im_decimal) = root_decimals(root);

@@ -2,6 +2,7 @@
 
 pub mod document;
 pub mod field_spectrum;
+pub mod every;
 pub mod figures;
 pub mod html;
 pub mod json;

@@ -29,6 +29,10 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
     }
     blocks.push(Block::heading(2, "Shape"));
     blocks.push(Block::Facts(shape_facts(case, found)));
+    if let Some(every) = &found.everywhere {
+        blocks.push(Block::heading(2, "Every point"));
+        blocks.push(Block::Facts(super::every::facts(case, found, every)));
+    }
     for point in &found.points {
         blocks.extend(point_blocks(case, point, verbose));
     }

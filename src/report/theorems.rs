@@ -20,7 +20,7 @@ pub struct Theorem {
 const SOURCE: &str = "docs/theory.md; S. Podkorytov, Tangent spaces for self-similar shapes, Dijon 2013, chapter 4.";
 
 /// All statements, in the order of the theory.
-pub const THEOREMS: [Theorem; 13] = [
+pub const THEOREMS: [Theorem; 15] = [
     Theorem {
         id: "lemma-1",
         name: "Lemma 1 (contraction by prefix codes)",
@@ -134,6 +134,29 @@ pub const THEOREMS: [Theorem; 13] = [
                 $P T_u ℓ_j$, and rays go to rays. For a cell $u$ with $P T_u W≠0$ some $T_x ℓ_j$ is not in the kernel of $P T_u$, because \
                 these lines span $W$.",
         reference: "docs/theory.md §9.",
+    },
+    Theorem {
+        id: "theorem-6",
+        name: "Theorem 6 (common cones)",
+        body: "Let every edge state have rays $G_e$ that span $V_e$, a functional $f_e$ with $f_e G_e>0$, a chord $G_e y_e$ with $y_e≥0$, \
+               $y_e≠0$, and for every piece $ε_i T_i G_δ=G_e B_i$ with $B_i>0$ entrywise. If the pieces meet, then all secants of a cell $u$ \
+               lie in the cone $ε_u T_u C$, these cones shrink to a ray at a uniform geometric rate, and both half-tangents exist at \
+               every point. If they agree at the first-level joints of all reachable states, the curve is G¹ with a \
+               Hölder-continuous tangent. With control points the same holds for the projected curve if $h P G>0$ for some $h$.",
+        proof: "A secant between vertices of cells is a sum of chords of smaller cells, all in the cone; take closures. Positive matrices \
+                shrink cones by $(\\sqrt{D}-1)/(\\sqrt{D}+1)$ in Hilbert's metric, $D$ the largest cross-ratio.",
+        reference: "docs/theory.md §11; G. Birkhoff, Extensions of Jentzsch's theorem, Trans. AMS 85 (1957).",
+    },
+    Theorem {
+        id: "theorem-6-slow",
+        name: "Theorem 6′ (cones that shrink slowly)",
+        body: "Theorem 6 holds, but for the rate, with $B_i≥0$ without zero columns, if every address has again and again factors of \
+               bounded length with a positive product, or ends in one of finitely many cycles whose product on $V$ has one positive \
+               eigenvalue with the one longest Jordan block of largest modulus, the leading coefficient of which is positive on all rays.",
+        proof: "Nonnegative matrices do not expand Hilbert's metric, and each positive factor contracts it. Along the cycles all rays of \
+                the cone tend to the eigenvector at the end of the longest chain. So the cones shrink along every address; their diameters \
+                decrease, hence they shrink uniformly, by compactness.",
+        reference: "docs/theory.md §11.",
     },
     Theorem {
         id: "similarities",

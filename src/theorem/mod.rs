@@ -5,17 +5,22 @@ pub mod cone;
 mod cone_search;
 mod dense;
 mod direction;
+mod everywhere;
 mod point;
 pub mod regularity;
 mod ring;
 mod similarity;
+mod slow;
+pub mod smoothness;
 mod verdict;
 pub mod wavelet;
 
 pub use branch::Context;
 pub use direction::{Direction, primitive};
+pub use everywhere::{EveryJoint, Everywhere};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use similarity::Similarities;
+pub use slow::SlowCycle;
 pub use verdict::{
     BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
     StateReport, Statement, Verdict,
@@ -111,6 +116,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         dense: None,
         polygons: None,
         similarities: similarity::similarities(&cx),
+        everywhere: None,
     };
     let mut asked = Vec::new();
     for address in addresses {
@@ -118,6 +124,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
+        found.everywhere = everywhere::everywhere(&cx, &mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
@@ -140,6 +147,20 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     Ok(found)
 }
 
+/// Decides whether a checked shape contracts.
+///
+/// # Errors
+/// [`ModelError::Expands`] with a cycle that does not contract.
+pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
+    shape.check()?;
+    match contraction(shape, expands) {
+        Contraction::Refuted { state, word } => {
+            Err(ModelError::Expands { state: shape.states[state].name.clone(), index: state, word })
+        }
+        found => Ok(found),
+    }
+}
+
 fn without_contraction(contraction: &Contraction, length: usize, open: usize) -> Certified {
     let reason = format!("contraction is not decided: {open} words of length {length} are left");
     let claim = Claim {
@@ -158,6 +179,7 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         dense: None,
         polygons: None,
         similarities: None,
+        everywhere: None,
     }
 }
 

@@ -358,4 +358,6 @@ pub struct Certified {
     pub polygons: Option<Vec<Vec<Vec<Rational>>>>,
     /// The scalar product for which all maps are similarities, where there is one.
     pub similarities: Option<super::similarity::Similarities>,
+    /// What is known of every point of a curve (Theorem 6). Its verdict is its own: the claims are about what was asked.
+    pub everywhere: Option<super::everywhere::Everywhere>,
 }

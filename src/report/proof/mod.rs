@@ -3,6 +3,7 @@
 
 mod cycles;
 mod dense;
+mod every;
 mod points;
 mod scheme;
 
@@ -37,6 +38,7 @@ pub fn document(case: &Case, found: &Certified) -> Document {
         blocks.extend(points::section(case, found, &cycles));
     }
     blocks.extend(dense::section(case, found));
+    blocks.extend(every::section(case, found));
     blocks.extend(closing(found));
     Document { title: case.title.clone(), blocks }
 }
