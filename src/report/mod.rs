@@ -12,6 +12,7 @@ pub mod proof;
 pub mod radius;
 pub mod spectrum;
 pub mod summary;
+pub mod surface;
 mod symbols;
 pub mod tex;
 pub mod text;
