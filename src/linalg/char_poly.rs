@@ -149,6 +149,9 @@ fn spectral_bound(entries: &[Vec<Integer>]) -> u64 {
 /// Bits of `(1 + sqrt(square / n))^n`, rounded up.
 fn power_bits(square: &Integer, n: usize) -> u64 {
     const FRACTION: u64 = 10;
+    if n == 0 {
+        return 0;
+    }
     let scaled = (square.unsigned_abs_ref() << (2 * FRACTION)) / Natural::from(n) + Natural::from(1u32);
     let base = scaled.ceiling_sqrt() + (Natural::from(1u32) << FRACTION);
     (base.pow(n as u64) >> (FRACTION * n as u64)).significant_bits() + 1
