@@ -210,11 +210,12 @@ impl Analysis<'_> {
         if rank.at_least >= 3 {
             return base;
         }
-        if rank.exact() == Some(b.linear.rows()) {
-            // U ⊂ D* ⊂ Y, and G is injective on Y.
-            let statement = Some(if b.linear.rows() == 1 { Statement::CorollaryLine } else { Statement::Corollary });
-            let dimension = Dimension { at_least: b.linear.rows(), exact: true };
-            return SurfaceOutcome { statement, dimension, at_most: Some(b.linear.rows()), ..base };
+        let seen = b.view.rank();
+        if rank.exact() == Some(seen) {
+            // G U ⊂ D* ⊂ G Y, because all secants lie in G Y.
+            let statement = Some(if seen == 1 { Statement::CorollaryLine } else { Statement::Corollary });
+            let dimension = Dimension { at_least: seen, exact: true };
+            return SurfaceOutcome { statement, dimension, at_most: Some(seen), ..base };
         }
         let functionals = self.leading_functionals(&top);
         match self.decide_leading(&functionals) {

@@ -6,6 +6,7 @@ use super::verdict::{Surface, SurfaceDense, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
+use crate::shape::Shape;
 use crate::theorem::{Claim, Context, Statement, Verdict};
 
 /// Largest dimension of the space of bivectors in which density is decided.
@@ -18,8 +19,14 @@ const PROJECTED: &str = "the surface has a tangent plane at the image of the ver
 const EVERYWHERE: &str = "; every cell contains such a vertex, so that they are dense";
 
 /// Adds the claim about the dense set, and its evidence.
-pub fn claim(setting: &Setting, chart: &Chart, surface: &mut Surface, claims: &mut Vec<Claim>) {
-    let Some(mut dense) = evidence(setting, chart) else { return };
+pub fn claim(
+    setting: &Setting,
+    chart: &Chart,
+    product: Option<&(Shape, Shape)>,
+    surface: &mut Surface,
+    claims: &mut Vec<Claim>,
+) {
+    let Some(mut dense) = evidence(setting, chart, product) else { return };
     let injective = dense.injective.iter().all(|(_, _, ok)| *ok);
     let planes = dense.vertices.iter().all(|(_, p)| p.verdict == Verdict::Proved);
     let text = if dense.view_injective { ALL.to_owned() } else { PROJECTED.to_owned() };
@@ -48,7 +55,7 @@ pub fn claim(setting: &Setting, chart: &Chart, surface: &mut Surface, claims: &m
     claims.push(claim);
 }
 
-fn evidence(setting: &Setting, chart: &Chart) -> Option<SurfaceDense> {
+fn evidence(setting: &Setting, chart: &Chart, product: Option<&(Shape, Shape)>) -> Option<SurfaceDense> {
     let cx = &setting.cx;
     let mut dense =
         SurfaceDense { injective: Vec::new(), view_injective: false, vertices: Vec::new(), everywhere: false };
@@ -57,7 +64,7 @@ fn evidence(setting: &Setting, chart: &Chart) -> Option<SurfaceDense> {
             let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
             dense.injective.push((e, letter, onto.rank() == cx.spaces.of(piece.target).visible.rows()));
         }
-        dense.vertices.push((e, vertex_inside(setting, chart, e)?));
+        dense.vertices.push((e, vertex_inside(setting, chart, product, e)?));
     }
     let start = cx.spaces.of(cx.root);
     dense.view_injective = (&cx.view * &start.basis).rank() == start.visible.rows();
@@ -65,14 +72,23 @@ fn evidence(setting: &Setting, chart: &Chart) -> Option<SurfaceDense> {
 }
 
 /// A vertex inside a face in its visible quotient: the first that is proved, or the first.
-fn vertex_inside(setting: &Setting, chart: &Chart, state: usize) -> Option<SurfacePoint> {
+fn vertex_inside(
+    setting: &Setting,
+    chart: &Chart,
+    product: Option<&(Shape, Shape)>,
+    state: usize,
+) -> Option<SurfacePoint> {
     let space = setting.cx.spaces.of(state);
     let cx = Context { root: state, view: &space.visible * &space.coordinates, ..setting.cx };
     let own = Setting { cx, ..*setting };
     let mut first = None;
     for param in chart.inner_nodes(state) {
         let addresses = chart.addresses(state, &param)?;
-        let point = super::conclude(&own, chart.spot(state, &param), Some(param), &addresses)?;
+        let mut point = super::conclude(&own, chart.spot(state, &param), Some(param), &addresses)?;
+        // The product of two curves has one state, so that its theorem applies in the quotient as well.
+        if let Some((first, second)) = product.filter(|_| point.verdict != Verdict::Proved) {
+            super::tensor::add(&mut point, first, second, &own);
+        }
         if point.verdict == Verdict::Proved {
             return Some(point);
         }

@@ -96,7 +96,7 @@ fn parametrised(setting: &Setting, chart: &Chart, asked: &[Address], surface: &m
         &vertices,
         surface,
     ));
-    dense::claim(setting, chart, surface, claims);
+    dense::claim(setting, chart, product.as_ref(), surface, claims);
     for address in asked {
         let Some(param) = chart.locate(start, address) else { continue };
         if let Some(index) = add_point(setting, chart, &param, Some(address), product.as_ref(), surface) {

@@ -6,7 +6,6 @@ use super::verdict::{ProductEvidence, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::scheme::kronecker;
 use crate::shape::{Address, CellKind, Complex, Layout, Shape};
 use crate::theorem::{Dimension, Direction, PointReport, Statement, Verdict, certify};
 
@@ -42,12 +41,17 @@ pub fn factors(complex: &Complex) -> Option<(Shape, Shape)> {
 
 /// The factors of a Kronecker product of an `n x n` and an `m x m` matrix with column sums 1.
 fn split(op: &Matrix, n: usize, m: usize) -> Option<(Matrix, Matrix)> {
+    if (op.rows(), op.cols()) != (n * m, n * m) {
+        return None;
+    }
     let sum = |terms: &mut dyn Iterator<Item = usize>, at: &dyn Fn(usize) -> (usize, usize)| {
         terms.fold(Rational::from(0), |s, k| s + &op[at(k)])
     };
     let a = Matrix::from_fn(n, n, |i, j| sum(&mut (0..m), &|k| (i * m + k, j * m)));
     let b = Matrix::from_fn(m, m, |i, j| sum(&mut (0..n), &|k| (k * m + i, j)));
-    (kronecker(&a, &b) == *op).then_some((a, b))
+    let product = |r: usize, c: usize| &a[(r / m, c / m)] * &b[(r % m, c % m)];
+    let fits = (0..n * m).all(|r| (0..n * m).all(|c| op[(r, c)] == product(r, c)));
+    fits.then_some((a, b))
 }
 
 /// The addresses of the two parameters of an address of a product with `columns` pieces along the first one.
