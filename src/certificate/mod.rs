@@ -94,6 +94,9 @@ fn laid_out(value: &Value, depth: usize) -> String {
 /// # Cost
 /// Linear in the evidence, apart from the choice of radii between neighbouring moduli.
 pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupported> {
+    if found.surface.is_some() {
+        return unsupported("the tangent planes of a surface", "points");
+    }
     let Contraction::Proved(contraction) = &found.contraction else {
         return unsupported("a system whose contraction is not proved", "contraction");
     };

@@ -10,7 +10,8 @@ use crate::diagnostic::Problem;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
 use crate::shape::{Address, CurveError, Frame, word_text};
-use crate::theorem::{Certified, ModelError, Verdict, certify};
+use crate::theorem::surface::certify_complex;
+use crate::theorem::{Certified, ModelError, Verdict};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -93,7 +94,7 @@ fn extension(path: &Path) -> String {
 /// The [`Problem`] of the file, of an address, or of the model.
 pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<Evidence>), Problem> {
     let (case, addresses) = read(path, args)?;
-    let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
+    let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(&case, &error))?;
     if args.no_check || found.verdict == Verdict::Undetermined {
         return Ok((case, found, None));
     }

@@ -89,16 +89,24 @@ fn stem(path: &str) -> String {
 /// The kinds of the examined points, each with its number.
 pub fn kinds(found: &Certified) -> Vec<String> {
     let mut counted: Vec<(&str, usize)> = Vec::new();
+    let mut count = |word: &'static str| match counted.iter_mut().find(|(w, _)| *w == word) {
+        Some((_, n)) => *n += 1,
+        None => counted.push((word, 1)),
+    };
+    for point in found.surface.iter().flat_map(|s| &s.points) {
+        count(match point.verdict {
+            crate::theorem::Verdict::Proved => "tangent plane",
+            crate::theorem::Verdict::Refuted => "no tangent plane",
+            crate::theorem::Verdict::Undetermined => "undetermined",
+        });
+    }
     for point in &found.points {
         let word = if point.kind == crate::theorem::Kind::None { "no tangent" } else { point.kind.word() };
         let word = match point.verdict {
             crate::theorem::Verdict::Undetermined => "undetermined",
             _ => word,
         };
-        match counted.iter_mut().find(|(w, _)| *w == word) {
-            Some((_, n)) => *n += 1,
-            None => counted.push((word, 1)),
-        }
+        count(word);
     }
     counted.into_iter().map(|(w, n)| if n == 1 { w.to_owned() } else { format!("{n} {w}") }).collect()
 }

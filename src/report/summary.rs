@@ -36,6 +36,9 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
     for point in &found.points {
         blocks.extend(point_blocks(case, point, verbose));
     }
+    if let Some(surface) = &found.surface {
+        blocks.extend(super::surface::summary(surface, verbose));
+    }
     blocks.push(Block::heading(2, "Verdict"));
     let mut verdict = vec![mark(found.verdict)];
     verdict.extend(words(match found.verdict {
@@ -64,7 +67,11 @@ pub(super) fn claim_line(claim: &Claim) -> Line {
 pub(super) fn shape_line(case: &Case) -> Line {
     let shape = &case.shape;
     let start = &shape.states[shape.start];
-    let what = if start.kind == CellKind::Edge { "curve" } else { "set" };
+    let what = match start.kind {
+        CellKind::Edge => "curve",
+        CellKind::Face => "surface",
+        CellKind::Vertex | CellKind::Set => "set",
+    };
     let pieces = count(start.pieces.len(), "piece");
     let states = if shape.states.len() == 1 {
         String::new()

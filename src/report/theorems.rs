@@ -20,7 +20,7 @@ pub struct Theorem {
 const SOURCE: &str = "docs/theory.md; S. Podkorytov, Tangent spaces for self-similar shapes, Dijon 2013, chapter 4.";
 
 /// All statements, in the order of the theory.
-pub const THEOREMS: [Theorem; 15] = [
+pub const THEOREMS: [Theorem; 18] = [
     Theorem {
         id: "lemma-1",
         name: "Lemma 1 (contraction by prefix codes)",
@@ -166,6 +166,37 @@ pub const THEOREMS: [Theorem; 15] = [
                 double cone about a line.",
         reference: "docs/theory.md §5; C. Bandt, A. Kravchenko, Differentiability of fractal curves, Nonlinearity 24 (2011), Theorem 1.",
     },
+    Theorem {
+        id: "surface-point",
+        name: "Rule for points of a surface",
+        body: "A point of a patch complex has one branch for each cell that contains it: one inside a cell, two inside an edge, one for each \
+               incident patch at a vertex. The tangent subspace of the point is the sum of those of its branches, and the surface \
+               is differentiable there if and only if the sum has dimension 2.",
+        proof: "In a valid complex the map from the parameters to the surface is well defined and continuous, and the addresses of a \
+                parameter are the paths through the cells that contain it: the cells of the branches make up a neighbourhood of it.",
+        reference: "docs/theory.md §9; the thesis, chapter 4.",
+    },
+    Theorem {
+        id: "theorem-5-surface",
+        name: "Theorem 5″ (a dense set of a surface)",
+        body: "Let all $T_i : W_δ→W_e$ be injective, and let every reachable face $e$ have a vertex $j_e$ inside it at which it is \
+               differentiable in $W_e$ with tangent plane $Π_e$. Then the surface has the tangent plane $P T_u Π_e$ at the vertex \
+               $u j_e$ for every path $u$ from the start on which $P T_u$ does not fold $Π_e$. If $P$ is injective on $W$ that is every \
+               cell, hence a dense set.",
+        proof: "The germ of the vertex $u j_e$ is the image under $T_u$ of the germ of $j_e$, because $j_e$ lies inside the face; a linear \
+                map that is injective on the span of the limit directions takes it to the span of the limit directions of the image. \
+                Every cell contains such a vertex, and cells shrink.",
+        reference: "docs/theory.md §9.",
+    },
+    Theorem {
+        id: "tensor-product",
+        name: "Theorem on tensor products",
+        body: "Let $p(s,t)=a(s)⊗b(t)$ in barycentric space, neither curve constant. The surface is differentiable at $(s,t)$ if and only \
+               if both curves are, and $D^*=D^*_a⊗b(t)+a(s)⊗D^*_b$. With control points $P$ must be injective on $D^*$.",
+        proof: "The mixed term $(a(s')-a(s))⊗(b(t')-b(t))$ is of higher order, and the two summands are independent because $a(s)$ has the \
+                coordinate sum 1 and $D^*_a$ the sum 0.",
+        reference: "docs/theory.md §9.",
+    },
 ];
 
 /// The statement with an id, or the one nearest to what was typed.
@@ -194,6 +225,9 @@ pub fn of(statement: Statement) -> &'static Theorem {
         Statement::Theorem5 => "theorem-5",
         Statement::Theorem5Projected => "theorem-5-projected",
         Statement::Similarities => "similarities",
+        Statement::SurfacePoint => "surface-point",
+        Statement::Theorem5Surface => "theorem-5-surface",
+        Statement::TensorProduct => "tensor-product",
     };
     THEOREMS.iter().find(|t| t.id == id).unwrap_or(&THEOREMS[0])
 }

@@ -98,7 +98,7 @@ fn space_blocks(spaces: &Spaces, branch: &BranchReport) -> Vec<Block> {
     blocks
 }
 
-fn spectrum_blocks(spectrum: &Spectrum) -> Vec<Block> {
+pub(super) fn spectrum_blocks(spectrum: &Spectrum) -> Vec<Block> {
     let mut blocks = vec![Block::text(
         "Characteristic polynomial $χ=@$. Its eigenvalues by descending modulus:",
         [polynomial(&spectrum.char_poly, 'x')],
@@ -333,7 +333,7 @@ fn many_blocks(branch: &BranchReport, statement: Statement) -> Vec<Block> {
 }
 
 /// The cells on which a functional keeps its sign.
-fn cell_table(proof: &RingProof) -> Block {
+pub(super) fn cell_table(proof: &RingProof) -> Block {
     let several = proof.functionals.len() > 1;
     let rows = proof.discharged.iter().take(MAX_CELLS).map(|d| {
         let (lo, hi) = bounds(&d.bound);

@@ -6,6 +6,7 @@ mod dense;
 mod every;
 mod points;
 mod scheme;
+mod surface;
 
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
@@ -36,6 +37,9 @@ pub fn document(case: &Case, found: &Certified) -> Document {
             blocks.extend(cycles::section(case, &spaces, branch, k));
         }
         blocks.extend(points::section(case, found, &cycles));
+    }
+    if let Some(surface) = &found.surface {
+        blocks.extend(surface::section(case, surface));
     }
     blocks.extend(dense::section(case, found));
     blocks.extend(every::section(case, found));
@@ -92,6 +96,12 @@ fn closing(found: &Certified) -> Vec<Block> {
             if !used.contains(&name) {
                 used.push(name);
             }
+        }
+    }
+    let of_surface = found.surface.iter().flat_map(|s| &s.points).flat_map(|p| &p.branches);
+    for name in of_surface.filter_map(|b| b.outcome.statement).map(statement) {
+        if !used.contains(&name) {
+            used.push(name);
         }
     }
     for name in found.claims.iter().filter_map(|c| c.statement).map(statement) {
