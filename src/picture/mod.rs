@@ -1,17 +1,29 @@
 //! Pictures of attractors as SVG. Floats are used here and prove nothing; exact points only start the computation.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
+mod chart;
+mod diagram;
+mod germ;
 mod projection;
 mod svg;
 mod tikz;
 mod trace;
 
+pub use chart::{CellBox, Turning, functional, turning as turning_chart};
+pub use diagram::{Arrow, Dot, Drawing, automaton, spectrum};
+pub use germ::{profile, turning, zoom};
 pub use projection::Projection;
 
 use crate::arith::Rational;
 use crate::shape::{CellKind, Shape};
 use svg::Canvas;
 use trace::Tracer;
+
+/// The style sheet that every picture carries.
+#[must_use]
+pub fn style() -> &'static str {
+    svg::STYLE
+}
 
 /// What is drawn at an examined point.
 #[derive(Debug, Clone)]
@@ -90,8 +102,15 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
         1 => " One examined point is marked.".to_owned(),
         n => format!(" {n} examined points are marked."),
     };
-    let caption = format!("The {what}, its control polygon and the rays found. {}{drawn}", projection.words());
-    let alt = format!("Drawing of the {what} {title} with its control polygon. {}{drawn}", projection.words());
+    let with = if polygon.len() < 2 { "" } else { " with its control polygon" };
+    let seen = match (polygon.len() >= 2, marks.iter().any(|m| !m.rays.is_empty())) {
+        (true, true) => ", its control polygon and the limit rays found",
+        (true, false) => " and its control polygon",
+        (false, true) => " and the limit rays found",
+        (false, false) => "",
+    };
+    let caption = format!("The {what}{seen}. {}{drawn}", projection.words());
+    let alt = format!("Drawing of the {what} “{title}”{with}. {}{drawn}", projection.words());
     Some(Picture {
         svg: canvas.svg(),
         thumbnail: canvas.thumbnail(),

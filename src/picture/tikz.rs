@@ -1,4 +1,4 @@
-use super::svg::{Element, fixed, spaced};
+use super::svg::{Anchor, Element, fixed, spaced};
 use std::fmt::Write;
 
 /// Most points of a path; TeX's memory is small.
@@ -21,6 +21,9 @@ fn colour(class: &str) -> &'static str {
         "sc-p" => "neutral,dashed",
         "sc-k" => "neutral",
         "sc-c" | "sc-s" => "curve",
+        "sc-a" => "neutral",
+        "sc-x" => "curve,fill=curve!20",
+        "sc-y" => "cusp,fill=cusp!20",
         "sc-tangent" => "tangent,thick",
         "sc-cusp" => "cusp,thick",
         "sc-corner" => "corner,thick",
@@ -54,13 +57,14 @@ fn write_element(out: &mut String, element: &Element) {
             let radius = fixed(radius * 0.62);
             let _ = writeln!(out, "\\fill[{}] {} circle[radius={radius}pt];", colour(class), spot(at));
         }
-        Element::Label { at, left, text } => {
-            let side = if *left { "south east" } else { "south west" };
-            let plain: String = text
-                .chars()
-                .filter(|c| c.is_ascii_alphanumeric() || matches!(c, '(' | ')' | ',' | '=' | ' '))
-                .collect();
-            let _ = writeln!(out, "\\node[anchor={side},inner sep=0pt,font=\\scriptsize] at {} {{{plain}}};", spot(at));
+        Element::Label { at, anchor, text } => {
+            let side = match anchor {
+                Anchor::Start => "base west",
+                Anchor::Middle => "base",
+                Anchor::End => "base east",
+            };
+            let text = crate::report::latex::escaped(text);
+            let _ = writeln!(out, "\\node[anchor={side},inner sep=0pt,font=\\scriptsize] at {} {{{text}}};", spot(at));
         }
     }
 }

@@ -29,6 +29,9 @@ const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
 \\setlength{\\parskip}{6pt}
 ";
 
+/// About so many characters fit a line of a table.
+const PAGE: usize = 84;
+
 /// Writes a document as a complete LaTeX file.
 #[must_use]
 pub fn render(document: &Document) -> String {
@@ -55,13 +58,10 @@ fn write_block(out: &mut String, block: &Block) {
         Block::Paragraph(text) => out.push_str(&format!("{}\n", inline(text))),
         Block::Formula(math) => {
             // Wide matrices are shrunk to the line.
-            let body = math_tex(math);
-            let wide = body.matches('&').count() > 40 || body.len() > 600;
-            if wide {
-                out.push_str(&format!("\\[\\resizebox{{0.98\\linewidth}}{{!}}{{$\\displaystyle {body}$}}\\]\n"));
-            } else {
-                out.push_str(&format!("\\[{body}\\]\n"));
-            }
+            out.push_str(&format!(
+                "\\[\\resizebox{{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}}{{!}}{{$\\displaystyle {}$}}\\]\n",
+                math_tex(math)
+            ));
         }
         Block::List(items) => {
             let items: String = items.iter().map(|i| format!("\\item {{}}{}\n", inline(i))).collect();
@@ -89,7 +89,7 @@ fn write_block(out: &mut String, block: &Block) {
             ));
         }
         Block::Details { summary, blocks } => {
-            out.push_str(&format!("{}\n", inline(summary)));
+            out.push_str(&format!("{}\n\\nopagebreak\n", inline(summary)));
             for block in blocks {
                 out.push('\n');
                 write_block(out, block);
@@ -107,10 +107,27 @@ fn tick(tone: Tone) -> &'static str {
     }
 }
 
+/// The widths of the columns: natural where a row fits the page, otherwise by what they hold.
+fn columns(table: &Table) -> String {
+    let length = |cell: &Line| super::text::plain(cell).chars().count();
+    let longest: Vec<usize> = (0..table.header.len())
+        .map(|j| table.rows.iter().chain([&table.header]).filter_map(|row| row.get(j)).map(length).max().unwrap_or(1))
+        .collect();
+    if longest.iter().sum::<usize>() + 3 * longest.len() <= PAGE {
+        return "l".repeat(longest.len());
+    }
+    // A short column gets what it needs, the long ones share the rest.
+    let wanted: Vec<usize> = longest.iter().map(|n| (*n).clamp(6, PAGE / 2)).collect();
+    let total: usize = wanted.iter().sum();
+    let column = |n: &usize| {
+        let permille = (n * 999 / total).max(40);
+        format!(">{{\\raggedright\\arraybackslash}}p{{\\dimexpr0.{permille:03}\\linewidth-2\\tabcolsep\\relax}}")
+    };
+    wanted.iter().map(column).collect()
+}
+
 fn write_table(out: &mut String, table: &Table) {
-    let columns = table.header.len().max(1);
-    let permille = 940 / columns;
-    let spec = format!(">{{\\raggedright\\arraybackslash}}p{{0.{permille:03}\\linewidth}}").repeat(columns);
+    let spec = columns(table);
     let row = |cells: &[Line]| cells.iter().map(|c| inline(c)).collect::<Vec<_>>().join(" & ");
     out.push_str(&format!("{{\\small\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n"));
     out.push_str(&format!("{} \\\\\n\\hline\n\\endhead\n", row(&table.header)));
@@ -126,7 +143,8 @@ fn inline(text: &[Inline]) -> String {
             Inline::Text(t) => escaped(t),
             Inline::Strong(t) => format!("\\textbf{{{}}}", escaped(t)),
             Inline::Code(t) => format!("\\texttt{{{}}}", escaped(t)),
-            Inline::Math(m) => format!("${}$", math_tex(m)),
+            // Long vectors may be broken after commas.
+            Inline::Math(m) => format!("${}$", math_tex(m).replace(',', ",\\allowbreak ")),
             Inline::Mark(tone, t) => {
                 let colour = match tone {
                     Tone::Good => "good",
@@ -141,7 +159,8 @@ fn inline(text: &[Inline]) -> String {
 }
 
 /// Text with TeX's special characters and the symbols that its fonts lack replaced.
-pub(super) fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {

@@ -1,7 +1,7 @@
 //! Formulas as MathML.
 
 use super::html::escaped;
-use super::math::{Math, Spacing, parts, sign_and_size, spacing};
+use super::math::{Math, Spacing, parts, shortened, sign_and_size, spacing};
 
 /// A formula as a `<math>` element; `block` puts it in a line of its own.
 #[must_use]
@@ -40,8 +40,8 @@ fn element(math: &Math) -> String {
 fn number(x: &crate::arith::Rational) -> String {
     let (negative, size) = sign_and_size(x);
     let body = match parts(&size) {
-        (p, None) => format!("<mn>{p}</mn>"),
-        (p, Some(q)) => format!("<mfrac><mn>{p}</mn><mn>{q}</mn></mfrac>"),
+        (p, None) => format!("<mn>{}</mn>", shortened(&p)),
+        (p, Some(q)) => format!("<mfrac><mn>{}</mn><mn>{}</mn></mfrac>", shortened(&p), shortened(&q)),
     };
     if negative { format!("<mrow><mo form=\"prefix\">−</mo>{body}</mrow>") } else { body }
 }

@@ -2,24 +2,30 @@
 
 use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
 use super::super::math::Math;
-use super::super::words::{addresses, dimension, direction, mark, point_name, ray_line};
+use super::super::words::{addresses, dimension, direction, kind_meaning, mark, point_name, ray_line};
 use super::{cycles, equation, quoted_id};
 use crate::case::Case;
-use crate::shape::word_text;
+use crate::report::figures;
+use crate::shape::{CellKind, word_text};
 use crate::theorem::{BranchReport, Certified, Kind, Outcome, PointReport, Role, Side, Verdict};
+
+/// So many points are shown enlarged.
+const MAX_PICTURED: usize = 5;
 
 pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport]) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "The points")];
     if found.points.iter().any(|p| p.branches.len() > 1) {
         blocks.push(quoted_id("joint"));
     }
-    for point in &found.points {
-        blocks.extend(one(case, point, listed));
+    for (k, point) in found.points.iter().enumerate() {
+        // Points asked for come last, and are shown in any case.
+        let asked = found.claims.iter().any(|c| c.asked.as_ref().is_some_and(|(_, index)| *index == k));
+        blocks.extend(one(case, point, listed, k < MAX_PICTURED || asked));
     }
     blocks
 }
 
-fn one(case: &Case, point: &PointReport, listed: &[&BranchReport]) -> Vec<Block> {
+fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: bool) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -38,6 +44,9 @@ fn one(case: &Case, point: &PointReport, listed: &[&BranchReport]) -> Vec<Block>
     }
     if point.branches.len() > 1 {
         blocks.extend(agreement(point));
+    }
+    if pictured {
+        blocks.extend(figures::germ(case, point));
     }
     blocks.push(Block::Paragraph(conclusion(point)));
     blocks
@@ -58,7 +67,7 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
     };
     let mut text = line(&format!("**{side}** `{}`: {from}, then ", branch.address), []);
     text.push(Inline::Strong(name));
-    text.extend(line(". Directions in coordinates of $V$ are brought to the point by", []));
+    text.extend(line(". A direction in the coordinates of $L$ is brought to the point by", []));
     blocks.push(Block::Paragraph(text));
     blocks.push(equation("G", Math::matrix(&branch.view)));
     match &branch.outcome {
@@ -68,8 +77,11 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
             text.extend(words("."));
             blocks.push(Block::Paragraph(text));
             let lists = [("before", &rays.left), ("after", &rays.right)];
+            let ordered = case.shape.states[case.shape.start].kind == CellKind::Edge;
             for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
-                let mut text = words(format!("Rays of the points {name} $p$: ").replace(" $p$", " it"));
+                let of = if ordered { format!(" of the points {name} it in the order of the curve") } else { String::new() };
+                let noun = if list.len() == 1 { "Limit ray" } else { "Limit rays" };
+                let mut text = words(format!("{noun}{of}: "));
                 text.extend(super::super::words::rays(list));
                 text.extend(words("."));
                 blocks.push(Block::Paragraph(text));
@@ -116,6 +128,10 @@ fn conclusion(point: &PointReport) -> Line {
         (_, kind) => kind.word().to_owned(),
     };
     out.push(Inline::Strong(kind));
+    let meaning = kind_meaning(point.kind);
+    if !meaning.is_empty() {
+        out.extend(words(format!(" ({meaning})")));
+    }
     out.extend(words(", "));
     out.extend(dimension(point.dimension));
     if let Some(tangent) = &point.tangent {
