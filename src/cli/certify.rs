@@ -32,7 +32,10 @@ pub fn run(args: &CertifyArgs) -> u8 {
     if args.approx {
         return approximate::run(args);
     }
-    let [path] = args.cases.as_slice() else { return many::run(args) };
+    let path = match args.cases.as_slice() {
+        [path] if args.resume.is_none() => path,
+        _ => return many::run(args),
+    };
     let waiting = Waiting::new(args.quiet);
     let certified = one(path, args);
     waiting.finish();
@@ -74,6 +77,11 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     {
         return Err(Problem::new("secant::usage", "--json, --report, --svg and --certificate are for a single case")
             .with_help("use --jsonl for many cases, and write the reports one by one"));
+    }
+    if args.resume.is_some() && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json)
+    {
+        return Err(Problem::new("secant::usage", "--json, --report, --svg and --certificate do not go with --resume")
+            .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
     let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
     if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {

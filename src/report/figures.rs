@@ -145,7 +145,10 @@ pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root,
     };
     let place = if curve { "over the parameter of the cell, with $g$ itself" } else { "cell by cell" };
     let (alt, caption) = if cells.is_empty() {
-        ("Graph of the functional, which takes both signs on the ring.".to_owned(), "$g$ over the parameter; it is 0 at $q$.".to_owned())
+        (
+            "Graph of the functional, which takes both signs on the ring.".to_owned(),
+            "$g$ over the parameter; it is 0 at $q$.".to_owned(),
+        )
     } else {
         let signs: Vec<&str> = cells.iter().map(|d| if d.sign > 0 { "positive" } else { "negative" }).collect();
         let up = signs.iter().filter(|s| **s == "positive").count();
@@ -173,7 +176,8 @@ pub fn germ(case: &Case, point: &PointReport) -> Vec<Block> {
     let tangent = point.tangent.as_ref().map(|t| t.to_f64());
     if let Some(drawing) = picture::zoom(&case.shape, &point.position, &branches, tangent.as_deref(), "Zoom series") {
         let what = if tangent.is_some() { " and the tangent line" } else { "" };
-        let alt = format!("Four enlargements of the shape around the point{what}, after 0, 2, 4 and 6 turns of the cycle.");
+        let alt =
+            format!("Four enlargements of the shape around the point{what}, after 0, 2, 4 and 6 turns of the cycle.");
         let text = format!("The cells $T_u M^m A$ around the point{what}, each enlarged to the same size.");
         out.push(figure(drawing, alt, line(&text, [])));
     }

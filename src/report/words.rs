@@ -11,8 +11,8 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::shape::{Contraction, Shape, word_text};
 use crate::theorem::{
-    BranchReport, Claim, Dimension, Direction, Holder, Kind, Outcome, PointReport, Rate, RingProof, Role, Statement, Verdict,
-    Witness,
+    BranchReport, Claim, Dimension, Direction, Holder, Kind, Outcome, PointReport, Rate, RingProof, Role, Statement,
+    Verdict, Witness,
 };
 
 /// The colour of a verdict.

@@ -149,4 +149,3 @@ fn ring_blocks(branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
     }
     blocks
 }
-

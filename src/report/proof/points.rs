@@ -79,7 +79,8 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
             let lists = [("before", &rays.left), ("after", &rays.right)];
             let ordered = case.shape.states[case.shape.start].kind == CellKind::Edge;
             for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
-                let of = if ordered { format!(" of the points {name} it in the order of the curve") } else { String::new() };
+                let of =
+                    if ordered { format!(" of the points {name} it in the order of the curve") } else { String::new() };
                 let noun = if list.len() == 1 { "Limit ray" } else { "Limit rays" };
                 let mut text = words(format!("{noun}{of}: "));
                 text.extend(super::super::words::rays(list));

@@ -228,7 +228,8 @@ fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
             formula(bounded(&s.radius)),
         ]
     });
-    let header = vec![words("state"), line("$\\dim V_e$", []), line("$\\dim$ seen", []), words("base point"), words("radius")];
+    let header =
+        vec![words("state"), line("$\\dim V_e$", []), line("$\\dim$ seen", []), words("base point"), words("radius")];
     blocks.push(Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }));
     blocks.extend(polygons(shape, found));
     if let Some(similar) = &found.similarities {

@@ -76,9 +76,9 @@ fn chain_of(chains: &[Chain], block: usize) -> Option<&Chain> {
     chains.iter().find(|c| c.vectors.len() == block)
 }
 
-/// `g(x) = …` in both coordinates.
-fn functional_block(name: &str, functional: &[Elem], branch: &BranchReport) -> Block {
-    let template = format!("${name}(x)=@·C(x-q)=@·(x-q)$.");
+/// `g(x) = …` in both coordinates, after some words.
+fn functional_block(before: &str, functional: &[Elem], branch: &BranchReport) -> Block {
+    let template = format!("{before} $g(x)=@·C(x-q)=@·(x-q)$.");
     Block::text(&template, [elems(functional), elems(&row_on_points(functional, &branch.chart))])
 }
 
@@ -170,8 +170,7 @@ fn vector_blocks(branch: &BranchReport, factor: &Factor, block: usize, functiona
             [Math::tuple(rest)],
         ));
     }
-    blocks.push(Block::text("The left functional is", []));
-    blocks.push(functional_block("g", functional, branch));
+    blocks.push(functional_block("The left functional is", functional, branch));
     let last = &chain.vectors[block - 1];
     let pairing = functional.iter().zip(last).fold(Elem::zero(), |s, (a, b)| s.add(&a.mul(b, &factor.poly)));
     blocks.push(if block == 1 {
@@ -232,7 +231,8 @@ fn many_blocks(case: &Case, branch: &BranchReport, statement: Statement) -> Vec<
     let Some(&(f, r)) = eigenvalues.first() else { return Vec::new() };
     let factor = &branch.spectrum.factors[f];
     let block = factor.blocks[0];
-    let mut top = line("The longest Jordan blocks of the largest modulus have the size $@$ and belong to ", [Math::count(block)]);
+    let mut top =
+        line("The longest Jordan blocks of the largest modulus have the size $@$ and belong to ", [Math::count(block)]);
     top.extend(names(branch, eigenvalues));
     if statement == Statement::Corollary {
         top.extend(line(&format!(": {}", pattern(branch, eigenvalues)), []));
@@ -301,7 +301,10 @@ fn why(dimension: usize, statement: Statement, found: Option<&Witness>) -> Line 
             "the orbit of the witness stays in $F_1$ and is never 0, so that its limit directions lie outside the line $U⊂D^*$, and"
         }
     };
-    line(&format!("**Conclusion.** There is no tangent line on this branch: {reason} $\\dim D^*≥@$."), [Math::count(dimension)])
+    line(
+        &format!("**Conclusion.** There is no tangent line on this branch: {reason} $\\dim D^*≥@$."),
+        [Math::count(dimension)],
+    )
 }
 
 /// The different eigenvalues, once each.
@@ -345,10 +348,13 @@ fn eigenvector_blocks(branch: &BranchReport, eigenvalues: &[(usize, usize)], blo
                     "An eigenvector for $λ=@$, a root of $@$, in the coordinates of $L$, is $@$; its real and imaginary parts span a plane."
                 }
             };
-            blocks.push(Block::text(&text.replace(" (a root of $@$)", ""), match root.rational() {
-                Some(_) => vec![values[0].clone(), values[2].clone()],
-                None => values.to_vec(),
-            }));
+            blocks.push(Block::text(
+                &text.replace(" (a root of $@$)", ""),
+                match root.rational() {
+                    Some(_) => vec![values[0].clone(), values[2].clone()],
+                    None => values.to_vec(),
+                },
+            ));
         }
     }
     blocks
@@ -358,8 +364,7 @@ fn eigenvector_blocks(branch: &BranchReport, eigenvalues: &[(usize, usize)], blo
 fn witness_blocks(case: &Case, branch: &BranchReport, factor: &Factor, root: usize, block: usize) -> Vec<Block> {
     let Some(chain) = chain_of(&factor.left, block) else { return Vec::new() };
     let functional = &chain.vectors[0];
-    let mut blocks = vec![Block::text("The functional that reads the leading coefficient is", [])];
-    blocks.push(functional_block("g", functional, branch));
+    let mut blocks = vec![functional_block("The functional that reads the leading coefficient is", functional, branch)];
     if case.shape.states[branch.state].kind == CellKind::Edge {
         blocks.push(figures::functional(case, branch, functional, &factor.roots[root], None));
     }
@@ -388,7 +393,10 @@ fn cell_table_of(proof: &RingProof, letter: &str) -> Block {
         let (lo, hi) = bounds(&d.bound);
         let mut row = vec![code(word_text(&d.word)), formula(lo), formula(hi)];
         if several {
-            row.insert(1, formula(Math::parse(&format!("{letter}_@"), &mut std::iter::once(Math::count(d.functional + 1)))));
+            row.insert(
+                1,
+                formula(Math::parse(&format!("{letter}_@"), &mut std::iter::once(Math::count(d.functional + 1)))),
+            );
         }
         row
     });
