@@ -50,6 +50,16 @@ fn the_summary_says_what_was_found() {
 }
 
 #[test]
+fn the_readme_prints_what_the_program_does() {
+    let readme = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let shown = readme.split("## What it says").nth(1).and_then(|t| t.split("```").nth(1)).expect("an excerpt");
+    let (out, _) = output(&["certify", HALF], 0);
+    for line in shown.lines().filter(|l| !l.trim().is_empty() && *l != "...") {
+        assert!(out.lines().any(|l| l == line), "{line:?} is not in\n{out}");
+    }
+}
+
+#[test]
 fn standard_input_is_a_case() {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(HALF)).unwrap();
     let out = secant(&["certify", "-"]).write_stdin(text).output().unwrap();
@@ -342,7 +352,7 @@ fn latex_is_complete() {
     output(&["certify", "-q", HALF, "--report", &file], 0);
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(text.contains("\\begin{tikzpicture}") && text.trim_end().ends_with("\\end{document}"));
-    for name in ["document", "itemize", "longtable", "quoted", "pmatrix", "center", "tikzpicture"] {
+    for name in ["document", "itemize", "tabular", "quoted", "pmatrix", "center", "tikzpicture"] {
         let count = |what: &str| text.matches(&format!("\\{what}{{{name}}}")).count();
         assert_eq!(count("begin"), count("end"), "{name}");
     }

@@ -108,6 +108,9 @@ struct CertifyArgs {
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same as PNG, without the words in the picture.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
@@ -119,7 +122,7 @@ struct CertifyArgs {
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]

@@ -210,6 +210,7 @@ fn bow(sheet: &mut Sheet, from: [f64; 2], to: [f64; 2], node: f64, label: &str) 
     }
     let thin: Vec<[f64; 2]> = points.iter().step_by(4).chain(points.last()).copied().collect();
     sheet.path("sc-a", thin);
-    let top = along(0.5);
+    // Nearer to where the arrow begins, where fewer arrows cross.
+    let top = along(0.4);
     sheet.text([top[0] + side[0] * 11.0, top[1] + side[1] * 11.0 + 4.0], Anchor::Middle, label);
 }

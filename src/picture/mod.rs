@@ -4,6 +4,7 @@
 mod chart;
 mod diagram;
 mod germ;
+mod png;
 mod projection;
 mod svg;
 mod tikz;
@@ -75,35 +76,16 @@ pub struct Picture {
 #[must_use]
 pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> {
     let projection = Projection::of(shape);
-    let tracer = Tracer::new(shape)?;
-    let start = &shape.states[shape.start];
-    let is_curve = start.kind == CellKind::Edge;
-    let points = tracer.points(&projection);
-    let polygon = projection.polygon();
-    let spots: Vec<[f64; 2]> = marks.iter().map(|m| projection.point(&m.at)).collect();
-    let all: Vec<[f64; 2]> = points.iter().chain(&polygon).chain(&spots).copied().collect();
-    if points.is_empty() || !all.iter().flatten().all(|x| x.is_finite()) {
-        return None;
-    }
-    let mut canvas = Canvas::around(&all, title);
-    canvas.polygon(&polygon);
-    if is_curve {
-        canvas.curve(&points);
-    } else {
-        canvas.cloud(&points);
-    }
-    for (mark, at) in marks.iter().zip(&spots) {
-        let rays: Vec<[f64; 2]> = mark.rays.iter().map(|r| projection.direction(r)).collect();
-        canvas.mark(mark.style, *at, &rays, &mark.label);
-    }
-    let what = if is_curve { "curve" } else { "set" };
+    let canvas = draw(shape, &projection, title, marks)?;
+    let what = if shape.states[shape.start].kind == CellKind::Edge { "curve" } else { "set" };
     let drawn = match marks.len() {
         0 => String::new(),
         1 => " One examined point is marked.".to_owned(),
         n => format!(" {n} examined points are marked."),
     };
-    let with = if polygon.len() < 2 { "" } else { " with its control polygon" };
-    let seen = match (polygon.len() >= 2, marks.iter().any(|m| !m.rays.is_empty())) {
+    let framed = projection.polygon().len() >= 2;
+    let with = if framed { " with its control polygon" } else { "" };
+    let seen = match (framed, marks.iter().any(|m| !m.rays.is_empty())) {
         (true, true) => ", its control polygon and the limit rays found",
         (true, false) => " and its control polygon",
         (false, true) => " and the limit rays found",
@@ -118,6 +100,39 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
         caption,
         alt,
     })
+}
+
+/// The drawing of [`attractor`] as a PNG file on white, without the words; the same input gives the same bytes.
+///
+/// Returns `None` where [`attractor`] does.
+#[must_use]
+pub fn attractor_png(shape: &Shape, marks: &[Mark]) -> Option<Vec<u8>> {
+    let canvas = draw(shape, &Projection::of(shape), "", marks)?;
+    let [width, height] = canvas.size();
+    png::render(canvas.elements(), width, height)
+}
+
+fn draw(shape: &Shape, projection: &Projection, title: &str, marks: &[Mark]) -> Option<Canvas> {
+    let tracer = Tracer::new(shape)?;
+    let points = tracer.points(projection);
+    let polygon = projection.polygon();
+    let spots: Vec<[f64; 2]> = marks.iter().map(|m| projection.point(&m.at)).collect();
+    let all: Vec<[f64; 2]> = points.iter().chain(&polygon).chain(&spots).copied().collect();
+    if points.is_empty() || !all.iter().flatten().all(|x| x.is_finite()) {
+        return None;
+    }
+    let mut canvas = Canvas::around(&all, title);
+    canvas.polygon(&polygon);
+    if shape.states[shape.start].kind == CellKind::Edge {
+        canvas.curve(&points);
+    } else {
+        canvas.cloud(&points);
+    }
+    for (mark, at) in marks.iter().zip(&spots) {
+        let rays: Vec<[f64; 2]> = mark.rays.iter().map(|r| projection.direction(r)).collect();
+        canvas.mark(mark.style, *at, &rays, &mark.label);
+    }
+    Some(canvas)
 }
 
 #[cfg(test)]
@@ -144,6 +159,8 @@ mod tests {
         assert_eq!(a, b);
         assert!(a.svg.contains("a &amp; b") && a.svg.contains("(0) &lt;&amp;&gt;"));
         assert!(a.caption.contains("triangle"));
+        let png = attractor_png(&spline(), &[]).unwrap();
+        assert!(png.starts_with(b"\x89PNG") && attractor_png(&spline(), &[]).unwrap() == png);
         assert!(a.svg.len() < 200_000, "{}", a.svg.len());
     }
 

@@ -146,6 +146,11 @@ impl Canvas {
         )
     }
 
+    /// Width and height.
+    pub fn size(&self) -> [f64; 2] {
+        [WIDTH, self.height]
+    }
+
     /// The elements, for other formats.
     pub fn elements(&self) -> &[Element] {
         &self.elements

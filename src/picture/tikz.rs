@@ -4,7 +4,7 @@ use std::fmt::Write;
 /// Most points of a path; TeX's memory is small.
 const MAX_POINTS: usize = 1_200;
 /// Points per pixel.
-const UNIT: &str = "0.62pt";
+const UNIT: &str = "0.52pt";
 
 /// The drawing as a `tikzpicture`; the colours are those that the LaTeX report defines.
 pub(super) fn picture(elements: &[Element]) -> String {
@@ -54,7 +54,7 @@ fn write_element(out: &mut String, element: &Element) {
             }
         }
         Element::Disc { class, at, radius } => {
-            let radius = fixed(radius * 0.62);
+            let radius = fixed(radius * 0.52);
             let _ = writeln!(out, "\\fill[{}] {} circle[radius={radius}pt];", colour(class), spot(at));
         }
         Element::Label { at, anchor, text } => {

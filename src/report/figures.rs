@@ -27,6 +27,13 @@ pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
     Some(picture)
 }
 
+/// The picture of [`attractor`] as a PNG file, without the words in it.
+#[must_use]
+pub fn attractor_png(case: &Case, found: &Certified) -> Option<Vec<u8>> {
+    let marks: Vec<Mark> = found.points.iter().take(MAX_MARKS).map(mark).collect();
+    picture::attractor_png(&case.shape, &marks)
+}
+
 fn figure(drawing: Drawing, alt: String, caption: Line) -> Block {
     Block::Figure { svg: drawing.svg, tikz: drawing.tikz, alt, caption }
 }

@@ -27,6 +27,7 @@ const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
 \\sloppy
 \\setlength{\\parindent}{0pt}
 \\setlength{\\parskip}{6pt}
+\\renewcommand{\\arraystretch}{1.25}
 ";
 
 /// About so many characters fit a line of a table.
@@ -107,20 +108,25 @@ fn tick(tone: Tone) -> &'static str {
     }
 }
 
-/// The widths of the columns: natural where a row fits the page, otherwise by what they hold.
+/// Tables of at most so many rows are kept on one page.
+const SHORT: usize = 24;
+
+/// The widths of the columns of a table: natural ones where a row fits the page and the table is short, otherwise fixed
+/// ones by what they hold, so that a table over several pages needs no second run.
 fn columns(table: &Table) -> String {
     let length = |cell: &Line| super::text::plain(cell).chars().count();
     let longest: Vec<usize> = (0..table.header.len())
         .map(|j| table.rows.iter().chain([&table.header]).filter_map(|row| row.get(j)).map(length).max().unwrap_or(1))
         .collect();
-    if longest.iter().sum::<usize>() + 3 * longest.len() <= PAGE {
+    let fits = longest.iter().sum::<usize>() + 3 * longest.len() <= PAGE;
+    if fits && table.rows.len() <= SHORT {
         return "l".repeat(longest.len());
     }
     // A short column gets what it needs, the long ones share the rest.
-    let wanted: Vec<usize> = longest.iter().map(|n| (*n).clamp(6, PAGE / 2)).collect();
-    let total: usize = wanted.iter().sum();
+    let wanted: Vec<usize> = longest.iter().map(|n| (*n).clamp(8, PAGE / 2)).collect();
+    let total = wanted.iter().sum::<usize>().max(PAGE);
     let column = |n: &usize| {
-        let permille = (n * 999 / total).max(40);
+        let permille = (n * 999 / total).max(60);
         format!(">{{\\raggedright\\arraybackslash}}p{{\\dimexpr0.{permille:03}\\linewidth-2\\tabcolsep\\relax}}")
     };
     wanted.iter().map(column).collect()
@@ -129,12 +135,17 @@ fn columns(table: &Table) -> String {
 fn write_table(out: &mut String, table: &Table) {
     let spec = columns(table);
     let row = |cells: &[Line]| cells.iter().map(|c| inline(c)).collect::<Vec<_>>().join(" & ");
-    out.push_str(&format!("{{\\small\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n"));
-    out.push_str(&format!("{} \\\\\n\\hline\n\\endhead\n", row(&table.header)));
+    let short = table.rows.len() <= SHORT;
+    out.push_str(if short { "\\begin{center}\\small\n" } else { "{\\small\n" });
+    let environment = if short { "tabular" } else { "longtable" };
+    out.push_str(&format!("\\begin{{{environment}}}{{@{{}}{spec}@{{}}}}\n"));
+    let head = if short { "" } else { "\\endhead\n" };
+    out.push_str(&format!("{} \\\\\n\\hline\n{head}", row(&table.header)));
     for cells in &table.rows {
         out.push_str(&format!("{{}}{} \\\\\n", row(cells)));
     }
-    out.push_str("\\end{longtable}}\n");
+    out.push_str(&format!("\\end{{{environment}}}\n"));
+    out.push_str(if short { "\\end{center}\n" } else { "}\n" });
 }
 
 fn inline(text: &[Inline]) -> String {
@@ -142,7 +153,7 @@ fn inline(text: &[Inline]) -> String {
         .map(|run| match run {
             Inline::Text(t) => escaped(t),
             Inline::Strong(t) => format!("\\textbf{{{}}}", escaped(t)),
-            Inline::Code(t) => format!("\\texttt{{{}}}", escaped(t)),
+            Inline::Code(t) => format!("\\texttt{{{}}}", breakable(t)),
             // Long vectors may be broken after commas.
             Inline::Math(m) => format!("${}$", math_tex(m).replace(',', ",\\allowbreak ")),
             Inline::Mark(tone, t) => {
@@ -156,6 +167,16 @@ fn inline(text: &[Inline]) -> String {
             }
         })
         .collect()
+}
+
+/// Long codes, such as digests, may be broken.
+fn breakable(code: &str) -> String {
+    let chars: Vec<char> = code.chars().collect();
+    if chars.len() <= 40 {
+        return escaped(code);
+    }
+    let part = |chunk: &[char]| escaped(&chunk.iter().collect::<String>());
+    chars.chunks(16).map(part).collect::<Vec<_>>().join("\\hspace{0pt}")
 }
 
 /// Text with TeX's special characters and the symbols that its fonts lack replaced.

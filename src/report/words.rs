@@ -220,7 +220,19 @@ pub fn holder(h: &Holder) -> Line {
         Some(x) => Math::number(&crate::arith::abs(&x)),
         None => decimal_math(&modulus.mid(), 6),
     };
-    let mut out = line("$h=\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]);
+    // Whole exponents are recognised exactly.
+    let mut power = h.scale.clone();
+    let mut whole = None;
+    for k in 1..=6usize {
+        if h.eigenvalue.rational().is_some_and(|x| crate::arith::abs(&x) == power) {
+            whole = Some(k);
+        }
+        power *= &h.scale;
+    }
+    let mut out = match whole {
+        Some(k) => line("$h=\\ln(@)/\\ln(@)=@$", [size, Math::number(&h.scale), Math::count(k)]),
+        None => line("$h=\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]),
+    };
     if h.power > 0 {
         out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m^{@}$", [Math::count(h.power)]));
     }

@@ -42,7 +42,12 @@ pub(super) fn name(case: &Case, branch: &BranchReport, k: usize) -> String {
     } else {
         String::new()
     };
-    format!("Cycle {}: ({}){state}", k + 1, word_text(&branch.address.cycle))
+    let quotient = if branch.linear.rows() < branch.relevant {
+        format!(", in a quotient of dimension {}", branch.linear.rows())
+    } else {
+        String::new()
+    };
+    format!("Cycle {}: ({}){state}{quotient}", k + 1, word_text(&branch.address.cycle))
 }
 
 pub(super) fn section(case: &Case, spaces: &Spaces, branch: &BranchReport, k: usize, seen: &mut Quoted) -> Vec<Block> {
@@ -130,13 +135,16 @@ fn spectrum_blocks(spectrum: &Spectrum) -> Vec<Block> {
 }
 
 fn ring_blocks(branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
-    let kept: Vec<String> =
-        branch.ring.iter().filter(|p| !p.collapses).map(|p| format!("`{}`", word_text(&p.word))).collect();
-    let dropped: Vec<String> =
-        branch.ring.iter().filter(|p| p.collapses).map(|p| format!("`{}`", word_text(&p.word))).collect();
+    // Lemma 2 is for maps that are not nilpotent; otherwise all pieces count.
+    let nilpotent = branch.spectrum.classes.first().is_some_and(|c| branch.spectrum.root(c.members[0]).is_zero());
+    let cells = |collapsing: bool| -> Vec<String> {
+        let pieces = branch.ring.iter().filter(|p| (p.collapses && !nilpotent) == collapsing);
+        pieces.map(|p| format!("`{}`", word_text(&p.word))).collect()
+    };
+    let (kept, dropped) = (cells(false), cells(true));
     let mut blocks = Vec::new();
     if kept.is_empty() {
-        blocks.push(Block::text("No piece leaves the cycle: the ring is empty.", []));
+        blocks.push(Block::text("No cell is left in the ring $K$.", []));
     } else {
         let noun = if kept.len() == 1 { "the cell" } else { "the cells" };
         blocks.push(Block::text(&format!("The ring $K$ consists of {noun} {}.", listed(&kept)), []));

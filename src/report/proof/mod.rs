@@ -142,8 +142,11 @@ fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
             facts.push((
                 "how to check".to_owned(),
                 line(
-                    "`secant certify CASE --certificate FILE` writes the certificate; `secant-check CASE FILE`, which shares no code with \
-                     secant, proves the verdict again from it and the case file.",
+                    &format!(
+                        "`secant certify CASE --certificate FILE` writes the certificate; `secant-check CASE FILE`, which shares no code with \
+                         secant, proves {} again from it and the case file.",
+                        if found.verdict == Verdict::Undetermined { "what is decided" } else { "the verdict" }
+                    ),
                     [],
                 ),
             ));

@@ -67,9 +67,14 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
     };
     let mut text = line(&format!("**{side}** `{}`: {from}, then ", branch.address), []);
     text.push(Inline::Strong(name));
-    text.extend(line(". A direction in the coordinates of $L$ is brought to the point by", []));
-    blocks.push(Block::Paragraph(text));
-    blocks.push(equation("G", Math::matrix(&branch.view)));
+    if branch.view.cols() == 0 || matches!(branch.outcome, Outcome::NoGerm { .. }) {
+        text.extend(words("."));
+        blocks.push(Block::Paragraph(text));
+    } else {
+        text.extend(line(". A direction in the coordinates of $L$ is brought to the point by", []));
+        blocks.push(Block::Paragraph(text));
+        blocks.push(equation("G", Math::matrix(&branch.view)));
+    }
     match &branch.outcome {
         Outcome::Line { direction: d, rays, .. } => {
             let mut text = line("The tangent line of this branch has the direction $G v$: ", []);
@@ -91,7 +96,9 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
         Outcome::AtLeast { dimension, .. } => {
             blocks.push(Block::text("On this branch $\\dim D^*≥@$.", [Math::count(*dimension)]))
         }
-        Outcome::NoGerm { reason } => blocks.push(Block::Paragraph(words(format!("{reason}.")))),
+        Outcome::NoGerm { reason } => {
+            blocks.push(Block::Paragraph(words(format!("There are no secants to look at: {reason}."))));
+        }
         Outcome::Open { reason, .. } => blocks.push(Block::Paragraph(words(format!("Not decided: {reason}.")))),
     }
     blocks
@@ -119,12 +126,14 @@ fn agreement(point: &PointReport) -> Option<Block> {
 }
 
 fn conclusion(point: &PointReport) -> Line {
+    let no_germ = point.branches.iter().all(|b| matches!(b.outcome, Outcome::NoGerm { .. }));
     let mut out = line("**Conclusion.** ", []);
     out.push(mark(point.verdict));
     out.extend(words(": "));
     let kind = match (point.verdict, point.kind) {
         (Verdict::Proved, Kind::None) => "a tangent line exists; its rays are not settled".to_owned(),
         (Verdict::Refuted, Kind::None) => "no tangent line".to_owned(),
+        (Verdict::Undetermined, _) if no_germ => "there is no tangent question".to_owned(),
         (Verdict::Undetermined, _) => "not decided".to_owned(),
         (_, kind) => kind.word().to_owned(),
     };
@@ -133,8 +142,10 @@ fn conclusion(point: &PointReport) -> Line {
     if !meaning.is_empty() {
         out.extend(words(format!(" ({meaning})")));
     }
-    out.extend(words(", "));
-    out.extend(dimension(point.dimension));
+    if point.dimension.at_least > 0 {
+        out.extend(words(", "));
+        out.extend(dimension(point.dimension));
+    }
     if let Some(tangent) = &point.tangent {
         out.extend(words("; tangent line of "));
         out.extend(direction(tangent));

@@ -31,7 +31,15 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
             blocks.extend(many_blocks(case, branch, *statement));
             blocks
         }
-        Outcome::NoGerm { reason } => vec![Block::Paragraph(words(format!("There is no germ here: {reason}.")))],
+        Outcome::NoGerm { reason } => {
+            let why = if branch.linear.rows() > 0 {
+                " $L$ is nilpotent, so that near $q$ the shape consists of the finitely many sets $M^m K$ that contain $q$, and by enclosures \
+                 none does."
+            } else {
+                ""
+            };
+            vec![Block::text(&format!("There is no germ here: {reason}.{why}"), [])]
+        }
         Outcome::Open { reason, place, at_least, .. } => {
             let mut blocks = Vec::new();
             let place = place.as_ref().map(|p| format!(" The cell in which it failed is {}.", cell(p)));
@@ -119,8 +127,8 @@ fn line_blocks(case: &Case, branch: &BranchReport, statement: Statement, seen: &
     checks.push(match proof {
         Some(proof) => {
             let text = format!(
-                "Ring condition: the functional $g$ below has no zero on $K$: {} that cover $K$ it has a constant sign. This also proves that \
-                 the branch is isolated.",
+                "Ring condition: the functional $g$ below has no zero on $K$: {} $g$ has a constant sign. This also proves that the branch is \
+                 isolated.",
                 on_cells(proof.discharged.len())
             );
             check(Tone::Good, &text, vec![])
@@ -154,8 +162,13 @@ fn line_blocks(case: &Case, branch: &BranchReport, statement: Statement, seen: &
     blocks
 }
 
+/// `3 cells cover $K$, and on each of them`.
 fn on_cells(number: usize) -> String {
-    if number == 1 { "on the one cell".to_owned() } else { format!("on each of {number} cells") }
+    if number == 1 {
+        "1 cell covers $K$, and on it".to_owned()
+    } else {
+        format!("{number} cells cover $K$, and on each of them")
+    }
 }
 
 /// The eigenvector, its chain, and the functional that reads the leading coefficient.
@@ -251,8 +264,8 @@ fn many_blocks(case: &Case, branch: &BranchReport, statement: Statement) -> Vec<
     }
     if let Some(proof) = isolation {
         let text = format!(
-            "The branch is isolated: {} that cover $K$ one of the functionals $g_i$ below, whose common zeros are the generalised kernel \
-             of $L$, has a constant sign.",
+            "The branch is isolated: {} one of the functionals $g_i$ below, whose common zeros are the generalised kernel of $L$, has a \
+             constant sign.",
             on_cells(proof.discharged.len())
         );
         checks.push(check(Tone::Good, &text, vec![]));
