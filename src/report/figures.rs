@@ -97,6 +97,7 @@ pub fn spectrum(branch: &BranchReport) -> Block {
 }
 
 /// The interval of parameters of a cell of an edge state.
+#[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 fn parameters(shape: &Shape, state: usize, word: &[usize]) -> (f64, f64) {
     let (mut from, mut width, mut back, mut at) = (0.0, 1.0, false, state);
     for &letter in word {
@@ -111,6 +112,7 @@ fn parameters(shape: &Shape, state: usize, word: &[usize]) -> (f64, f64) {
 }
 
 /// The values of a functional on points as floats: its row, and its value at `q`.
+#[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 fn float_row(row: &[Elem], root: Option<&Root>, branch: &BranchReport) -> (Vec<f64>, f64) {
     let entry = |e: &Elem| match (e.is_rational(), root) {
         (Some(x), _) => to_f64(&x),
@@ -127,6 +129,7 @@ fn float_row(row: &[Elem], root: Option<&Root>, branch: &BranchReport) -> (Vec<f
 
 /// The functional of a ring condition over the cells: the enclosures of a proof, or only its graph.
 #[must_use]
+#[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root, proof: Option<&RingProof>) -> Block {
     let shape = &case.shape;
     let curve = shape.states[branch.state].kind == CellKind::Edge;

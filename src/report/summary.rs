@@ -139,8 +139,10 @@ fn verdict_line(point: &PointReport) -> Line {
             out.push(Inline::Strong(kind.word().to_owned()));
         }
     }
-    out.extend(words(", "));
-    out.extend(dimension(point.dimension));
+    if point.dimension.at_least > 0 {
+        out.extend(words(", "));
+        out.extend(dimension(point.dimension));
+    }
     if let Some(reason) = &point.reason {
         out.extend(words(format!("; {reason}")));
     }
