@@ -148,5 +148,5 @@ pub fn profile(shape: &Shape, state: usize, row: &[f64], at_q: f64) -> Vec<[f64;
     for p in &mut points {
         p[1] -= at_q;
     }
-    points
+    if points.iter().all(|p| p[1].is_finite()) { points } else { Vec::new() }
 }

@@ -5,11 +5,13 @@ use super::text::math_line;
 use super::values::{root_decimals, root_math};
 use super::words::{addresses, count, listed, point_name};
 use crate::algebraic::{Elem, Root};
-use crate::arith::to_f64;
+use crate::arith::{Rational, to_f64};
 use crate::case::Case;
 use crate::picture::{self, Arrow, CellBox, Dot, Drawing, Mark, MarkStyle, Picture};
 use crate::shape::{CellKind, Shape, word_text};
-use crate::theorem::{BranchReport, Certified, Kind, Outcome, PointReport, Position, RingProof, Role, Verdict};
+use crate::theorem::{
+    BranchReport, Certified, Discharged, Kind, Outcome, PointReport, Position, RingProof, Role, Verdict,
+};
 
 /// Most points that are marked in a picture.
 const MAX_MARKS: usize = 12;
@@ -127,6 +129,16 @@ fn float_row(row: &[Elem], root: Option<&Root>, branch: &BranchReport) -> (Vec<f
     (row, at_q)
 }
 
+/// A factor that brings very large or very small values into the range of a drawing; 1 for all others.
+fn drawn_scale(cells: &[Discharged]) -> Rational {
+    let ends = cells.iter().flat_map(|d| [&d.bound.lo, &d.bound.hi]).map(crate::arith::abs);
+    let large = Rational::from(1_000_000_000);
+    match ends.max() {
+        Some(most) if most > large || (most > 0 && Rational::from(1) / &most > large) => Rational::from(1) / most,
+        _ => Rational::from(1),
+    }
+}
+
 /// The functional of a ring condition over the cells: the enclosures of a proof, or only its graph.
 #[must_use]
 #[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
@@ -134,6 +146,8 @@ pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root,
     let shape = &case.shape;
     let curve = shape.states[branch.state].kind == CellKind::Edge;
     let cells = proof.map(|p| p.discharged.as_slice()).unwrap_or_default();
+    let scale = drawn_scale(cells);
+    let row: Vec<Elem> = row.iter().map(|e| e.scale(&scale)).collect();
     let total = cells.len().max(1) as f64;
     let boxes: Vec<CellBox> = cells
         .iter()
@@ -143,21 +157,23 @@ pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root,
                 Position::Unordered => (k as f64 / total, (k as f64 + 0.9) / total),
                 _ => parameters(shape, branch.state, &d.word),
             };
-            CellBox { from, to, lo: to_f64(&d.bound.lo), hi: to_f64(&d.bound.hi), label: word_text(&d.word) }
+            let (lo, hi) = (to_f64(&(&d.bound.lo * &scale)), to_f64(&(&d.bound.hi * &scale)));
+            CellBox { from, to, lo, hi, label: word_text(&d.word) }
         })
         .collect();
     let (profile, spot) = if curve {
-        let (row, at_q) = float_row(row, Some(root), branch);
+        let (row, at_q) = float_row(&row, Some(root), branch);
         let turns = branch.address.cycle.repeat(60 / branch.address.cycle.len().max(1) + 1);
         (picture::profile(shape, branch.state, &row, at_q), Some(parameters(shape, branch.state, &turns).0))
     } else {
         (Vec::new(), None)
     };
+    let scaled = if scale == 1 { "" } else { ", divided by the largest of them," };
     let place = if curve { "over the parameter of the cell, with $g$ itself" } else { "cell by cell" };
     let (alt, caption) = if cells.is_empty() {
         (
             "Graph of the functional, which takes both signs on the ring.".to_owned(),
-            "$g$ over the parameter; it is 0 at $q$.".to_owned(),
+            "$g$ over the parameter of the cell; it is 0 at $q$ and has zeros on the ring.".to_owned(),
         )
     } else {
         let signs: Vec<&str> = cells.iter().map(|d| if d.sign > 0 { "positive" } else { "negative" }).collect();
@@ -168,7 +184,7 @@ pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root,
                 count(cells.len(), "cell"),
                 cells.len() - up
             ),
-            format!("The enclosures of $g$ on the cells that cover the ring, {place}: no box meets 0."),
+            format!("The enclosures of $g${scaled} on the cells that cover the ring, {place}: no box meets 0."),
         )
     };
     figure(picture::functional(&boxes, &profile, spot, "The functional on the cells"), alt, line(&caption, []))
