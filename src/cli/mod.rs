@@ -11,6 +11,7 @@ mod many;
 mod output;
 mod progress;
 mod radius;
+mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
@@ -108,14 +109,21 @@ struct CertifyArgs {
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same as PNG, without the words in the picture.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Do not have the verdict proved again by the checker before it is printed.
     #[arg(long)]
     no_check: bool,
+    /// Keep the results and certificates of many cases in a directory, and skip the cases whose result there is up to
+    /// date: same text of the case, same addresses and checks, same version of secant.
+    #[arg(long, value_name = "DIR", conflicts_with = "approx")]
+    resume: Option<PathBuf>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
@@ -193,6 +201,9 @@ struct GalleryArgs {
     /// The directory with the families of cases.
     #[arg(default_value = "cases", value_name = "CASES")]
     cases: PathBuf,
+    /// Write a report for every case, not only for a selection.
+    #[arg(long, conflicts_with = "check")]
+    all: bool,
     /// Where the page is written.
     #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
     out: PathBuf,

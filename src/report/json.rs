@@ -3,7 +3,7 @@
 use super::text::math_line;
 use super::theorems;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
-use super::words::ratio;
+use super::words::{deciding, ratio};
 use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::case::Case;
@@ -11,7 +11,7 @@ use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Outcome, PointReport, Rate, Role, Side, Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Outcome, PointReport, Position, Rate, Role, Side, Verdict, Witness,
 };
 use serde_json::{Value, json};
 
@@ -151,7 +151,7 @@ fn claim(c: &Claim) -> Value {
     json!({
         "claim": c.text,
         "verdict": c.verdict.word(),
-        "theorem": c.statement.map(|s| theorems::of(s).id),
+        "theorem": deciding(c).map(|s| theorems::of(s).id),
         "reason": c.reason,
     })
 }
@@ -221,15 +221,24 @@ fn role(case: &Case, role: &Role) -> Value {
 /// What is said of a branch: eigenvalue, Jordan block, theorem, rate, Hölder exponent, witness or reason.
 fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
     match &b.outcome {
-        Outcome::Line { statement, eigenvalue, block, rate, holder, .. } => {
+        Outcome::Line { statement, eigenvalue, block, rate, holder, proof, .. } => {
+            // Rates need the ring condition; exponents besides a parameter.
+            let curve = b.ring.iter().all(|p| p.position != Position::Unordered);
+            let where_known = |value: Value, known: bool| if known { value } else { Value::Null };
             let root = &b.spectrum.factors[eigenvalue.0].roots[eigenvalue.1];
             let exponent = exponent(&holder.eigenvalue.modulus(80), &holder.scale);
             vec![
                 ("eigenvalue", root_value(root)),
                 ("jordan", json!({ "block": block, "blocks": b.spectrum.factors[eigenvalue.0].blocks })),
                 ("theorem", json!(theorems::of(*statement).id)),
-                ("rate", rate_value(rate)),
-                ("holder", json!({ "decimal": exponent, "scale": holder.scale.to_string(), "power": holder.power })),
+                ("rate", where_known(rate_value(rate), proof.is_some())),
+                (
+                    "holder",
+                    where_known(
+                        json!({ "decimal": exponent, "scale": holder.scale.to_string(), "power": holder.power }),
+                        proof.is_some() && curve,
+                    ),
+                ),
             ]
         }
         Outcome::AtLeast { statement, eigenvalues, witness, .. } => {

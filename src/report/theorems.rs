@@ -20,12 +20,12 @@ pub struct Theorem {
 const SOURCE: &str = "docs/theory.md; S. Podkorytov, Tangent spaces for self-similar shapes, Dijon 2013, chapter 4.";
 
 /// All statements, in the order of the theory.
-pub const THEOREMS: [Theorem; 18] = [
+pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "lemma-1",
         name: "Lemma 1 (contraction by prefix codes)",
         body: "Let every state have a finite complete prefix code of admissible words with $τ(T_w)≤c<1$ for all its words, where \
-               $τ(T)=\\max_{i,j} {1/2}∑_k |t_{ki}-t_{kj}|$ is the norm of $T$ on vectors of sum 0. Then the system contracts and its \
+               $τ(T)=½ \\max_{i,j} ∑_k |t_{ki}-t_{kj}|$ is the norm of $T$ on vectors of sum 0. Then the system contracts and its \
                attractors exist.",
         proof: "Cut a long word into code words, each read from the state where the one before ended, and a rest shorter than the \
                 longest code word. $τ$ is submultiplicative and there are finitely many rests, so $τ(T_w)$ decreases geometrically \
@@ -103,6 +103,18 @@ pub const THEOREMS: [Theorem; 18] = [
         proof: "The points of the ring with $c_2=-sλ/m$ make $L^m x$ parallel to the second vector of the chain, where $s$ is the first \
                 coordinate of $x_0$.",
         reference: "docs/theory.md §6.",
+    },
+    Theorem {
+        id: "rays",
+        name: "Rule for rays",
+        body: "Let $D^*$ be the line of $v$ at an isolated branch, so that $L^m x$ is $λ^m c(x) v$ up to a positive factor and smaller terms, with \
+               $c(x)≠0$ on $X$. Let $σ^-$ and $σ^+$ be the signs of $c$ on the parts of the ring before and after the point in the order of the curve, \
+               and $ε=±1$ the product of the orientation signs along the cycle. At an end point there is one part: $λ>0$ gives the one ray $σ v$, \
+               $λ<0$ both rays. Inside, for $ε=1$: $λ>0$ gives the ray $σ^+ v$ after and $σ^- v$ before the point, $λ<0$ both rays on each side. For \
+               $ε=-1$: if $λ>0$ and $σ^+=σ^-$, the ray $σ^+ v$ on both sides, a cusp; if $λ<0$ and $σ^+≠σ^-$, the ray $σ^+ v$ after and \
+               $σ^- v$ before the point; otherwise both rays on each side. Of a shape that is no curve there is one ray if and only if $λ>0$ and $c$ has one sign on $X$.",
+        proof: "$M^m$ carries the part after the point to the side $ε^m$, and the secants of its points have the sign of $λ^m c(x)$.",
+        reference: "docs/theory.md §5 (Rays).",
     },
     Theorem {
         id: "joint",
@@ -238,7 +250,7 @@ mod tests {
 
     #[test]
     fn every_statement_is_found() {
-        for theorem in &THEOREMS {
+        for theorem in THEOREMS {
             assert_eq!(find(theorem.id).unwrap().id, theorem.id);
         }
         assert_eq!(find("Theorem 2").unwrap().id, "theorem-2");
