@@ -11,6 +11,7 @@ mod patch;
 mod refine;
 mod registry;
 mod rules;
+mod sector;
 mod tensor;
 mod text;
 mod univariate;
@@ -30,6 +31,7 @@ pub use patch::{disc, patch};
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, list};
 pub use rules::{RuleInfo, mesh_rule, mesh_rules};
+pub use sector::{Place, SectorStencils, Weight, sector_stencils};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use text::{Heading, case_text};
 pub use univariate::{
