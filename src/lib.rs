@@ -17,3 +17,4 @@ pub mod report;
 pub mod scheme;
 pub mod shape;
 pub mod theorem;
+pub mod vertex;

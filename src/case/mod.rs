@@ -9,8 +9,10 @@ pub mod matrix_file;
 mod node;
 mod read;
 mod states;
+mod vertex;
 
 pub use expect::{Expect, ExpectPoint, expected_error};
+pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};
 use crate::shape::{Address, Shape};

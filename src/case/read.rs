@@ -97,7 +97,7 @@ impl Case {
     }
 }
 
-fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
+pub(super) fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
     let end = source.text.len();
     let span = error.span().unwrap_or(end..end);
     let message = error.message();
@@ -115,6 +115,11 @@ fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
 }
 
 fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
+    if case.get("vertex").is_some() {
+        return Err(case
+            .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
+            .with_help("`secant certify FILE --valence 3..32` goes through valences; it takes one file at a time"));
+    }
     case.only(&KEYS)?;
     let name = name(case)?;
     let title = case.optional_text("title")?.unwrap_or(&name).to_owned();
@@ -136,7 +141,7 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
     Ok(Case { name, title, source, convention, shape, examine, expect, text, places })
 }
 
-fn name(case: &Table<'_>) -> Result<String, Problem> {
+pub(super) fn name(case: &Table<'_>) -> Result<String, Problem> {
     let name = case.text("name", "\"my-curve\"")?;
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
     if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {
