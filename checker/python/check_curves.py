@@ -854,8 +854,10 @@ def place_of(model, addr):
 
 class Certificate:
     def __init__(self, case, value):
-        form, version, name, verdict, contraction, points, answers = fields(
-            value, "format", "version", "case", "verdict", "contraction", "points", "answers")
+        form, version, of_kind, name, verdict, proof = fields(
+            value, "format", "version", "kind", "case", "verdict", "proof")
+        contraction, points, answers = fields(proof, "contraction", "points", "answers")
+        need(of_kind == "certify", "format")
         need(form == "secant certificate" and version == 1 and name == case.name, "format")
         self.case, self.model = case, Model(case, contraction)
         self.points = [check_point(self.model, case.start, case.view, p) for p in points]

@@ -100,7 +100,10 @@ fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
     result.map_err(|r| if r.place.is_empty() { Rejected { place: place.to_owned(), ..r } } else { r })
 }
 
-/// Checks a certificate (JSON) against the text of its case (TOML).
+/// Checks a certificate (JSON) against the text of what it is about (a case, in TOML, where its kind is `certify`).
+///
+/// All kinds share the envelope that is read here; the rules of a kind are in a module of its own, which reads the first
+/// text as that kind of input and says what `proof` proves about it.
 ///
 /// # Errors
 /// [`Rejected`] with the rule, the place and the reason; `unreadable` is set where one of the two texts could not be read.
@@ -114,13 +117,29 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
         return unreadable("limit", "a file is too large".to_owned());
     }
     number::refill();
-    let case = match case::read(case) {
-        Ok(case) => case,
-        Err(why) => return unreadable("case", why),
-    };
     let tree: json::Json = match serde_json::from_str(certificate) {
         Ok(tree) => tree,
         Err(error) => return unreadable("json", error.to_string()),
     };
-    claims::check(&case, &json::Node { value: &tree, place: "certificate".to_owned() })
+    let node = json::Node { value: &tree, place: "certificate".to_owned() };
+    let [format, version, kind, name, verdict, proof] =
+        node.fields(["format", "version", "kind", "case", "verdict", "proof"])?;
+    if format.text()? != "secant certificate" || version.index(usize::MAX)? != VERSION {
+        return reject("format", &version.place, format!("this checker reads version {VERSION} only"));
+    }
+    let proof = json::Node { place: "proof".to_owned(), ..proof };
+    let found = match kind.text()? {
+        "certify" => match case::read(case) {
+            Ok(case) => claims::check(&case, &proof)?,
+            Err(why) => return unreadable("case", why),
+        },
+        _ => return kind.malformed("unknown kind of certificate"),
+    };
+    if name.text()? != found.case {
+        return reject("case", &name.place, format!("the case is `{}`", found.case));
+    }
+    if verdict.text()? != found.verdict.word() {
+        return reject("verdict", &verdict.place, format!("what follows is \"{}\"", found.verdict.word()));
+    }
+    Ok(found)
 }

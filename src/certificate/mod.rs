@@ -37,30 +37,49 @@ fn unsupported<T>(what: impl Into<String>, place: impl Into<String>) -> Result<T
 }
 
 impl Certificate {
+    /// The envelope that all certificates share, around the proof of one kind.
+    #[must_use]
+    pub fn new(kind: &str, case: &str, verdict: &str, proof: Value) -> Self {
+        let json = json!({
+            "format": "secant certificate",
+            "version": 1,
+            "kind": kind,
+            "case": case,
+            "verdict": verdict,
+            "proof": proof,
+        });
+        Self { json }
+    }
+
     /// The certificate as JSON.
     #[must_use]
     pub fn json(&self) -> &Value {
         &self.json
     }
 
-    /// The text of the certificate file: one line for each point and each answer.
+    /// The text of the certificate file: one line for each item of the lists of the proof.
     #[must_use]
     pub fn text(&self) -> String {
-        let mut text = String::from("{");
-        let fields = self.json.as_object().into_iter().flatten();
-        for (k, (name, value)) in fields.enumerate() {
-            text += if k == 0 { "\n" } else { ",\n" };
-            text += &format!(" {}: ", json!(name));
-            match value {
-                Value::Array(items) if !items.is_empty() => {
-                    let lines: Vec<String> = items.iter().map(|item| format!("  {item}")).collect();
-                    text += &format!("[\n{}\n ]", lines.join(",\n"));
-                }
-                other => text += &other.to_string(),
-            }
-        }
-        text + "\n}\n"
+        let mut text = laid_out(&self.json, 0);
+        text.push('\n');
+        text
     }
+}
+
+/// Objects down to the proof and lists in it with one item a line.
+fn laid_out(value: &Value, depth: usize) -> String {
+    let (open, close, items): (_, _, Vec<String>) = match value {
+        Value::Object(fields) if depth < 2 => {
+            let field = |(name, value): (&String, &Value)| format!("{}: {}", json!(name), laid_out(value, depth + 1));
+            ('{', '}', fields.iter().map(field).collect())
+        }
+        Value::Array(items) if depth == 2 && !items.is_empty() => {
+            ('[', ']', items.iter().map(ToString::to_string).collect())
+        }
+        other => return other.to_string(),
+    };
+    let margin = " ".repeat(depth);
+    format!("{open}\n{margin} {}\n{margin}{close}", items.join(&format!(",\n{margin} ")))
 }
 
 /// Writes the certificate of what was found for a case.
@@ -88,16 +107,8 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
         points.add(point)?;
     }
     let answers = answers(case, found, &points)?;
-    let json = json!({
-        "format": "secant certificate",
-        "version": 1,
-        "case": case.name,
-        "verdict": found.verdict.word(),
-        "contraction": states,
-        "points": points.json,
-        "answers": answers,
-    });
-    Ok(Certificate { json })
+    let proof = json!({"contraction": states, "points": points.json, "answers": answers});
+    Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
 }
 
 /// Why a decided verdict was not proved again.
@@ -123,7 +134,7 @@ pub enum Doubt {
 /// That of [`certificate`] and of [`secant_check::check`].
 pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
     let certificate = certificate(case, found)?;
-    let accepted = secant_check::check(&case.text.text, &certificate.text())?;
+    let accepted = secant_check::check(&case.checked_text(), &certificate.text())?;
     if accepted.verdict.word() == found.verdict.word() {
         Ok(certificate)
     } else {

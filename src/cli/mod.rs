@@ -2,6 +2,7 @@
 
 mod approximate;
 mod certify;
+mod expand;
 mod explain;
 mod gallery;
 mod init;
@@ -57,6 +58,14 @@ enum Command {
         name: Option<String>,
         /// Its parameters, as in `degree=3`.
         parameters: Vec<String>,
+    },
+    /// Write a case with every operator written out: what `[scheme]` stands for, and what the checker reads.
+    Expand {
+        /// The case file; `-` reads the standard input.
+        case: PathBuf,
+        /// Write to a file instead of the standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
     },
     /// Print a statement with its proof and reference.
     Explain {
@@ -178,6 +187,7 @@ pub fn main() -> ExitCode {
         Command::Jsr { file } => radius::jsr(&file),
         Command::Regularity(args) => radius::mask(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
+        Command::Expand { case, output } => expand::run(&case, output.as_deref()),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),
