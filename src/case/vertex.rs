@@ -1,4 +1,4 @@
-//! Case files about the vertices of a mesh: a `[vertex]` table names the scheme, its weights and the valences.
+//! Case files about the vertices of a mesh: a `[vertex]` table names the rule on meshes, its weights and the valences.
 
 use super::MAX_BYTES;
 use super::node::{File, Node, Table};
@@ -119,22 +119,32 @@ impl VertexCase {
         let table = DeTable::parse(text).map_err(|error| super::read::syntax(&source, &error))?;
         let file = File::new(source);
         let root = Table::root(&file, &table);
-        if root.get("vertex").is_none() {
+        // With --valence a `[scheme]` of a mesh is a case about vertices too.
+        let mesh = |t: &Table<'_>| t.get("mesh").is_some();
+        let scheme = root.get("scheme").map(|node| node.table()).transpose()?.filter(mesh);
+        if root.get("vertex").is_none() && scheme.is_none() {
             let message = format!("{name} has no [vertex] table, so that there are no valences to go through");
             return Err(Problem::new("secant::case::missing-key", message).with_help(
                 "--valence is for cases such as cases/surfaces/catmull-clark.toml; see docs/case-format.md",
             ));
         }
-        root.only(&["name", "title", "source", "vertex", "expect"])?;
+        if scheme.is_none() {
+            root.only(&["name", "title", "source", "vertex", "expect"])?;
+        }
         let case_name = super::read::name(&root)?;
         let title = root.optional_text("title")?.unwrap_or(&case_name).to_owned();
-        let vertex = root.need("vertex", "{ scheme = \"catmull-clark\" }")?.table()?;
+        let expects = scheme.is_none();
+        let mut vertex = match scheme {
+            Some(table) => table,
+            None => root.need("vertex", "{ mesh = \"catmull-clark\" }")?.table()?,
+        };
+        vertex.what = if expects { "`[vertex]`" } else { "`[scheme]`" }.to_owned();
         let (scheme, rule) = rule(&vertex)?;
         let valences = match vertex.get("valence") {
             None => None,
             Some(node) => Some(valences(&node)?),
         };
-        let expect = root.get("expect").map(|node| expect(&node)).transpose()?.unwrap_or_default();
+        let expect = root.get("expect").filter(|_| expects).map(|node| expect(&node)).transpose()?.unwrap_or_default();
         let source = root.optional_text("source")?.map(str::to_owned);
         Ok(Self { name: case_name, title, source, scheme, rule, valences, expect, text: file.source.clone() })
     }
@@ -169,16 +179,16 @@ fn expect(node: &Node<'_>) -> Result<Vec<(usize, Verdict)>, Problem> {
 }
 
 fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
-    let scheme = table.text("scheme", "\"catmull-clark\"")?;
+    let scheme = table.text("mesh", "\"catmull-clark\"")?;
     let Some(info) = mesh_rules().iter().find(|r| r.name == scheme) else {
         let error = mesh_rule(scheme, &BTreeMap::new()).err().map(|e| e.to_string()).unwrap_or_default();
         let names: Vec<&str> = mesh_rules().iter().map(|r| r.name).collect();
         return Err(table
-            .need("scheme", "\"catmull-clark\"")?
+            .need("mesh", "\"catmull-clark\"")?
             .problem("value", error, "not a scheme on meshes")
             .with_help(format!("the schemes are {}", names.join(", "))));
     };
-    let mut known = vec!["scheme", "valence"];
+    let mut known = vec!["mesh", "valence", "cell"];
     known.extend(info.parameters.iter().map(|p| p.name));
     let variant = scheme == "catmull-clark-variant";
     let dual = scheme == "doo-sabin";

@@ -1,6 +1,7 @@
 //! The verdict at one valence: is the surface C¹ at the vertex for almost all control points, and has it a tangent plane?
 
 use super::block::{Block, Vertex};
+use super::butterfly::sign_on_path;
 use super::cosine::{gcd, minimal_polynomial};
 use super::field::{Enclosures, Field, Fixed};
 use super::net::{Net, Signs};
@@ -182,7 +183,12 @@ impl Judge<'_> {
         } else {
             "one simple eigenvalue".to_owned()
         };
-        let Some(signs) = self.signs_of_function(k) else {
+        let rational = self.top.rational.as_ref().filter(|_| k == 0);
+        if rational.and_then(|value| sign_on_path(self.vertex, value, BITS[0])).is_some() {
+            self.one_sided(&what);
+            return;
+        }
+        let Some((signs, boundary)) = self.signs_of_function(k) else {
             self.found.reason = format!(
                 "{what} in block {k} leads; whether its function has a zero on the ring is not known for this scheme"
             );
@@ -194,20 +200,34 @@ impl Judge<'_> {
                  (Theorem {})",
                 if length > 1 { 3 } else { 2 }
             ));
+        } else if k == 0 && boundary.strict().is_some() {
+            self.one_sided(&what);
         } else {
             self.found.reason = format!("{what} in block {k} leads, and its function has a zero on the ring");
         }
     }
 
-    fn signs_of_function(&self, k: usize) -> Option<Signs> {
+    fn one_sided(&mut self, what: &str) {
+        self.refute(format!(
+            "{what} in block 0 leads and its function has no zero on a closed path around the vertex, whose copies stay on \
+             one side of it (Theorem 8)"
+        ));
+        self.found.plane = Verdict::Undetermined;
+    }
+
+    /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary.
+    fn signs_of_function(&self, k: usize) -> Option<(Signs, Signs)> {
         let (field, values) = self.values(k, BITS[0])?;
-        let mut signs = Signs::default();
-        for (index, patch) in patches(self.vertex, &field, &values)?.into_iter().enumerate() {
-            // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
-            let scalar = patch.map(|p| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) });
-            signs.examine(&field, index, scalar, DEPTH);
-        }
-        Some(signs)
+        // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
+        let scalar = |p: &Turning<Fixed>| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) };
+        let nets: Vec<Net<Fixed>> = patches(self.vertex, &field, &values)?.iter().map(|p| p.map(scalar)).collect();
+        let signs = |nets: Vec<Net<Fixed>>| {
+            let mut signs = Signs::default();
+            nets.into_iter().enumerate().for_each(|(index, net)| signs.examine(&field, index, net, DEPTH));
+            signs
+        };
+        let boundary = ring::boundary(&self.vertex.rule, &nets)?;
+        Some((signs(nets), signs(boundary)))
     }
 
     fn values(&self, k: usize, bits: u64) -> Option<(Enclosures, Values<Fixed>)> {

@@ -10,7 +10,7 @@ use super::ring::{RINGS, jacobian, patches};
 use super::solve::eigenvector;
 use super::turning::{Rotation, Turning};
 use crate::arith::{Rational, ratio};
-use crate::poly::Poly;
+use crate::poly::{Poly, factor};
 use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError};
 
 /// A valence at which no stencil meets itself around the vertex.
@@ -181,7 +181,13 @@ fn bernstein(p: &Poly, low: &Rational, high: &Rational) -> Vec<Rational> {
 }
 
 fn positive(value: &Fraction, interval: &(Rational, Rational)) -> bool {
-    match (strict_sign(&value.num, interval), strict_sign(&value.den, interval)) {
+    let mut num = value.num.clone();
+    // t = 2 belongs to no valence: a zero there is divided out. (The interval of λ ends elsewhere.)
+    let end = ratio(2, 1);
+    while interval.1 == end && !num.is_zero() && num.eval(&end) == 0 {
+        num = num.div_rem(&Poly::new(vec![end.clone(), ratio(-1, 1)])).0;
+    }
+    match (strict_sign(&num, interval), strict_sign(&value.den, interval)) {
         (Some(a), Some(b)) => a * b > 0,
         _ => false,
     }
@@ -266,11 +272,16 @@ fn constants(vertex: &Vertex, family: &Family, own: Option<usize>) -> Result<boo
     let others = turning.parts.iter().enumerate().filter(|(k, _)| Some(*k) != own).map(|(_, p)| p);
     let mut bound = Rational::from(0);
     for part in others.chain(still.parts.iter().filter(|p| !centre(p))) {
-        // These parts are single numbers in all families.
-        if part.poly.len() != 2 || part.poly.iter().any(|c| c.degree().unwrap_or(0) > 0) {
+        // In all families these eigenvalues are rational.
+        if part.poly.iter().any(|c| c.degree().unwrap_or(0) > 0) {
             return Ok(false);
         }
-        bound = bound.max(crate::arith::abs(&part.poly[0].coeff(0)));
+        for (linear, _) in factor(&Poly::new(part.poly.iter().map(|c| c.coeff(0)).collect())) {
+            if linear.degree() != Some(1) {
+                return Ok(false);
+            }
+            bound = bound.max(crate::arith::abs(&linear.coeff(0)));
+        }
     }
     let difference =
         Fraction::new(&family.eigenvalue.num - &family.eigenvalue.den.scale(&bound), family.eigenvalue.den.clone());
@@ -329,6 +340,24 @@ mod tests {
                     assert!((&a.y - &b.y).div_rem(&modulus).1.is_zero(), "{rule:?} at {n}");
                 }
             }
+        }
+    }
+
+    /// The polynomial of block 0 that the proof of Theorem 9 uses, and the weights of Loop's.
+    #[test]
+    fn block_0_is_the_one_of_the_proof() {
+        for n in [3, 4, 5, 8, 13] {
+            let m = ratio(1, n as i64);
+            let block = Vertex::new(&MeshRule::CatmullClark(None), n, RINGS).unwrap().block(0).unwrap();
+            let part = block.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
+            let found = Poly::new(part.poly.iter().map(|c| c.coeff(0)).collect());
+            let linear = ratio(7, 4) * &m - ratio(3, 4);
+            let constant = (ratio(1, 1) - ratio(3, 1) * &m) / ratio(16, 1);
+            assert_eq!(found, &Poly::linear(&ratio(1, 1)) * &Poly::new(vec![constant, linear, ratio(1, 1)]), "{n}");
+            let block = Vertex::new(&MeshRule::Loop(LoopWeights::Warren), n, RINGS).unwrap().block(0).unwrap();
+            let part = block.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
+            let other = if n == 3 { ratio(1, 16) } else { ratio(1, 4) };
+            assert_eq!(part.poly[0].coeff(0), other, "{n}");
         }
     }
 

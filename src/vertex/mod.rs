@@ -2,6 +2,7 @@
 //! is C¹ (docs/theory.md §10).
 
 pub mod block;
+mod butterfly;
 mod certify;
 pub mod cosine;
 mod every;

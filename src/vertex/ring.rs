@@ -54,15 +54,16 @@ const CELLS: [(i64, i64); 3] = [(1, 0), (1, 1), (0, 1)];
 /// The triangles of the ring of a sector: a corner, and the lattice vectors to the next two.
 const TRIANGLES: [((i64, i64), i64); 3] = [((1, 0), 1), ((1, 1), -1), ((0, 1), 1)];
 
-struct Control<'a, F: Field> {
-    vertex: &'a Vertex,
-    field: &'a F,
-    values: &'a Values<F::E>,
+/// A net of control points, continued over the spokes of sector 0.
+pub(super) struct Control<'a, F: Field> {
+    pub vertex: &'a Vertex,
+    pub field: &'a F,
+    pub values: &'a Values<F::E>,
 }
 
 impl<F: Field> Control<'_, F> {
     /// The value at a place of the lattice of sector 0, continued over its two spokes.
-    fn at(&self, i: i64, j: i64) -> Option<Turning<F::E>> {
+    pub fn at(&self, i: i64, j: i64) -> Option<Turning<F::E>> {
         let dual = self.vertex.rule.dual();
         let triangles = self.vertex.stencils.sector == Sector::Triangles;
         let (place, shift) = match (dual, i, j) {
@@ -173,6 +174,24 @@ pub fn patches<F: Field>(vertex: &Vertex, field: &F, values: &Values<F::E>) -> O
             Some(nets?.into_iter().flatten().collect())
         }
     }
+}
+
+/// The outer boundary of the ring of sector 0: Bézier points of curves, from the first spoke to the next.
+#[must_use]
+pub fn boundary<E: Clone>(rule: &MeshRule, patches: &[Net<E>]) -> Option<Vec<Net<E>>> {
+    let last = |net: &Net<E>| net.rows.iter().map(|row| row[row.len() - 1].clone()).collect::<Vec<E>>();
+    let top = |net: &Net<E>| net.rows[net.rows.len() - 1].clone();
+    let first = |net: &Net<E>| net.rows[0].clone();
+    let curves = match (spline(rule)?, patches) {
+        (Spline::Bicubic | Spline::Biquadratic, [a, b, c]) => vec![last(a), last(b), top(b), top(c)],
+        // The last points of the rows of a triangle lie on the edge from the second corner to the third.
+        (Spline::Quartic, [a, _, c]) => vec![last(a), last(c)],
+        (Spline::Quadratic, all) if all.len() == 12 => {
+            vec![first(&all[1]), first(&all[5]), first(&all[6]), first(&all[10])]
+        }
+        _ => return None,
+    };
+    Some(curves.into_iter().map(|row| Net { triangle: false, rows: vec![row] }).collect())
 }
 
 /// The Bernstein coefficients of the Jacobian determinant of a patch in the coordinates `x + y ω`, but for a positive factor.

@@ -6,6 +6,7 @@ use super::cosine::{gcd, minimal_polynomial, twice_cosine};
 use super::field::{Enclosures, Field, Fixed, NumberField};
 use super::ring::Values;
 use super::solve::{eigenvector, leading_vector, longest_blocks};
+use super::turning::Turning;
 use crate::algebraic::Elem;
 use crate::arith::{Interval, Rational, abs, ratio, to_f64};
 use crate::poly::Poly;
@@ -441,11 +442,13 @@ pub fn leading_values(
     }
     let field = number_field(vertex, block);
     let exact = leading_vector(&field, block, top.rational.as_ref()?)?;
-    let convert = |v: &super::turning::Turning<Elem>| super::turning::Turning {
-        x: enclose(&field, &enclosures, &v.x),
-        y: enclose(&field, &enclosures, &v.y),
-    };
-    Some(Values { centre: convert(&exact.centre), orbits: exact.orbits.iter().map(convert).collect() })
+    Some(convert(&field, &enclosures, &exact))
+}
+
+/// Exact values as enclosures.
+pub(super) fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
+    let one = |v: &Turning<Elem>| Turning { x: enclose(field, enclosures, &v.x), y: enclose(field, enclosures, &v.y) };
+    Values { centre: one(&exact.centre), orbits: exact.orbits.iter().map(one).collect() }
 }
 
 #[cfg(test)]
