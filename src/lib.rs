@@ -56,6 +56,7 @@ pub mod report;
 pub mod scheme;
 pub mod shape;
 pub mod theorem;
+pub mod vertex;
 
 /// What most programs need: reading, certifying, reporting, confirming.
 pub mod prelude {

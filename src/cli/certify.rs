@@ -37,6 +37,9 @@ pub fn run(args: &CertifyArgs) -> u8 {
         [path] if args.resume.is_none() => path,
         _ => return many::run(args),
     };
+    if args.valence.is_some() || super::vertex::is_about_vertices(path) {
+        return super::vertex::run(path, args);
+    }
     let waiting = Waiting::new(args.quiet);
     let certified = one(path, args);
     waiting.finish();
@@ -108,7 +111,7 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     Ok(())
 }
 
-fn extension(path: &Path) -> String {
+pub(super) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 

@@ -15,6 +15,7 @@ mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
+mod vertex;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
@@ -103,6 +104,9 @@ struct CertifyArgs {
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
     #[arg(long, value_name = "ADDRESS")]
     address: Vec<String>,
+    /// For a case with a [vertex] table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
+    #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "certificate", "approx"])]
+    valence: Option<String>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,

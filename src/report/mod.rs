@@ -20,4 +20,5 @@ pub mod tex;
 pub mod text;
 pub mod theorems;
 pub mod values;
+pub mod vertex;
 pub mod words;
