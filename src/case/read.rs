@@ -134,7 +134,7 @@ impl Case {
     }
 }
 
-fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
+pub(super) fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
     let end = source.text.len();
     let span = error.span().unwrap_or(end..end);
     let message = error.message();
@@ -152,6 +152,11 @@ fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
 }
 
 fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
+    if case.get("vertex").is_some() {
+        return Err(case
+            .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
+            .with_help("`secant certify FILE --valence 3..32` goes through valences; it takes one file at a time"));
+    }
     case.only(&KEYS)?;
     let name = name(case)?;
     let title = case.optional_text("title")?.unwrap_or(&name).to_owned();
@@ -235,7 +240,7 @@ fn failed(file: &File, model: &Model, identity: &Identity, failure: &Failure) ->
     problem.with_help(help)
 }
 
-fn name(case: &Table<'_>) -> Result<String, Problem> {
+pub(super) fn name(case: &Table<'_>) -> Result<String, Problem> {
     let name = case.text("name", "\"my-curve\"")?;
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
     if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {

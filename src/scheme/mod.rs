@@ -12,6 +12,7 @@ mod patch;
 mod refine;
 mod registry;
 mod rules;
+mod sector;
 mod tensor;
 mod text;
 mod univariate;
@@ -32,6 +33,7 @@ pub use patch::{disc, disc_complex, patch};
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask};
 pub use rules::{RuleInfo, mesh_rule, mesh_rules};
+pub use sector::{Place, SectorStencils, Weight, sector_stencils};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use text::{Heading, case_text, complex_text};
 pub use univariate::{
