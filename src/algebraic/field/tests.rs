@@ -1,3 +1,5 @@
+#![allow(clippy::float_arithmetic)] // values for comparison
+
 use super::*;
 use crate::arith::ratio;
 use proptest::prelude::*;

@@ -1,3 +1,5 @@
+#![allow(clippy::float_arithmetic)] // values for comparison
+
 use super::*;
 use crate::arith::ratio;
 use proptest::prelude::*;
@@ -170,7 +172,7 @@ proptest! {
             prop_assert!(f.in_field());
             // In a smaller field the eigenvalues are rational.
             let value = f.poly[0].neg();
-            let value = if small.field().is_rational() { value.is_rational().map(|q| Poly::constant(q)).unwrap() } else { value.0 };
+            let value = if small.field().is_rational() { value.is_rational().map(Poly::constant).unwrap() } else { value.0 };
             prop_assert_eq!(planted.get(&value), Some(&f.blocks));
         }
         prop_assert_eq!(s.factors.len(), planted.len());
