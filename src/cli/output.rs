@@ -11,6 +11,14 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// A [`Problem`] that names the file.
 pub fn write_file(path: &Path, content: &str) -> Result<(), Problem> {
+    write_bytes(path, content.as_bytes())
+}
+
+/// As [`write_file`], for any bytes.
+///
+/// # Errors
+/// A [`Problem`] that names the file.
+pub fn write_bytes(path: &Path, content: &[u8]) -> Result<(), Problem> {
     let problem = |error: &std::io::Error| {
         Problem::new("secant::output", format!("{} cannot be written: {error}", path.display()))
             .with_help("the directory must exist and be writable; nothing was left half-written")
@@ -33,7 +41,7 @@ pub fn write_file(path: &Path, content: &str) -> Result<(), Problem> {
         builder.permissions(std::fs::Permissions::from_mode(mode));
     }
     let mut file = builder.tempfile_in(directory).map_err(|e| problem(&e))?;
-    file.write_all(content.as_bytes()).and_then(|()| file.flush()).map_err(|e| problem(&e))?;
+    file.write_all(content).and_then(|()| file.flush()).map_err(|e| problem(&e))?;
     file.persist(&target).map_err(|e| problem(&e.error))?;
     Ok(())
 }

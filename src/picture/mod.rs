@@ -1,11 +1,13 @@
 //! Pictures of attractors as SVG. Floats are used here and prove nothing; exact points only start the computation.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
+mod plot;
 mod projection;
 mod svg;
 mod tikz;
 mod trace;
 
+pub use plot::Plot;
 pub use projection::Projection;
 
 use crate::arith::Rational;
