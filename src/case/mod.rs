@@ -4,6 +4,7 @@
 
 mod expect;
 mod faces;
+mod field;
 mod maps;
 mod matrix;
 pub mod matrix_file;
@@ -11,8 +12,11 @@ mod node;
 mod read;
 mod scheme;
 mod states;
+mod vertex;
 
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
+pub use field::FieldCase;
+pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{Heading, Mask, MeshRule, complex_text};

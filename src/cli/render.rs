@@ -1,6 +1,6 @@
 //! `secant render`: exact points of a shape, drawn.
 
-use super::output::{complain, print, write_bytes};
+use super::output::{complain, print, write_file};
 use super::progress::Progress;
 use super::{BAD_INPUT, PROVED, RenderArgs};
 use crate::arith::to_f64;
@@ -62,7 +62,7 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
         files.push((path, plot.ply(&case.title).into_bytes()));
     }
     for (path, content) in &files {
-        write_bytes(path, content)?;
+        write_file(path, content)?;
     }
     let faces = if found.faces.is_empty() { String::new() } else { format!(" and {} polygons", found.faces.len()) };
     Ok(format!("{}: {} exact points{faces}, {how}{note}\n", case.name, found.points.len()))

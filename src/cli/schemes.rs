@@ -1,5 +1,6 @@
 //! `secant schemes`: the named schemes, and each of them written as a case.
 
+use super::irrational;
 use super::output::{complain, print};
 use super::{BAD_INPUT, PROVED};
 use crate::arith::{Rational, parse_rational};
@@ -12,11 +13,13 @@ pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
     let Some(name) = name else {
         let curves = scheme::list().iter().map(|i| entry(i.name, i.summary, i.parameters, i.source));
         let meshes = scheme::mesh_rules().iter().map(|i| entry(i.name, i.summary, i.parameters, i.source));
-        let (curves, meshes): (String, String) = (curves.collect(), meshes.collect());
+        let curves: String = curves.chain(irrational::LIST.iter().map(irrational::entry)).collect();
+        let meshes: String = meshes.collect();
         print(&format!("{curves}\nMesh rules, for `mesh = …` and `valence = …` under [scheme] in a case:\n\n{meshes}"));
         return PROVED;
     };
-    match written(name, parameters) {
+    let text = irrational::written(name, parameters).unwrap_or_else(|| written(name, parameters));
+    match text {
         Ok(text) => {
             print(&text);
             PROVED
