@@ -171,6 +171,31 @@ impl Case {
         Complex { shape: self.shape.clone(), faces: self.faces.clone(), reversals: self.reversals.clone() }
     }
 
+    /// States that nothing leads to: neither a piece of a state that the start reaches, nor a boundary or reversal of one.
+    #[must_use]
+    pub fn dangling(&self) -> Vec<usize> {
+        if self.scheme.is_some() {
+            return Vec::new();
+        }
+        let mut reached = vec![self.shape.start];
+        let mut next = 0;
+        while let Some(&e) = reached.get(next) {
+            let state = &self.shape.states[e];
+            let boundaries = [&state.left, &state.right].into_iter().flatten().map(|b| b.vertex);
+            let sides = self.faces.get(&e).into_iter().flat_map(|f| f.sides.iter().map(|s| s.edge));
+            let reversal = self.reversals.get(&e).map(|r| r.edge);
+            let all: Vec<usize> =
+                state.pieces.iter().map(|p| p.target).chain(boundaries).chain(sides).chain(reversal).collect();
+            for target in all {
+                if !reached.contains(&target) {
+                    reached.push(target);
+                }
+            }
+            next += 1;
+        }
+        (0..self.shape.states.len()).filter(|e| !reached.contains(e)).collect()
+    }
+
     /// The identities of the case with its open entries as unknowns.
     ///
     /// # Errors

@@ -53,6 +53,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
     match done {
         Ok((case, found)) => {
             if !args.quiet {
+                note_dangling(&case);
                 print(&printed(&case, &found, args));
             }
             exit_code(found.verdict)
@@ -64,6 +65,15 @@ pub fn run(args: &CertifyArgs) -> u8 {
             complain(&problem);
             BAD_INPUT
         }
+    }
+}
+
+/// Says so where a state of the case plays no part.
+fn note_dangling(case: &Case) {
+    for state in case.dangling() {
+        let message = format!("nothing leads to state `{}`, so it plays no part", case.shape.states[state].name);
+        let help = "leave it out, or let a piece lead to it";
+        complain(&case.problem_at_state(state, "secant::case::dangling", &message, help));
     }
 }
 

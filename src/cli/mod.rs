@@ -5,12 +5,14 @@ mod certify;
 mod expand;
 mod explain;
 mod gallery;
+mod import;
 mod init;
 mod irrational;
 mod many;
 mod output;
 mod progress;
 mod radius;
+mod render;
 mod resume;
 mod schemes;
 mod solve;
@@ -67,6 +69,19 @@ enum Command {
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
+    /// Write a file of another program (Fractint .ifs, JSON) as a case, with the convention it was read in.
+    Import {
+        /// The file.
+        file: PathBuf,
+        /// The entry of a Fractint file that has several.
+        #[arg(long)]
+        entry: Option<String>,
+        /// Write to a file instead of the standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Draw a case from exact points: SVG, PNG, OBJ or PLY.
+    Render(RenderArgs),
     /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
     Solve(SolveArgs),
     /// Print a statement with its proof and reference.
@@ -157,6 +172,33 @@ struct SpectrumArgs {
 }
 
 #[derive(Debug, Args)]
+struct RenderArgs {
+    /// A case file; `-` reads the standard input.
+    case: PathBuf,
+    /// Write an SVG drawing; surfaces are projected.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a PNG image.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+    /// Write a Wavefront OBJ file.
+    #[arg(long, value_name = "FILE")]
+    obj: Option<PathBuf>,
+    /// Write a PLY file, with colours.
+    #[arg(long, value_name = "FILE")]
+    ply: Option<PathBuf>,
+    /// Letters of the words whose cells are drawn; by default as many as give about 20 000 points.
+    #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
+    depth: Option<usize>,
+    /// Draw this many points with random addresses instead (the chaos game).
+    #[arg(long, value_name = "POINTS")]
+    chaos: Option<usize>,
+    /// The seed of the chaos game.
+    #[arg(long, default_value_t = 1, requires = "chaos")]
+    seed: u64,
+}
+
+#[derive(Debug, Args)]
 struct SolveArgs {
     /// A case with unknown entries; `-` reads the standard input.
     case: PathBuf,
@@ -234,6 +276,8 @@ pub fn main() -> ExitCode {
         Command::Regularity(args) => radius::regularity(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),
+        Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
+        Command::Render(args) => render::run(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),

@@ -6,6 +6,7 @@ mod chart;
 mod diagram;
 mod germ;
 mod invariant;
+mod plot;
 mod png;
 mod projection;
 mod svg;
@@ -16,6 +17,7 @@ pub use chart::{CellBox, Turning, functional, turning as turning_chart};
 pub use diagram::{Arrow, Dot, Drawing, automaton, spectrum};
 pub use germ::{profile, turning, zoom};
 pub use invariant::polytope;
+pub use plot::Plot;
 pub use projection::Projection;
 
 use crate::arith::Rational;

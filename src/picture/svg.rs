@@ -221,7 +221,7 @@ pub(super) fn fixed(x: f64) -> String {
 }
 
 /// Text for SVG and HTML.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {
