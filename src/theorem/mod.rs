@@ -30,6 +30,7 @@ use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
+use crate::radius::{NormContraction, Options, contraction_by_norms};
 use crate::shape::{
     Address, AddressError, Balls, CellKind, Contraction, CurveError, End, Shape, ShapeError, Spaces, contraction,
 };
@@ -100,7 +101,14 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
             let name = shape.states[*state].name.clone();
             return Err(ModelError::Expands { state: name, index: *state, word: word.clone() });
         }
-        Contraction::Undetermined { length, open } => return Ok(without_contraction(&contraction, *length, *open)),
+        Contraction::Undetermined { length, open } => {
+            return match by_norms(shape) {
+                Some(NormContraction::Refuted { state, word, .. }) => {
+                    Err(ModelError::Expands { state: shape.states[state].name.clone(), index: state, word })
+                }
+                norms => Ok(without_contraction(&contraction, *length, *open, norms)),
+            };
+        }
     };
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
@@ -161,8 +169,31 @@ pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
     }
 }
 
-fn without_contraction(contraction: &Contraction, length: usize, open: usize) -> Certified {
-    let reason = format!("contraction is not decided: {open} words of length {length} are left");
+/// Largest number of coordinates of a state for which norms other than those of words are tried.
+const MAX_NORM_DIMENSION: usize = 12;
+
+/// Contraction through the joint spectral radius of the linear parts, where words did not decide.
+fn by_norms(shape: &Shape) -> Option<NormContraction> {
+    let small = shape.reachable().into_iter().all(|e| shape.states[e].dim <= MAX_NORM_DIMENSION);
+    if small { contraction_by_norms(shape, &Options::default()) } else { None }
+}
+
+fn without_contraction(
+    contraction: &Contraction,
+    length: usize,
+    open: usize,
+    norms: Option<NormContraction>,
+) -> Certified {
+    let reason = match norms {
+        Some(NormContraction::Proved(radius)) => {
+            let bound = radius.upper.as_ref().map_or(1.0, crate::arith::to_f64);
+            format!(
+                "the system contracts (the joint spectral radius of its linear parts is at most {bound:.6}), but the 1-norm \
+                 does not show it: {open} words of length {length} are left, and without them the attractor is not enclosed"
+            )
+        }
+        _ => format!("contraction is not decided: {open} words of length {length} are left"),
+    };
     let claim = Claim {
         text: "the shape has tangents".to_owned(),
         verdict: Verdict::Undetermined,
