@@ -16,6 +16,30 @@ pub struct Expect {
     pub error: Option<String>,
     /// What is expected at single points.
     pub points: Vec<ExpectPoint>,
+    /// What `secant solve` must find.
+    pub solve: Option<ExpectSolve>,
+}
+
+/// What `secant solve` must find.
+#[derive(Debug, Clone)]
+pub struct ExpectSolve {
+    /// `none`, `one` or `family`.
+    pub solutions: String,
+    /// Number of free parameters.
+    pub parameters: Option<usize>,
+    /// The identities that contradict each other, written as paths.
+    pub conflict: Option<Vec<String>>,
+    /// Forced spectra.
+    pub forced: Vec<ExpectForced>,
+}
+
+/// The forced part of the spectrum of an operator.
+#[derive(Debug, Clone)]
+pub struct ExpectForced {
+    /// The operator, as in `T_0[E]`.
+    pub operator: String,
+    /// Its forced eigenvalues, all of them rational, with their multiplicities.
+    pub eigenvalues: Vec<Rational>,
 }
 
 /// What a test expects at one point.
@@ -23,12 +47,14 @@ pub struct Expect {
 pub struct ExpectPoint {
     /// An address of the point.
     pub address: Address,
-    /// `half-tangent`, `regular`, `cusp`, `oscillating`, `corner` or `none`.
+    /// `half-tangent`, `regular`, `cusp`, `oscillating`, `corner`, `none` or `tangent-plane`.
     pub kind: Option<String>,
     /// `proved`, `refuted` or `undetermined`.
     pub verdict: Option<String>,
     /// Dimension of the tangent subspace.
     pub dimension: Option<usize>,
+    /// Vectors that span the tangent plane of a surface.
+    pub plane: Option<Vec<Vec<Rational>>>,
     /// Direction of the tangent line, up to a factor.
     pub tangent: Option<Vec<Rational>>,
     /// Rays of the left side, up to positive factors.
@@ -40,12 +66,12 @@ pub struct ExpectPoint {
 }
 
 const VERDICTS: [&str; 3] = ["proved", "refuted", "undetermined"];
-const KINDS: [&str; 6] = ["half-tangent", "regular", "cusp", "oscillating", "corner", "none"];
+const KINDS: [&str; 7] = ["half-tangent", "regular", "cusp", "oscillating", "corner", "none", "tangent-plane"];
 
 impl Expect {
     pub(super) fn read(node: &Node<'_>, shape: &Shape) -> Result<Self, Problem> {
         let table = node.table()?;
-        table.only(&["verdict", "contraction", "error", "point"])?;
+        table.only(&["verdict", "contraction", "error", "point", "solve"])?;
         let points = match table.get("point") {
             Some(list) => {
                 let tables = list.tables(|k| format!("expected point {k}"))?;
@@ -58,13 +84,44 @@ impl Expect {
             contraction: table.word("contraction", &VERDICTS)?.map(str::to_owned),
             error: table.optional_text("error")?.map(str::to_owned),
             points,
+            solve: table.get("solve").map(|n| ExpectSolve::read(&n)).transpose()?,
+        })
+    }
+}
+
+impl ExpectSolve {
+    fn read(node: &Node<'_>) -> Result<Self, Problem> {
+        let table = node.table()?;
+        table.only(&["solutions", "parameters", "conflict", "forced"])?;
+        let forced = match table.get("forced") {
+            None => Vec::new(),
+            Some(list) => list.tables(|k| format!("forced spectrum {k}"))?,
+        };
+        let forced = forced.iter().map(|t| {
+            t.only(&["operator", "eigenvalues"])?;
+            let eigenvalues = vector(&t.need("eigenvalues", "[1, \"1/2\"]")?)?;
+            Ok(ExpectForced { operator: t.text("operator", "\"T_0[E]\"")?.to_owned(), eigenvalues })
+        });
+        let text = |n: Node<'_>| n.text().map(str::to_owned);
+        let conflict = match table.get("conflict") {
+            None => None,
+            Some(list) => {
+                Some(list.array(|k| format!("identity {k}"))?.into_iter().map(text).collect::<Result<_, _>>()?)
+            }
+        };
+        table.need("solutions", "\"one\"")?;
+        Ok(Self {
+            solutions: table.word("solutions", &["none", "one", "family"])?.unwrap_or_default().to_owned(),
+            parameters: table.get("parameters").map(|n| n.index(crate::shape::MAX_UNKNOWNS)).transpose()?,
+            conflict,
+            forced: forced.collect::<Result<_, _>>()?,
         })
     }
 }
 
 impl ExpectPoint {
     fn read(table: &Table<'_>, shape: &Shape) -> Result<Self, Problem> {
-        table.only(&["address", "kind", "verdict", "dimension", "tangent", "left", "right", "eigenvalue"])?;
+        table.only(&["address", "kind", "verdict", "dimension", "plane", "tangent", "left", "right", "eigenvalue"])?;
         let rays = |key: &str| -> Result<Option<Vec<Vec<Rational>>>, Problem> {
             let Some(node) = table.get(key) else { return Ok(None) };
             let rays = node.array(|k| format!("ray {k} of `{key}`"))?;
@@ -75,6 +132,7 @@ impl ExpectPoint {
             kind: table.word("kind", &KINDS)?.map(str::to_owned),
             verdict: table.word("verdict", &VERDICTS)?.map(str::to_owned),
             dimension: table.get("dimension").map(|n| n.index(super::MAX_COORDINATES)).transpose()?,
+            plane: rays("plane")?,
             tangent: table.get("tangent").map(|n| vector(&n)).transpose()?,
             left: rays("left")?,
             right: rays("right")?,

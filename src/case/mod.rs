@@ -4,6 +4,7 @@
 
 mod expect;
 mod faces;
+mod field;
 mod maps;
 mod matrix;
 pub mod matrix_file;
@@ -11,12 +12,15 @@ mod node;
 mod read;
 mod scheme;
 mod states;
+mod vertex;
 
-pub use expect::{Expect, ExpectPoint, expected_error};
+pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
+pub use field::FieldCase;
+pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{Heading, Mask, MeshRule, complex_text};
-use crate::shape::{Address, Complex, Face, OpName, Reversal, Shape};
+use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -167,17 +171,35 @@ impl Case {
         Complex { shape: self.shape.clone(), faces: self.faces.clone(), reversals: self.reversals.clone() }
     }
 
+    /// The identities of the case with its open entries as unknowns.
+    ///
+    /// # Errors
+    /// [`UnknownError::Many`].
+    pub fn unknowns(&self) -> Result<shape::Problem, UnknownError> {
+        let mut problem = shape::Problem::new(self.complex());
+        for u in &self.unknown {
+            problem.unknown(u.op, u.row, u.column, u.name.as_deref())?;
+        }
+        Ok(problem)
+    }
+
     /// The case with every operator written out, without `[scheme]`: what the checker reads. It has the name, the shape, the
     /// control points and the points to examine, but no expectations.
     #[must_use]
     pub fn expanded(&self) -> String {
+        self.written_with(&self.complex())
+    }
+
+    /// As [`Case::expanded`], with other operators, such as those of a solution.
+    #[must_use]
+    pub fn written_with(&self, complex: &Complex) -> String {
         let heading = Heading {
             name: self.name.clone(),
             title: if self.title == self.name { String::new() } else { self.title.clone() },
             source: self.source.clone().unwrap_or_default(),
             examine: self.examine.clone(),
         };
-        complex_text(&self.complex(), &heading)
+        complex_text(complex, &heading)
     }
 
     /// The text that a checker reads: the file itself, or [`Case::expanded`] where it has `[scheme]`.

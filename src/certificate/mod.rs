@@ -94,6 +94,9 @@ fn laid_out(value: &Value, depth: usize) -> String {
 /// # Cost
 /// Linear in the evidence, apart from the choice of radii between neighbouring moduli.
 pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupported> {
+    if found.surface.is_some() {
+        return unsupported("the tangent planes of a surface", "points");
+    }
     let Contraction::Proved(contraction) = &found.contraction else {
         return unsupported("a system whose contraction is not proved", "contraction");
     };
@@ -113,6 +116,13 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     let answers = answers(case, found, &points)?;
     let proof = json!({"contraction": states, "points": points.json, "answers": answers});
     Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
+}
+
+/// The SHA-256 digest of a text, in hexadecimal.
+#[must_use]
+pub fn sha256(text: &str) -> String {
+    use sha2::{Digest, Sha256};
+    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Why a decided verdict was not proved again.

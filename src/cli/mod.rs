@@ -6,12 +6,16 @@ mod expand;
 mod explain;
 mod gallery;
 mod init;
+mod irrational;
 mod many;
 mod output;
 mod progress;
 mod radius;
+mod resume;
 mod schemes;
+mod solve;
 mod spectrum;
+mod vertex;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
@@ -63,6 +67,8 @@ enum Command {
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
+    /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
+    Solve(SolveArgs),
     /// Print a statement with its proof and reference.
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
@@ -98,20 +104,30 @@ struct CertifyArgs {
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
     #[arg(long, value_name = "ADDRESS")]
     address: Vec<String>,
+    /// For a case with a [vertex] table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
+    #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "certificate", "approx"])]
+    valence: Option<String>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same as PNG, without the words in the picture.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Do not have the verdict proved again by the checker before it is printed.
     #[arg(long)]
     no_check: bool,
+    /// Keep the results and certificates of many cases in a directory, and skip the cases whose result there is up to
+    /// date: same text of the case, same addresses and checks, same version of secant.
+    #[arg(long, value_name = "DIR", conflicts_with = "approx")]
+    resume: Option<PathBuf>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
@@ -138,6 +154,24 @@ struct SpectrumArgs {
     /// Only compute in floating point: labelled approximate (exit code 3).
     #[arg(long, conflicts_with_all = ["json", "latex"])]
     approx: bool,
+}
+
+#[derive(Debug, Args)]
+struct SolveArgs {
+    /// A case with unknown entries; `-` reads the standard input.
+    case: PathBuf,
+    /// Write the solved case to a file.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Give a free parameter a value in the case that is written; the others are 0.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but problems.
+    #[arg(short, long, conflicts_with = "json")]
+    quiet: bool,
 }
 
 #[derive(Debug, Args)]
@@ -171,6 +205,9 @@ struct GalleryArgs {
     /// The directory with the families of cases.
     #[arg(default_value = "cases", value_name = "CASES")]
     cases: PathBuf,
+    /// Write a report for every case, not only for a selection.
+    #[arg(long, conflicts_with = "check")]
+    all: bool,
     /// Where the page is written.
     #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
     out: PathBuf,
@@ -197,6 +234,7 @@ pub fn main() -> ExitCode {
         Command::Regularity(args) => radius::regularity(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),
+        Command::Solve(args) => solve::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),

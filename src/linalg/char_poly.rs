@@ -345,6 +345,7 @@ mod tests {
     }
 
     #[test]
+    #[allow(clippy::needless_range_loop)] // The last row is written from the others.
     fn the_bounds_hold() {
         let mut seed = 11;
         for n in [2usize, 3, 8, 30] {
