@@ -192,7 +192,7 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
     if let Some(e) = &r.exponent {
         let most = Rational::from(k as u64 + 1);
         if e.lo >= most {
-            let _ = writeln!(out, "exponent    >= {most} (Lipschitz)");
+            let _ = writeln!(out, "exponent    >= {most} (as a supremum of exponents)");
         } else if e.hi > most {
             let _ = writeln!(out, "exponent    >= {}", decimal(&e.lo, false, PLACES));
         } else {
