@@ -8,7 +8,7 @@ use secant::certificate::certificate;
 use secant::theorem::surface::certify_complex;
 use std::path::{Path, PathBuf};
 
-/// Cases whose verdicts the format cannot express (docs/certificate.md, section 9).
+/// Cases whose verdicts the format cannot express (docs/certificate.md, section 10).
 const UNSUPPORTED: [&str; 2] = ["same-line-two-polynomials", "complex-block"];
 
 fn corpus() -> Vec<PathBuf> {

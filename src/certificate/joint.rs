@@ -56,7 +56,7 @@ fn below(product: &Matrix, lower: &Lower) -> Result<Value, Unsupported> {
         Some(_) => Rational::from(0),
         None => Interval::point(disc(product, &x, &y)).outward(2 * BITS).hi,
     };
-    let exact = lower.rational();
+    let exact = if error == 0 { lower.rational() } else { None };
     let bound = exact.unwrap_or_else(|| {
         let square = &x * &x + &y * &y;
         let modulus = crate::radius::square_root(&square, 2 * BITS).lo - &error;

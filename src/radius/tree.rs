@@ -125,9 +125,8 @@ fn weights(system: &System) -> Vec<Vec<f64>> {
     for _ in 0..60 {
         let mut next: Vec<Vec<f64>> = system.dims.iter().map(|d| vec![1e-3; *d]).collect();
         for (arrow, m) in system.arrows.iter().zip(&floats) {
-            for j in 0..m.cols {
-                next[arrow.to][j] +=
-                    (0..m.rows).map(|i| m.data[i * m.cols + j].abs() * weights[arrow.from][i]).sum::<f64>();
+            for (j, sum) in next[arrow.to].iter_mut().enumerate() {
+                *sum += (0..m.rows).map(|i| m.data[i * m.cols + j].abs() * weights[arrow.from][i]).sum::<f64>();
             }
         }
         let largest = next.iter().flatten().copied().fold(f64::MIN_POSITIVE, f64::max);

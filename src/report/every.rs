@@ -141,7 +141,7 @@ pub fn value(found: &Certified) -> Value {
         "half_tangents": every.cone.is_some() && every.seen,
         "exponent": every.exponent.as_ref().map(|e| decimal(e, false, PLACES)),
         "cone": cone,
-        "witness": every.witness.and_then(|k| found.points.get(k)).map(|p| super::words::addresses(p)),
+        "witness": every.witness.and_then(|k| found.points.get(k)).map(super::words::addresses),
         "obstacle": every.obstacle.as_ref().map(|o| json!({
             "state": o.state,
             "word": word_text(&o.word),

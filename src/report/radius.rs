@@ -142,7 +142,7 @@ pub fn wavelet(w: &Wavelet) -> String {
     let _ = writeln!(out, "radius      {}  (of 2^{} q)", interval(&w.enclosure), 1 - i64::try_from(n).unwrap_or(0));
     condition(&mut out, 2);
     let _ = writeln!(out, "exponent    {}", interval(&w.exponent));
-    let whole = |x: &Rational| Integer::try_from(x.ceiling()).unwrap_or_default() - Integer::from(1);
+    let whole = |x: &Rational| x.ceiling() - Integer::from(1);
     let (least, most) = (whole(&w.exponent.lo), whole(&w.exponent.hi));
     if least == most {
         let _ = writeln!(out, "smoothness  C^{least}");
@@ -192,7 +192,7 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
     if let Some(e) = &r.exponent {
         let most = Rational::from(k as u64 + 1);
         if e.lo >= most {
-            let _ = writeln!(out, "exponent    >= {most} (Lipschitz)");
+            let _ = writeln!(out, "exponent    >= {most} (as a supremum of exponents)");
         } else if e.hi > most {
             let _ = writeln!(out, "exponent    >= {}", decimal(&e.lo, false, PLACES));
         } else {

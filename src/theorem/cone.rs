@@ -331,7 +331,7 @@ impl CommonCone {
         let mut best: Option<(Rational, ConeRate)> = None;
         for length in 1..=8 {
             let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
-            if words.is_none_or(|w| w > MAX_RATE_WORDS || (length > 1 && w * rays.pow(3) > MAX_RATE_WORK)) {
+            if words.is_none_or(|w| w > MAX_RATE_WORDS || w * rays.pow(3) > MAX_RATE_WORK) {
                 break;
             }
             let length = length as usize;

@@ -31,6 +31,7 @@ use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
+use crate::radius::{NormContraction, Options, contraction_by_norms};
 use crate::shape::{
     Address, AddressError, Balls, CellKind, ComplexError, Contracting, Contraction, CurveError, End, Shape, ShapeError,
     Spaces, contraction,
@@ -100,7 +101,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     shape.check()?;
     let contraction = contraction(shape, expands);
     let Some(proof) = contracting(shape, &contraction)? else {
-        return Ok(without_contraction(&contraction));
+        return Ok(without_contraction(&contraction, by_norms(shape)?));
     };
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
@@ -171,12 +172,36 @@ fn contracting<'a>(shape: &Shape, contraction: &'a Contraction) -> Result<Option
     }
 }
 
-fn without_contraction(contraction: &Contraction) -> Certified {
+/// Largest number of coordinates of a state for which norms other than those of words are tried.
+const MAX_NORM_DIMENSION: usize = 12;
+
+/// An upper bound below 1 of the joint spectral radius of the linear parts, where words did not decide.
+fn by_norms(shape: &Shape) -> Result<Option<Rational>, ModelError> {
+    if shape.reachable().into_iter().any(|e| shape.states[e].dim > MAX_NORM_DIMENSION) {
+        return Ok(None);
+    }
+    match contraction_by_norms(shape, &Options::default()) {
+        Some(NormContraction::Refuted { state, word, .. }) => {
+            Err(ModelError::Expands { state: shape.states[state].name.clone(), index: state, word })
+        }
+        Some(NormContraction::Proved(radius)) => Ok(radius.upper),
+        _ => Ok(None),
+    }
+}
+
+fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Certified {
     let (length, open) = match contraction {
         Contraction::Undetermined { length, open } => (*length, *open),
         _ => (0, 0),
     };
-    let reason = format!("contraction is not decided: {open} words of length {length} are left");
+    let reason = match norm {
+        Some(bound) => format!(
+            "the system contracts (the joint spectral radius of its linear parts is at most {:.6}), but the 1-norm does not show \
+             it: {open} words of length {length} are left, and without them the attractor is not enclosed",
+            crate::arith::to_f64(&bound)
+        ),
+        None => format!("contraction is not decided: {open} words of length {length} are left"),
+    };
     let claim = Claim {
         text: "the shape has tangents".to_owned(),
         verdict: Verdict::Undetermined,

@@ -43,7 +43,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     complex.check()?;
     let contraction = contraction(shape, expands);
     let Some(proof) = contracting(shape, &contraction)? else {
-        return Ok(without_contraction(&contraction));
+        return Ok(without_contraction(&contraction, None));
     };
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
     let balls = Balls::new(shape, &spaces, proof).with_simplex(shape);
