@@ -97,7 +97,11 @@ fn compare_surface(expect: &ExpectPoint, found: &SurfacePoint) -> Vec<String> {
         };
         let wanted = Subspace { generators: wanted.iter().map(line).collect() };
         let ok = found.tangent.as_ref().is_some_and(|t| t.same(&wanted) == Some(true));
-        check("plane", Some("as expected".into()), if ok { "as expected".into() } else { format!("{:?}", found.tangent) });
+        check(
+            "plane",
+            Some("as expected".into()),
+            if ok { "as expected".into() } else { format!("{:?}", found.tangent) },
+        );
     }
     wrong
 }

@@ -5,7 +5,9 @@ use secant::arith::{Rational, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::scheme::{Mask, bspline, tensor};
 use secant::shape::{Address, Boundary, CellKind, Complex, Piece, Shape, State};
-use secant::theorem::surface::{Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point};
+use secant::theorem::surface::{
+    Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point,
+};
 use secant::theorem::{Certified, Statement, Verdict};
 
 /// A reproducible source of small numbers.
@@ -55,7 +57,6 @@ fn surface(found: &Certified) -> &Surface {
 fn first(complex: &Complex) -> SurfacePoint {
     surface(&at(complex, &["(0)"])).points.iter().find(|p| p.branches[0].address.to_string() == "(0)").unwrap().clone()
 }
-
 
 /// The map 0 with the given linear part at 0, and maps with small linear parts around given points.
 fn around(linear: Matrix, points: &[&[i64]]) -> Complex {
@@ -160,7 +161,8 @@ fn tensor_products_agree_with_the_general_theorem() {
         }
         assert!(decided >= 4, "{decided}");
     }
-    let evidence = product_point(&spline(3), &spline(2), &Address::parse("0(3)").unwrap(), &Matrix::identity(12)).unwrap();
+    let evidence =
+        product_point(&spline(3), &spline(2), &Address::parse("0(3)").unwrap(), &Matrix::identity(12)).unwrap();
     assert_eq!(evidence.verdict, Verdict::Proved);
 }
 
@@ -186,7 +188,8 @@ fn with_vertices(pieces: &[(Matrix, Vec<Rational>)], ends: [Vec<Rational>; 2]) -
     };
     // One vertex state of one coordinate serves for both ends.
     let piece = Piece { target: 1, op: Matrix::identity(1), reversed: false };
-    let vertex = State { name: "v".into(), kind: CellKind::Vertex, dim: 1, pieces: vec![piece], left: None, right: None };
+    let vertex =
+        State { name: "v".into(), kind: CellKind::Vertex, dim: 1, pieces: vec![piece], left: None, right: None };
     shape.states.push(vertex);
     let [start, finish] = ends;
     shape.states[0].left = Some(Boundary { vertex: 1, op: point(&start) });
@@ -195,6 +198,7 @@ fn with_vertices(pieces: &[(Matrix, Vec<Rational>)], ends: [Vec<Rational>; 2]) -
 }
 
 #[test]
+#[ignore = "takes minutes: contraction of a product with nine pieces"]
 fn a_path_that_winds_around_0_refutes() {
     // x runs from 0 over 1/2 and -1/2 to 1: at (0, 0) the pair (x(s), x(t)) of functionals of 1/2 has common zeros in the ring,
     // none of them at a point with a short address.
@@ -351,19 +355,26 @@ fn mistake(complex: &Complex, b: &SurfaceBranch, random: &mut Random) -> Option<
     let seen = residuals(&directions, 4);
     if o.dimension.exact {
         let basis = orthonormal(&o.contains.to_f64());
-        let modulus = |k: usize| b.spectrum.classes.get(k).map_or(0.0, |c| to_f64(&b.spectrum.root(c.members[0]).modulus(40).mid()));
+        let modulus = |k: usize| {
+            b.spectrum.classes.get(k).map_or(0.0, |c| to_f64(&b.spectrum.root(c.members[0]).modulus(40).mid()))
+        };
         let late = 1e3 * (modulus(1) / modulus(0)).powi(240);
         let tolerance = if block > 1 { 0.05 } else { 1e-3 + late };
         let far = directions.iter().map(|d| distance(d, &basis)).fold(0.0, f64::max);
         // Points near the complement turn late; only what is proved without a null component is compared.
-        if far > tolerance && matches!(o.statement, Some(Statement::Theorem2 | Statement::Theorem3 | Statement::CorollaryLine)) {
+        if far > tolerance
+            && matches!(o.statement, Some(Statement::Theorem2 | Statement::Theorem3 | Statement::CorollaryLine))
+        {
             return Some(format!("{}: secants leave {:?} by {far} ({})", b.address, o.contains.to_f64(), o.row));
         }
         let r = o.dimension.at_least;
         if o.witness.is_none() && r >= 1 && seen.get(r - 1).is_none_or(|x| *x < 1e-4) {
             return Some(format!("{}: only {seen:?} of dimension {r} is sampled ({})", b.address, o.row));
         }
-    } else if o.statement == Some(Statement::Corollary) && o.dimension.at_least >= 3 && seen.get(2).is_none_or(|x| *x < 1e-6) {
+    } else if o.statement == Some(Statement::Corollary)
+        && o.dimension.at_least >= 3
+        && seen.get(2).is_none_or(|x| *x < 1e-6)
+    {
         return Some(format!("{}: three dimensions claimed, {seen:?} sampled", b.address));
     }
     None

@@ -111,7 +111,8 @@ fn entry(path: &Path, with_report: bool) -> Entry {
     let family = part(path.parent().and_then(Path::file_name));
     let stem = part(path.file_stem());
     let done = Case::read(path).and_then(|case| {
-        let found = certify_complex(&case.complex(), &case.examine).map_err(|e| super::certify::model_problem(&case, &e))?;
+        let found =
+            certify_complex(&case.complex(), &case.examine).map_err(|e| super::certify::model_problem(&case, &e))?;
         Ok((case, found))
     });
     let (card, report) = match &done {

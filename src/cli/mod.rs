@@ -102,7 +102,7 @@ struct CertifyArgs {
     #[arg(long)]
     jsonl: bool,
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]

@@ -9,10 +9,10 @@ use crate::arith::Rational;
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
+use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
     BranchReport, Certified, Claim, Direction, Outcome, PointReport, Rate, Role, Side, Verdict, Witness,
 };
-use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use serde_json::{Value, json};
 
 /// The version of the format; it changes when a field changes its meaning or goes away.

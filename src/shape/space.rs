@@ -57,7 +57,8 @@ impl Spaces {
             let basis = spans[e].transpose();
             let coordinates = left_inverse(&basis);
             let visible = (&rows[e] * &basis).echelon().rows;
-            let landmarks = shape.landmarks(e).into_iter().filter_map(|a| Some((a.clone(), shape.point(e, &a)?))).collect();
+            let landmarks =
+                shape.landmarks(e).into_iter().filter_map(|a| Some((a.clone(), shape.point(e, &a)?))).collect();
             spaces[e] = Some(StateSpace { base: point, base_address, basis, coordinates, visible, landmarks });
         }
         Some(Self(spaces))

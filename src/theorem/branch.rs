@@ -102,7 +102,13 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
 }
 
 /// Marks the pieces that fall into `q` as a whole (Lemma 2).
-pub(super) fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
+pub(super) fn mark_collapsing(
+    cx: &Context,
+    chart: &Matrix,
+    linear: &Matrix,
+    fixed: &[Rational],
+    ring: &mut [RingPiece],
+) {
     let falls = &power(linear, linear.rows()) * chart;
     for piece in ring {
         let space = cx.spaces.of(piece.end);

@@ -346,9 +346,9 @@ impl Ring<'_> {
 
     /// Points of opposite sign of one functional on one piece of the ring, for pieces that are connected.
     pub(super) fn sign_change_on_piece(&self, functional: &Functional, cells: usize) -> Option<Witness> {
-        self.pieces.iter().find_map(|piece| {
-            Ring { pieces: std::slice::from_ref(piece), ..*self }.find_sign_change(functional, cells)
-        })
+        self.pieces
+            .iter()
+            .find_map(|piece| Ring { pieces: std::slice::from_ref(piece), ..*self }.find_sign_change(functional, cells))
     }
 
     /// The pieces of the ring as cells, with the rows carried to them.
@@ -395,7 +395,12 @@ impl Ring<'_> {
     }
 
     /// Tries the points of the cell with known addresses as exact common zeros.
-    pub(super) fn point_witness(&self, functionals: &[Functional], node: &Node, errors: &[Rational]) -> Option<Witness> {
+    pub(super) fn point_witness(
+        &self,
+        functionals: &[Functional],
+        node: &Node,
+        errors: &[Rational],
+    ) -> Option<Witness> {
         for (address, local) in &self.spaces.of(node.end).landmarks {
             let near = node.rows.iter().zip(errors).all(|(row, e)| abs(&dot(row, local)) <= *e);
             if !near {
@@ -421,7 +426,9 @@ impl Ring<'_> {
         [Position::Before, Position::After].into_iter().find_map(|part| {
             let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| p.position == part).cloned().collect();
             let ring = Ring { pieces: &pieces, ..*self };
-            let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2, SIGN_NODES)? else { return None };
+            let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2, SIGN_NODES)? else {
+                return None;
+            };
             let RingAnswer::Holds(cover) = ring.decide(&[c2.clone(), c1.clone()], budget) else { return None };
             let mut signs = cover.discharged.iter().filter(|d| d.functional == 1).map(|d| d.sign);
             let sign = signs.next()?;

@@ -4,13 +4,14 @@ use super::super::document::{Block, Check, Inline, Line, Table, Tone, code, form
 use super::super::math::Math;
 use super::super::surface::{head, outcome, product_line, span, verdict, witness};
 use super::super::theorems;
+use super::super::values::{elem_math, root_math};
 use super::super::words::{count, listed, mark, tone};
 use super::cycles::{cell_table, spectrum_blocks};
 use super::{equation, quoted, quoted_id};
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::theorem::Statement;
 use crate::theorem::surface::{Surface, SurfaceBranch, SurfaceDense, SurfaceWitness};
+use crate::theorem::{Part, Statement};
 
 /// One analysis for each different cycle as it is seen, and the points that they give.
 pub(super) fn section(case: &Case, surface: &Surface) -> Vec<Block> {
@@ -135,9 +136,25 @@ fn cycle(case: &Case, branch: &SurfaceBranch, k: usize) -> Vec<Block> {
         blocks.push(quoted(theorems::of(s)));
     }
     let mut checks = vec![Check { tone: Tone::Neutral, text: words(format!("Top of the spectrum: {}.", o.row)) }];
+    for (k, g) in o.ring.iter().flat_map(|proof| &proof.functionals).enumerate() {
+        let row = Math::tuple(g.row.iter().map(elem_math).collect());
+        let part = match (g.part, g.root.as_ref().is_some_and(|r| !r.is_real())) {
+            (_, false) => "",
+            (Part::Real, true) => "the real part of ",
+            (Part::Imaginary, true) => "the imaginary part of ",
+        };
+        let (at, mut values) = match g.root.as_ref().filter(|r| r.rational().is_none()) {
+            Some(root) => (" with $λ=@$", vec![root_math(root)]),
+            None => ("", Vec::new()),
+        };
+        values.splice(0..0, [Math::count(k + 1), row]);
+        let text = line(&format!("Leading functional: $g_@(x)$ is {part}$@·C(x-q)${at}."), values);
+        checks.push(Check { tone: Tone::Neutral, text });
+    }
     if let Some(proof) = &o.ring {
         let cells = count(proof.discharged.len(), "cell");
-        let text = format!("Ring condition: the leading functionals have no common zero on K, by {cells} that cover it.");
+        let text =
+            format!("Ring condition: the leading functionals have no common zero on K, by {cells} that cover it.");
         checks.push(Check { tone: Tone::Good, text: words(text) });
     }
     if let Some(w) = &o.witness {
@@ -147,7 +164,8 @@ fn cycle(case: &Case, branch: &SurfaceBranch, k: usize) -> Vec<Block> {
     }
     if let Some((depth, proof)) = &o.depth {
         let cells = count(proof.discharged.len(), "cell");
-        let text = line(&format!("$0∉π_@(X)$, by {cells}: $D^*⊂E_1⊕…⊕E_@$."), [Math::count(*depth), Math::count(*depth)]);
+        let text =
+            line(&format!("$0∉π_@(X)$, by {cells}: $D^*⊂E_1⊕…⊕E_@$."), [Math::count(*depth), Math::count(*depth)]);
         checks.push(Check { tone: Tone::Good, text });
     }
     blocks.push(Block::Checks(checks));

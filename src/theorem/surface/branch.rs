@@ -10,9 +10,7 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex};
-use crate::theorem::branch::{
-    Context, MAX_ROWS, Quotient, isolation_functionals, krylov, mark_collapsing, restrict,
-};
+use crate::theorem::branch::{Context, MAX_ROWS, Quotient, isolation_functionals, krylov, mark_collapsing, restrict};
 use crate::theorem::ring::{Functional, Part, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
 use crate::theorem::{Dimension, Statement};
 
@@ -501,12 +499,8 @@ fn span_of_ends(spectrum: &Spectrum, top: &Top, view: &Matrix) -> Subspace {
     let mut space = Subspace::default();
     for (f, roots) in &top.members {
         let factor = &spectrum.factors[*f];
-        let ends: Vec<&[Elem]> = factor
-            .right
-            .iter()
-            .filter(|c| c.vectors.len() == top.block)
-            .map(|c| c.vectors[0].as_slice())
-            .collect();
+        let ends: Vec<&[Elem]> =
+            factor.right.iter().filter(|c| c.vectors.len() == top.block).map(|c| c.vectors[0].as_slice()).collect();
         space = space.join(&Subspace::of_vectors(view, factor, roots, &ends));
     }
     space

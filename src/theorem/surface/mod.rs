@@ -177,12 +177,7 @@ fn together(text: &str, indices: &[usize], surface: &Surface) -> Claim {
 }
 
 /// Examines the branches of a point and adds up their tangent subspaces.
-fn conclude(
-    setting: &Setting,
-    spot: Spot,
-    parameter: Option<Param>,
-    addresses: &[Address],
-) -> Option<SurfacePoint> {
+fn conclude(setting: &Setting, spot: Spot, parameter: Option<Param>, addresses: &[Address]) -> Option<SurfacePoint> {
     let branches: Vec<SurfaceBranch> = addresses.iter().map(|a| examine(setting, a)).collect::<Option<_>>()?;
     let position = setting.cx.shape.point(setting.cx.root, &branches.first()?.address)?;
     let shape = setting.cx.shape;

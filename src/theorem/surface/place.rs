@@ -46,7 +46,12 @@ fn cell_corners(layout: Layout, letter: usize) -> Vec<Param> {
             vec![node(0, 0), node(1, 0), node(1, 1), node(0, 1)]
         }
         Layout::Triangle => {
-            let halves = [[(0, 0), (1, 0), (0, 1)], [(1, 0), (2, 0), (1, 1)], [(0, 1), (1, 1), (0, 2)], [(1, 1), (0, 1), (1, 0)]];
+            let halves = [
+                [(0, 0), (1, 0), (0, 1)],
+                [(1, 0), (2, 0), (1, 1)],
+                [(0, 1), (1, 1), (0, 2)],
+                [(1, 1), (0, 1), (1, 0)],
+            ];
             halves[letter].iter().map(|&(u, v)| [fraction(u, 2), fraction(v, 2)]).collect()
         }
     }

@@ -116,8 +116,8 @@ impl Subspace {
         for (root, group) in groups {
             for coords in group {
                 let new = Direction { root: root.clone(), coords };
-                let known = new.root.is_real()
-                    && generators.iter().any(|g| g.root.is_real() && g.same_line(&new).is_some());
+                let known =
+                    new.root.is_real() && generators.iter().any(|g| g.root.is_real() && g.same_line(&new).is_some());
                 if !known {
                     generators.push(new);
                 }
@@ -284,7 +284,10 @@ mod tests {
         let s = surd(2, &[(0, 1), (2, 0), (0, 0)]);
         let multiple = surd(2, &[(2, 0), (0, 2), (0, 0)]);
         assert_eq!(span(&[s.clone(), multiple]).rank().exact(), Some(1));
-        assert_eq!(span(&[s, rational(&[1, 0, 0])]).same(&span(&[rational(&[1, 0, 0]), rational(&[0, 1, 0])])), Some(true));
+        assert_eq!(
+            span(&[s, rational(&[1, 0, 0])]).same(&span(&[rational(&[1, 0, 0]), rational(&[0, 1, 0])])),
+            Some(true)
+        );
     }
 
     #[test]

@@ -27,7 +27,8 @@ pub fn factors(complex: &Complex) -> Option<(Shape, Shape)> {
     (2..state.dim).filter(|n| state.dim.is_multiple_of(*n)).find_map(|n| {
         let ops: Vec<(Matrix, Matrix)> =
             state.pieces.iter().map(|p| split(&p.op, n, state.dim / n)).collect::<Option<_>>()?;
-        let product = |(k, (a, b)): (usize, &(Matrix, Matrix))| *a == ops[k % columns].0 && *b == ops[k - k % columns].1;
+        let product =
+            |(k, (a, b)): (usize, &(Matrix, Matrix))| *a == ops[k % columns].0 && *b == ops[k - k % columns].1;
         if !ops.iter().enumerate().all(product) {
             return None;
         }
@@ -109,7 +110,8 @@ pub fn add(point: &mut SurfacePoint, first: &Shape, second: &Shape, setting: &Se
     };
     if !agree {
         point.verdict = Verdict::Undetermined;
-        point.reason = Some("the theorem on tensor products and the general one disagree: a mistake in secant".to_owned());
+        point.reason =
+            Some("the theorem on tensor products and the general one disagree: a mistake in secant".to_owned());
     } else if !decided(point.verdict) && decided(evidence.verdict) {
         point.verdict = evidence.verdict;
         point.statement = Some(Statement::TensorProduct);

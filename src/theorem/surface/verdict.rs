@@ -6,9 +6,7 @@ use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::shape::Address;
-use crate::theorem::{
-    Dimension, Discharged, PointReport, RingPiece, RingProof, Statement, Verdict, Witness,
-};
+use crate::theorem::{Dimension, Discharged, PointReport, RingPiece, RingProof, Statement, Verdict, Witness};
 
 /// A proof that a pair of functionals has a common zero on a cell of the ring: the image of its boundary winds around 0.
 #[derive(Debug, Clone)]

@@ -103,12 +103,14 @@ impl Search<'_> {
         let along = |p: &[Rational; 2]| -> Option<Rational> {
             let d = [&b[0] - &a[0], &b[1] - &a[1]];
             let e = [&p[0] - &a[0], &p[1] - &a[1]];
-            (&d[0] * &e[1] == &d[1] * &e[0])
-                .then(|| (&d[0] * &e[0] + &d[1] * &e[1]) / (&d[0] * &d[0] + &d[1] * &d[1]))
+            (&d[0] * &e[1] == &d[1] * &e[0]).then(|| (&d[0] * &e[0] + &d[1] * &e[1]) / (&d[0] * &d[0] + &d[1] * &d[1]))
         };
         let mut parts: Vec<(Rational, Stretch)> = Vec::new();
-        for (child, (letter, piece)) in
-            self.ring.children(&stretch.node).into_iter().zip(self.complex.shape.states[state].pieces.iter().enumerate())
+        for (child, (letter, piece)) in self
+            .ring
+            .children(&stretch.node)
+            .into_iter()
+            .zip(self.complex.shape.states[state].pieces.iter().enumerate())
         {
             let places: Vec<Option<Rational>> = self.chart.piece_corners(state, letter).iter().map(along).collect();
             let inner = self.complex.faces.get(&piece.target)?.layout.sides();
