@@ -117,7 +117,7 @@ struct CertifyArgs {
     #[arg(long)]
     jsonl: bool,
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
     /// For a case with a [vertex] table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "certificate", "approx"])]

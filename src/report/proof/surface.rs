@@ -4,14 +4,15 @@ use super::super::document::{Block, Check, Inline, Line, Table, Tone, code, form
 use super::super::math::Math;
 use super::super::surface::{head, outcome, product_line, span, verdict, witness};
 use super::super::theorems;
+use super::super::values::{elem_math, root_math};
 use super::super::words::{count, listed, mark, tone};
 use super::cycles::spectrum_blocks;
 use super::statements::cell_table;
 use super::{equation, quoted, quoted_id};
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::theorem::Statement;
 use crate::theorem::surface::{Surface, SurfaceBranch, SurfaceDense, SurfaceWitness};
+use crate::theorem::{Part, Statement};
 
 /// One analysis for each different cycle as it is seen, and the points that they give.
 pub(super) fn section(case: &Case, surface: &Surface) -> Vec<Block> {
@@ -136,6 +137,21 @@ fn cycle(case: &Case, branch: &SurfaceBranch, k: usize) -> Vec<Block> {
         blocks.push(quoted(theorems::of(s)));
     }
     let mut checks = vec![Check { tone: Tone::Neutral, text: words(format!("Top of the spectrum: {}.", o.row)) }];
+    for (k, g) in o.ring.iter().flat_map(|proof| &proof.functionals).enumerate() {
+        let row = Math::tuple(g.row.iter().map(elem_math).collect());
+        let part = match (g.part, g.root.as_ref().is_some_and(|r| !r.is_real())) {
+            (_, false) => "",
+            (Part::Real, true) => "the real part of ",
+            (Part::Imaginary, true) => "the imaginary part of ",
+        };
+        let (at, mut values) = match g.root.as_ref().filter(|r| r.rational().is_none()) {
+            Some(root) => (" with $λ=@$", vec![root_math(root)]),
+            None => ("", Vec::new()),
+        };
+        values.splice(0..0, [Math::count(k + 1), row]);
+        let text = line(&format!("Leading functional: $g_@(x)$ is {part}$@·C(x-q)${at}."), values);
+        checks.push(Check { tone: Tone::Neutral, text });
+    }
     if let Some(proof) = &o.ring {
         let cells = count(proof.discharged.len(), "cell");
         let text =
