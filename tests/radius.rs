@@ -4,8 +4,9 @@ use secant::arith::{Rational, parse_rational, to_f64};
 use secant::linalg::Matrix;
 use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
 use secant::shape::{CellKind, Shape, Spaces};
-use secant::theorem::cone::{ConeAnswer, common_cone};
+use secant::theorem::cone::{CommonCone, Cone, ConeAnswer, ConeMap, common_cone};
 use secant::theorem::regularity::{digits, regularity};
+use secant::theorem::{Verdict, certify};
 
 fn rational(text: &str) -> Rational {
     parse_rational(text).expect(text)
@@ -200,8 +201,69 @@ fn cones_of_the_two_parameter_family() {
         spoiled.cones[0].functional.iter_mut().for_each(|x| *x = -&*x);
         assert!(!spoiled.holds(&shape, &Spaces::new(&shape).unwrap()));
     }
-    for (a, b) in [("1/3", "1/3"), ("3/5", "3/5"), ("-3/5", "41/50"), ("-1/4", "1/2")] {
+    for (a, b) in [("3/5", "3/5"), ("-3/5", "41/50"), ("-1/4", "1/2")] {
         assert!(matches!(cone(&family(a, b)), Some(ConeAnswer::Refuted(_))), "{a} {b}");
+    }
+}
+
+/// `a, b > 0`: smooth iff `2a + b <= 1` and `a + 2b <= 1`, or `a + b = 1`; everywhere, and corners otherwise.
+#[test]
+fn the_two_parameter_family_is_smooth_exactly_in_its_region() {
+    let grid = 20;
+    for (p, q) in (1..grid).flat_map(|p| (1..grid).map(move |q| (p, q))).filter(|(p, q)| p + q <= grid) {
+        let smooth = (2 * p + q <= grid && p + 2 * q <= grid) || p + q == grid;
+        let shape = family(&format!("{p}/{grid}"), &format!("{q}/{grid}"));
+        let found = certify(&shape, &[]).unwrap();
+        let every = found.everywhere.expect("a curve");
+        let expected = if smooth { Verdict::Proved } else { Verdict::Refuted };
+        assert_eq!(every.verdict, expected, "a = {p}/{grid}, b = {q}/{grid}: {:?}", every.reason);
+        assert!(every.cone.is_some(), "a = {p}/{grid}, b = {q}/{grid}: half-tangents at every point");
+        let strict = 2 * p + q != grid && p + 2 * q != grid || p + q == grid;
+        assert_eq!(every.cone.is_some_and(|c| c.slow.is_empty()), strict, "a = {p}/{grid}, b = {q}/{grid}");
+    }
+}
+
+/// The Koch curve has three of the four parts: rays `±e_1, ±e_2`, positive coefficients, and its chord; no functional is
+/// positive on them.
+#[test]
+fn three_of_four_parts_do_not_prove_the_koch_curve_smooth() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/classical/koch-2.toml");
+    let shape = secant::case::Case::read(&path).unwrap().shape;
+    let spaces = Spaces::new(&shape).unwrap();
+    assert!(!matches!(cone(&shape), Some(ConeAnswer::Proved(_))));
+    let basis = spaces.of(0).basis.clone();
+    let n = basis.cols();
+    let local = Matrix::from_fn(n, 2 * n, |i, j| {
+        Rational::from(if j % n != i {
+            0
+        } else if j < n {
+            1
+        } else {
+            -1
+        })
+    });
+    let rays = &basis * &local;
+    let positive = |x: &[Rational]| -> Vec<Rational> {
+        // x = Σ (s + max(±x_k, 0)) (±e_k) with the same share s for a ray and its opposite.
+        let part = |k: usize| if k < n { x[k].clone() } else { -&x[k - n] };
+        (0..2 * n).map(|k| Rational::from(1) + part(k).max(Rational::from(0))).collect()
+    };
+    let start = shape.end_point(0, secant::shape::End::Start).unwrap();
+    let finish = shape.end_point(0, secant::shape::End::Finish).unwrap();
+    let chord = spaces.of(0).coordinates.apply(&secant::shape::difference(&finish, &start));
+    let maps = shape.states[0].pieces.iter().enumerate().map(|(letter, piece)| {
+        let sign = if piece.reversed { -1 } else { 1 };
+        let images = &spaces.linear(&piece.op, 0, 0).scale(&Rational::from(sign)) * &local;
+        let columns: Vec<Vec<Rational>> = (0..2 * n).map(|j| positive(&images.column(j))).collect();
+        ConeMap { state: 0, letter, sign, matrix: Matrix::from_columns(2 * n, &columns) }
+    });
+    let maps: Vec<ConeMap> = maps.collect();
+    for f in [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, -2, 3], [-1, 0, 0]] {
+        let functional = f.iter().take(rays.rows()).map(|x| Rational::from(*x)).collect();
+        let own = Cone { state: 0, rays: rays.clone(), functional, chord: positive(&chord) };
+        let forged =
+            CommonCone { cones: vec![own], maps: maps.clone(), view: None, window: 1, slow: Vec::new(), rate: None };
+        assert!(!forged.holds(&shape, &spaces), "{f:?}");
     }
 }
 

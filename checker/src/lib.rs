@@ -5,12 +5,14 @@
 
 pub mod case;
 mod claims;
+mod everywhere;
 mod germ;
 pub mod json;
 pub mod matrix;
 pub mod number;
 mod points;
 pub mod poly;
+mod radius;
 mod ring;
 mod rules;
 pub mod shape;
@@ -133,6 +135,7 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
             Ok(case) => claims::check(&case, &proof)?,
             Err(why) => return unreadable("case", why),
         },
+        "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };
     if name.text()? != found.case {

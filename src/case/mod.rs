@@ -4,6 +4,7 @@
 
 mod expect;
 mod faces;
+mod field;
 mod maps;
 mod matrix;
 pub mod matrix_file;
@@ -14,6 +15,7 @@ mod states;
 mod vertex;
 
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
+pub use field::FieldCase;
 pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};

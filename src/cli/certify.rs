@@ -10,7 +10,8 @@ use crate::diagnostic::Problem;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
 use crate::shape::{Address, CurveError, Frame, word_text};
-use crate::theorem::{Certified, ModelError, Verdict, certify};
+use crate::theorem::surface::certify_complex;
+use crate::theorem::{Certified, ModelError, Verdict};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -32,7 +33,10 @@ pub fn run(args: &CertifyArgs) -> u8 {
     if args.approx {
         return approximate::run(args);
     }
-    let [path] = args.cases.as_slice() else { return many::run(args) };
+    let path = match args.cases.as_slice() {
+        [path] if args.resume.is_none() => path,
+        _ => return many::run(args),
+    };
     if args.valence.is_some() || super::vertex::is_about_vertices(path) {
         return super::vertex::run(path, args);
     }
@@ -73,10 +77,31 @@ fn note_unconfirmed(unsupported: &Unsupported) {
 pub type Evidence = Result<Certificate, Unsupported>;
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
-    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json)
+    if args.cases.len() > 1
+        && (args.report.is_some()
+            || args.svg.is_some()
+            || args.png.is_some()
+            || args.certificate.is_some()
+            || args.json)
     {
-        return Err(Problem::new("secant::usage", "--json, --report, --svg and --certificate are for a single case")
-            .with_help("use --jsonl for many cases, and write the reports one by one"));
+        return Err(Problem::new(
+            "secant::usage",
+            "--json, --report, --svg, --png and --certificate are for a single case",
+        )
+        .with_help("use --jsonl for many cases, and write the reports one by one"));
+    }
+    if args.resume.is_some()
+        && (args.report.is_some()
+            || args.svg.is_some()
+            || args.png.is_some()
+            || args.certificate.is_some()
+            || args.json)
+    {
+        return Err(Problem::new(
+            "secant::usage",
+            "--json, --report, --svg, --png and --certificate do not go with --resume",
+        )
+        .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
     let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
     if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
@@ -96,7 +121,7 @@ pub(super) fn extension(path: &Path) -> String {
 /// The [`Problem`] of the file, of an address, or of the model.
 pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<Evidence>), Problem> {
     let (case, addresses) = read(path, args)?;
-    let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
+    let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(&case, &error))?;
     if args.no_check || found.verdict == Verdict::Undetermined {
         return Ok((case, found, None));
     }
@@ -190,6 +215,10 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
         None => None,
         Some(path) => Some((path, picture(case, found)?)),
     };
+    let png = match args.png.as_deref() {
+        None => None,
+        Some(path) => Some((path, figures::attractor_png(case, found).ok_or_else(|| undrawn(case))?)),
+    };
     let proof = match args.certificate.as_deref() {
         None => None,
         Some(path) => {
@@ -203,15 +232,19 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
     for (path, content) in report.into_iter().chain(svg).chain(proof) {
         write_file(path, &content)?;
     }
+    if let Some((path, image)) = png {
+        write_file(path, &image)?;
+    }
     Ok(())
 }
 
 fn picture(case: &Case, found: &Certified) -> Result<String, Problem> {
-    let drawn = figures::attractor(case, found);
-    drawn.map(|p| p.svg).ok_or_else(|| {
-        Problem::new("secant::picture", format!("{} cannot be drawn", case.name))
-            .with_help("no point of the shape can be computed, because contraction is not decided")
-    })
+    figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(case))
+}
+
+fn undrawn(case: &Case) -> Problem {
+    Problem::new("secant::picture", format!("{} cannot be drawn", case.name))
+        .with_help("no point of the shape can be computed, because contraction is not decided")
 }
 
 fn printed(case: &Case, found: &Certified, args: &CertifyArgs) -> String {

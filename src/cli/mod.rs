@@ -6,10 +6,12 @@ mod expand;
 mod explain;
 mod gallery;
 mod init;
+mod irrational;
 mod many;
 mod output;
 mod progress;
 mod radius;
+mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
@@ -47,10 +49,7 @@ enum Command {
     /// Print the exact spectrum of a matrix, or of the operators of a case.
     Spectrum(SpectrumArgs),
     /// Bound the joint spectral radius of the matrices of a file (docs/radius.md).
-    Jsr {
-        /// A TOML file with `matrices = [...]`.
-        file: PathBuf,
-    },
+    Jsr(JsrArgs),
     /// The regularity of the subdivision scheme of a mask, from a joint spectral radius.
     Regularity(RegularityArgs),
     /// List the named schemes, or write one as a case.
@@ -114,14 +113,21 @@ struct CertifyArgs {
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same as PNG, without the words in the picture.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Do not have the verdict proved again by the checker before it is printed.
     #[arg(long)]
     no_check: bool,
+    /// Keep the results and certificates of many cases in a directory, and skip the cases whose result there is up to
+    /// date: same text of the case, same addresses and checks, same version of secant.
+    #[arg(long, value_name = "DIR", conflicts_with = "approx")]
+    resume: Option<PathBuf>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
@@ -170,12 +176,28 @@ struct SolveArgs {
 
 #[derive(Debug, Args)]
 struct RegularityArgs {
-    /// The mask: coefficients such as "1/4,3/4,3/4,1/4", or the symbol such as "(1+z)^3/4".
-    #[arg(allow_hyphen_values = true)]
-    mask: String,
-    /// The arity of the scheme.
+    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet `db2` to `db12`, a mask such as
+    /// "1/4,3/4,3/4,1/4", or a symbol such as "(1+z)^3/4".
+    #[arg(allow_hyphen_values = true, value_name = "CASE")]
+    what: String,
+    /// Parameters of a named scheme, as in `w=1/16`.
+    #[arg(value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// The arity of a mask.
     #[arg(long, default_value_t = 2)]
     arity: usize,
+}
+
+#[derive(Debug, Args)]
+struct JsrArgs {
+    /// A TOML file with `matrices = [...]` (docs/radius.md).
+    file: PathBuf,
+    /// Draw the invariant polytope (systems with a state of two dimensions).
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a certificate of the bounds that secant-check proves again (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -183,6 +205,9 @@ struct GalleryArgs {
     /// The directory with the families of cases.
     #[arg(default_value = "cases", value_name = "CASES")]
     cases: PathBuf,
+    /// Write a report for every case, not only for a selection.
+    #[arg(long, conflicts_with = "check")]
+    all: bool,
     /// Where the page is written.
     #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
     out: PathBuf,
@@ -205,8 +230,8 @@ pub fn main() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Spectrum(args) => spectrum::run(&args),
-        Command::Jsr { file } => radius::jsr(&file),
-        Command::Regularity(args) => radius::mask(&args),
+        Command::Jsr(args) => radius::jsr(&args),
+        Command::Regularity(args) => radius::regularity(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),
         Command::Solve(args) => solve::run(&args),

@@ -1,5 +1,6 @@
 //! `secant schemes`: the named schemes, and each of them written as a case.
 
+use super::irrational;
 use super::output::{complain, print};
 use super::{BAD_INPUT, PROVED};
 use crate::arith::{Rational, parse_rational};
@@ -10,10 +11,13 @@ use std::collections::BTreeMap;
 /// Lists the schemes, or writes one as a case file to the standard output.
 pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
     let Some(name) = name else {
-        print(&scheme::list().iter().map(entry).collect::<String>());
+        let all: String =
+            scheme::list().iter().map(entry).chain(irrational::LIST.iter().map(irrational::entry)).collect();
+        print(&all);
         return PROVED;
     };
-    match written(name, parameters) {
+    let text = irrational::written(name, parameters).unwrap_or_else(|| written(name, parameters));
+    match text {
         Ok(text) => {
             print(&text);
             PROVED

@@ -1,6 +1,8 @@
 //! Reports: one document model, and its renderings.
 
 pub mod document;
+pub mod every;
+pub mod field_spectrum;
 pub mod figures;
 pub mod html;
 pub mod json;
@@ -12,6 +14,7 @@ pub mod proof;
 pub mod radius;
 pub mod spectrum;
 pub mod summary;
+pub mod surface;
 mod symbols;
 pub mod tex;
 pub mod text;

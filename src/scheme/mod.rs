@@ -3,6 +3,7 @@
 mod curves;
 mod error;
 mod fractint;
+mod irrational;
 mod json;
 mod laurent;
 mod mask;
@@ -23,6 +24,7 @@ pub use curves::{
 };
 pub use error::SchemeError;
 pub use fractint::{FractintEntry, parse_fractint};
+pub use irrational::{FieldLocalMatrix, FieldMask, daubechies, field_local_matrix};
 pub use json::parse_json;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};

@@ -161,3 +161,23 @@ fn matrices_over_a_field() {
     assert!(singular.mul(&kernel).is_zero());
     assert_eq!(singular.apply(&kernel.column(0)), vec![Elem::zero(); 3]);
 }
+
+#[test]
+fn expressions_of_elements_are_read_back() {
+    for texts in [
+        &["sqrt(5)", "1/2-3*sqrt(5)/4", "-sqrt(5)"][..],
+        &["cos(2*pi/7)", "3/8-cos(4*pi/7)^2/5", "2*cos(6*pi/7)"],
+        &["cos(2*pi/16)", "sqrt(2)/3"],
+        &["sqrt(2)+sqrt(3)", "sqrt(6)/2-1"],
+        &["root(x^3-x-1, 1, 2)^2/3", "root(x^3-x-1, 1, 2)"],
+    ] {
+        let (field, x) = read(texts);
+        let written: Vec<String> = x.iter().map(|e| field.expression(e)).collect();
+        assert!(written.iter().all(|t| !t.contains(' ')));
+        let all: Vec<&str> = texts.iter().copied().chain(written.iter().map(String::as_str)).collect();
+        let (_, both) = read(&all);
+        let (given, again) = both.split_at(texts.len());
+        assert_eq!(given, again, "{texts:?} {written:?}");
+    }
+    assert_eq!(read(&["3/8-cos(4*pi/7)/4"]).0.degree(), 3);
+}
