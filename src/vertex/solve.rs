@@ -20,6 +20,7 @@ fn shifted<F: Field>(f: &F, block: &Block, rows: &[usize], columns: &[usize], va
 }
 
 /// Solves a square system; `None` where it is not certainly regular.
+#[allow(clippy::needless_range_loop, reason = "two rows of one matrix are used at a time")]
 fn solve<F: Field>(f: &F, mut a: Rows<F::E>, mut b: Vec<Turning<F::E>>) -> Option<Vec<Turning<F::E>>> {
     let rotation = Rotation(f);
     let n = b.len();
@@ -108,6 +109,7 @@ fn product(f: &NumberField, a: &Rows<Elem>, b: &Rows<Elem>) -> Rows<Elem> {
 }
 
 /// A basis of the kernel, as columns.
+#[allow(clippy::needless_range_loop, reason = "two rows of one matrix are used at a time")]
 fn kernel(f: &NumberField, mut a: Rows<Elem>) -> Vec<Vec<Turning<Elem>>> {
     let rotation = Rotation(f);
     let (rows, columns) = (a.len(), a.first().map_or(0, Vec::len));

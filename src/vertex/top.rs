@@ -325,7 +325,7 @@ fn simplest_near(x: &Rational, error: &Rational) -> Rational {
     let mut terms = Vec::new();
     loop {
         let whole = Rational::from((&lo).floor());
-        if whole == lo || Rational::from((&hi).floor()) != whole {
+        if whole == lo || (&hi).floor() != whole {
             terms.push(if whole == lo { whole } else { whole + Rational::from(1) });
             break;
         }

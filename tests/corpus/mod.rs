@@ -15,7 +15,7 @@ pub fn case_files(dir: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// Cases about the vertices of a mesh have a test of their own (tests/surfaces.rs).
+/// Cases about the vertices of a mesh have a test of their own (tests/extraordinary.rs).
 fn about_vertices(path: &Path) -> bool {
     std::fs::read_to_string(path).is_ok_and(|text| secant::case::VertexCase::is_one(&text))
 }
