@@ -58,7 +58,7 @@ impl Store {
             "certificate": certificate.map(sha256),
             "result": result,
         });
-        write_file(&file, &format!("{stored}\n"))
+        write_file(&file, format!("{stored}\n"))
     }
 
     fn digest(&self, text: &str) -> String {

@@ -76,7 +76,7 @@ fn around(
     let cell = (0..turns).fold(prefix, |m, _| &m * &branch.cycle_operator);
     // The subtraction is exact, so that small cells keep their digits.
     let offset = Matrix::from_fn(cell.rows(), cell.cols(), |i, j| &cell[(i, j)] - &at[i]);
-    let largest = (0..offset.rows()).flat_map(|i| offset.row(i)).map(|x| crate::arith::abs(x)).max();
+    let largest = (0..offset.rows()).flat_map(|i| offset.row(i)).map(crate::arith::abs).max();
     let scale = largest.filter(|x| *x > 0).unwrap_or_else(|| Rational::from(1));
     let unit = Matrix::from_fn(offset.rows(), offset.cols(), |i, j| &offset[(i, j)] / &scale);
     let factor = crate::arith::to_f64(&scale);

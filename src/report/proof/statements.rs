@@ -230,7 +230,7 @@ fn pattern(branch: &BranchReport, eigenvalues: &[(usize, usize)]) -> &'static st
     let real = roots.iter().filter(|r| r.is_real()).count();
     let same = eigenvalues.windows(2).all(|w| w[0] == w[1]);
     match (real, roots.len()) {
-        (0, _) => "a complex pair: the curve turns about the point for ever",
+        (0, _) => "a complex pair, so that the leading part turns with every turn of the cycle",
         (n, m) if n < m => "real and complex eigenvalues of equal modulus",
         (_, _) if same => "one real eigenvalue with several longest blocks",
         _ => "real eigenvalues of equal modulus, $λ$ and $-λ$",
