@@ -298,7 +298,7 @@ mod tests {
         let c = surd(3, &[(1, 0), (0, 1), (0, 0)]);
         assert_eq!(span(&[a.clone(), c]).rank().exact(), Some(2));
         let i = surd(-1, &[(1, 0), (0, 1), (0, 0)]);
-        let both = span(&[i.clone()]).rank();
+        let both = span(std::slice::from_ref(&i)).rank();
         assert_eq!((both.at_least, both.at_most), (2, 2));
         let tilted = surd(-1, &[(0, 1), (0, 0), (1, 1)]);
         assert!(span(&[i, tilted]).rank().at_least >= 3);
