@@ -342,7 +342,7 @@ impl CommonCone {
         let states = shape.reachable().len();
         let rays = self.cones.iter().map(|c| c.rays.cols()).max().unwrap_or(1);
         let mut best: Option<(Rational, ConeRate)> = None;
-        for length in 1..=8 {
+        for length in 1..=MAX_RATE_LENGTH {
             let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
             if words.is_none_or(|w| w > MAX_RATE_WORDS || w * rays.pow(3) > MAX_RATE_WORK) {
                 break;
@@ -351,13 +351,8 @@ impl CommonCone {
             let Some(cross_ratio) = self.cross_ratio(shape, length) else { continue };
             let rate = ConeRate { length, cross_ratio: rounded_up(&cross_ratio) };
             let Some(exponent) = rate.exponent(pieces) else { continue };
-            let last = best.is_some();
             if best.as_ref().is_none_or(|(old, _)| exponent > *old) {
                 best = Some((exponent, rate));
-            }
-            // Longer words improve the bound slowly and cost much, here and in the checker.
-            if last {
-                break;
             }
         }
         best.map(|b| b.1)
@@ -367,7 +362,9 @@ impl CommonCone {
 /// How many products are formed to find how fast cones shrink.
 const MAX_RATE_WORDS: usize = 300;
 /// How many multiplications of numbers these may cost.
-const MAX_RATE_WORK: usize = 20_000;
+const MAX_RATE_WORK: usize = 30_000;
+/// Longer words improve the bound slowly and cost much, here and in the checker.
+const MAX_RATE_LENGTH: u32 = 3;
 
 /// The largest number of pieces of a state.
 #[must_use]
