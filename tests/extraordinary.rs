@@ -269,3 +269,45 @@ fn mistakes_in_files_are_shown() {
     assert!(problem(text).contains("alpha + beta + gamma"));
     assert!(!Path::new("x.toml").exists());
 }
+
+/// Weights for which the rings do not shrink to a point are no matter of the theorems, and are said to be so.
+#[test]
+fn eigenvalues_that_are_not_smaller_than_1() {
+    // 5/8 − nβ: −1, 1 (in a Jordan block with the eigenvalue 1), −7/6, 53/8.
+    for (n, share) in [(6, ratio(13, 8)), (6, ratio(-3, 8)), (5, ratio(43, 24)), (6, ratio(-6, 1))] {
+        let beta = &share / Rational::from(n as u64);
+        let found = at(&MeshRule::Loop(LoopWeights::Given(beta)), n);
+        assert_eq!(found.smooth, Verdict::Refuted, "{share} at {n}");
+        assert!(found.reason.contains("do not shrink"), "{share} at {n}: {}", found.reason);
+    }
+    let tension = MeshRule::Butterfly { w: ratio(1, 1), modified: false };
+    assert!(at(&tension, 5).reason.contains("do not shrink"));
+    // Just below 1 the usual theorems apply.
+    let found = at(&MeshRule::Loop(LoopWeights::Given(ratio(-3, 48) + ratio(1, 6000))), 6);
+    assert!(found.reason.contains("Theorem 2"), "{}", found.reason);
+}
+
+/// A gap of 1e-9 beside the end of the range is seen.
+#[test]
+fn close_to_the_ends_of_the_range() {
+    let step = ratio(1, 1_000_000_000);
+    for (n, low, high) in [(4, ratio(1, 4), ratio(1, 1)), (6, ratio(1, 8), ratio(9, 8))] {
+        for (share, expected) in [
+            (&low - &step, Verdict::Refuted),
+            (&low + &step, Verdict::Proved),
+            (&high - &step, Verdict::Proved),
+            (&high + &step, Verdict::Refuted),
+        ] {
+            let found = at(&MeshRule::Loop(LoopWeights::Given(&share / Rational::from(n as u64))), n);
+            assert_eq!(found.smooth, expected, "{share} at {n}: {}", found.reason);
+        }
+    }
+}
+
+#[test]
+fn a_frequency_is_a_whole_number() {
+    for bad in [ratio(3, 2), ratio(-2, 1), ratio(0, 1), ratio(5000, 1)] {
+        let given = BTreeMap::from([("frequency".to_owned(), bad.clone())]);
+        assert!(mesh_rule("doo-sabin-frequency", &given).is_err(), "{bad}");
+    }
+}

@@ -16,7 +16,7 @@ pub struct RuleInfo {
     pub source: &'static str,
     /// What it is, in one line; for which valences its weights are rational.
     pub summary: &'static str,
-    build: fn(&Values) -> MeshRule,
+    build: fn(&Values) -> Result<MeshRule, SchemeError>,
 }
 
 /// All named mesh rules, in alphabetical order.
@@ -28,11 +28,12 @@ pub fn mesh_rules() -> &'static [RuleInfo] {
 /// A mesh rule by name; see [`super::local_matrix`] and [`super::patch()`].
 ///
 /// # Errors
-/// [`SchemeError::Unknown`], [`SchemeError::Parameter`], [`SchemeError::Missing`].
+/// [`SchemeError::Unknown`], [`SchemeError::Parameter`], [`SchemeError::Missing`]; [`SchemeError::Value`] for a frequency that
+/// is no whole number.
 pub fn mesh_rule(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<MeshRule, SchemeError> {
     let info = RULES.iter().find(|r| r.name == name);
     let info = info.ok_or_else(|| unknown(name, RULES.iter().map(|r| r.name)))?;
-    Ok((info.build)(&resolve(name, info.parameters, parameters)?))
+    (info.build)(&resolve(name, info.parameters, parameters)?)
 }
 
 const RULES: &[RuleInfo] = &[
@@ -41,21 +42,21 @@ const RULES: &[RuleInfo] = &[
         parameters: &[p("w", Some("1/16"), "tension")],
         source: "N. Dyn, J. Gregory, D. Levin, ACM Trans. Graphics 9 (1990)",
         summary: "interpolatory, triangles; two rings at least",
-        build: |v| MeshRule::Butterfly { w: v.number("w").clone(), modified: false },
+        build: |v| Ok(MeshRule::Butterfly { w: v.number("w").clone(), modified: false }),
     },
     RuleInfo {
         name: "butterfly-modified",
         parameters: &[p("w", Some("1/16"), "tension of the regular rule")],
         source: "D. Zorin, P. Schröder, W. Sweldens, SIGGRAPH 1996",
         summary: "interpolatory, triangles; rational for valences 3, 4, 6",
-        build: |v| MeshRule::Butterfly { w: v.number("w").clone(), modified: true },
+        build: |v| Ok(MeshRule::Butterfly { w: v.number("w").clone(), modified: true }),
     },
     RuleInfo {
         name: "catmull-clark",
         parameters: &[],
         source: "E. Catmull, J. Clark, Computer-Aided Design 10 (1978)",
         summary: "quadrangles; every valence",
-        build: |_| MeshRule::CatmullClark(None),
+        build: |_| Ok(MeshRule::CatmullClark(None)),
     },
     RuleInfo {
         name: "catmull-clark-variant",
@@ -68,7 +69,7 @@ const RULES: &[RuleInfo] = &[
         build: |v| {
             let (alpha, beta) = (v.number("alpha").clone(), v.number("beta").clone());
             let gamma = ratio(1, 1) - &alpha - &beta;
-            MeshRule::CatmullClark(Some(VertexWeights { alpha, beta, gamma }))
+            Ok(MeshRule::CatmullClark(Some(VertexWeights { alpha, beta, gamma })))
         },
     },
     RuleInfo {
@@ -76,14 +77,14 @@ const RULES: &[RuleInfo] = &[
         parameters: &[],
         source: "D. Doo, M. Sabin, Computer-Aided Design 10 (1978)",
         summary: "dual, around a face; rational for valences 3, 4, 6",
-        build: |_| MeshRule::DooSabin(DualWeights::Original),
+        build: |_| Ok(MeshRule::DooSabin(DualWeights::Original)),
     },
     RuleInfo {
         name: "doo-sabin-catmull-clark",
         parameters: &[],
         source: "E. Catmull, J. Clark, Computer-Aided Design 10 (1978)",
         summary: "dual, means of corner, midpoints and centre; every valence",
-        build: |_| MeshRule::DooSabin(DualWeights::CatmullClark),
+        build: |_| Ok(MeshRule::DooSabin(DualWeights::CatmullClark)),
     },
     RuleInfo {
         name: "doo-sabin-frequency",
@@ -91,8 +92,11 @@ const RULES: &[RuleInfo] = &[
         source: "a counter-example: its characteristic map winds as often as the frequency says",
         summary: "dual, Doo and Sabin's weights with another frequency; rational for valences 3, 4, 6",
         build: |v| {
-            let frequency = usize::try_from(v.number("frequency")).unwrap_or(1).clamp(1, 1024);
-            MeshRule::DooSabin(DualWeights::Frequency(frequency))
+            let given = v.number("frequency");
+            let frequency = usize::try_from(given).ok().filter(|f| (1..=1024).contains(f));
+            let frequency =
+                frequency.ok_or_else(|| SchemeError::value("frequency", given, "a whole number from 1 to 1024"))?;
+            Ok(MeshRule::DooSabin(DualWeights::Frequency(frequency)))
         },
     },
     RuleInfo {
@@ -100,55 +104,55 @@ const RULES: &[RuleInfo] = &[
         parameters: &[],
         source: "L. Velho, D. Zorin, CAGD 18 (2001)",
         summary: "quadrangles, two steps; every valence, two rings at least",
-        build: |_| MeshRule::FourEight,
+        build: |_| Ok(MeshRule::FourEight),
     },
     RuleInfo {
         name: "loop",
         parameters: &[],
         source: "C. Loop, master's thesis, Utah (1987)",
         summary: "triangles; rational for valences 3, 4, 6",
-        build: |_| MeshRule::Loop(LoopWeights::Original),
+        build: |_| Ok(MeshRule::Loop(LoopWeights::Original)),
     },
     RuleInfo {
         name: "loop-variant",
         parameters: &[p("beta", None, "weight of each neighbour in the vertex rule")],
         source: "C. Loop, master's thesis, Utah (1987)",
         summary: "triangles, given weight at the vertex; every valence",
-        build: |v| MeshRule::Loop(LoopWeights::Given(v.number("beta").clone())),
+        build: |v| Ok(MeshRule::Loop(LoopWeights::Given(v.number("beta").clone()))),
     },
     RuleInfo {
         name: "loop-warren",
         parameters: &[],
         source: "J. Warren, Subdivision methods for geometric design (1995)",
         summary: "triangles, weights 3/(8n); every valence",
-        build: |_| MeshRule::Loop(LoopWeights::Warren),
+        build: |_| Ok(MeshRule::Loop(LoopWeights::Warren)),
     },
     RuleInfo {
         name: "midedge",
         parameters: &[],
         source: "J. Peters, U. Reif, ACM Trans. Graphics 16 (1997); A. Habib, J. Warren, CAGD 16 (1999)",
         summary: "dual, around a face, two steps at once; every valence",
-        build: |_| MeshRule::DooSabin(DualWeights::Midedge),
+        build: |_| Ok(MeshRule::DooSabin(DualWeights::Midedge)),
     },
     RuleInfo {
         name: "quad-triangle",
         parameters: &[],
         source: "J. Stam, C. Loop, Computer Graphics Forum 22 (2003), without the correction at extraordinary vertices",
         summary: "quadrangles and triangles: linear subdivision and averaging",
-        build: |_| MeshRule::QuadTriangle,
+        build: |_| Ok(MeshRule::QuadTriangle),
     },
     RuleInfo {
         name: "sqrt3",
         parameters: &[],
         source: "L. Kobbelt, SIGGRAPH 2000",
         summary: "triangles, two steps; rational for valences 3, 4, 6",
-        build: |_| MeshRule::Sqrt3(None),
+        build: |_| Ok(MeshRule::Sqrt3(None)),
     },
     RuleInfo {
         name: "sqrt3-variant",
         parameters: &[p("alpha", None, "weight of all neighbours together in the vertex rule")],
         source: "L. Kobbelt, SIGGRAPH 2000",
         summary: "triangles, two steps, given weight at the vertex; every valence",
-        build: |v| MeshRule::Sqrt3(Some(v.number("alpha").clone())),
+        build: |v| Ok(MeshRule::Sqrt3(Some(v.number("alpha").clone()))),
     },
 ];

@@ -145,6 +145,11 @@ struct Judge<'a> {
 impl Judge<'_> {
     fn judge(&mut self) {
         let n = self.vertex.valence;
+        let Interval { lo, hi } = &self.top.enclosure;
+        if !(*lo > -1 && *hi < 1) {
+            self.no_limit(*lo >= 1 || *hi <= -1);
+            return;
+        }
         let (length, dimension) = self.top.longest(n);
         let leading: Vec<(usize, bool)> = self.top.leading(n).iter().map(|m| (m.frequency, m.negative)).collect();
         let name = if length > 1 { format!("{length}×{length} Jordan blocks") } else { "eigenvectors".to_owned() };
@@ -173,6 +178,23 @@ impl Judge<'_> {
         self.found.smooth = Verdict::Refuted;
         self.found.plane = Verdict::Refuted;
         self.found.reason = reason;
+    }
+
+    /// An eigenvalue beside the simple 1 that is not smaller: the theorems ask for rings that shrink to a point.
+    fn no_limit(&mut self, certain: bool) {
+        // Different nets must give different rings: so for splines, and where the surface meets all points of the nets.
+        let distinct = ring::spline(&self.vertex.rule).is_some()
+            || matches!(self.vertex.rule, MeshRule::Butterfly { modified: false, .. });
+        if certain && distinct {
+            self.refute(
+                "an eigenvalue beside the simple 1 has modulus 1 or more: for almost all control points the rings do not \
+                 shrink to a point (theory §10.1)"
+                    .to_owned(),
+            );
+        } else {
+            "an eigenvalue beside the simple 1 is not proved to be smaller than 1 in modulus"
+                .clone_into(&mut self.found.reason);
+        }
     }
 
     /// One leading eigenvector: all limit directions are parallel to it where its function on the ring has no zero.

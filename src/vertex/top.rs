@@ -100,7 +100,7 @@ pub fn top(vertex: &Vertex, blocks: &[Block], bits: u64) -> Result<Top, TopError
     let Some(first) = guesses.first() else { return Err(TopError::Open("there is no second eigenvalue".to_owned())) };
     let next = guesses.get(1).map_or(0.0, |g| g.modulus);
     #[allow(clippy::float_arithmetic, reason = "proposes which proof to try")]
-    let apart = first.modulus - next > 1e-7 && first.im.abs() < 1e-9;
+    let apart = first.modulus - next > 1e-12 && first.im.abs() < 1e-9;
     if apart && let Some(found) = simple(vertex, blocks, &pieces, first, next, bits) {
         return Ok(found);
     }
@@ -233,7 +233,8 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
         }
     }
     let members = vec![Member { frequency: block.frequency, negative: false, blocks: vec![1] }];
-    let rational = rational_root(vertex, block, &own.poly, first.re);
+    let rational =
+        rational_root(vertex, block, &own.poly, first.re).filter(|q| enclosure.lo <= *q && *q <= enclosure.hi);
     let place = (own.block, Some(own.part));
     Some(Top { rational, enclosure, poly: own.poly.clone(), members, others, place })
 }
