@@ -3,7 +3,8 @@
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction};
 use crate::shape::{Address, Kind, Piece, Shape, State};
-use num_traits::{One, Zero};
+use num_bigint::BigInt;
+use num_traits::One;
 use std::cell::Cell;
 use toml::de::{DeTable, DeValue};
 
@@ -111,7 +112,7 @@ impl Reader {
         if (op.rows, op.cols) != size {
             return Err(format!("an operator has the wrong size: {} x {}", op.rows, op.cols));
         }
-        if (0..op.cols).any(|j| !op.column(j).iter().sum::<Q>().is_one()) {
+        if (0..op.cols).any(|j| (0..op.rows).map(|i| &op.data[i * op.cols + j]).sum::<BigInt>() != op.den) {
             return Err("a column of an operator does not sum to 1".to_owned());
         }
         Ok(op)
@@ -128,10 +129,12 @@ impl Reader {
             return Err("`linear` and `shift` do not fit".to_owned());
         }
         let image = |i: usize, j: usize| if j == 0 { shift[i].clone() } else { &shift[i] + linear.at(i, j - 1) };
-        let op = Matrix::from_fn(d + 1, d + 1, |i, j| match i {
+        let entry = |(i, j): (usize, usize)| match i {
             0 => Q::one() - (0..d).map(|i| image(i, j)).sum::<Q>(),
             _ => image(i - 1, j),
-        });
+        };
+        let places = (0..=d).flat_map(|i| (0..=d).map(move |j| (i, j)));
+        let op = Matrix::new(d + 1, d + 1, &places.map(entry).collect::<Vec<_>>());
         Ok(Piece { target: 0, op, reversed: flag(map, "reversed")? })
     }
 
@@ -259,9 +262,7 @@ impl Reader {
         let dim = states[start].dim;
         let view = match get(case, "control") {
             Some(value) => self.matrix(value, "control")?.transpose(),
-            None if get(case, "map").is_some() => {
-                Matrix::from_fn(dim - 1, dim, |i, j| if i + 1 == j { Q::one() } else { Q::zero() })
-            }
+            None if get(case, "map").is_some() => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
         let counts = states.iter().all(|s| (1..=MAX_PIECES).contains(&s.pieces.len()));

@@ -95,6 +95,11 @@ fn reject<T>(rule: &str, place: &str, why: impl Into<String>) -> Result<T, Rejec
     Err(Rejected { rule: rule.to_owned(), place: place.to_owned(), why: why.into(), unreadable: false })
 }
 
+/// A rejection without a place unless a premise holds.
+fn need(holds: bool, rule: &str, why: &str) -> Result<(), Rejected> {
+    if holds { Ok(()) } else { reject(rule, "", why) }
+}
+
 /// Gives a rejection that has no place yet one.
 fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
     result.map_err(|r| if r.place.is_empty() { Rejected { place: place.to_owned(), ..r } } else { r })
