@@ -4,7 +4,7 @@ use crate::Rejected;
 use crate::number::{Q, spend};
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// A matrix, stored by rows; a point is a matrix with one column.
 #[derive(Debug, Clone)]
@@ -29,7 +29,7 @@ impl PartialEq for Matrix {
 impl Matrix {
     /// The matrix with the given entries, row after row.
     pub fn new(rows: usize, cols: usize, entries: &[Q]) -> Self {
-        let den = entries.iter().fold(BigInt::one(), |l, x| if x.denom().is_one() { l } else { l.lcm(x.denom()) });
+        let den = entries.iter().fold(BigInt::one(), |l, x| lcm(&l, x.denom()));
         Self { rows, cols, data: entries.iter().map(|x| x.numer() * (&den / x.denom())).collect(), den }
     }
 
@@ -118,7 +118,7 @@ impl Matrix {
     /// `self + factor · other`.
     pub fn plus(&self, factor: &Q, other: &Self) -> Self {
         let own = &other.den * factor.denom();
-        let den = if own == self.den { own.clone() } else { self.den.lcm(&own) };
+        let den = lcm(&own, &self.den);
         let (a, b) = (&den / &self.den, &den / &own * factor.numer());
         let data = self.data.iter().zip(&other.data).map(|(x, y)| x * &a + y * &b).collect();
         Self { rows: self.rows, cols: self.cols, data, den }
@@ -162,7 +162,7 @@ impl Matrix {
             }
             pivots.push(j);
         }
-        let den = pivots.iter().zip(&rows).fold(BigInt::one(), |l, (&j, row)| l.lcm(&row[j]));
+        let den = pivots.iter().zip(&rows).fold(BigInt::one(), |l, (&j, row)| lcm(&l, &row[j].abs()));
         let scaled = pivots.iter().zip(&rows).flat_map(|(&j, row)| {
             let factor = &den / &row[j];
             row.iter().map(move |x| x * &factor)
@@ -179,13 +179,20 @@ impl Matrix {
     /// the right.
     pub fn hull(&self, matrix: &Self) -> Result<(Self, Vec<usize>), Rejected> {
         let (mut rows, mut pivots) = self.echelon()?;
-        loop {
-            let (grown, more) = rows.stack(&rows.times(matrix)?).echelon()?;
-            if more.len() == pivots.len() {
-                return Ok((rows, pivots));
-            }
-            (rows, pivots) = (grown, more);
+        while let Some(grown) = rows.joined(&rows.times(matrix)?)? {
+            (rows, pivots) = grown;
         }
+        Ok((rows, pivots))
+    }
+
+    /// The echelon form of these rows, which are in that form, and of others; `None` where the others are combinations.
+    pub fn joined(&self, others: &Self) -> Result<Option<(Self, Vec<usize>)>, Rejected> {
+        let leading = |i: usize| self.integers(i).iter().position(|x| !x.is_zero());
+        let pivots: Vec<usize> = (0..self.rows).filter_map(leading).collect();
+        if pivots.len() == self.cols || others.columns(&pivots).times(self)? == *others {
+            return Ok(None);
+        }
+        Ok(Some(self.stack(others).echelon()?))
     }
 
     /// The power with a natural exponent.
@@ -212,7 +219,7 @@ impl Matrix {
 
     /// The same matrix over its least denominator.
     fn reduced(mut self) -> Self {
-        let common = content(&self.data).gcd(&self.den);
+        let common = gcd(&content(&self.data), &self.den);
         self.data.iter_mut().for_each(|x| *x /= &common);
         Self { den: self.den / common, ..self }
     }
@@ -239,9 +246,25 @@ impl Matrix {
     }
 }
 
-/// The greatest common divisor, not negative.
+/// The greatest common divisor, not negative; much faster than that of the library where one of the numbers is short.
+fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
+    let (short, long) = if a.bits() < b.bits() { (a, b) } else { (b, a) };
+    match short.magnitude().to_u64() {
+        Some(0) => long.abs(),
+        Some(1) => BigInt::one(),
+        Some(word) => (long.magnitude() % word).to_u64().map_or_else(BigInt::one, |rest| word.gcd(&rest).into()),
+        None => a.gcd(b),
+    }
+}
+
+/// The least common multiple of positive numbers.
+fn lcm(a: &BigInt, b: &BigInt) -> BigInt {
+    if a == b { a.clone() } else { a / gcd(a, b) * b }
+}
+
+/// The greatest common divisor of a list.
 fn content(numbers: &[BigInt]) -> BigInt {
-    numbers.iter().fold(BigInt::zero(), |g, x| if g.is_one() { g } else { g.gcd(x) })
+    numbers.iter().fold(BigInt::zero(), |g, x| if g.is_one() { g } else { gcd(&g, x) })
 }
 
 /// The numbers without their common divisor.

@@ -42,40 +42,87 @@ impl Interval {
 
     /// An interval with all products.
     pub fn times(&self, other: &Self) -> Self {
-        let (lo, hi) = products([&self.lo, &self.hi], [&other.lo, &other.hi]);
+        let (lo, hi) = products(&[self.lo.clone(), self.hi.clone()], &[other.lo.clone(), other.hi.clone()]);
         Self { lo, hi }
     }
 }
 
 /// The least and the greatest product.
-fn products<T: Ord + Clone>(a: [&T; 2], b: [&T; 2]) -> (T, T)
+fn products<T: Ord + Clone>(a: &[T], b: &[T]) -> (T, T)
 where
     for<'a> &'a T: std::ops::Mul<Output = T>,
 {
-    let ends = [a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1]];
-    let (lo, hi) = (ends.iter().min(), ends.iter().max());
-    (lo.unwrap_or(&ends[0]).clone(), hi.unwrap_or(&ends[0]).clone())
-}
-
-/// An enclosure of the values on an interval of the polynomial with these coefficients over `den`, lowest first (Horner's
-/// scheme, in integers).
-fn values(p: &[BigInt], den: &BigInt, x: &Interval) -> Result<Interval, Rejected> {
-    let ends = Matrix::new(1, 2, &[x.lo.clone(), x.hi.clone()]);
-    let bits = p.iter().map(BigInt::bits).max().unwrap_or(0) + ends.bits();
-    spend(4 * p.len() * p.len() * p.len(), bits)?;
-    let (mut lo, mut hi, mut scale) = (BigInt::zero(), BigInt::zero(), BigInt::one());
-    for c in p.iter().rev() {
-        (lo, hi) = products([&lo, &hi], [&ends.data[0], &ends.data[1]]);
-        scale *= &ends.den;
-        (lo, hi) = (lo + c * &scale, hi + c * &scale);
+    let first = &a[0] * &b[0];
+    if a[0] == a[1] && b[0] == b[1] {
+        return (first.clone(), first);
     }
-    scale *= den;
-    Ok(Interval { lo: Q::new(lo, scale.clone()), hi: Q::new(hi, scale) })
+    let ends = [&a[0] * &b[1], &a[1] * &b[0], &a[1] * &b[1]];
+    ends.into_iter().fold((first.clone(), first), |(lo, hi), x| (lo.min(x.clone()), hi.max(x)))
 }
 
-/// Enclosures of the values at `x` of polynomials, one in each row.
-fn row_values(rows: &Matrix, x: &Interval) -> Result<Vec<Interval>, Rejected> {
-    (0..rows.rows).map(|i| values(rows.integers(i), &rows.den, x)).collect()
+/// Enclosures of real numbers: the lower and the upper ends (columns over one denominator).
+#[derive(Debug, Clone)]
+pub struct Enclosed {
+    /// The lower ends.
+    pub lo: Matrix,
+    /// The upper ends.
+    pub hi: Matrix,
+}
+
+impl Enclosed {
+    /// A column of rational numbers.
+    pub fn exact(column: Matrix) -> Self {
+        Self { lo: column.clone(), hi: column }
+    }
+
+    /// A column of intervals.
+    pub fn of(intervals: &[Interval]) -> Self {
+        let ends: Vec<Q> =
+            intervals.iter().map(|x| x.lo.clone()).chain(intervals.iter().map(|x| x.hi.clone())).collect();
+        let both = Matrix::new(2, intervals.len(), &ends);
+        Self { lo: both.row(0).transpose(), hi: both.row(1).transpose() }
+    }
+
+    /// The sign of an entry, 0 where it is not seen or 0.
+    pub fn sign(&self, k: usize) -> i32 {
+        if self.lo.data[k].is_positive() { 1 } else { -i32::from(self.hi.data[k].is_negative()) }
+    }
+
+    /// Whether the sign of some entry is seen.
+    pub fn is_nonzero(&self) -> bool {
+        (0..self.lo.rows).any(|k| self.sign(k) != 0)
+    }
+
+    /// Whether this and another vector have a 2x2 minor that is certainly not 0.
+    pub fn not_parallel(&self, other: &Self) -> bool {
+        let ends = |v: &Self, k: usize| [v.lo.data[k].clone(), v.hi.data[k].clone()];
+        let product = |i: usize, j: usize| products(&ends(self, i), &ends(other, j));
+        let minor = |i: usize, j: usize| {
+            let (a, b) = (product(i, j), product(j, i));
+            a.0 > b.1 || a.1 < b.0
+        };
+        (0..self.lo.rows).any(|i| (0..i).any(|j| minor(i, j)))
+    }
+}
+
+/// Enclosures of the values on an interval of the polynomials whose coefficients, lowest first, are the rows of a matrix
+/// (Horner's scheme, in integers).
+fn values(rows: &Matrix, x: &Interval) -> Result<Enclosed, Rejected> {
+    let ends = Matrix::new(1, 2, &[x.lo.clone(), x.hi.clone()]);
+    spend(4 * rows.data.len() * rows.cols * rows.cols, rows.bits() + ends.bits())?;
+    let zero = || vec![BigInt::zero(); rows.rows];
+    let (mut lo, mut hi, mut scale) = (zero(), zero(), BigInt::one());
+    for k in (0..rows.cols).rev() {
+        scale *= &ends.den;
+        for i in 0..rows.rows {
+            let c = &rows.integers(i)[k] * &scale;
+            let (a, b) = products(&[std::mem::take(&mut lo[i]), std::mem::take(&mut hi[i])], &ends.data);
+            (lo[i], hi[i]) = (a + &c, b + c);
+        }
+    }
+    scale *= &rows.den;
+    let column = |data| Matrix { rows: rows.rows, cols: 1, data, den: scale.clone() };
+    Ok(Enclosed { lo: column(lo), hi: column(hi) })
 }
 
 /// `Q[x]/(m)` with a real root `θ` of `m`: the only one in an interval. A vector over it is a matrix with one row of
@@ -107,12 +154,12 @@ impl Field {
             return Ok(Self::rational(&ends[0]));
         }
         let row = Matrix::new(1, d + 1, &m);
-        let value = |x: &Q| values(&row.data, &row.den, &Interval::point(x)).map(|v| v.sign());
+        let value = |x: &Q| values(&row, &Interval::point(x)).map(|v| v.sign(0));
         let changes = ends[0] < ends[1] && value(&ends[0])? * value(&ends[1])? < 0;
         interval.need(changes, "field", "the polynomial does not change sign on the interval")?;
         let place = Interval { lo: ends[0].clone(), hi: ends[1].clone() };
-        let slope: Vec<BigInt> = row.data.iter().enumerate().skip(1).map(|(k, c)| c * k).collect();
-        let monotone = values(&slope, &row.den, &place)?.sign() != 0;
+        let slope = row.data.iter().enumerate().skip(1).map(|(k, c)| c * k).collect();
+        let monotone = values(&Matrix { cols: d, data: slope, ..row }, &place)?.is_nonzero();
         interval.need(monotone, "field", "the interval is too wide to hold one root only")?;
         let shifted = Matrix::ones(d - 1, d, |i, j| i + 1 == j);
         let last = Matrix::new(1, d, &m[..d]).scaled(&-Q::one());
@@ -163,13 +210,13 @@ impl Field {
     }
 
     /// Enclosures of the entries of a vector at `θ`.
-    pub fn enclose(&self, vector: &Matrix) -> Result<Vec<Interval>, Rejected> {
-        row_values(vector, &self.interval)
+    pub fn enclose(&self, vector: &Matrix) -> Result<Enclosed, Rejected> {
+        values(vector, &self.interval)
     }
 
     /// The sign of an element at `θ`, 0 where it is not seen.
     pub fn sign(&self, element: &Matrix) -> Result<i32, Rejected> {
-        Ok(self.enclose(element)?[0].sign())
+        Ok(self.enclose(element)?.sign(0))
     }
 }
 
@@ -243,8 +290,9 @@ mod tests {
     #[test]
     fn horner_encloses() {
         let x = Interval { lo: Q::new((-1).into(), 2.into()), hi: whole(2) };
-        let value = values(&[1, -3, 2].map(BigInt::from), &5.into(), &x).unwrap();
-        // ((2 x − 3) x + 1) / 5
-        assert_eq!(value, Interval { lo: Q::new((-7).into(), 5.into()), hi: Q::new(3.into(), 5.into()) });
+        let p = [1, -3, 2].map(|c| whole(c) / whole(5));
+        let value = values(&Matrix::new(1, 3, &p), &x).unwrap();
+        // ((2 x − 3) x + 1) / 5: 2 x − 3 is in [−4, 1], times x in [−8, 2].
+        assert_eq!((value.lo.at(0, 0), value.hi.at(0, 0)), (whole(-7) / whole(5), whole(3) / whole(5)));
     }
 }

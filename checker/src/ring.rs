@@ -3,7 +3,7 @@
 use crate::germ::{Germ, Position};
 use crate::json::{Json, Node};
 use crate::matrix::Matrix;
-use crate::number::{Q, bits, spend, whole};
+use crate::number::{Q, bits, spend};
 use crate::poly::Field;
 use crate::shape::{Shape, Spaces};
 use crate::{Rejected, at, need, reject};
@@ -140,16 +140,16 @@ impl<'a> Model<'a> {
 
     /// Functionals on the germ's quotient, given over a number field, as rows on points.
     pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Result<Functionals, Rejected> {
-        let (mut middles, mut errors) = (Vec::new(), Vec::new());
+        let (mut middles, mut errors) = (Matrix::empty(germ.dim()), Vec::new());
         for row in rows {
             let values = field.enclose(row)?;
-            middles.push(values.iter().map(|v| (&v.lo + &v.hi) / whole(2)).collect());
+            middles = middles.stack(&values.lo.plus(&Q::one(), &values.hi).transpose());
             // |chart_k (x − q)| is at most osc(chart_k) times the radius, because both points lie in the ball.
-            let width = |k: usize| Q::new(oscillation(germ.chart.integers(k)), &germ.chart.den * 2);
-            let terms = values.iter().enumerate().map(|(k, v)| (&v.hi - &v.lo) * width(k));
-            errors.push(terms.sum::<Q>() * &self.radius[germ.state]);
+            let spread = |k: usize| (&values.hi.data[k] - &values.lo.data[k]) * oscillation(germ.chart.integers(k));
+            let sum: BigInt = (0..germ.dim()).map(spread).sum();
+            errors.push(Q::new(sum, &values.lo.den * &germ.chart.den * 2) * &self.radius[germ.state]);
         }
-        self.rows(germ, &Matrix::from_rows(germ.dim(), &middles), errors)
+        self.rows(germ, &middles.scaled(&Q::new(1.into(), 2.into())), errors)
     }
 
     /// Rational functionals on the germ's quotient, given as rows.

@@ -4,10 +4,10 @@ use crate::germ::{Germ, Position, Root};
 use crate::json::Node;
 use crate::matrix::Matrix;
 use crate::number::Q;
-use crate::poly::{Field, Interval};
+use crate::poly::{Enclosed, Field};
 use crate::ring::{Cell, Model};
 use crate::shape::Address;
-use crate::spectrum::{Chain, Top, not_parallel, residual, span_a_plane};
+use crate::spectrum::{Chain, Top, residual, span_a_plane};
 use crate::{Rejected, at, need, reject};
 use num_traits::Zero;
 
@@ -18,7 +18,7 @@ pub struct Line {
     /// A vector of the line in the space where the shape is looked at.
     pub vector: Matrix,
     /// Enclosures of its coordinates.
-    pub values: Vec<Interval>,
+    pub values: Enclosed,
     /// The limit rays of earlier points as signs of the vector; none where they are not settled.
     pub left: Vec<i32>,
     /// The limit rays of later points.
@@ -160,7 +160,7 @@ impl Branch<'_> {
     fn found_line(&self, field: &Field, v: &Matrix, left: Vec<i32>, right: Vec<i32>) -> Result<Found, Rejected> {
         let vector = self.germ.view.times(v)?;
         let values = field.enclose(&vector)?;
-        need(values.iter().any(|x| x.sign() != 0), "line", "the direction is not seen to be nonzero")?;
+        need(values.is_nonzero(), "line", "the direction is not seen to be nonzero")?;
         Ok(Found::Line(Line { field: field.clone(), vector, values, left, right }))
     }
 
@@ -172,7 +172,7 @@ impl Branch<'_> {
         self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1), Vec::new(), Vec::new())
     }
 
-    fn plane(rule: &str, vectors: &[Vec<Interval>]) -> Result<Found, Rejected> {
+    fn plane(rule: &str, vectors: &[Enclosed]) -> Result<Found, Rejected> {
         need(span_a_plane(vectors), rule, "the directions are not seen to span a plane")?;
         Ok(Found::Plane)
     }
@@ -303,9 +303,7 @@ impl Branch<'_> {
 impl Line {
     /// Whether a rational vector (a column) lies on the line: `1` and `-1` for its two rays.
     pub fn along(&self, common: &Matrix) -> Result<Option<i32>, Rejected> {
-        let vector = self.field.embedded(common);
-        let values: Vec<Interval> = common.entries().iter().map(Interval::point).collect();
-        self.parallel(&vector, &values)
+        self.parallel(&self.field.embedded(common), &Enclosed::exact(common.clone()))
     }
 
     /// The same for another line over the same field.
@@ -313,7 +311,7 @@ impl Line {
         if self.field == other.field { self.parallel(&other.vector, &other.values) } else { Ok(None) }
     }
 
-    fn parallel(&self, w: &Matrix, values: &[Interval]) -> Result<Option<i32>, Rejected> {
+    fn parallel(&self, w: &Matrix, values: &Enclosed) -> Result<Option<i32>, Rejected> {
         for i in 0..w.rows {
             for j in 0..i {
                 let product = |i, j| self.field.dot(&self.vector.row(i), &w.row(j));
@@ -322,12 +320,12 @@ impl Line {
                 }
             }
         }
-        let relations = self.values.iter().zip(values).map(|(a, b)| a.sign() * b.sign());
+        let relations = (0..w.rows).map(|k| self.values.sign(k) * values.sign(k));
         Ok(relations.into_iter().find(|r| *r != 0))
     }
 
     /// Whether two lines are certainly different.
     pub fn differs(&self, other: &Self) -> bool {
-        not_parallel(&self.values, &other.values)
+        self.values.not_parallel(&other.values)
     }
 }

@@ -356,9 +356,9 @@ pub fn close(
             for piece in &shape.states[e].pieces {
                 spend(1, 0)?;
                 let (from, to) = ends(e, piece);
-                let joined = family[to].stack(&images(&family[from], piece)?).echelon()?.0;
-                grown |= joined.rows > family[to].rows;
-                family[to] = joined;
+                if let Some((joined, _)) = family[to].joined(&images(&family[from], piece)?)? {
+                    (family[to], grown) = (joined, true);
+                }
             }
         }
         if !grown {

@@ -3,7 +3,7 @@
 use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
 use crate::number::{Q, whole};
-use crate::poly::{Complex, Field, Interval, complex_values, roots_in_disc};
+use crate::poly::{Complex, Enclosed, Field, Interval, complex_values, roots_in_disc};
 use crate::{Rejected, reject};
 use num_traits::{One, Signed, Zero};
 
@@ -82,8 +82,8 @@ impl Top {
             let starts = chains.iter().filter(|c| c.sign == s).map(|c| field.enclose(&c.vectors[0]));
             let independent = match &starts.collect::<Result<Vec<_>, _>>()?[..] {
                 [] => true,
-                [v] => v.iter().any(|x| x.sign() != 0),
-                [v, w] => not_parallel(v, w),
+                [v] => v.is_nonzero(),
+                [v, w] => v.not_parallel(w),
                 _ => false,
             };
             list.need(independent, "top-real", "the eigenvectors are not seen to be independent")?;
@@ -147,7 +147,7 @@ impl Top {
     }
 
     /// Enclosures of real vectors that span the image under `view` of the eigenvectors that end the longest chains.
-    pub fn directions(&self, view: &Matrix) -> Result<Vec<Vec<Interval>>, Rejected> {
+    pub fn directions(&self, view: &Matrix) -> Result<Vec<Enclosed>, Rejected> {
         match self {
             Self::Real { field, chains } => {
                 let longest = chains.iter().map(|c| c.vectors.len()).max();
@@ -160,15 +160,14 @@ impl Top {
                 for j in 0..view.cols {
                     let entry = |i: usize| complex_values(&seen.iter().map(|m| m.at(i, j)).collect::<Vec<_>>(), value);
                     let column = (0..view.rows).map(entry).collect::<Result<Vec<_>, _>>()?;
-                    let (re, im) = column.into_iter().unzip();
-                    spanning.extend([re, im]);
+                    let (re, im): (Vec<_>, Vec<_>) = column.into_iter().unzip();
+                    spanning.extend([Enclosed::of(&re), Enclosed::of(&im)]);
                 }
                 Ok(spanning)
             }
             Self::Conformal(basis) => {
                 let images = basis.times(&view.transpose())?;
-                let row = |i: usize| images.row(i).entries().iter().map(Interval::point).collect();
-                Ok((0..images.rows).map(row).collect())
+                Ok((0..images.rows).map(|i| Enclosed::exact(images.row(i).transpose())).collect())
             }
         }
     }
@@ -191,12 +190,6 @@ pub fn positive_definite(node: &Node<'_>, n: usize) -> Result<Matrix, Rejected> 
 }
 
 /// Whether some two of the vectors have a 2x2 minor that is certainly not 0.
-pub fn span_a_plane(vectors: &[Vec<Interval>]) -> bool {
-    (0..vectors.len()).any(|k| vectors[..k].iter().any(|w| not_parallel(&vectors[k], w)))
-}
-
-/// Whether two vectors have a 2x2 minor that is certainly not 0.
-pub fn not_parallel(a: &[Interval], b: &[Interval]) -> bool {
-    let minor = |i: usize, j: usize| a[i].times(&b[j]).minus(&a[j].times(&b[i])).sign() != 0;
-    (0..a.len()).any(|i| (0..i).any(|j| minor(i, j)))
+pub fn span_a_plane(vectors: &[Enclosed]) -> bool {
+    (0..vectors.len()).any(|k| vectors[..k].iter().any(|w| vectors[k].not_parallel(w)))
 }

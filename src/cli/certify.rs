@@ -41,12 +41,12 @@ pub fn run(args: &CertifyArgs) -> u8 {
         if let (Some(Err(unsupported)), false) = (&evidence, args.quiet) {
             note_unconfirmed(unsupported);
         }
-        Ok((case, found))
+        Ok((case, found, evidence))
     });
     match done {
-        Ok((case, found)) => {
+        Ok((case, found, evidence)) => {
             if !args.quiet {
-                print(&printed(&case, &found, args));
+                print(&printed(&case, &found, evidence.as_ref(), args));
             }
             exit_code(found.verdict)
         }
@@ -211,11 +211,23 @@ fn picture(case: &Case, found: &Certified) -> Result<String, Problem> {
     })
 }
 
-fn printed(case: &Case, found: &Certified, args: &CertifyArgs) -> String {
+fn printed(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &CertifyArgs) -> String {
     if args.json || args.jsonl {
-        return json_text(&json::report(case, found), args.json);
+        return json_text(&check_json(json::report(case, found), evidence), args.json);
     }
     text::render(&summary::summary(case, found, args.verbose), stdout_colour())
+}
+
+/// A report with what the checker said of the certificate.
+#[must_use]
+pub fn check_json(mut report: serde_json::Value, evidence: Option<&Evidence>) -> serde_json::Value {
+    let why = match evidence {
+        Some(Ok(_)) => None,
+        Some(Err(unsupported)) => Some(unsupported.to_string()),
+        None => Some("the checker was not asked".to_owned()),
+    };
+    report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});
+    report
 }
 
 /// A value as JSON text, indented or in one line.
