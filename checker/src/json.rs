@@ -82,6 +82,11 @@ impl<'a> Node<'a> {
         if holds { Ok(()) } else { reject(rule, &self.place, why) }
     }
 
+    /// Whether this is `null`.
+    pub fn is_null(&self) -> bool {
+        matches!(self.value, Json::Null)
+    }
+
     /// The values of an object with exactly these fields in this order.
     pub fn fields<const K: usize>(&self, names: [&str; K]) -> Result<[Node<'a>; K], Rejected> {
         let Json::Object(fields) = self.value else { return self.malformed("an object is needed here") };

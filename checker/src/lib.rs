@@ -6,6 +6,7 @@
 pub mod case;
 mod claims;
 mod germ;
+mod jordan;
 pub mod json;
 pub mod matrix;
 pub mod number;
@@ -138,6 +139,7 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
             Ok(case) => claims::check(&case, &proof)?,
             Err(why) => return unreadable("case", why),
         },
+        "spectrum" => jordan::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };
     if name.text()? != found.case {

@@ -161,9 +161,13 @@ impl Field {
         let slope = row.data.iter().enumerate().skip(1).map(|(k, c)| c * k).collect();
         let monotone = values(&Matrix { cols: d, data: slope, ..row }, &place)?.is_nonzero();
         interval.need(monotone, "field", "the interval is too wide to hold one root only")?;
-        let shifted = Matrix::ones(d - 1, d, |i, j| i + 1 == j);
-        let last = Matrix::new(1, d, &m[..d]).scaled(&-Q::one());
-        Ok(Self { interval: place, by_root: shifted.stack(&last) })
+        Ok(Self { interval: place, by_root: Self::companion(&m) })
+    }
+
+    /// The matrix by which a row of coefficients modulo a monic polynomial is multiplied by the root.
+    pub fn companion(m: &[Q]) -> Matrix {
+        let d = m.len() - 1;
+        Matrix::ones(d - 1, d, |i, j| i + 1 == j).stack(&Matrix::new(1, d, &m[..d]).scaled(&-Q::one()))
     }
 
     /// The degree of the polynomial.
@@ -173,17 +177,22 @@ impl Field {
 
     /// Reads a vector of `count` elements.
     pub fn vector(&self, node: &Node<'_>, count: usize) -> Result<Matrix, Rejected> {
+        Self::coordinates(self.degree(), node, count)
+    }
+
+    /// Reads `count` elements, polynomials of degree below `degree`, as rows of coefficients.
+    pub fn coordinates(degree: usize, node: &Node<'_>, count: usize) -> Result<Matrix, Rejected> {
         let items = node.list()?;
         node.need(items.len() == count, "format", "a vector of another length is needed here")?;
         let mut entries = Vec::new();
         for item in items {
             let element = item.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
-            let fits = element.len() <= self.degree() && element.last().is_none_or(|c| !c.is_zero());
+            let fits = element.len() <= degree && element.last().is_none_or(|c| !c.is_zero());
             item.need(fits, "format", "an element is a polynomial of lower degree without leading zeros")?;
-            let zeros = self.degree() - element.len();
+            let zeros = degree - element.len();
             entries.extend(element.into_iter().chain(std::iter::repeat_n(Q::zero(), zeros)));
         }
-        Ok(Matrix::new(count, self.degree(), &entries))
+        Ok(Matrix::new(count, degree, &entries))
     }
 
     /// The vector of these rational numbers (a column) in the field.

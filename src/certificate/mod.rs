@@ -6,6 +6,7 @@
 mod branch;
 mod hull;
 mod radius;
+mod spectrum;
 mod top;
 mod tree;
 
@@ -15,6 +16,8 @@ use crate::shape::{Address, CellKind, Contraction};
 use crate::theorem::{Certified, Claim, PointReport, Role, Statement, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
+
+pub use spectrum::{Operator, spectra};
 
 /// A certificate in the format of `docs/certificate.md`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -140,6 +143,18 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
     } else {
         Err(Doubt::Differs(accepted.verdict.word()))
     }
+}
+
+/// Has a certificate checked by `secant-check` against the text of what it is about.
+///
+/// # Errors
+/// [`Doubt`] where the checker does not accept it.
+///
+/// # Cost
+/// That of [`secant_check::check`].
+pub fn checked(source: &str, certificate: Certificate) -> Result<Certificate, Doubt> {
+    secant_check::check(source, &certificate.text())?;
+    Ok(certificate)
 }
 
 fn number(x: &Rational) -> Value {

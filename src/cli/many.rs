@@ -72,7 +72,8 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         outcomes.iter().filter(|o| o.as_ref().map_or(BAD_INPUT, |(_, f, _)| exit_code(f.verdict)) == code).count()
     };
     let unchecked = outcomes.iter().flatten();
-    let unchecked = unchecked.filter(|(_, f, e)| f.verdict != Verdict::Undetermined && !matches!(e, Some(Ok(_)))).count();
+    let unchecked =
+        unchecked.filter(|(_, f, e)| f.verdict != Verdict::Undetermined && !matches!(e, Some(Ok(_)))).count();
     let unchecked = match unchecked {
         0 => String::new(),
         n => format!(" {} decided but not proved again by the checker.", phrases::count(n, "case")),
