@@ -331,7 +331,7 @@ fn shapes_survive_as_case_files() {
     let heading = |name: &str| scheme::Heading {
         name: name.to_owned(),
         title: format!("the scheme \"{name}\""),
-        source: String::new(),
+        ..scheme::Heading::default()
     };
     let given: BTreeMap<&str, Vec<(&str, Rational)>> =
         [("corner-cutting", vec![("a", ratio(-1, 4)), ("b", ratio(1, 2))])].into();

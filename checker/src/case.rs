@@ -79,6 +79,33 @@ fn index(value: &DeValue<'_>, bound: usize, key: &str) -> Result<usize, Problem>
     digits.filter(|k| *k < bound).ok_or_else(|| format!("`{key}` must be a whole number below {bound}"))
 }
 
+/// The keys of a state; those of the boundaries of faces and of reversals are allowed and not read.
+const STATE_KEYS: [&str; 13] = [
+    "name",
+    "kind",
+    "dimension",
+    "left",
+    "right",
+    "piece",
+    "reversal",
+    "layout",
+    "bottom",
+    "top",
+    "side01",
+    "side12",
+    "side02",
+];
+
+/// The operator that puts coordinate `j` at `points[j]`.
+fn inclusion(points: &DeValue<'_>, (rows, cols): (usize, usize)) -> Result<Matrix, Problem> {
+    let points = array(points, "points")?;
+    if points.len() != cols {
+        return Err(format!("`points` must have {cols} entries"));
+    }
+    let at = points.into_iter().map(|p| index(p, rows, "points")).collect::<Result<Vec<_>, _>>()?;
+    Ok(Matrix::ones(rows, cols, |i, j| at[j] == i))
+}
+
 impl Reader {
     fn number(&self, value: &DeValue<'_>) -> Result<Q, Problem> {
         let text = match value {
@@ -146,13 +173,14 @@ impl Reader {
         }
         let mut heads: Vec<(&str, Kind, usize)> = Vec::new();
         for t in &tables {
-            known(t, &["name", "kind", "dimension", "left", "right", "piece"])?;
+            known(t, &STATE_KEYS)?;
             let name = text(need(t, "name")?, "name")?;
             let kind = match get(t, "kind").map(|v| text(v, "kind")).transpose()? {
                 None => default,
                 Some("edge") => Kind::Edge,
                 Some("vertex") => Kind::Vertex,
-                Some("set") => Kind::Set,
+                // No rule uses the boundaries of a face: its claims are about a set.
+                Some("set" | "face") => Kind::Set,
                 Some(_) => return Err("unknown kind of a state".to_owned()),
             };
             let dim = match get(t, "dimension") {
@@ -178,7 +206,7 @@ impl Reader {
             let mut pieces = Vec::new();
             for piece in array(need(t, "piece")?, "piece")? {
                 let piece = table(piece, "piece")?;
-                known(piece, &["to", "matrix", "reversed"])?;
+                known(piece, &["to", "matrix", "reversed", "corners"])?;
                 let target = find(need(piece, "to")?)?;
                 let op = self.operator(need(piece, "matrix")?, by_rows, (dim, heads[target].2))?;
                 let fits = kind == Kind::Set || heads[target].1 == kind;
@@ -191,12 +219,19 @@ impl Reader {
             let boundary = |key: &str| -> Result<Option<(usize, Matrix)>, Problem> {
                 let Some(value) = get(t, key) else { return Ok(None) };
                 let b = table(value, key)?;
-                known(b, &["vertex", "matrix"])?;
+                if kind == Kind::Set && get(b, "edge").is_some() {
+                    return Ok(None);
+                }
+                known(b, &["vertex", "matrix", "points"])?;
                 let vertex = find(need(b, "vertex")?)?;
                 if kind != Kind::Edge || heads[vertex].1 != Kind::Vertex {
                     return Err(format!("`{key}` joins a vertex to an edge"));
                 }
-                Ok(Some((vertex, self.operator(need(b, "matrix")?, by_rows, (dim, heads[vertex].2))?)))
+                let op = match get(b, "points") {
+                    Some(points) if get(b, "matrix").is_none() => inclusion(points, (dim, heads[vertex].2))?,
+                    _ => self.operator(need(b, "matrix")?, by_rows, (dim, heads[vertex].2))?,
+                };
+                Ok(Some((vertex, op)))
             };
             let (left, right) = (boundary("left")?, boundary("right")?);
             states.push(State { kind, dim, pieces, left, right });

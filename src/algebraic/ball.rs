@@ -180,6 +180,11 @@ impl Values {
         Some(scaled.div_round(denominator, RoundingMode::Ceiling).0)
     }
 
+    /// Whether the value is too small to be told from 0.
+    pub fn is_noise(&self) -> bool {
+        abs(&self.value.0) + abs(&self.value.1) <= self.value_error
+    }
+
     /// The Newton step `f / f'` in units of the point's grid; `None` when the computed derivative is 0.
     pub fn step(&self) -> Option<(Integer, Integer)> {
         let (a, b) = &self.value;

@@ -12,6 +12,7 @@
 
 mod ball;
 mod elem;
+pub mod field;
 mod isolate;
 mod modulus;
 mod propose;

@@ -187,7 +187,8 @@ pub(super) fn polish(coeffs: &[Integer], points: &mut [Ball], precision: i64) {
         let mut next = Vec::new();
         for &i in &active {
             let values = evaluate(coeffs, &points[i]);
-            let Some(step) = values.step() else { continue };
+            // A value within its own error says nothing at this precision.
+            let Some(step) = values.step().filter(|_| !values.is_noise()) else { continue };
             let factor = correction(points, i, &step, values.exp());
             let moved = scaled_step(&step, factor);
             let significant = moved.0.significant_bits().max(moved.1.significant_bits());

@@ -16,6 +16,30 @@ pub struct Expect {
     pub error: Option<String>,
     /// What is expected at single points.
     pub points: Vec<ExpectPoint>,
+    /// What `secant solve` must find.
+    pub solve: Option<ExpectSolve>,
+}
+
+/// What `secant solve` must find.
+#[derive(Debug, Clone)]
+pub struct ExpectSolve {
+    /// `none`, `one` or `family`.
+    pub solutions: String,
+    /// Number of free parameters.
+    pub parameters: Option<usize>,
+    /// The identities that contradict each other, written as paths.
+    pub conflict: Option<Vec<String>>,
+    /// Forced spectra.
+    pub forced: Vec<ExpectForced>,
+}
+
+/// The forced part of the spectrum of an operator.
+#[derive(Debug, Clone)]
+pub struct ExpectForced {
+    /// The operator, as in `T_0[E]`.
+    pub operator: String,
+    /// Its forced eigenvalues, all of them rational, with their multiplicities.
+    pub eigenvalues: Vec<Rational>,
 }
 
 /// What a test expects at one point.
@@ -45,7 +69,7 @@ const KINDS: [&str; 6] = ["half-tangent", "regular", "cusp", "oscillating", "cor
 impl Expect {
     pub(super) fn read(node: &Node<'_>, shape: &Shape) -> Result<Self, Problem> {
         let table = node.table()?;
-        table.only(&["verdict", "contraction", "error", "point"])?;
+        table.only(&["verdict", "contraction", "error", "point", "solve"])?;
         let points = match table.get("point") {
             Some(list) => {
                 let tables = list.tables(|k| format!("expected point {k}"))?;
@@ -58,6 +82,37 @@ impl Expect {
             contraction: table.word("contraction", &VERDICTS)?.map(str::to_owned),
             error: table.optional_text("error")?.map(str::to_owned),
             points,
+            solve: table.get("solve").map(|n| ExpectSolve::read(&n)).transpose()?,
+        })
+    }
+}
+
+impl ExpectSolve {
+    fn read(node: &Node<'_>) -> Result<Self, Problem> {
+        let table = node.table()?;
+        table.only(&["solutions", "parameters", "conflict", "forced"])?;
+        let forced = match table.get("forced") {
+            None => Vec::new(),
+            Some(list) => list.tables(|k| format!("forced spectrum {k}"))?,
+        };
+        let forced = forced.iter().map(|t| {
+            t.only(&["operator", "eigenvalues"])?;
+            let eigenvalues = vector(&t.need("eigenvalues", "[1, \"1/2\"]")?)?;
+            Ok(ExpectForced { operator: t.text("operator", "\"T_0[E]\"")?.to_owned(), eigenvalues })
+        });
+        let text = |n: Node<'_>| n.text().map(str::to_owned);
+        let conflict = match table.get("conflict") {
+            None => None,
+            Some(list) => {
+                Some(list.array(|k| format!("identity {k}"))?.into_iter().map(text).collect::<Result<_, _>>()?)
+            }
+        };
+        table.need("solutions", "\"one\"")?;
+        Ok(Self {
+            solutions: table.word("solutions", &["none", "one", "family"])?.unwrap_or_default().to_owned(),
+            parameters: table.get("parameters").map(|n| n.index(crate::shape::MAX_UNKNOWNS)).transpose()?,
+            conflict,
+            forced: forced.collect::<Result<_, _>>()?,
         })
     }
 }

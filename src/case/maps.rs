@@ -1,16 +1,16 @@
 use super::matrix::Written;
 use super::node::{Node, Table};
-use super::{MAX_PIECES, Places, StatePlace};
+use super::{MAX_PIECES, Model, Places, StatePlace};
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
-use crate::shape::{CellKind, Frame, Piece, Shape};
+use crate::shape::{CellKind, Complex, Frame, Piece, Shape};
 
 /// Largest dimension of affine maps that is read.
 pub const MAX_AFFINE: usize = 16;
 
 /// Reads the `[[map]]` tables: affine maps `x -> linear x + shift` of one space of dimension 1 to [`MAX_AFFINE`].
-pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<(Shape, Places), Problem> {
+pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<Model, Problem> {
     for key in ["pieces", "reversed", "state", "start", "control"] {
         if let Some(span) = case.key_span(key) {
             let message = format!("`{key}` and `[[map]]` exclude each other");
@@ -53,7 +53,8 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<
     }
     shape.frame = Frame::Affine;
     shape.control = Some(Shape::affine_control(shape.states[0].dim - 1));
-    Ok((shape, Places { states: vec![place], control: None }))
+    let places = Places { states: vec![place], control: None };
+    Ok(Model { complex: Complex::of_curves(shape), places, unknown: Vec::new(), scheme: None })
 }
 
 fn affine_map(map: &Table<'_>) -> Result<(Matrix, Vec<Rational>), Problem> {

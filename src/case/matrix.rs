@@ -11,14 +11,55 @@ pub(super) struct Written {
     pub rows: Vec<Vec<Rational>>,
     places: Vec<Vec<Range<usize>>>,
     span: Range<usize>,
+    holes: Vec<Hole>,
+}
+
+/// An entry that is left open: where it is in the operator, and its name where it has one.
+#[derive(Debug, Clone)]
+pub(super) struct Hole {
+    pub row: usize,
+    pub column: usize,
+    pub name: Option<String>,
+    pub span: Range<usize>,
+}
+
+/// An operator on columns with its open entries, which are 0 in the matrix.
+pub(super) struct Operator {
+    pub matrix: Matrix,
+    pub holes: Vec<Hole>,
+}
+
+impl Operator {
+    /// An operator all of whose entries are open.
+    pub fn unknown(rows: usize, cols: usize, span: &Range<usize>) -> Self {
+        let entries = (0..rows).flat_map(|row| (0..cols).map(move |column| (row, column)));
+        let holes = entries.map(|(row, column)| Hole { row, column, name: None, span: span.clone() }).collect();
+        Self { matrix: Matrix::zero(rows, cols), holes }
+    }
 }
 
 impl Written {
-    /// Reads a list of equally long, nonempty rows.
+    /// Reads a list of equally long, nonempty rows of numbers.
     pub fn read(node: &Node<'_>) -> Result<Self, Problem> {
+        let written = Self::open(node)?;
+        match written.holes.first() {
+            None => Ok(written),
+            Some(hole) => {
+                let message = format!("{} cannot have unknown entries", node.what);
+                Err(node
+                    .file
+                    .problem("unknown-entry", message, hole.span.clone(), "unknown")
+                    .with_help("only the operators of pieces, boundaries and reversals may have unknown entries"))
+            }
+        }
+    }
+
+    /// Reads a list of equally long, nonempty rows; entries may be unknown (`"?"`, `"?name"`).
+    pub fn open(node: &Node<'_>) -> Result<Self, Problem> {
         let row_name = |i: usize| format!("row {i} of {}", node.what);
         let mut rows: Vec<Vec<Rational>> = Vec::new();
         let mut places = Vec::new();
+        let mut holes = Vec::new();
         for row in node.array(row_name)? {
             let entries = row.array(|j| format!("entry {j} of {}", row.what))?;
             if entries.is_empty() {
@@ -36,13 +77,23 @@ impl Written {
                     .problem("limit", format!("{} is too large", node.what), "too many rows or columns")
                     .with_help(format!("matrices of at most {MAX_COORDINATES} rows and columns are read")));
             }
-            rows.push(entries.iter().map(Node::number).collect::<Result<_, _>>()?);
+            let mut numbers = Vec::with_capacity(width);
+            for (column, entry) in entries.iter().enumerate() {
+                numbers.push(match entry.unknown()? {
+                    None => entry.number()?,
+                    Some(name) => {
+                        holes.push(Hole { row: rows.len(), column, name, span: entry.span() });
+                        Rational::from(0)
+                    }
+                });
+            }
+            rows.push(numbers);
             places.push(entries.iter().map(Node::span).collect());
         }
         if rows.is_empty() {
             return Err(empty(node));
         }
-        Ok(Self { what: node.what.clone(), rows, places, span: node.span() })
+        Ok(Self { what: node.what.clone(), rows, places, span: node.span(), holes })
     }
 
     pub fn height(&self) -> usize {
@@ -76,12 +127,18 @@ impl Written {
         Err(node.problem("size", message, note).with_help(why))
     }
 
-    /// The operator on columns: transposed for [`Convention::Rows`]. Its columns must sum to 1.
-    pub fn operator(&self, node: &Node<'_>, convention: Convention) -> Result<Matrix, Problem> {
+    /// The operator on columns: transposed for [`Convention::Rows`]. Its columns without open entries must sum to 1.
+    pub fn operator(&self, node: &Node<'_>, convention: Convention) -> Result<Operator, Problem> {
         let by_rows = convention == Convention::Rows;
         let matrix = if by_rows { self.matrix().transpose() } else { self.matrix() };
-        match bad_column(&matrix) {
-            None => Ok(matrix),
+        let mut holes = self.holes.clone();
+        if by_rows {
+            holes.iter_mut().for_each(|h| std::mem::swap(&mut h.row, &mut h.column));
+        }
+        let open = |column: usize| holes.iter().any(|h| h.column == column);
+        let bad = bad_columns(&matrix).find(|(column, _)| !open(*column));
+        match bad {
+            None => Ok(Operator { matrix, holes }),
             Some((line, sum)) => Err(self.sum_problem(node, convention, line, &sum, &matrix)),
         }
     }
@@ -112,7 +169,7 @@ impl Written {
             problem = problem.with_mark(mark);
         }
         let declared = format!("the case declares convention = {:?}, so every {this} must sum to 1", convention.name());
-        let hint = if bad_column(&op.transpose()).is_none() {
+        let hint = if bad_columns(&op.transpose()).next().is_none() {
             format!("{declared}; here every {other} does: is convention = {other_word:?} meant?")
         } else {
             declared
@@ -130,10 +187,9 @@ fn empty(node: &Node<'_>) -> Problem {
         .with_help("a matrix is a list of rows, as in [[\"1/2\", 0], [\"1/2\", 1]]")
 }
 
-fn bad_column(op: &Matrix) -> Option<(usize, Rational)> {
-    (0..op.cols())
-        .map(|j| (j, (0..op.rows()).fold(Rational::from(0), |s, i| s + &op[(i, j)])))
-        .find(|(_, sum)| *sum != 1)
+fn bad_columns(op: &Matrix) -> impl Iterator<Item = (usize, Rational)> {
+    let sum = |j| (0..op.rows()).fold(Rational::from(0), |s, i| s + &op[(i, j)]);
+    (0..op.cols()).map(move |j| (j, sum(j))).filter(|(_, sum)| *sum != 1)
 }
 
 fn entries_text(count: usize) -> String {

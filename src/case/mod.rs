@@ -3,17 +3,22 @@
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
 mod expect;
+mod faces;
 mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
 mod read;
+mod scheme;
 mod states;
 
-pub use expect::{Expect, ExpectPoint, expected_error};
+pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 
 use crate::diagnostic::{Problem, SourceText};
-use crate::shape::{Address, Shape};
+use crate::scheme::{Heading, Mask, MeshRule, complex_text};
+use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Largest case file that is read, in bytes.
@@ -67,6 +72,14 @@ pub struct Case {
     pub convention: Convention,
     /// The shape. Sizes and column sums are checked; adjacency is not (the engine does that).
     pub shape: Shape,
+    /// Boundaries of the face states, by index of the state; their identities hold.
+    pub faces: BTreeMap<usize, Face>,
+    /// Reversals of edge states, by index of the state.
+    pub reversals: BTreeMap<usize, Reversal>,
+    /// The scheme that the case names under `[scheme]`.
+    pub scheme: Option<Origin>,
+    /// Entries left open (`"?"`); none but in what [`Case::read_open`] gives.
+    pub unknown: Vec<Unknown>,
     /// Further points to examine, as written; every letter exists.
     pub examine: Vec<Address>,
     /// What a test expects.
@@ -74,6 +87,48 @@ pub struct Case {
     /// The file, for diagnostics and digests.
     pub text: SourceText,
     places: Places,
+}
+
+/// What a case with `[scheme]` was built from.
+#[derive(Debug, Clone)]
+pub enum Origin {
+    /// A scheme of [`crate::scheme::list`] that has no mask, by its name.
+    Named(String),
+    /// A univariate mask, given or named.
+    Mask(Mask),
+    /// The tensor product of two curves.
+    Tensor,
+    /// The neighbourhood of a vertex of a mesh.
+    Mesh {
+        /// The rule.
+        rule: MeshRule,
+        /// The valence of the vertex.
+        valence: usize,
+        /// Whether the shape is the whole disc around the vertex; else one patch at it.
+        disc: bool,
+    },
+}
+
+/// An entry of an operator that the file leaves open.
+#[derive(Debug, Clone)]
+pub struct Unknown {
+    /// The operator.
+    pub op: OpName,
+    /// Row of the operator on columns.
+    pub row: usize,
+    /// Its column.
+    pub column: usize,
+    /// The name; entries of one name are equal.
+    pub name: Option<String>,
+    span: Range<usize>,
+}
+
+/// A shape as it was read.
+struct Model {
+    complex: Complex,
+    places: Places,
+    unknown: Vec<Unknown>,
+    scheme: Option<Origin>,
 }
 
 /// Where things stand in the file.
@@ -89,9 +144,78 @@ struct StatePlace {
     pieces: Vec<Range<usize>>,
     left: Option<Range<usize>>,
     right: Option<Range<usize>>,
+    sides: Vec<Range<usize>>,
+    reversal: Option<Range<usize>>,
+}
+
+impl Places {
+    fn of(&self, op: OpName) -> Option<&Range<usize>> {
+        match op {
+            OpName::Piece { state, letter } => self.states.get(state)?.pieces.get(letter),
+            OpName::Left(state) => self.states.get(state)?.left.as_ref(),
+            OpName::Right(state) => self.states.get(state)?.right.as_ref(),
+            OpName::Side { state, side } => self.states.get(state)?.sides.get(side),
+            OpName::Reverse(state) => self.states.get(state)?.reversal.as_ref(),
+        }
+    }
 }
 
 impl Case {
+    /// The shape with the boundaries of its faces and its reversals.
+    #[must_use]
+    pub fn complex(&self) -> Complex {
+        Complex { shape: self.shape.clone(), faces: self.faces.clone(), reversals: self.reversals.clone() }
+    }
+
+    /// The identities of the case with its open entries as unknowns.
+    ///
+    /// # Errors
+    /// [`UnknownError::Many`].
+    pub fn unknowns(&self) -> Result<shape::Problem, UnknownError> {
+        let mut problem = shape::Problem::new(self.complex());
+        for u in &self.unknown {
+            problem.unknown(u.op, u.row, u.column, u.name.as_deref())?;
+        }
+        Ok(problem)
+    }
+
+    /// The case with every operator written out, without `[scheme]`: what the checker reads. It has the name, the shape, the
+    /// control points and the points to examine, but no expectations.
+    #[must_use]
+    pub fn expanded(&self) -> String {
+        self.written_with(&self.complex())
+    }
+
+    /// As [`Case::expanded`], with other operators, such as those of a solution.
+    #[must_use]
+    pub fn written_with(&self, complex: &Complex) -> String {
+        let heading = Heading {
+            name: self.name.clone(),
+            title: if self.title == self.name { String::new() } else { self.title.clone() },
+            source: self.source.clone().unwrap_or_default(),
+            examine: self.examine.clone(),
+        };
+        complex_text(complex, &heading)
+    }
+
+    /// The text that a checker reads: the file itself, or [`Case::expanded`] where it has `[scheme]`.
+    #[must_use]
+    pub fn checked_text(&self) -> Cow<'_, str> {
+        if self.scheme.is_some() { Cow::Owned(self.expanded()) } else { Cow::Borrowed(&self.text.text) }
+    }
+
+    /// A problem of one operator, shown at its matrix in the file.
+    #[must_use]
+    pub fn problem_at_operator(&self, op: OpName, code: &str, message: &str, help: &str) -> Problem {
+        self.problem(self.places.of(op), "this operator", code, message, help)
+    }
+
+    /// A problem of an entry left open, shown where it stands.
+    #[must_use]
+    pub fn problem_at_unknown(&self, unknown: &Unknown, code: &str, message: &str, help: &str) -> Problem {
+        self.problem(Some(&unknown.span), "unknown", code, message, help)
+    }
+
     /// A problem of one piece of a state, shown at its matrix (or map) in the file.
     ///
     /// Indices that do not exist give a problem without a place.

@@ -103,6 +103,26 @@ impl<'a> Node<'a> {
         }
     }
 
+    /// Whether this is the word `"?"`, for a whole operator that is unknown.
+    pub fn is_question(&self) -> bool {
+        self.value.get_ref().as_str() == Some("?")
+    }
+
+    /// `"?"` or `"?name"`: an unknown entry with its name; `None` for anything else.
+    pub fn unknown(&self) -> Result<Option<Option<String>>, Problem> {
+        let Some(name) = self.value.get_ref().as_str().and_then(|text| text.trim().strip_prefix('?')) else {
+            return Ok(None);
+        };
+        let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | '.');
+        if name.chars().count() > 40 || !name.chars().all(plain) {
+            let message = format!("{} is not the name of an unknown", self.what);
+            return Err(self
+                .problem("unknown-name", message, "not a name")
+                .with_help("an unknown entry is \"?\", or \"?a\" with a name of letters, digits, `_`, `-`, `.`"));
+        }
+        Ok(Some((!name.is_empty()).then(|| name.to_owned())))
+    }
+
     /// An exact number: an integer, a fraction in quotes, or a decimal (read exactly, from its source text).
     pub fn number(&self) -> Result<Rational, Problem> {
         let text = match self.value.get_ref() {
@@ -182,6 +202,11 @@ impl<'a> Table<'a> {
     /// Where the key itself stands.
     pub fn key_span(&self, key: &str) -> Option<Range<usize>> {
         self.table.keys().find(|k| k.get_ref() == key).map(Spanned::span)
+    }
+
+    /// All keys, in the order of the file.
+    pub fn keys(&self) -> Vec<String> {
+        self.table.keys().map(|k| k.get_ref().to_string()).collect()
     }
 
     pub fn need(&self, key: &str, example: &str) -> Result<Node<'a>, Problem> {

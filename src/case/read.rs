@@ -1,15 +1,15 @@
 use super::expect::Expect;
 use super::matrix::Written;
 use super::node::{File, Node, Table};
-use super::{Case, Convention, MAX_ADDRESSES, MAX_BYTES, MAX_LETTERS, Places, maps, states};
+use super::{Case, Convention, MAX_ADDRESSES, MAX_BYTES, MAX_LETTERS, Model, maps, scheme, states};
 use crate::diagnostic::{Problem, SourceText};
 use crate::linalg::Matrix;
-use crate::shape::{Address, CellKind, Shape};
+use crate::shape::{Address, CellKind, ComplexError, Failure, Identity, Shape};
 use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
-const KEYS: [&str; 13] = [
+const KEYS: [&str; 14] = [
     "name",
     "title",
     "source",
@@ -18,6 +18,7 @@ const KEYS: [&str; 13] = [
     "pieces",
     "reversed",
     "map",
+    "scheme",
     "start",
     "state",
     "control",
@@ -29,10 +30,19 @@ impl Case {
     /// Reads and checks the case file at `path`; `-` is the standard input.
     ///
     /// # Errors
-    /// A [`Problem`] for everything that is wrong with it: see `docs/case-format.md` for the codes.
+    /// A [`Problem`] for everything that is wrong with it: see `docs/case-format.md` for the codes. Entries left open are
+    /// refused.
     pub fn read(path: &Path) -> Result<Self, Problem> {
+        Self::read_open(path)?.closed()
+    }
+
+    /// Reads a case file in which entries may be left open (`"?"`); sums and identities are only checked where there are none.
+    ///
+    /// # Errors
+    /// As [`Case::read`], apart from open entries.
+    pub fn read_open(path: &Path) -> Result<Self, Problem> {
         if path.as_os_str() == "-" {
-            return Self::from_reader("<stdin>", std::io::stdin().lock());
+            return Self::open_from_reader("<stdin>", std::io::stdin().lock());
         }
         let name = path.display().to_string();
         let unreadable = |error: &std::io::Error| {
@@ -44,7 +54,17 @@ impl Case {
             return Err(Problem::new("secant::case::unreadable", format!("{name} is a directory"))
                 .with_help("give the path of a case file, such as cases/thesis/half-tangent.toml"));
         }
-        Self::from_reader(&name, file)
+        Self::open_from_reader(&name, file)
+    }
+
+    /// The case, if no entry was left open.
+    fn closed(self) -> Result<Self, Problem> {
+        let Some(first) = self.unknown.first() else { return Ok(self) };
+        let count = self.unknown.len();
+        let message =
+            if count == 1 { "an entry is unknown".to_owned() } else { format!("{count} entries are unknown") };
+        let help = "`secant solve` finds the entries that the identities force, and writes the case with them";
+        Err(self.problem_at_unknown(first, "secant::case::unknown-entry", &message, help))
     }
 
     /// Reads and checks a case from a stream; `name` is shown in diagnostics.
@@ -52,6 +72,10 @@ impl Case {
     /// # Errors
     /// As [`Case::read`].
     pub fn from_reader(name: &str, stream: impl Read) -> Result<Self, Problem> {
+        Self::open_from_reader(name, stream)?.closed()
+    }
+
+    fn open_from_reader(name: &str, stream: impl Read) -> Result<Self, Problem> {
         let mut bytes = Vec::new();
         if let Err(error) = stream.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes) {
             return Err(Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
@@ -62,7 +86,7 @@ impl Case {
                 .with_help("case files are at most 4 MiB long"));
         }
         match String::from_utf8(bytes) {
-            Ok(text) => Self::parse(name, &text),
+            Ok(text) => Self::parse_open(name, &text),
             Err(error) => {
                 let at = error.utf8_error().valid_up_to();
                 let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
@@ -82,6 +106,14 @@ impl Case {
     /// # Cost
     /// Linear in the text, apart from the arithmetic on the numbers.
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
+        Self::parse_open(name, text)?.closed()
+    }
+
+    /// As [`Case::parse`], with entries that may be left open; see [`Case::read_open`].
+    ///
+    /// # Errors
+    /// As [`Case::read_open`].
+    pub fn parse_open(name: &str, text: &str) -> Result<Self, Problem> {
         let source = SourceText::new(name, text);
         if text.len() > MAX_BYTES {
             return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
@@ -124,16 +156,77 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
         _ => CellKind::Edge,
     };
     let convention = convention(case)?;
-    let (mut shape, mut places) = shape(case, kind, convention)?;
+    let mut model = model(case, kind, convention)?;
     if let Some(node) = case.get("control") {
-        shape.control = Some(control(&node, &shape)?);
-        places.control = Some(node.span());
+        model.complex.shape.control = Some(control(&node, &model.complex.shape)?);
+        model.places.control = Some(node.span());
     }
-    shape.check().map_err(|error| case.problem("shape", error.to_string(), "in this file"))?;
-    let examine = examine(case, &shape)?;
-    let expect = case.get("expect").map(|node| Expect::read(&node, &shape)).transpose()?;
+    if model.unknown.is_empty() {
+        let checked = model.complex.shape.check();
+        checked.map_err(|error| case.problem("shape", error.to_string(), "in this file"))?;
+        check_identities(file, &model)?;
+    }
+    let shape = &model.complex.shape;
+    let examine = examine(case, shape)?;
+    let expect = case.get("expect").map(|node| Expect::read(&node, shape)).transpose()?;
     let text = file.source.clone();
-    Ok(Case { name, title, source, convention, shape, examine, expect, text, places })
+    let Model { complex, places, unknown, scheme } = model;
+    let (shape, faces, reversals) = (complex.shape, complex.faces, complex.reversals);
+    Ok(Case {
+        name,
+        title,
+        source,
+        convention,
+        shape,
+        faces,
+        reversals,
+        scheme,
+        unknown,
+        examine,
+        expect,
+        text,
+        places,
+    })
+}
+
+/// Checks the identities of the cells that the engine does not look at: those of faces and reversals.
+fn check_identities(file: &File, model: &Model) -> Result<(), Problem> {
+    let complex = &model.complex;
+    if complex.faces.is_empty() && complex.reversals.is_empty() {
+        return Ok(());
+    }
+    let problem = |error: &ComplexError| {
+        Problem::new("secant::shape::identity", error.to_string())
+            .with_source(&file.source)
+            .with_help("the identities are generated from the cells: see docs/schemes.md, Identities")
+    };
+    for identity in complex.identities().map_err(|e| problem(&e))? {
+        if let Some(failure) = complex.failure(&identity).map_err(|e| problem(&e))? {
+            return Err(failed(file, model, &identity, &failure));
+        }
+    }
+    Ok(())
+}
+
+/// An identity that fails, shown at the operators of both paths.
+fn failed(file: &File, model: &Model, identity: &Identity, failure: &Failure) -> Problem {
+    let column = |m: &Matrix| {
+        let entries: Vec<String> = m.column(failure.column).iter().map(ToString::to_string).collect();
+        format!("({})", entries.join(", "))
+    };
+    let help = format!(
+        "column {} of the left product is {}, of the right one {}",
+        failure.column,
+        column(&failure.left),
+        column(&failure.right)
+    );
+    let mut problem = Problem::new("secant::shape::identity", failure.to_string()).with_source(&file.source);
+    for op in identity.left.iter().chain(&identity.right) {
+        if let Some(span) = model.places.of(*op) {
+            problem = problem.with_label(span.clone(), model.complex.operator_text(*op));
+        }
+    }
+    problem.with_help(help)
 }
 
 fn name(case: &Table<'_>) -> Result<String, Problem> {
@@ -150,7 +243,7 @@ fn name(case: &Table<'_>) -> Result<String, Problem> {
 
 fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
     let word = case.word("convention", &["columns", "rows"])?;
-    if case.get("map").is_none() {
+    if case.get("map").is_none() && case.get("scheme").is_none() {
         case.need("convention", "\"columns\"").map_err(|p| {
             p.with_help(
                 "say how the matrices act: convention = \"columns\" (operators on columns of coordinates, \
@@ -161,6 +254,7 @@ fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
         return Ok(if word == Some("rows") { Convention::Rows } else { Convention::Columns });
     }
     match (word, case.get("convention")) {
+        _ if case.get("map").is_none() => Ok(Convention::Columns),
         (Some("rows"), Some(node)) => Err(node
             .problem("value", "affine maps act on columns: x -> linear x + shift", "does not fit [[map]]")
             .with_help("leave `convention` out, and transpose the linear parts if they were meant to act on rows")),
@@ -168,7 +262,10 @@ fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
     }
 }
 
-fn shape(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<(Shape, Places), Problem> {
+fn model(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<Model, Problem> {
+    if let Some(node) = case.get("scheme") {
+        return scheme::read(case, &node);
+    }
     if let Some(node) = case.get("map") {
         return maps::read(case, &node, kind);
     }
@@ -188,7 +285,8 @@ fn shape(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<(Sh
     }
     let node = case.need("pieces", "[ [[…]], [[…]] ]").map_err(|p| {
         p.with_help(
-            "a case is written with `pieces` (a list of matrices), with [[map]] tables or with [[state]] tables",
+            "a case is written with `pieces` (a list of matrices), with [[map]] tables, with [[state]] tables, or with \
+             [scheme]",
         )
     })?;
     states::single(case, &node, kind, convention)

@@ -1,9 +1,12 @@
-use super::matrix::Written;
+use super::faces;
+use super::matrix::{Hole, Operator, Written};
 use super::node::{Node, Table, clipped, suggest};
-use super::{Convention, MAX_COORDINATES, MAX_PIECES, MAX_STATES, Places, StatePlace};
+use super::{Convention, MAX_COORDINATES, MAX_PIECES, MAX_STATES, Model, Places, StatePlace, Unknown};
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
-use crate::shape::{Boundary, CellKind, Frame, Piece, Shape, State};
+use crate::shape::{Boundary, CellKind, Complex, Frame, OpName, Piece, Reversal, Shape, State};
+use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Reads `pieces = [ … ]`: a case with a single state.
 pub(super) fn single(
@@ -11,14 +14,15 @@ pub(super) fn single(
     node: &Node<'_>,
     kind: CellKind,
     convention: Convention,
-) -> Result<(Shape, Places), Problem> {
+) -> Result<Model, Problem> {
     let pieces = node.array(|k| format!("the matrix of piece {k}"))?;
     bounded_pieces(node, pieces.len())?;
     let mut place = StatePlace { name: node.span(), ..StatePlace::default() };
     let mut operators = Vec::new();
+    let mut unknown = Vec::new();
     let mut dim = 0;
     for (k, piece) in pieces.iter().enumerate() {
-        let written = Written::read(piece)?;
+        let written = Written::open(piece)?;
         if k == 0 {
             dim = written.height();
             let why = "the operators of a case with one state are square";
@@ -27,7 +31,9 @@ pub(super) fn single(
             let why = format!("all pieces act on the same {dim} coordinates; piece 0 is {dim} x {dim}");
             written.sized(piece, (dim, dim), &why)?;
         }
-        operators.push(written.operator(piece, convention)?);
+        let operator = written.operator(piece, convention)?;
+        unknown.extend(operator.holes.into_iter().map(|h| named(OpName::Piece { state: 0, letter: k }, h)));
+        operators.push(operator.matrix);
         place.pieces.push(written.span());
     }
     let mut shape = Shape::single(kind, operators);
@@ -39,7 +45,12 @@ pub(super) fn single(
             shape.states[0].pieces[index.index(pieces.len() - 1)?].reversed = true;
         }
     }
-    Ok((shape, Places { states: vec![place], control: None }))
+    let places = Places { states: vec![place], control: None };
+    Ok(Model { complex: Complex::of_curves(shape), places, unknown, scheme: None })
+}
+
+fn named(op: OpName, hole: Hole) -> Unknown {
+    Unknown { op, row: hole.row, column: hole.column, name: hole.name, span: hole.span }
 }
 
 pub(super) fn reversed_set(node: &Node<'_>) -> Problem {
@@ -62,12 +73,19 @@ fn bounded_pieces(node: &Node<'_>, count: usize) -> Result<(), Problem> {
 }
 
 /// A state read for itself: all but its operators, which need the dimensions of the others.
-struct Draft<'a> {
-    table: Table<'a>,
-    name: String,
-    kind: CellKind,
-    dim: usize,
-    pieces: Vec<Table<'a>>,
+pub(super) struct Draft<'a> {
+    pub table: Table<'a>,
+    pub name: String,
+    pub kind: CellKind,
+    pub dim: usize,
+    pub pieces: Vec<Table<'a>>,
+}
+
+/// All states of an automaton, and the entries left open that were met so far.
+pub(super) struct Automaton<'a> {
+    pub drafts: Vec<Draft<'a>>,
+    convention: Convention,
+    unknown: Vec<Unknown>,
 }
 
 /// Reads the `[[state]]` tables of an automaton.
@@ -76,7 +94,7 @@ pub(super) fn automaton(
     node: &Node<'_>,
     default_kind: CellKind,
     convention: Convention,
-) -> Result<(Shape, Places), Problem> {
+) -> Result<Model, Problem> {
     for key in ["pieces", "reversed"] {
         if let Some(span) = case.key_span(key) {
             return Err(case
@@ -115,14 +133,22 @@ pub(super) fn automaton(
             return Err(case.need("start", &example).err().unwrap_or_else(|| case.problem("missing-key", "", "")));
         }
     };
-    let mut states = Vec::new();
+    let mut automaton = Automaton { drafts, convention, unknown: Vec::new() };
+    let shape = Shape { states: Vec::new(), start, control: None, frame: Frame::Barycentric };
+    let mut complex = Complex { shape, faces: BTreeMap::new(), reversals: BTreeMap::new() };
     let mut places = Places::default();
-    for draft in &drafts {
-        let (state, place) = finish(draft, &drafts, convention)?;
-        states.push(state);
+    for index in 0..automaton.drafts.len() {
+        let (state, mut place) = automaton.finish(index)?;
+        if let Some(face) = faces::read(&mut automaton, index, &mut place)? {
+            complex.faces.insert(index, face);
+        }
+        if let Some(reversal) = automaton.reversal(index, &mut place)? {
+            complex.reversals.insert(index, reversal);
+        }
+        complex.shape.states.push(state);
         places.states.push(place);
     }
-    Ok((Shape { states, start, control: None, frame: Frame::Barycentric }, places))
+    Ok(Model { complex, places, unknown: automaton.unknown, scheme: None })
 }
 
 fn draft<'a>(mut table: Table<'a>, default_kind: CellKind, convention: Convention) -> Result<Draft<'a>, Problem> {
@@ -136,13 +162,18 @@ fn draft<'a>(mut table: Table<'a>, default_kind: CellKind, convention: Conventio
     }
     let name = name.to_owned();
     table.what = format!("state `{name}`");
-    table.only(&["name", "kind", "dimension", "left", "right", "piece"])?;
-    let kind = match table.word("kind", &["edge", "vertex", "set"])? {
+    let kind = match table.word("kind", &["edge", "vertex", "set", "face"])? {
         Some("vertex") => CellKind::Vertex,
         Some("set") => CellKind::Set,
+        Some("face") => CellKind::Face,
         Some(_) => CellKind::Edge,
         None => default_kind,
     };
+    if kind == CellKind::Face {
+        table.only(&faces::KEYS)?;
+    } else {
+        table.only(&["name", "kind", "dimension", "left", "right", "reversal", "piece"])?;
+    }
     let node = table.need("piece", "…  (as a table [[state.piece]])")?;
     let pieces = node.tables(|k| format!("piece {k} of state `{name}`"))?;
     bounded_pieces(&node, pieces.len())?;
@@ -163,7 +194,14 @@ fn draft<'a>(mut table: Table<'a>, default_kind: CellKind, convention: Conventio
             dim => dim,
         },
         None => {
-            let written = Written::read(&matrix_node(&pieces[0])?)?;
+            let node = matrix_node(&pieces[0])?;
+            if node.is_question() {
+                let message = format!("state `{name}` needs its `dimension`, because its first operator is unknown");
+                return Err(node
+                    .problem("dimension", message, "of unknown size")
+                    .with_help("add a line such as  dimension = 4  to the state"));
+            }
+            let written = Written::open(&node)?;
             if convention == Convention::Rows { written.width() } else { written.height() }
         }
     };
@@ -185,90 +223,153 @@ fn state_index(node: &Node<'_>, drafts: &[Draft<'_>]) -> Result<usize, Problem> 
     })
 }
 
-fn finish(draft: &Draft<'_>, drafts: &[Draft<'_>], convention: Convention) -> Result<(State, StatePlace), Problem> {
-    let table = &draft.table;
-    let name_span = table.need("name", "\"A\"")?.span();
-    let mut place = StatePlace { name: name_span, ..StatePlace::default() };
-    let mut pieces = Vec::new();
-    for piece in &draft.pieces {
-        let (read, span) = read_piece(draft, piece, drafts, convention)?;
-        pieces.push(read);
-        place.pieces.push(span);
-    }
-    let mut boundary = |key: &'static str| -> Result<Option<Boundary>, Problem> {
-        let Some(node) = table.get(key) else { return Ok(None) };
-        let (read, span) = read_boundary(draft, key, &node, drafts, convention)?;
-        if key == "left" {
-            place.left = Some(span);
-        } else {
-            place.right = Some(span);
+impl Automaton<'_> {
+    fn finish(&mut self, index: usize) -> Result<(State, StatePlace), Problem> {
+        let name_span = self.drafts[index].table.need("name", "\"A\"")?.span();
+        let mut place = StatePlace { name: name_span, ..StatePlace::default() };
+        let mut pieces = Vec::new();
+        for letter in 0..self.drafts[index].pieces.len() {
+            let (read, span) = self.piece(index, letter)?;
+            pieces.push(read);
+            place.pieces.push(span);
         }
-        Ok(Some(read))
-    };
-    let (left, right) = (boundary("left")?, boundary("right")?);
-    Ok((State { name: draft.name.clone(), kind: draft.kind, dim: draft.dim, pieces, left, right }, place))
+        let (mut left, mut right) = (None, None);
+        if self.drafts[index].kind != CellKind::Face {
+            (left, place.left) = self.boundary(index, "left", OpName::Left(index))?.unzip();
+            (right, place.right) = self.boundary(index, "right", OpName::Right(index))?.unzip();
+        }
+        let draft = &self.drafts[index];
+        let state = State { name: draft.name.clone(), kind: draft.kind, dim: draft.dim, pieces, left, right };
+        Ok((state, place))
+    }
+
+    fn piece(&mut self, index: usize, letter: usize) -> Result<(Piece, Range<usize>), Problem> {
+        let draft = &self.drafts[index];
+        let piece = &draft.pieces[letter];
+        let kind = draft.kind;
+        piece.only(if kind == CellKind::Face {
+            &["to", "matrix", "corners"]
+        } else {
+            &["to", "matrix", "reversed"]
+        })?;
+        let to = piece.need("to", &format!("{:?}", draft.name))?;
+        let target = state_index(&to, &self.drafts)?;
+        if kind != CellKind::Set && self.drafts[target].kind != kind {
+            return Err(wrong_target(&to, piece, draft, &self.drafts[target]));
+        }
+        let reversed = kind != CellKind::Face && piece.flag("reversed")?;
+        if reversed && kind != CellKind::Edge {
+            return Err(reversed_set(&piece.need("reversed", "true")?));
+        }
+        let node = matrix_node(piece)?;
+        let op = self.operator(&node, OpName::Piece { state: index, letter }, index, target)?;
+        Ok((Piece { target, op, reversed }, node.span()))
+    }
+
+    fn boundary(&mut self, index: usize, key: &str, name: OpName) -> Result<Option<(Boundary, Range<usize>)>, Problem> {
+        let draft = &self.drafts[index];
+        let Some(node) = draft.table.get(key) else { return Ok(None) };
+        if draft.kind != CellKind::Edge {
+            let message = format!("the {} state `{}` has a `{key}` boundary", kind_word(draft.kind), draft.name);
+            return Err(node
+                .problem("boundary", message, "only edges and faces have boundaries")
+                .with_help("leave `left` and `right` out, or declare kind = \"edge\""));
+        }
+        let mut table = node.table()?;
+        table.what = format!("the {key} boundary of state `{}`", draft.name);
+        let (vertex, op, span) = self.part(&table, "vertex", CellKind::Vertex, index, name)?;
+        Ok(Some((Boundary { vertex, op }, span)))
+    }
+
+    fn reversal(&mut self, index: usize, place: &mut StatePlace) -> Result<Option<Reversal>, Problem> {
+        let draft = &self.drafts[index];
+        if draft.kind == CellKind::Face {
+            return Ok(None);
+        }
+        let Some(node) = draft.table.get("reversal") else { return Ok(None) };
+        if draft.kind != CellKind::Edge {
+            let message = format!("the {} state `{}` has a `reversal`", kind_word(draft.kind), draft.name);
+            return Err(node
+                .problem("boundary", message, "only edges are reversed")
+                .with_help("leave `reversal` out, or declare kind = \"edge\""));
+        }
+        let mut table = node.table()?;
+        table.what = format!("the reversal of state `{}`", draft.name);
+        let (edge, op, span) = self.part(&table, "edge", CellKind::Edge, index, OpName::Reverse(index))?;
+        place.reversal = Some(span);
+        Ok(Some(Reversal { edge, op }))
+    }
+
+    /// A boundary or reversal `{ vertex = "v", matrix = … }` or `{ edge = "e", points = … }`: its state and operator.
+    pub(super) fn part(
+        &mut self,
+        table: &Table<'_>,
+        key: &'static str,
+        kind: CellKind,
+        index: usize,
+        name: OpName,
+    ) -> Result<(usize, Matrix, Range<usize>), Problem> {
+        table.only(&[key, "matrix", "points"])?;
+        let from_node = table.need(key, "\"v\"")?;
+        let from = state_index(&from_node, &self.drafts)?;
+        let source = &self.drafts[from];
+        if source.kind != kind {
+            let wanted = kind_word(kind);
+            let message =
+                format!("{} must come from a state of kind {wanted}, but `{}` is none", table.what, source.name);
+            return Err(from_node
+                .problem("boundary", message, format!("this is a state of kind {}", kind_word(source.kind)))
+                .with_help(format!("declare that state with kind = {wanted:?}, or name another one")));
+        }
+        if let Some(points) = table.get("points") {
+            if let Some(node) = table.get("matrix") {
+                return Err(node
+                    .problem("two-forms", "`matrix` and `points` exclude each other", "given besides `points`")
+                    .with_help("`points` lists the coordinates that the boundary depends on, in order"));
+            }
+            let op = self.inclusion(&points.named(format!("`points` of {}", table.what)), index, from)?;
+            return Ok((from, op, points.span()));
+        }
+        let matrix = matrix_node(table)?;
+        let op = self.operator(&matrix, name, index, from)?;
+        Ok((from, op, matrix.span()))
+    }
+
+    /// The operator that puts coordinate `j` of the boundary at coordinate `points[j]`.
+    fn inclusion(&self, node: &Node<'_>, into: usize, from: usize) -> Result<Matrix, Problem> {
+        let (rows, cols) = (self.drafts[into].dim, self.drafts[from].dim);
+        let points = node.array(|k| format!("entry {k} of {}", node.what))?;
+        if points.len() != cols {
+            let message = format!("{} has {} entries, but {cols} are needed", node.what, points.len());
+            let help = format!("state `{}` has dimension {cols}: one coordinate for each", self.drafts[from].name);
+            return Err(node.problem("size", message, format!("{cols} needed")).with_help(help));
+        }
+        let mut op = Matrix::zero(rows, cols);
+        for (column, point) in points.iter().enumerate() {
+            op[(point.index(rows.saturating_sub(1))?, column)] = 1.into();
+        }
+        Ok(op)
+    }
+
+    fn operator(&mut self, node: &Node<'_>, name: OpName, into: usize, from: usize) -> Result<Matrix, Problem> {
+        let (target, source, convention) = (&self.drafts[into], &self.drafts[from], self.convention);
+        let operator = if node.is_question() {
+            Operator::unknown(target.dim, source.dim, &node.span())
+        } else {
+            sized_operator(node, convention, target, source)?
+        };
+        self.unknown.extend(operator.holes.into_iter().map(|h| named(name, h)));
+        Ok(operator.matrix)
+    }
 }
 
-type Span = std::ops::Range<usize>;
-
-fn read_piece(
-    draft: &Draft<'_>,
-    piece: &Table<'_>,
-    drafts: &[Draft<'_>],
-    convention: Convention,
-) -> Result<(Piece, Span), Problem> {
-    piece.only(&["to", "matrix", "reversed"])?;
-    let to = piece.need("to", &format!("{:?}", draft.name))?;
-    let target = state_index(&to, drafts)?;
-    let fits = match draft.kind {
-        CellKind::Vertex => drafts[target].kind == CellKind::Vertex,
-        CellKind::Edge => drafts[target].kind == CellKind::Edge,
-        _ => true,
-    };
-    if !fits {
-        let (from, into) = (kind_word(draft.kind), kind_word(drafts[target].kind));
-        let message =
-            format!("{} leads from the {from} `{}` to the {into} `{}`", piece.what, draft.name, drafts[target].name);
-        return Err(to
-            .problem("target-kind", message, format!("`{}` is a {into} state", drafts[target].name))
-            .with_help("pieces of a vertex are vertices, pieces of an edge are edges; vertices are joined to an edge by `left` and `right`"));
-    }
-    let node = matrix_node(piece)?;
-    let op = sized_operator(&node, convention, draft, &drafts[target])?;
-    let reversed = piece.flag("reversed")?;
-    if reversed && draft.kind != CellKind::Edge {
-        return Err(reversed_set(&piece.need("reversed", "true")?));
-    }
-    Ok((Piece { target, op, reversed }, node.span()))
-}
-
-fn read_boundary(
-    draft: &Draft<'_>,
-    key: &str,
-    node: &Node<'_>,
-    drafts: &[Draft<'_>],
-    convention: Convention,
-) -> Result<(Boundary, Span), Problem> {
-    if draft.kind != CellKind::Edge {
-        let message = format!("the {} state `{}` has a `{key}` boundary", kind_word(draft.kind), draft.name);
-        return Err(node
-            .problem("boundary", message, "only edges have boundaries")
-            .with_help("leave `left` and `right` out, or declare kind = \"edge\""));
-    }
-    let mut table = node.table()?;
-    table.what = format!("the {key} boundary of state `{}`", draft.name);
-    table.only(&["vertex", "matrix"])?;
-    let vertex_node = table.need("vertex", "\"v\"")?;
-    let vertex = state_index(&vertex_node, drafts)?;
-    if drafts[vertex].kind != CellKind::Vertex {
-        let message = format!("{} must come from a vertex state, but `{}` is none", table.what, drafts[vertex].name);
-        return Err(vertex_node
-            .problem("boundary", message, format!("this is a {} state", kind_word(drafts[vertex].kind)))
-            .with_help("declare that state with kind = \"vertex\", or name another one"));
-    }
-    let matrix = matrix_node(&table)?;
-    let op = sized_operator(&matrix, convention, draft, &drafts[vertex])?;
-    Ok((Boundary { vertex, op }, matrix.span()))
+fn wrong_target(to: &Node<'_>, piece: &Table<'_>, draft: &Draft<'_>, target: &Draft<'_>) -> Problem {
+    let (from, into) = (kind_word(draft.kind), kind_word(target.kind));
+    let message = format!("{} leads from the {from} `{}` to the {into} `{}`", piece.what, draft.name, target.name);
+    to.problem("target-kind", message, format!("`{}` is a state of kind {into}", target.name)).with_help(
+        "pieces of a vertex are vertices, pieces of an edge are edges, pieces of a face are faces; boundaries are joined \
+         to an edge by `left` and `right`, to a face by its sides",
+    )
 }
 
 fn sized_operator(
@@ -276,8 +377,8 @@ fn sized_operator(
     convention: Convention,
     into: &Draft<'_>,
     from: &Draft<'_>,
-) -> Result<Matrix, Problem> {
-    let written = Written::read(node)?;
+) -> Result<Operator, Problem> {
+    let written = Written::open(node)?;
     let (rows, cols) = if convention == Convention::Rows { (from.dim, into.dim) } else { (into.dim, from.dim) };
     let why = if into.name == from.name {
         format!("state `{}` has dimension {}", into.name, into.dim)
@@ -289,7 +390,7 @@ fn sized_operator(
     written.operator(node, convention)
 }
 
-fn kind_word(kind: CellKind) -> &'static str {
+pub(super) fn kind_word(kind: CellKind) -> &'static str {
     match kind {
         CellKind::Vertex => "vertex",
         CellKind::Edge => "edge",

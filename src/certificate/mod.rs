@@ -137,7 +137,7 @@ pub enum Doubt {
 /// That of [`certificate`] and of [`secant_check::check`].
 pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
     let certificate = certificate(case, found)?;
-    let accepted = secant_check::check(&case.text.text, &certificate.text())?;
+    let accepted = secant_check::check(&case.checked_text(), &certificate.text())?;
     if accepted.verdict.word() == found.verdict.word() {
         Ok(certificate)
     } else {

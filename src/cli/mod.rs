@@ -2,6 +2,7 @@
 
 mod approximate;
 mod certify;
+mod expand;
 mod explain;
 mod gallery;
 mod init;
@@ -10,6 +11,7 @@ mod output;
 mod progress;
 mod radius;
 mod schemes;
+mod solve;
 mod spectrum;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
@@ -57,6 +59,16 @@ enum Command {
         /// Its parameters, as in `degree=3`.
         parameters: Vec<String>,
     },
+    /// Write a case with every operator written out: what `[scheme]` stands for, and what the checker reads.
+    Expand {
+        /// The case file; `-` reads the standard input.
+        case: PathBuf,
+        /// Write to a file instead of the standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
+    Solve(SolveArgs),
     /// Print a statement with its proof and reference.
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
@@ -138,6 +150,24 @@ struct SpectrumArgs {
 }
 
 #[derive(Debug, Args)]
+struct SolveArgs {
+    /// A case with unknown entries; `-` reads the standard input.
+    case: PathBuf,
+    /// Write the solved case to a file.
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Give a free parameter a value in the case that is written; the others are 0.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but problems.
+    #[arg(short, long, conflicts_with = "json")]
+    quiet: bool,
+}
+
+#[derive(Debug, Args)]
 struct RegularityArgs {
     /// The mask: coefficients such as "1/4,3/4,3/4,1/4", or the symbol such as "(1+z)^3/4".
     #[arg(allow_hyphen_values = true)]
@@ -177,6 +207,8 @@ pub fn main() -> ExitCode {
         Command::Jsr { file } => radius::jsr(&file),
         Command::Regularity(args) => radius::mask(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
+        Command::Expand { case, output } => expand::run(&case, output.as_deref()),
+        Command::Solve(args) => solve::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),

@@ -45,8 +45,13 @@ pub struct Waiting {
 }
 
 impl Waiting {
-    /// Starts waiting.
+    /// Starts waiting for a certificate.
     pub fn new(quiet: bool) -> Self {
+        Self::with("certifying …", quiet)
+    }
+
+    /// Starts waiting for what the message says.
+    pub fn with(message: &'static str, quiet: bool) -> Self {
         use std::io::IsTerminal;
         if quiet || !std::io::stderr().is_terminal() {
             return Self { done: None };
@@ -56,7 +61,7 @@ impl Waiting {
             if receiver.recv_timeout(PATIENCE).is_ok() {
                 return;
             }
-            let spinner = ProgressBar::new_spinner().with_message("certifying …");
+            let spinner = ProgressBar::new_spinner().with_message(message);
             spinner.enable_steady_tick(Duration::from_millis(120));
             // An error means that the sender is gone, which ends the waiting as well.
             let _ = receiver.recv();

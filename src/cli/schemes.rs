@@ -49,6 +49,7 @@ fn written(name: &str, parameters: &[String]) -> Result<String, String> {
         name: format!("{name}{tail}"),
         title: info.map(|i| i.summary.to_owned()).unwrap_or_default(),
         source: info.map(|i| i.source.to_owned()).unwrap_or_default(),
+        ..Heading::default()
     };
     Ok(case_text(&shape, &heading))
 }

@@ -58,7 +58,7 @@ fn matrices(path: &Path) -> Result<Input, Problem> {
                 matrices.push((name, piece.op.clone(), Some((index, letter))));
             }
         }
-        return Ok(Input { matrices, text: case.text.text.to_string(), name: case.name, plain: true });
+        return Ok(Input { matrices, text: case.checked_text().to_string(), name: case.name, plain: true });
     }
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| {

@@ -4,6 +4,7 @@ use crate::arith::modular::{PrimeField, large_primes};
 use crate::arith::{Integer, Natural, Rational};
 use crate::poly::ints::{self, CrtPoly};
 use crate::poly::{IntPoly, Poly, modp};
+use malachite_base::num::arithmetic::traits::{AddMulAssign, CeilingSqrt, Lcm, Pow};
 use malachite_base::num::logic::traits::SignificantBits;
 use rayon::prelude::*;
 
@@ -14,8 +15,9 @@ use rayon::prelude::*;
 ///
 /// # Cost
 /// The matrix is split into its strongly connected components first. For one component of size `n` the integer
-/// polynomial `det(x D - N)`, with `A = D^-1 N` or `N D^-1` and `D` diagonal, is computed modulo primes of 62 bits,
-/// `O(n^3)` each, as many as Hadamard's bound for its coefficients needs; the primes are shared among the threads.
+/// polynomial `det(x D - N)`, with `A = D^-1 N` or `N D^-1` and `D` diagonal, or `det(x - d A)` with one denominator
+/// `d`, is computed modulo primes of 62 bits, `O(n^3)` each, as many as a bound for its coefficients needs (Hadamard's
+/// inequality; Schur's for the eigenvalues of `d A`); the primes are shared among the threads.
 ///
 /// Source: Cohen, *A Course in Computational Algebraic Number Theory*, algorithm 2.2.9, for the Hessenberg method.
 #[must_use]
@@ -36,17 +38,38 @@ struct Cleared {
     entries: Vec<Vec<Integer>>,
     /// Bits that every coefficient of the determinant fits, without its sign.
     bound: u64,
+    /// The determinant at `scale x` is the one looked for.
+    scale: Natural,
 }
 
 impl Cleared {
-    /// Clears by rows or by columns, whichever has the smaller bound.
+    /// Clears by rows, by columns or by one denominator, whichever has the smallest bound.
     fn best(a: &Matrix, block: &[usize]) -> Self {
         let rows = Self::by_lines(block.len(), |i, j| &a[(block[i], block[j])]);
         if rows.bound <= 60 {
             return rows;
         }
         let columns = Self::by_lines(block.len(), |i, j| &a[(block[j], block[i])]);
-        if rows.bound <= columns.bound { rows } else { columns }
+        let lines = if rows.bound <= columns.bound { rows } else { columns };
+        Self::by_one(&lines, |i, j| &a[(block[i], block[j])]).unwrap_or(lines)
+    }
+
+    /// Clears by one denominator, where that beats the bound of the others.
+    fn by_one<'a>(others: &Self, entry: impl Fn(usize, usize) -> &'a Rational) -> Option<Self> {
+        let n = others.entries.len();
+        // A 1 x 1 block has no bound to beat, and its polynomial is read off its lines.
+        if n < 2 {
+            return None;
+        }
+        let scale = others.denominators.iter().fold(Natural::from(1u32), |acc, d| acc.lcm(d));
+        // A long common denominator cannot pay; its powers would be long numbers for nothing.
+        if scale.significant_bits() * n as u64 / 8 > others.bound {
+            return None;
+        }
+        let row = |i: usize| (0..n).map(|j| ints::cleared(entry(i, j), &scale)).collect();
+        let entries: Vec<Vec<Integer>> = (0..n).map(row).collect();
+        let bound = spectral_bound(&entries);
+        (bound < others.bound).then(|| Self { denominators: vec![Natural::from(1u32); n], entries, bound, scale })
     }
 
     fn by_lines<'a>(n: usize, entry: impl Fn(usize, usize) -> &'a Rational) -> Self {
@@ -72,7 +95,7 @@ impl Cleared {
             entries.push(row);
         }
         bound += product.significant_bits();
-        Self { denominators, entries, bound: bound / 2 + 1 }
+        Self { denominators, entries, bound: bound / 2 + 1, scale: Natural::from(1u32) }
     }
 
     /// The coefficients of `det(x D - N)` modulo a prime; `None` when the prime divides a denominator.
@@ -92,6 +115,47 @@ impl Cleared {
         let monic = krylov.unwrap_or_else(|| hessenberg_char_poly(field, m));
         Some(monic.into_iter().map(|c| field.mul(c, determinant)).collect())
     }
+}
+
+/// Bits that every coefficient of `det(x - N)` fits.
+///
+/// By Schur's inequality the squares of the moduli of the `n` eigenvalues add up to at most `F^2`, the sum of the squares
+/// of the entries, and by Maclaurin's inequality the `k`-th elementary symmetric function of the moduli is at most
+/// `C(n, k) (F^2 / n)^(k/2)`, all of them together at most `(1 + F / sqrt n)^n`. Where all columns have the sum `s`, the
+/// vectors of sum 0 are mapped among themselves, the other eigenvalue is `s`, and `F^2` there is that of `N (1 - J/n)`
+/// (`J` all ones), which is the sum of the squares less the squares of the row sums over `n`. Rows likewise.
+fn spectral_bound(entries: &[Vec<Integer>]) -> u64 {
+    let n = entries.len();
+    let zero = || vec![Integer::from(0); n];
+    let (mut rows, mut columns, mut square) = (zero(), zero(), Integer::from(0));
+    for (i, row) in entries.iter().enumerate() {
+        for (j, x) in row.iter().enumerate().filter(|(_, x)| **x != 0) {
+            rows[i] += x;
+            columns[j] += x;
+            square.add_mul_assign(x, x);
+        }
+    }
+    let constant = |sums: &[Integer]| sums.iter().all(|s| *s == sums[0]);
+    let (known, others) = if constant(&columns) {
+        (Some(&columns[0]), &rows)
+    } else if constant(&rows) {
+        (Some(&rows[0]), &columns)
+    } else {
+        (None, &rows)
+    };
+    let Some(known) = known else { return power_bits(&square, n) };
+    let sums: Integer = others.iter().map(|s| s * s).sum();
+    // n F^2 is an integer; the bits of a fraction below one are not worth keeping.
+    let rest = (square * Integer::from(n) - sums) / Integer::from(n) + Integer::from(1);
+    power_bits(&rest, n - 1) + known.significant_bits() + 1
+}
+
+/// Bits of `(1 + sqrt(square / n))^n`, rounded up.
+fn power_bits(square: &Integer, n: usize) -> u64 {
+    const FRACTION: u64 = 10;
+    let scaled = (square.unsigned_abs_ref() << (2 * FRACTION)) / Natural::from(n) + Natural::from(1u32);
+    let base = scaled.ceiling_sqrt() + (Natural::from(1u32) << FRACTION);
+    (base.pow(n as u64) >> (FRACTION * n as u64)).significant_bits() + 1
 }
 
 fn component(cleared: &Cleared) -> IntPoly {
@@ -117,6 +181,11 @@ fn component(cleared: &Cleared) -> IntPoly {
         for (field, residues) in images.into_iter().flatten() {
             image.absorb(&field, &residues);
         }
+    }
+    let mut power = Natural::from(1u32);
+    for c in image.coeffs.iter_mut().filter(|_| cleared.scale != 1) {
+        *c *= Integer::from(&power);
+        power *= &cleared.scale;
     }
     ints::primitive(image.coeffs)
 }
@@ -273,6 +342,51 @@ mod tests {
         }
         let derogatory = vec![vec![field.one(), 0], vec![0, field.one()]];
         assert_eq!(krylov_char_poly(&field, &derogatory), None);
+    }
+
+    #[test]
+    #[allow(clippy::needless_range_loop)] // The last row is written from the others.
+    fn the_bounds_hold() {
+        let mut seed = 11;
+        for n in [2usize, 3, 8, 30] {
+            for kind in 0..3 {
+                let mut entries: Vec<Vec<Integer>> = (0..n)
+                    .map(|_| {
+                        (0..n).map(|_| Integer::from(modp::next_random(&mut seed) % 9) - Integer::from(kind)).collect()
+                    })
+                    .collect();
+                if kind == 2 {
+                    for j in 0..n {
+                        let sum: Integer = (0..n - 1).map(|i| entries[i][j].clone()).sum();
+                        entries[n - 1][j] = Integer::from(7) - sum;
+                    }
+                }
+                let a = Matrix::from_fn(n, n, |i, j| Rational::from(&entries[i][j]));
+                assert!(ints::height_bits(&char_poly(&a).primitive()) <= spectral_bound(&entries), "{n} {kind}");
+                let transposed: Vec<Vec<Integer>> =
+                    (0..n).map(|i| (0..n).map(|j| entries[j][i].clone()).collect()).collect();
+                assert_eq!(spectral_bound(&entries), spectral_bound(&transposed));
+            }
+        }
+    }
+
+    #[test]
+    fn a_single_entry_keeps_its_denominator() {
+        let long = Rational::from_integers(Integer::from(7), Integer::from(10).pow(400) + Integer::from(1));
+        let p = char_poly(&Matrix::from_fn(1, 1, |_, _| long.clone()));
+        assert_eq!(p.eval(&long), 0);
+    }
+
+    #[test]
+    fn one_denominator_gives_the_same_polynomial() {
+        let mut seed = 4;
+        let entry = |seed: &mut u64| ratio((modp::next_random(seed) % 7) as i64, 320);
+        let a = Matrix::from_fn(30, 30, |_, _| entry(&mut seed));
+        let block: Vec<usize> = (0..30).collect();
+        let one = Cleared::best(&a, &block);
+        assert_ne!(one.scale, 1);
+        let rows = Cleared::by_lines(30, |i, j| &a[(i, j)]);
+        assert_eq!(component(&one), component(&rows));
     }
 
     #[test]

@@ -35,11 +35,36 @@ pub(crate) fn sub(field: &Fp, f: &[u64], g: &[u64]) -> Vec<u64> {
     out
 }
 
+/// Whether so many products of residues, and a residue, fit a word: sums are then reduced once, at the end.
+fn is_lazy(field: &Fp, terms: usize) -> bool {
+    let p = field.modulus();
+    p < 1 << 24 && terms < 1 << 14
+}
+
+/// `x / 2^64 mod p`, the reduction of a sum of products.
+fn settle(field: &Fp, x: u64) -> u64 {
+    field.reduce(u128::from(x))
+}
+
+/// Adds `a * b_j` to each entry, for residues of 32 bits.
+fn add_scaled(out: &mut [u64], a: u64, b: &[u64]) {
+    for (o, x) in out.iter_mut().zip(b) {
+        *o += u64::from(a as u32) * u64::from(*x as u32);
+    }
+}
+
 pub(crate) fn mul(field: &Fp, f: &[u64], g: &[u64]) -> Vec<u64> {
     if f.is_empty() || g.is_empty() {
         return Vec::new();
     }
     let mut out = vec![0; f.len() + g.len() - 1];
+    if is_lazy(field, f.len().min(g.len())) {
+        for (i, a) in f.iter().enumerate().filter(|(_, a)| **a != 0) {
+            add_scaled(&mut out[i..], *a, g);
+        }
+        out.iter_mut().for_each(|x| *x = settle(field, *x));
+        return out;
+    }
     for (i, a) in f.iter().enumerate().filter(|(_, a)| **a != 0) {
         for (j, b) in g.iter().enumerate() {
             out[i + j] = field.add(out[i + j], field.mul(*a, *b));
@@ -53,6 +78,11 @@ pub(crate) fn div_rem(field: &Fp, mut f: Vec<u64>, g: &[u64]) -> (Vec<u64>, Vec<
     let d = g.len() - 1;
     let mut quotient = vec![0; f.len().saturating_sub(d)];
     let inverse = if g[d] == field.one() { g[d] } else { field.inverse(g[d]) };
+    if is_lazy(field, quotient.len()) {
+        lazy_division(field, &mut f, g, inverse, &mut quotient);
+        trim(&mut f);
+        return (quotient, f);
+    }
     for k in (0..quotient.len()).rev() {
         let q = field.mul(f[k + d], inverse);
         quotient[k] = q;
@@ -65,6 +95,25 @@ pub(crate) fn div_rem(field: &Fp, mut f: Vec<u64>, g: &[u64]) -> (Vec<u64>, Vec<
     f.truncate(d);
     trim(&mut f);
     (quotient, f)
+}
+
+/// The division for small primes: what is taken from a coefficient is summed up as plain products, in Montgomery form
+/// as `x 2^64`, and reduced when the coefficient is used.
+fn lazy_division(field: &Fp, f: &mut Vec<u64>, g: &[u64], inverse: u64, quotient: &mut [u64]) {
+    let d = g.len() - 1;
+    let mut taken = vec![0u64; f.len()];
+    for k in (0..quotient.len()).rev() {
+        let top = field.sub(f[k + d], settle(field, taken[k + d]));
+        let q = field.mul(top, inverse);
+        quotient[k] = q;
+        if q != 0 {
+            add_scaled(&mut taken[k..], q, &g[..d]);
+        }
+    }
+    f.truncate(d);
+    for (x, t) in f.iter_mut().zip(&taken) {
+        *x = field.sub(*x, settle(field, *t));
+    }
 }
 
 pub(crate) fn rem(field: &Fp, f: Vec<u64>, g: &[u64]) -> Vec<u64> {
@@ -127,6 +176,14 @@ fn frobenius(field: &Fp, f: &[u64]) -> Vec<Vec<u64>> {
 
 fn apply_frobenius(field: &Fp, rows: &[Vec<u64>], h: &[u64]) -> Vec<u64> {
     let mut out = vec![0; rows.len()];
+    if is_lazy(field, rows.len()) {
+        for (row, c) in rows.iter().zip(h).filter(|(_, c)| **c != 0) {
+            add_scaled(&mut out, *c, row);
+        }
+        out.iter_mut().for_each(|x| *x = settle(field, *x));
+        trim(&mut out);
+        return out;
+    }
     for (row, c) in rows.iter().zip(h).filter(|(_, c)| **c != 0) {
         for (o, x) in out.iter_mut().zip(row) {
             *o = field.add(*o, field.mul(*c, *x));
@@ -225,6 +282,32 @@ mod tests {
             }
             let product = factors.iter().fold(vec![field.one()], |acc, g| mul(&field, &acc, g));
             assert_eq!(product, f);
+        }
+    }
+
+    #[test]
+    fn small_primes_agree_with_the_plain_products() {
+        let mut seed = 7;
+        for p in [3, 101, 16_777_213] {
+            let field = Fp::new(p);
+            let mut random = |n: usize| -> Vec<u64> { (0..n).map(|_| next_random(&mut seed) % p).collect() };
+            for (n, m) in [(1, 1), (4, 9), (30, 17), (200, 90)] {
+                let (f, mut g) = (random(n + m), random(m));
+                g.push(p - 1);
+                let (q, r) = div_rem(&field, f.clone(), &g);
+                let mut back = mul(&field, &q, &g);
+                for (k, c) in r.iter().enumerate() {
+                    back[k] = field.add(back[k], *c);
+                }
+                assert!(r.len() < g.len());
+                assert_eq!(back, f);
+                let term = |k: usize| {
+                    (0..=k.min(n + m - 1))
+                        .filter(|i| k - i < g.len())
+                        .fold(0, |sum, i| field.add(sum, field.mul(f[i], g[k - i])))
+                };
+                assert_eq!(mul(&field, &f, &g), (0..f.len() + g.len() - 1).map(term).collect::<Vec<_>>());
+            }
         }
     }
 

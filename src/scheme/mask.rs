@@ -211,6 +211,27 @@ pub(super) fn verify(shape: &Shape) -> Result<(), SchemeError> {
     Ok(shape.check_curves()?)
 }
 
+/// The curve with its end points as vertices on one coordinate; a curve that has boundaries is left as it is.
+///
+/// # Errors
+/// [`SchemeError::Value`] where the shape is not a single curve.
+pub(super) fn with_vertices(mut shape: Shape) -> Result<Shape, SchemeError> {
+    let [state] = shape.states.as_slice() else { return Ok(shape) };
+    if state.kind != CellKind::Edge {
+        return Err(SchemeError::value("kind", &"set", "a curve is needed, and this scheme is a set"));
+    }
+    let dim = state.dim;
+    let boundary = |end| {
+        let point = shape.end_point(0, end);
+        let point = point.ok_or_else(|| SchemeError::Divergent("an end point is not unique".to_owned()))?;
+        Ok::<_, SchemeError>(Some(Boundary { vertex: 1, op: Matrix::from_columns(dim, &[point]) }))
+    };
+    let (left, right) = (boundary(End::Start)?, boundary(End::Finish)?);
+    (shape.states[0].left, shape.states[0].right) = (left, right);
+    shape.states.push(super::curves::point_vertex(1));
+    Ok(shape)
+}
+
 fn check_sum_rules(arity: usize, coefficients: &[Rational]) -> Result<(), SchemeError> {
     let mut sums = vec![Rational::from(0); arity];
     for (k, c) in coefficients.iter().enumerate() {

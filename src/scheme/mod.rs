@@ -26,12 +26,12 @@ pub use json::parse_json;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use mesh::Sector;
-pub use patch::{disc, patch};
+pub use patch::{disc, disc_complex, patch};
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
-pub use registry::{Parameter, SchemeInfo, build, list};
+pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask};
 pub use rules::{RuleInfo, mesh_rule, mesh_rules};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
-pub use text::{Heading, case_text};
+pub use text::{Heading, case_text, complex_text};
 pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };

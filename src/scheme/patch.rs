@@ -70,8 +70,16 @@ pub fn patch(rule: &MeshRule, valence: usize) -> Result<Complex, SchemeError> {
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
 pub fn disc(rule: &MeshRule, valence: usize) -> Result<Shape, SchemeError> {
+    Ok(disc_complex(rule, valence)?.shape)
+}
+
+/// The shape of [`disc`] with the boundaries of its patches.
+///
+/// # Errors
+/// As for [`patch`].
+pub fn disc_complex(rule: &MeshRule, valence: usize) -> Result<Complex, SchemeError> {
     let builder = Builder::new(rule, valence)?;
-    let mut shape = builder.complex()?.shape;
+    let Complex { mut shape, faces, reversals } = builder.complex()?;
     let sectors = builder.sectors().ok_or_else(|| builder.small())?;
     let ring = builder.mesh.walk(builder.centre, 2).ok_or_else(|| builder.small())?.points;
     let step = super::local_matrix(rule, valence, 2)?.matrix.transpose();
@@ -93,7 +101,11 @@ pub fn disc(rule: &MeshRule, valence: usize) -> Result<Shape, SchemeError> {
     let disc = State { name: "disc".to_owned(), kind: CellKind::Set, dim: ring.len(), pieces, left: None, right: None };
     shape.states.insert(0, disc);
     shape.check()?;
-    Ok(shape)
+    let moved = |(index, mut face): (usize, Face)| {
+        face.sides.iter_mut().for_each(|s| s.edge += 1);
+        (index + 1, face)
+    };
+    Ok(Complex { shape, faces: faces.into_iter().map(moved).collect(), reversals })
 }
 
 fn failure(rule: &MeshRule, message: &str) -> SchemeError {

@@ -1,6 +1,7 @@
 //! Schemes by name.
 
-use super::{SchemeError, curves, univariate};
+use super::mask::with_vertices;
+use super::{Mask, SchemeError, curves, univariate};
 use crate::arith::{Rational, parse_rational};
 use crate::shape::Shape;
 use std::collections::BTreeMap;
@@ -27,7 +28,14 @@ pub struct SchemeInfo {
     pub source: &'static str,
     /// What it is, in one line.
     pub summary: &'static str,
-    build: fn(&Values) -> Result<Shape, SchemeError>,
+    build: Build,
+}
+
+/// What a named scheme is built from.
+#[derive(Debug, Clone, Copy)]
+enum Build {
+    Mask(fn(&Values) -> Result<Mask, SchemeError>),
+    Shape(fn(&Values) -> Result<Shape, SchemeError>),
 }
 
 /// Values of parameters by name, defaults filled in.
@@ -70,9 +78,42 @@ pub fn list() -> &'static [SchemeInfo] {
 /// # Ok::<(), scheme::SchemeError>(())
 /// ```
 pub fn build(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<Shape, SchemeError> {
+    let (build, values) = find(name, parameters)?;
+    match build {
+        Build::Mask(mask) => mask(&values)?.curve(),
+        Build::Shape(shape) => shape(&values),
+    }
+}
+
+/// The same curve with vertex states at its ends, as tensor products need it: on all coordinates where the scheme has a
+/// mask ([`Mask::curve_with_vertices`]), with its end points as vertices on one coordinate otherwise.
+///
+/// # Errors
+/// As for [`build`]; [`SchemeError::Value`] where the scheme is no curve.
+pub fn build_with_vertices(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<Shape, SchemeError> {
+    let (build, values) = find(name, parameters)?;
+    match build {
+        Build::Mask(mask) => mask(&values)?.curve_with_vertices(),
+        Build::Shape(shape) => with_vertices(shape(&values)?),
+    }
+}
+
+/// The mask of a named scheme; `None` where it has none.
+///
+/// # Errors
+/// As for [`build`].
+pub fn mask(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<Option<Mask>, SchemeError> {
+    let (build, values) = find(name, parameters)?;
+    match build {
+        Build::Mask(mask) => mask(&values).map(Some),
+        Build::Shape(_) => Ok(None),
+    }
+}
+
+fn find(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<(Build, Values), SchemeError> {
     let info = LIST.iter().find(|s| s.name == name);
     let info = info.ok_or_else(|| unknown(name, LIST.iter().map(|s| s.name)))?;
-    (info.build)(&resolve(name, info.parameters, parameters)?)
+    Ok((info.build, resolve(name, info.parameters, parameters)?))
 }
 
 /// Fills in the defaults and refuses what the scheme does not have.
@@ -127,7 +168,7 @@ const LIST: &[SchemeInfo] = &[
         parameters: &[],
         source: "W. Sierpiński, C. R. Acad. Sci. Paris 160 (1915)",
         summary: "Sierpiński's arrowhead, 3 pieces, in the coordinates x + y√−3",
-        build: |_| curves::arrowhead(),
+        build: Build::Shape(|_| curves::arrowhead()),
     },
     SchemeInfo {
         name: "bezier",
@@ -137,146 +178,146 @@ const LIST: &[SchemeInfo] = &[
         ],
         source: "P. de Casteljau (1959); G. Farin, Curves and Surfaces for CAGD, ch. 4",
         summary: "Bézier curve with de Casteljau's subdivision",
-        build: |v| curves::bezier(v.count("degree")?, v.number("split")),
+        build: Build::Shape(|v| curves::bezier(v.count("degree")?, v.number("split"))),
     },
     SchemeInfo {
         name: "bspline",
         parameters: &[p("degree", Some("3"), "degree, from 1"), p("arity", Some("2"), "number of pieces, from 2")],
         source: "J. Lane, R. Riesenfeld, IEEE PAMI 2 (1980)",
         summary: "uniform B-spline",
-        build: |v| univariate::bspline(v.count("degree")?, v.count("arity")?)?.curve(),
+        build: Build::Mask(|v| univariate::bspline(v.count("degree")?, v.count("arity")?)),
     },
     SchemeInfo {
         name: "corner-cutting",
         parameters: &[p("a", None, "p'_2i = (1−a) p_i + a p_i+1"), p("b", None, "p'_2i+1 = b p_i + (1−b) p_i+1")],
         source: "G. de Rham (1956); J. Gregory, R. Qu, CAGD 13 (1996); S. Podkorytov, thesis (2013), §2.1",
         summary: "corner cutting with two parameters; a = −1/4, b = 1/2 is the thesis's half-tangent",
-        build: |v| curves::corner_cutting(v.number("a"), v.number("b")),
+        build: Build::Shape(|v| curves::corner_cutting(v.number("a"), v.number("b"))),
     },
     SchemeInfo {
         name: "de-rham",
         parameters: &[p("a", Some("1/3"), "part of each edge that is cut off at both ends")],
         source: "G. de Rham, J. Math. Pures Appl. 35 (1956)",
         summary: "de Rham's corner cutting; a = 1/4 is Chaikin's",
-        build: |v| curves::corner_cutting(v.number("a"), v.number("a")),
+        build: Build::Shape(|v| curves::corner_cutting(v.number("a"), v.number("a"))),
     },
     SchemeInfo {
         name: "dragon",
         parameters: &[],
         source: "C. Davis, D. Knuth, Number representations and dragon curves (1970)",
         summary: "Heighway's dragon; its second piece runs backwards",
-        build: |_| curves::dragon(),
+        build: Build::Shape(|_| curves::dragon()),
     },
     SchemeInfo {
         name: "dubuc-deslauriers",
         parameters: &[p("points", Some("4"), "number of points of the interpolating polynomial, even")],
         source: "G. Deslauriers, S. Dubuc, Constr. Approx. 5 (1989)",
         summary: "symmetric interpolatory subdivision on 2n points",
-        build: |v| univariate::dubuc_deslauriers(v.count("points")?)?.curve(),
+        build: Build::Mask(|v| univariate::dubuc_deslauriers(v.count("points")?)),
     },
     SchemeInfo {
         name: "fern",
         parameters: &[],
         source: "M. Barnsley, Fractals Everywhere (1988), table III.3",
         summary: "Barnsley's fern, a set",
-        build: |_| curves::fern(),
+        build: Build::Shape(|_| curves::fern()),
     },
     SchemeInfo {
         name: "four-point",
         parameters: &[p("w", Some("1/16"), "tension")],
         source: "N. Dyn, D. Levin, J. Gregory, CAGD 4 (1987)",
         summary: "interpolatory 4-point scheme with tension",
-        build: |v| univariate::four_point(v.number("w"))?.curve(),
+        build: Build::Mask(|v| univariate::four_point(v.number("w"))),
     },
     SchemeInfo {
         name: "hilbert",
         parameters: &[],
         source: "D. Hilbert, Math. Ann. 38 (1891)",
         summary: "Hilbert's curve",
-        build: |_| curves::hilbert(),
+        build: Build::Shape(|_| curves::hilbert()),
     },
     SchemeInfo {
         name: "hormann-sabin",
         parameters: &[p("k", Some("4"), "number of smoothing factors, from 1")],
         source: "K. Hormann, M. Sabin, CAGD 25 (2008)",
         summary: "family of schemes with cubic precision",
-        build: |v| univariate::hormann_sabin(v.count("k")?)?.curve(),
+        build: Build::Mask(|v| univariate::hormann_sabin(v.count("k")?)),
     },
     SchemeInfo {
         name: "koch",
         parameters: &[p("pieces", Some("4"), "4, or 2 mirrored ones")],
         source: "H. von Koch, Arkiv för Matematik 1 (1904)",
         summary: "Koch's curve, in the coordinates x + y√−3",
-        build: |v| curves::koch(v.count("pieces")?),
+        build: Build::Shape(|v| curves::koch(v.count("pieces")?)),
     },
     SchemeInfo {
         name: "lebesgue",
         parameters: &[p("a", Some("1/3"), "first step, between 0 and 1")],
         source: "G. de Rham, Rend. Sem. Mat. Torino 16 (1957)",
         summary: "singular function with steps a, 1 − a",
-        build: |v| curves::lebesgue(v.number("a")),
+        build: Build::Shape(|v| curves::lebesgue(v.number("a"))),
     },
     SchemeInfo {
         name: "levy",
         parameters: &[],
         source: "P. Lévy, J. École Polytechnique (1938)",
         summary: "Lévy's C curve",
-        build: |_| curves::levy(),
+        build: Build::Shape(|_| curves::levy()),
     },
     SchemeInfo {
         name: "minkowski-sausage",
         parameters: &[],
         source: "B. Mandelbrot, The Fractal Geometry of Nature (1982), plate 49",
         summary: "quadratic Koch curve of 8 pieces",
-        build: |_| curves::minkowski_sausage(),
+        build: Build::Shape(|_| curves::minkowski_sausage()),
     },
     SchemeInfo {
         name: "okamoto",
         parameters: &[p("a", Some("2/3"), "first step, between 0 and 1")],
         source: "H. Okamoto, Proc. Japan Acad. 81 (2005)",
         summary: "Okamoto's function with steps a, 1 − 2a, a",
-        build: |v| curves::okamoto(v.number("a")),
+        build: Build::Shape(|v| curves::okamoto(v.number("a"))),
     },
     SchemeInfo {
         name: "peano",
         parameters: &[],
         source: "G. Peano, Math. Ann. 36 (1890)",
         summary: "Peano's curve, 9 pieces",
-        build: |_| curves::peano(),
+        build: Build::Shape(|_| curves::peano()),
     },
     SchemeInfo {
         name: "sierpinski",
         parameters: &[],
         source: "W. Sierpiński, C. R. Acad. Sci. Paris 160 (1915)",
         summary: "Sierpiński's triangle, a set",
-        build: |_| curves::sierpinski(),
+        build: Build::Shape(|_| curves::sierpinski()),
     },
     SchemeInfo {
         name: "takagi",
         parameters: &[p("alpha", Some("1/2"), "vertical factor, between −1 and 1")],
         source: "T. Takagi (1903); G. Landsberg (1908)",
         summary: "Takagi's and Landsberg's curve; alpha = 1/4 is a parabola",
-        build: |v| curves::takagi(v.number("alpha")),
+        build: Build::Shape(|v| curves::takagi(v.number("alpha"))),
     },
     SchemeInfo {
         name: "terdragon",
         parameters: &[],
         source: "C. Davis, D. Knuth, Number representations and dragon curves (1970)",
         summary: "terdragon, 3 pieces, in the coordinates x + y√−3",
-        build: |_| curves::terdragon(),
+        build: Build::Shape(|_| curves::terdragon()),
     },
     SchemeInfo {
         name: "ternary-four-point",
         parameters: &[p("mu", Some("1/11"), "tension; C² for 1/15 < mu < 1/9")],
         source: "M. Hassan, I. Ivrissimtzis, N. Dodgson, M. Sabin, CAGD 19 (2002)",
         summary: "ternary interpolatory 4-point scheme",
-        build: |v| univariate::ternary_four_point(v.number("mu"))?.curve(),
+        build: Build::Mask(|v| univariate::ternary_four_point(v.number("mu"))),
     },
     SchemeInfo {
         name: "ternary-three-point",
         parameters: &[p("b", Some("4/15"), "tension; C¹ for 2/9 < b < 1/3")],
         source: "M. Hassan, N. Dodgson, Curve and Surface Fitting: Saint-Malo 2002",
         summary: "ternary interpolatory 3-point scheme",
-        build: |v| univariate::ternary_three_point(v.number("b"))?.curve(),
+        build: Build::Mask(|v| univariate::ternary_three_point(v.number("b"))),
     },
 ];

@@ -3,7 +3,7 @@
 
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::shape::{CellKind, Frame, Shape, State};
+use crate::shape::{Address, CellKind, Complex, Frame, Layout, Shape, State};
 use std::fmt::Write;
 
 /// What stands at the head of a case file.
@@ -15,20 +15,30 @@ pub struct Heading {
     pub title: String,
     /// Where the shape comes from.
     pub source: String,
+    /// Points to examine.
+    pub examine: Vec<Address>,
 }
 
 /// The shape as a case file (`docs/case-format.md`). Faces are written as sets, without their boundaries; a shape of affine
 /// maps is written on its simplex, with the control points that lead back.
 #[must_use]
 pub fn case_text(shape: &Shape, heading: &Heading) -> String {
+    complex_text(&Complex::of_curves(shape.clone()), heading)
+}
+
+/// The complex as a case file, with the boundaries of its faces and its reversals; a face without boundaries is written as a
+/// set.
+#[must_use]
+pub fn complex_text(complex: &Complex, heading: &Heading) -> String {
+    let shape = &complex.shape;
     let mut out = String::new();
     for (key, value) in [("name", &heading.name), ("title", &heading.title), ("source", &heading.source)] {
         if !value.is_empty() {
             let _ = writeln!(out, "{key} = {}", quoted(value));
         }
     }
-    let single = shape.states.len() == 1;
-    if shape.states[shape.start].kind != CellKind::Edge {
+    let single = shape.states.len() == 1 && complex.reversals.is_empty() && complex.faces.is_empty();
+    if single && shape.states[shape.start].kind != CellKind::Edge {
         out.push_str("kind = \"set\"\n");
     }
     out.push_str("convention = \"columns\"\n");
@@ -42,7 +52,10 @@ pub fn case_text(shape: &Shape, heading: &Heading) -> String {
         let _ = writeln!(out, "control = {}", matrix(&control.transpose(), ""));
     }
     if !single {
-        shape.states.iter().for_each(|state| table(&mut out, shape, state));
+        (0..shape.states.len()).for_each(|state| table(&mut out, complex, state));
+    }
+    for address in &heading.examine {
+        let _ = writeln!(out, "\n[[examine]]\naddress = {}", quoted(&address.to_string()));
     }
     if shape.frame == Frame::Affine {
         return format!("# Affine maps, written on the simplex 0, e_1, …, e_d.\n{out}");
@@ -63,24 +76,58 @@ fn pieces(out: &mut String, state: &State) {
     }
 }
 
-fn table(out: &mut String, shape: &Shape, state: &State) {
-    let kind = match state.kind {
-        CellKind::Edge => "edge",
-        CellKind::Vertex => "vertex",
-        CellKind::Set | CellKind::Face => "set",
+fn table(out: &mut String, complex: &Complex, index: usize) {
+    let states = &complex.shape.states;
+    let state = &states[index];
+    let face = complex.faces.get(&index);
+    let kind = match (state.kind, face) {
+        (CellKind::Edge, _) => "edge",
+        (CellKind::Vertex, _) => "vertex",
+        (CellKind::Face, Some(_)) => "face",
+        (CellKind::Set | CellKind::Face, _) => "set",
     };
-    let name = |index: usize| quoted(&shape.states[index].name);
+    let name = |index: usize| quoted(&states[index].name);
     let _ = writeln!(out, "\n[[state]]\nname = {}\nkind = \"{kind}\"\ndimension = {}", quoted(&state.name), state.dim);
     for (side, boundary) in [("left", &state.left), ("right", &state.right)] {
         if let Some(b) = boundary {
-            let _ = writeln!(out, "{side} = {{ vertex = {}, matrix = {} }}", name(b.vertex), matrix(&b.op, ""));
+            let _ = writeln!(out, "{side} = {{ vertex = {}, {} }}", name(b.vertex), part(&b.op));
         }
     }
-    for piece in &state.pieces {
+    if let Some(reversal) = complex.reversals.get(&index) {
+        let _ = writeln!(out, "reversal = {{ edge = {}, {} }}", name(reversal.edge), part(&reversal.op));
+    }
+    if let Some(face) = face {
+        let layout = match face.layout {
+            Layout::Quad { columns, rows } => format!("{columns}x{rows}"),
+            Layout::Triangle => "triangle".to_owned(),
+        };
+        let _ = writeln!(out, "layout = \"{layout}\"");
+        for (side, key) in face.sides.iter().zip(face.layout.side_keys()) {
+            let _ = writeln!(out, "{key} = {{ edge = {}, {} }}", name(side.edge), part(&side.op));
+        }
+    }
+    for (letter, piece) in state.pieces.iter().enumerate() {
         let _ = writeln!(out, "[[state.piece]]\nto = {}\nmatrix = {}", name(piece.target), matrix(&piece.op, "    "));
         if piece.reversed {
             out.push_str("reversed = true\n");
         }
+        if let Some(corners) = face.and_then(|f| f.placement.get(letter)) {
+            let corners: Vec<String> = corners.iter().map(ToString::to_string).collect();
+            let _ = writeln!(out, "corners = [{}]", corners.join(", "));
+        }
+    }
+}
+
+/// The operator of a boundary: the coordinates that it picks, where it is an inclusion.
+fn part(op: &Matrix) -> String {
+    let unit = |j: usize| {
+        let mut column = (0..op.rows()).filter(|&i| op[(i, j)] != 0);
+        let at = column.next().filter(|&i| op[(i, j)] == 1)?;
+        column.next().is_none().then(|| at.to_string())
+    };
+    match (0..op.cols()).map(unit).collect::<Option<Vec<String>>>() {
+        Some(points) => format!("points = [{}]", points.join(", ")),
+        None => format!("matrix = {}", matrix(op, "")),
     }
 }
 

@@ -104,6 +104,17 @@ pub enum IdentityKind {
     Reversal,
 }
 
+impl std::fmt::Display for IdentityKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Incidence => "incidence",
+            Self::Adjacency => "adjacency",
+            Self::Corner => "corner",
+            Self::Reversal => "reversal",
+        })
+    }
+}
+
 /// Two products of operators that must be equal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Identity {
@@ -120,7 +131,7 @@ pub struct Identity {
 /// An identity that does not hold.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error(
-    "{text} fails ({kind:?} of state `{state}`); entry ({row}, {column}) of the left product minus the right one is {residual}"
+    "{text} fails ({kind} of state `{state}`); entry ({row}, {column}) of the left product minus the right one is {residual}"
 )]
 pub struct Failure {
     /// Where it comes from.
@@ -212,6 +223,15 @@ impl Layout {
     #[must_use]
     pub fn corners(self) -> usize {
         self.sides().len()
+    }
+
+    /// The keys of the sides in a case file.
+    #[must_use]
+    pub fn side_keys(self) -> &'static [&'static str] {
+        match self {
+            Self::Quad { .. } => &["bottom", "right", "top", "left"],
+            Self::Triangle => &["side01", "side12", "side02"],
+        }
     }
 
     fn side_name(self, side: usize) -> &'static str {
@@ -439,7 +459,11 @@ impl Complex {
         Ok(())
     }
 
-    fn failure(&self, identity: &Identity) -> Result<Option<Failure>, ComplexError> {
+    /// Compares the two products of an identity.
+    ///
+    /// # Errors
+    /// [`ComplexError::Size`] where factors do not fit.
+    pub fn failure(&self, identity: &Identity) -> Result<Option<Failure>, ComplexError> {
         let (left, right) = (self.path_product(&identity.left)?, self.path_product(&identity.right)?);
         let text = self.identity_text(identity);
         if (left.rows(), left.cols()) != (right.rows(), right.cols()) {

@@ -104,7 +104,31 @@ struct Equation {
     right: Rational,
 }
 
+impl Complex {
+    /// Where an equation comes from, as two paths, or as the operator whose columns sum to 1.
+    #[must_use]
+    pub fn source_text(&self, source: &Source) -> String {
+        match source {
+            Source::Identity(identity) => self.identity_text(identity),
+            Source::Sums(op) => format!("the columns of {} sum to 1", self.operator_text(*op)),
+        }
+    }
+}
+
 impl Problem {
+    /// Number of unknowns; entries of one name count once.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.names.len()
+    }
+
+    /// The operators with unknown entries.
+    #[must_use]
+    pub fn operators(&self) -> Vec<OpName> {
+        let all: BTreeSet<OpName> = self.places.keys().map(|(op, _, _)| *op).collect();
+        all.into_iter().collect()
+    }
+
     /// The problem without unknowns; see [`Problem::unknown`].
     #[must_use]
     pub fn new(complex: Complex) -> Self {

@@ -1,0 +1,235 @@
+//! `[scheme]`: a case built from a name, a mask, a tensor product or a mesh rule.
+
+use super::node::{Node, Table, clipped, suggest};
+use super::{Model, Origin, Places, StatePlace};
+use crate::arith::Rational;
+use crate::diagnostic::Problem;
+use crate::scheme::{self, Laurent, Mask, Normalisation, SchemeError};
+use crate::shape::{Complex, Shape};
+use std::collections::BTreeMap;
+
+/// The keys that say what is built; each table has exactly one.
+const FORMS: [&str; 6] = ["name", "mask", "symbol", "filter", "tensor", "mesh"];
+
+/// A curve built from a scheme table.
+struct Built {
+    shape: Shape,
+    origin: Origin,
+}
+
+/// Reads the table `[scheme]`, which stands instead of `pieces`, `[[map]]` and `[[state]]`.
+pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> {
+    for key in ["pieces", "reversed", "map", "state", "start", "kind", "convention"] {
+        if let Some(span) = case.key_span(key) {
+            let message = format!("`{key}` and `[scheme]` exclude each other");
+            return Err(case
+                .file
+                .problem("two-forms", message, span, "cannot be combined with [scheme]")
+                .with_help("the scheme gives the operators; `secant expand` writes them out, to be changed"));
+        }
+    }
+    let mut table = node.table()?;
+    table.what = "`[scheme]`".to_owned();
+    let (complex, origin) = match form(&table)? {
+        "tensor" => (tensor(&table)?, Origin::Tensor),
+        "mesh" => mesh(&table)?,
+        form => {
+            let built = curve(&table, form, table.flag("vertices")?)?;
+            (Complex::of_curves(built.shape), built.origin)
+        }
+    };
+    let span = case.key_span("scheme").unwrap_or_else(|| node.span());
+    let place = |state: &crate::shape::State| StatePlace {
+        name: span.clone(),
+        pieces: vec![span.clone(); state.pieces.len()],
+        ..StatePlace::default()
+    };
+    let places = Places { states: complex.shape.states.iter().map(place).collect(), control: None };
+    Ok(Model { complex, places, unknown: Vec::new(), scheme: Some(origin) })
+}
+
+fn form(table: &Table<'_>) -> Result<&'static str, Problem> {
+    let given: Vec<&'static str> = FORMS.into_iter().filter(|k| table.get(k).is_some()).collect();
+    match given.as_slice() {
+        [only] => Ok(only),
+        [] => Err(table
+            .problem("missing-key", format!("{} does not say what is built", table.what), "no scheme")
+            .with_help("give one of  name = \"bspline\",  mask = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"],  symbol = \"(1+z)^3/4\",  \
+                        filter = [ … ],  tensor = [ … ],  mesh = \"catmull-clark\"")),
+        [first, second, ..] => {
+            let span = table.key_span(second).unwrap_or_default();
+            let message = format!("`{first}` and `{second}` of {} exclude each other", table.what);
+            Err(table
+                .file
+                .problem("two-forms", message, span, "given besides")
+                .with_help(format!("a scheme is given by one of {}", FORMS.join(", "))))
+        }
+    }
+}
+
+/// The parameters of a named scheme: every other key.
+fn parameters(table: &Table<'_>, but: &[&str]) -> Result<BTreeMap<String, Rational>, Problem> {
+    let keys = table.keys().into_iter().filter(|k| !but.contains(&k.as_str()));
+    keys.filter_map(|key| table.get(&key).map(|node| Ok((key, node.number()?)))).collect()
+}
+
+fn curve(table: &Table<'_>, form: &str, vertices: bool) -> Result<Built, Problem> {
+    if form == "name" {
+        let node = table.need("name", "\"bspline\"")?;
+        let name = node.text()?;
+        let values = parameters(table, &["name", "vertices"])?;
+        let build = if vertices { scheme::build_with_vertices } else { scheme::build };
+        let known = || scheme::list().iter().map(|s| s.name).collect::<Vec<_>>();
+        let shape = build(name, &values).map_err(|e| refused(table, &node, &e, &known()))?;
+        let mask = scheme::mask(name, &values).ok().flatten();
+        let origin = mask.map_or_else(|| Origin::Named(name.to_owned()), Origin::Mask);
+        return Ok(Built { shape, origin });
+    }
+    let node = table.need(form, "[ … ]")?;
+    let mask = mask(table, form, &node)?;
+    let shape = if vertices { mask.curve_with_vertices() } else { mask.curve() };
+    Ok(Built { shape: shape.map_err(|e| refused(table, &node, &e, &[]))?, origin: Origin::Mask(mask) })
+}
+
+fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<Mask, Problem> {
+    let known: &[&'static str] = if form == "filter" {
+        &["filter", "arity", "normalisation", "vertices"]
+    } else {
+        &["mask", "symbol", "arity", "vertices"]
+    };
+    table.only(known)?;
+    let arity_node = table.get("arity");
+    let arity = arity_node.as_ref().map_or(Ok(2), |n| n.index(scheme::MAX_ARITY))?;
+    let problem = |error: SchemeError| {
+        let place = arity_node.as_ref().filter(|_| matches!(error, SchemeError::Arity(_)));
+        refused(table, place.unwrap_or(node), &error, &[])
+    };
+    if form == "symbol" {
+        let text = node.text()?;
+        let symbol = Laurent::parse(text).map_err(|e| refused(table, node, &e, &[]))?;
+        return Mask::new(arity, symbol.coefficients().to_vec()).map_err(problem);
+    }
+    let entries = node.array(|k| format!("coefficient {k} of `{form}`"))?;
+    if form == "mask" {
+        return Mask::new(arity, entries.iter().map(Node::number).collect::<Result<_, _>>()?).map_err(problem);
+    }
+    let scale = table.need("normalisation", "\"root\"").map_err(|p| {
+        p.with_help(
+            "say how the filter is scaled: normalisation = \"arity\" (its sum is the arity), \"one\" (its sum is 1), or \
+             \"root\" (its sum is the root of the arity; entries are given as multiples of that root, 1/8 for √2/8)",
+        )
+    })?;
+    let scale = match table.word("normalisation", &["arity", "one", "root"])? {
+        Some("arity") => Normalisation::Arity,
+        Some("one") => Normalisation::One,
+        Some("root") => Normalisation::Root,
+        _ => return Err(scale.problem("value", "this normalisation is not known", "unknown")),
+    };
+    let filter = entries.iter().map(Node::number).collect::<Result<Vec<_>, _>>()?;
+    Mask::from_filter(arity, &filter, scale).map_err(problem)
+}
+
+fn tensor(table: &Table<'_>) -> Result<Complex, Problem> {
+    table.only(&["tensor"])?;
+    let node = table.need("tensor", "[{ name = \"bspline\" }, { name = \"bspline\" }]")?;
+    let factors = node.array(|k| format!("factor {k} of `tensor`"))?;
+    let [a, b] = factors.as_slice() else {
+        return Err(node
+            .problem("value", format!("{} factors are given", factors.len()), "two are needed")
+            .with_help("a tensor product has two curves, as in [{ name = \"bspline\" }, { name = \"bspline\" }]"));
+    };
+    let factor = |node: &Node<'_>, rename: &str| -> Result<Shape, Problem> {
+        let table = node.table()?;
+        let form = form(&table)?;
+        if matches!(form, "tensor" | "mesh") {
+            return Err(node
+                .problem("value", format!("{} is no curve", node.what), "a surface")
+                .with_help("the factors of a tensor product are curves"));
+        }
+        let mut shape = curve(&table, form, true)?.shape;
+        for state in &mut shape.states {
+            state.name = if state.name == "v" { "v".to_owned() } else { rename.to_owned() };
+        }
+        Ok(shape)
+    };
+    let (a, b) = (factor(a, "u")?, factor(b, "w")?);
+    scheme::tensor(&a, &b).map_err(|e| refused(table, &node, &e, &[]))
+}
+
+fn mesh(table: &Table<'_>) -> Result<(Complex, Origin), Problem> {
+    let node = table.need("mesh", "\"catmull-clark\"")?;
+    let name = node.text()?;
+    let valence_node = table.need("valence", "5")?;
+    let valence = valence_node.index(scheme::MAX_VALENCE)?;
+    let disc = table.word("cell", &["face", "disc"])? == Some("disc");
+    let values = parameters(table, &["mesh", "valence", "cell"])?;
+    let known = || scheme::mesh_rules().iter().map(|r| r.name).collect::<Vec<_>>();
+    let rule = scheme::mesh_rule(name, &values).map_err(|e| refused(table, &node, &e, &known()))?;
+    let problem = |error: SchemeError| {
+        let place = if matches!(error, SchemeError::Value { .. }) { &valence_node } else { &node };
+        refused(table, place, &error, &[])
+    };
+    let complex = if disc {
+        scheme::disc_complex(&rule, valence).map_err(problem)?
+    } else {
+        scheme::patch(&rule, valence).map_err(problem)?
+    };
+    Ok((complex, Origin::Mesh { rule, valence, disc }))
+}
+
+/// What the library refuses, shown at the value of the table that it concerns.
+fn refused(table: &Table<'_>, node: &Node<'_>, error: &SchemeError, known: &[&str]) -> Problem {
+    let at = |key: &str, code: &str, help: &str| {
+        let span = table.key_span(key).unwrap_or_else(|| node.span());
+        table.file.problem(code, error.to_string(), span, "here").with_help(help)
+    };
+    match error {
+        SchemeError::Unknown { name, .. } => {
+            let message = format!("there is no scheme `{}`", clipped(name));
+            let help = format!("{}; `secant schemes` describes them", suggest(name, known, "the schemes are"));
+            node.problem("scheme", message, "not a known name").with_help(help)
+        }
+        SchemeError::Parameter { parameter, .. } => {
+            at(parameter, "scheme-parameter", "`secant schemes` lists every scheme with its parameters")
+        }
+        SchemeError::Missing { parameter, .. } => node
+            .problem("scheme-parameter", error.to_string(), "a parameter is missing")
+            .with_help(format!("add a line such as  {parameter} = \"1/4\"  to {}", table.what)),
+        SchemeError::Value { parameter, .. } => {
+            at(parameter, "scheme-parameter", "`secant schemes` lists every scheme with its parameters")
+        }
+        SchemeError::SumRule { arity, .. } => {
+            node.problem("sum-rule", error.to_string(), "these coefficients").with_help(sum_rule_help(*arity))
+        }
+        SchemeError::Symbol { position, .. } => {
+            // Behind the opening quotation mark; exact unless the string has escapes.
+            let span = node.span();
+            let start = (span.start + 1 + position).min(span.end);
+            table
+                .file
+                .problem("symbol", error.to_string(), start..(start + 1).min(span.end), "here")
+                .with_help("a symbol is written as \"(1+z)^4/8\" or \"-1/16 + 9/16 z^2 + z^3 + 9/16 z^4 - 1/16 z^6\"")
+        }
+        SchemeError::Irrational(_) => node
+            .problem("irrational", error.to_string(), "irrational weights")
+            .with_help("take a variant with a rational parameter, such as loop-warren or loop-variant"),
+        SchemeError::Large { .. } => node
+            .problem("limit", error.to_string(), "too large")
+            .with_help("what is over a limit is refused, never built in part"),
+        _ => node
+            .problem("scheme", error.to_string(), "this scheme")
+            .with_help("docs/schemes.md says how operators are built from a scheme, and what is checked"),
+    }
+}
+
+fn sum_rule_help(arity: usize) -> String {
+    let which = if arity == 2 {
+        "the even and the odd coefficients"
+    } else {
+        "the coefficients of each class modulo the arity"
+    };
+    format!(
+        "{which} must each add up to 1 (the scheme must reproduce constants); another `arity`, or a filter with its \
+         `normalisation`, may be meant"
+    )
+}
