@@ -238,7 +238,7 @@ fn moduli(discs: &[Disc], node: &Node<'_>) -> Result<String, Rejected> {
 /// its discs only `b` meets the reflected disc.
 fn opposite(discs: &[Disc], a: usize, b: usize) -> bool {
     let (p, q) = (&discs[a].factor, &discs[b].factor);
-    let sign = |k: usize| if (p.len() - 1 - k) % 2 == 0 { Q::one() } else { -Q::one() };
+    let sign = |k: usize| if (p.len() - 1 - k).is_multiple_of(2) { Q::one() } else { -Q::one() };
     let reflected = p.len() == q.len() && (0..p.len()).all(|k| q[k] == &p[k] * sign(k));
     let (x, y) = &discs[a].centre;
     let mirror = Disc { factor: Rc::clone(q), centre: (-x, y.clone()), error: discs[a].error.clone() };
