@@ -271,3 +271,11 @@ fn every_case_of_a_scheme_expands_to_a_case() {
         round_trip(&case);
     }
 }
+
+#[test]
+fn states_that_nothing_leads_to_are_found() {
+    let dangling = "[[state]]\nname = \"lost\"\n[[state.piece]]\nto = \"E\"\nmatrix = [[1, 0], [0, 1]]\n";
+    assert!(read(BILINEAR).dangling().is_empty());
+    let case = read(&format!("{BILINEAR}\n{dangling}"));
+    assert_eq!(case.dangling(), [3]);
+}

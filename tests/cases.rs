@@ -6,7 +6,8 @@ use corpus::case_files;
 use secant::arith::Rational;
 use secant::case::{Case, ExpectPoint, expected_error};
 use secant::shape::Contraction;
-use secant::theorem::{Certified, Direction, PointReport, certify};
+use secant::theorem::surface::{Subspace, SurfacePoint, certify_complex};
+use secant::theorem::{Certified, Direction, PointReport, Verdict};
 use std::path::Path;
 
 #[test]
@@ -23,7 +24,7 @@ fn mistakes(path: &Path) -> Vec<String> {
     let label = path.strip_prefix(env!("CARGO_MANIFEST_DIR")).unwrap().display().to_string();
     let code = match Case::read(path) {
         Err(problem) => miette::Diagnostic::code(&problem).map(|c| c.to_string()),
-        Ok(case) => match certify(&case.shape, &case.examine) {
+        Ok(case) => match certify_complex(&case.complex(), &case.examine) {
             Err(error) => Some(error.code().to_owned()),
             Ok(found) => {
                 return match &case.expect {
@@ -54,6 +55,17 @@ fn compare(case: &Case, found: &Certified) -> Vec<String> {
     if expect.contraction.as_deref().is_some_and(|c| c != contraction) {
         wrong.push(format!("contraction {contraction}"));
     }
+    if let Some(surface) = &found.surface {
+        for point in &expect.points {
+            let address = point.address.normalise(&case.shape, case.shape.start).unwrap();
+            let here = surface.points.iter().find(|p| p.branches.iter().any(|b| b.address == address));
+            match here {
+                None => wrong.push(format!("point {address} was not examined")),
+                Some(p) => wrong.extend(compare_surface(point, p).into_iter().map(|m| format!("point {address}: {m}"))),
+            }
+        }
+        return wrong;
+    }
     for point in &expect.points {
         let address = point.address.normalise(&case.shape, case.shape.start).unwrap();
         let here = found.points.iter().find(|p| {
@@ -63,6 +75,33 @@ fn compare(case: &Case, found: &Certified) -> Vec<String> {
             None => wrong.push(format!("point {address} was not examined")),
             Some(p) => wrong.extend(compare_point(point, p).into_iter().map(|m| format!("point {address}: {m}"))),
         }
+    }
+    wrong
+}
+
+fn compare_surface(expect: &ExpectPoint, found: &SurfacePoint) -> Vec<String> {
+    let mut wrong = Vec::new();
+    let mut check = |what: &str, wanted: Option<String>, got: String| {
+        if wanted.as_ref().is_some_and(|w| *w != got) {
+            wrong.push(format!("{what} is {got}, expected {} ({:?})", wanted.unwrap_or_default(), found.reason));
+        }
+    };
+    let kind = if found.verdict == Verdict::Proved { "tangent-plane" } else { "none" };
+    check("kind", expect.kind.clone(), kind.to_owned());
+    check("verdict", expect.verdict.clone(), found.verdict.word().to_owned());
+    check("dimension", expect.dimension.map(|d| d.to_string()), found.dimension.at_least.to_string());
+    if let Some(wanted) = &expect.plane {
+        let line = |v: &Vec<Rational>| Direction {
+            root: secant::algebraic::Root::from_rational(&Rational::from(0)),
+            coords: v.iter().map(secant::algebraic::Elem::from_rational).collect(),
+        };
+        let wanted = Subspace { generators: wanted.iter().map(line).collect() };
+        let ok = found.tangent.as_ref().is_some_and(|t| t.same(&wanted) == Some(true));
+        check(
+            "plane",
+            Some("as expected".into()),
+            if ok { "as expected".into() } else { format!("{:?}", found.tangent) },
+        );
     }
     wrong
 }

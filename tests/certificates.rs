@@ -5,10 +5,10 @@ mod corpus;
 use corpus::case_files;
 use secant::case::Case;
 use secant::certificate::certificate;
-use secant::theorem::certify;
+use secant::theorem::surface::certify_complex;
 use std::path::{Path, PathBuf};
 
-/// Cases whose verdicts the format cannot express (docs/certificate.md, section 9).
+/// Cases whose verdicts the format cannot express (docs/certificate.md, section 10).
 const UNSUPPORTED: [&str; 2] = ["same-line-two-polynomials", "complex-block"];
 
 fn corpus() -> Vec<PathBuf> {
@@ -27,10 +27,12 @@ fn every_case_has_a_certificate_that_passes() {
         let name = format!("{family}--{}", path.file_stem().unwrap().to_string_lossy());
         let case = Case::read(&path).unwrap();
         let begin = std::time::Instant::now();
-        let Ok(found) = certify(&case.shape, &case.examine) else { continue };
+        let Ok(found) = certify_complex(&case.complex(), &case.examine) else { continue };
         let proved = begin.elapsed();
         let text = match certificate(&case, &found) {
             Ok(certificate) => certificate.text(),
+            // The format has no rules for surfaces yet, and the writer must say so.
+            Err(_) if found.surface.is_some() => continue,
             Err(_) if UNSUPPORTED.iter().any(|u| name.ends_with(u)) => continue,
             Err(error) => {
                 mistakes.push(format!("{name}: {error}"));

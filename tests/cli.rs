@@ -50,6 +50,16 @@ fn the_summary_says_what_was_found() {
 }
 
 #[test]
+fn the_readme_prints_what_the_program_does() {
+    let readme = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).unwrap();
+    let shown = readme.split("## What it says").nth(1).and_then(|t| t.split("```").nth(1)).expect("an excerpt");
+    let (out, _) = output(&["certify", HALF], 0);
+    for line in shown.lines().filter(|l| !l.trim().is_empty() && *l != "...") {
+        assert!(out.lines().any(|l| l == line), "{line:?} is not in\n{out}");
+    }
+}
+
+#[test]
 fn standard_input_is_a_case() {
     let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(HALF)).unwrap();
     let out = secant(&["certify", "-"]).write_stdin(text).output().unwrap();
@@ -228,6 +238,10 @@ fn reports_of_one_case_of_each_kind_are_as_approved() {
         ("cases/classical/takagi.toml", 0),
         ("cases/classical/levy.toml", 1),
         ("cases/two-parameter/corner-34-100.toml", 1),
+        ("cases/counterexamples/null-witness.toml", 1),
+        ("cases/counterexamples/own-end-point.toml", 3),
+        ("cases/control/bezier-cusp.toml", 0),
+        ("cases/irrational/cusp-sqrt-2.toml", 0),
     ] {
         let file = dir.path().join("r.md").display().to_string();
         output(&["certify", "-q", case, "--report", &file], code);
@@ -240,6 +254,58 @@ fn reports_of_one_case_of_each_kind_are_as_approved() {
             .collect();
         approved(&format!("{name}.md"), &text);
     }
+}
+
+#[test]
+fn results_are_kept_and_found_again() {
+    let dir = tempfile::tempdir().unwrap();
+    let (store, other) = (dir.path().join("kept").display().to_string(), dir.path().join("other.toml"));
+    std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/bspline/degree-2.toml"), &other).unwrap();
+    let other_name = other.display().to_string();
+    let args = ["certify", "--resume", &store, HALF, &other_name];
+    assert!(!output(&args, 0).0.contains("kept"));
+    let (again, _) = output(&args, 0);
+    assert!(again.contains("2 cases: 2 proved") && again.contains("2 kept"), "{again}");
+    let lines = |args: &[&str]| output(args, 0).0;
+    let fresh = lines(&["certify", "--jsonl", HALF, &other_name]);
+    assert_eq!(lines(&["certify", "--jsonl", "--resume", &store, HALF, &other_name]), fresh);
+    // A changed case and a certificate that is not the one written are certified again; so are other options.
+    let text = std::fs::read_to_string(&other).unwrap();
+    std::fs::write(&other, format!("{text}\n# changed\n")).unwrap();
+    assert!(output(&args, 0).0.contains("1 kept"));
+    let written = std::fs::read_dir(&store).unwrap().map(|e| e.unwrap().path());
+    let certificates: Vec<PathBuf> = written.filter(|p| p.to_string_lossy().ends_with(".certificate.json")).collect();
+    assert_eq!(certificates.len(), 2);
+    std::fs::write(&certificates[0], "{}").unwrap();
+    assert!(output(&args, 0).0.contains("1 kept"));
+    assert!(!output(&["certify", "--resume", &store, HALF, "--address", "0(01)"], 0).0.contains("kept"));
+    output(&["certify", "--resume", &store, "--json", HALF], 2);
+}
+
+#[test]
+fn colours_are_for_terminals_and_not_under_no_color() {
+    // `script` of util-linux gives the program a terminal.
+    let run = |no_color: bool| {
+        let program = assert_cmd::cargo::cargo_bin("secant").display().to_string();
+        let mut command = std::process::Command::new("script");
+        command.args(["-qec", &format!("{program} certify {HALF}"), "/dev/null"]);
+        command.current_dir(env!("CARGO_MANIFEST_DIR")).env("TERM", "xterm").env_remove("NO_COLOR");
+        if no_color {
+            command.env("NO_COLOR", "1");
+        }
+        command
+            .stdin(std::process::Stdio::null())
+            .output()
+            .ok()
+            .map(|o| String::from_utf8_lossy(&o.stdout).into_owned())
+    };
+    let Some(coloured) = run(false) else {
+        eprintln!("not run: there is no `script`");
+        return;
+    };
+    assert!(coloured.contains("\u{1b}["), "{coloured}");
+    let plain = run(true).unwrap();
+    assert!(plain.contains("proved") && !plain.contains("\u{1b}["), "{plain}");
 }
 
 #[test]
@@ -296,7 +362,7 @@ fn latex_is_complete() {
     output(&["certify", "-q", HALF, "--report", &file], 0);
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(text.contains("\\begin{tikzpicture}") && text.trim_end().ends_with("\\end{document}"));
-    for name in ["document", "itemize", "longtable", "quoted", "pmatrix", "center", "tikzpicture"] {
+    for name in ["document", "itemize", "tabular", "quoted", "pmatrix", "center", "tikzpicture"] {
         let count = |what: &str| text.matches(&format!("\\{what}{{{name}}}")).count();
         assert_eq!(count("begin"), count("end"), "{name}");
     }

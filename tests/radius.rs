@@ -1,11 +1,13 @@
 //! Joint spectral radii, regularity and cones against known values.
 
 use secant::arith::{Rational, parse_rational, to_f64};
+use secant::certificate::radius_certificate;
 use secant::linalg::Matrix;
 use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
 use secant::shape::{CellKind, Shape, Spaces};
-use secant::theorem::cone::{ConeAnswer, common_cone};
+use secant::theorem::cone::{CommonCone, Cone, ConeAnswer, ConeMap, common_cone};
 use secant::theorem::regularity::{digits, regularity};
+use secant::theorem::{Verdict, certify};
 
 fn rational(text: &str) -> Rational {
     parse_rational(text).expect(text)
@@ -200,8 +202,69 @@ fn cones_of_the_two_parameter_family() {
         spoiled.cones[0].functional.iter_mut().for_each(|x| *x = -&*x);
         assert!(!spoiled.holds(&shape, &Spaces::new(&shape).unwrap()));
     }
-    for (a, b) in [("1/3", "1/3"), ("3/5", "3/5"), ("-3/5", "41/50"), ("-1/4", "1/2")] {
+    for (a, b) in [("3/5", "3/5"), ("-3/5", "41/50"), ("-1/4", "1/2")] {
         assert!(matches!(cone(&family(a, b)), Some(ConeAnswer::Refuted(_))), "{a} {b}");
+    }
+}
+
+/// `a, b > 0`: smooth iff `2a + b <= 1` and `a + 2b <= 1`, or `a + b = 1`; everywhere, and corners otherwise.
+#[test]
+fn the_two_parameter_family_is_smooth_exactly_in_its_region() {
+    let grid = 20;
+    for (p, q) in (1..grid).flat_map(|p| (1..grid).map(move |q| (p, q))).filter(|(p, q)| p + q <= grid) {
+        let smooth = (2 * p + q <= grid && p + 2 * q <= grid) || p + q == grid;
+        let shape = family(&format!("{p}/{grid}"), &format!("{q}/{grid}"));
+        let found = certify(&shape, &[]).unwrap();
+        let every = found.everywhere.expect("a curve");
+        let expected = if smooth { Verdict::Proved } else { Verdict::Refuted };
+        assert_eq!(every.verdict, expected, "a = {p}/{grid}, b = {q}/{grid}: {:?}", every.reason);
+        assert!(every.cone.is_some(), "a = {p}/{grid}, b = {q}/{grid}: half-tangents at every point");
+        let strict = 2 * p + q != grid && p + 2 * q != grid || p + q == grid;
+        assert_eq!(every.cone.is_some_and(|c| c.slow.is_empty()), strict, "a = {p}/{grid}, b = {q}/{grid}");
+    }
+}
+
+/// The Koch curve has three of the four parts: rays `±e_1, ±e_2`, positive coefficients, and its chord; no functional is
+/// positive on them.
+#[test]
+fn three_of_four_parts_do_not_prove_the_koch_curve_smooth() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/classical/koch-2.toml");
+    let shape = secant::case::Case::read(&path).unwrap().shape;
+    let spaces = Spaces::new(&shape).unwrap();
+    assert!(!matches!(cone(&shape), Some(ConeAnswer::Proved(_))));
+    let basis = spaces.of(0).basis.clone();
+    let n = basis.cols();
+    let local = Matrix::from_fn(n, 2 * n, |i, j| {
+        Rational::from(if j % n != i {
+            0
+        } else if j < n {
+            1
+        } else {
+            -1
+        })
+    });
+    let rays = &basis * &local;
+    let positive = |x: &[Rational]| -> Vec<Rational> {
+        // x = Σ (s + max(±x_k, 0)) (±e_k) with the same share s for a ray and its opposite.
+        let part = |k: usize| if k < n { x[k].clone() } else { -&x[k - n] };
+        (0..2 * n).map(|k| Rational::from(1) + part(k).max(Rational::from(0))).collect()
+    };
+    let start = shape.end_point(0, secant::shape::End::Start).unwrap();
+    let finish = shape.end_point(0, secant::shape::End::Finish).unwrap();
+    let chord = spaces.of(0).coordinates.apply(&secant::shape::difference(&finish, &start));
+    let maps = shape.states[0].pieces.iter().enumerate().map(|(letter, piece)| {
+        let sign = if piece.reversed { -1 } else { 1 };
+        let images = &spaces.linear(&piece.op, 0, 0).scale(&Rational::from(sign)) * &local;
+        let columns: Vec<Vec<Rational>> = (0..2 * n).map(|j| positive(&images.column(j))).collect();
+        ConeMap { state: 0, letter, sign, matrix: Matrix::from_columns(2 * n, &columns) }
+    });
+    let maps: Vec<ConeMap> = maps.collect();
+    for f in [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, -2, 3], [-1, 0, 0]] {
+        let functional = f.iter().take(rays.rows()).map(|x| Rational::from(*x)).collect();
+        let own = Cone { state: 0, rays: rays.clone(), functional, chord: positive(&chord) };
+        let forged =
+            CommonCone { cones: vec![own], maps: maps.clone(), view: None, window: 1, slow: Vec::new(), rate: None };
+        assert!(!forged.holds(&shape, &spaces), "{f:?}");
     }
 }
 
@@ -218,5 +281,120 @@ fn exponents_of_scaling_functions() {
         let w = secant::theorem::wavelet::wavelet(moments, &Options::default()).unwrap();
         let (lo, hi) = (to_f64(&w.exponent.lo), to_f64(&w.exponent.hi));
         assert!(lo <= exponent + 1e-12 && hi >= exponent - 1e-12 && hi - lo < 1e-9, "{moments}: [{lo}, {hi}]");
+    }
+}
+
+/// Sets whose best word has a complex eigenvalue whose argument is no multiple of a root of unity.
+const TURNING: &[(&str, &str)] = &[
+    ("companion", "[[[0,0,1],[1,0,-1],[0,1,1]],[[\"1/3\",0,\"1/5\"],[0,\"1/4\",0],[\"1/7\",0,\"1/3\"]]]"),
+    ("turn and shrink", "[[[\"3/5\",\"-4/5\"],[\"4/5\",\"3/5\"]],[[\"1/2\",\"1/3\"],[0,\"1/4\"]]]"),
+    ("sheared turns", "[[[\"1/5\",\"-8/5\"],[\"4/5\",1]],[[\"1/3\",0],[\"1/2\",\"1/5\"]]]"),
+];
+
+#[test]
+fn complex_leading_eigenvalues_are_bounded() {
+    for (name, matrices) in TURNING {
+        let r = radius(matrices);
+        let lower = to_f64(&r.lower.as_ref().expect(name).enclosure(64).lo);
+        let upper = to_f64(r.upper.as_ref().expect(name));
+        assert!(lower <= upper && upper < lower * (1.0 + 1e-9), "{name}: [{lower}, {upper}]");
+        assert!(r.exact, "{name}");
+        for block in &r.blocks {
+            if let Some(Proof::Balanced(p)) = &block.proof {
+                assert_eq!(p.bound(&block.block.system), block.bound, "{name}");
+                let mut short = p.clone();
+                short.inclusions.pop();
+                assert_eq!(short.bound(&block.block.system), None, "{name}");
+            }
+        }
+    }
+}
+
+/// Changes one text of a certificate.
+fn change(certificate: &str, path: &[&str], value: serde_json::Value) -> String {
+    let mut json: serde_json::Value = serde_json::from_str(certificate).unwrap();
+    let place = path.iter().fold(&mut json, |node, key| match key.parse::<usize>() {
+        Ok(k) => &mut node[k],
+        Err(_) => &mut node[*key],
+    });
+    *place = value;
+    json.to_string()
+}
+
+#[test]
+fn certificates_of_radii_are_accepted_and_forgeries_are_not() {
+    let reducible =
+        ("reducible", "[[[1,1,2],[0,\"1/2\",1],[0,0,1]],[[\"1/2\",0,1],[\"1/3\",\"1/5\",0],[0,0,\"1/4\"]]]");
+    let sets = SETS.iter().map(|s| (s.0, s.1)).chain(TURNING.iter().copied()).chain([reducible]);
+    for (name, matrices) in sets {
+        let text = format!("name = \"{name}\"\nmatrices = {matrices}\n");
+        let file = file::parse(&text).unwrap();
+        let found = joint_radius(&file.system, &Options::default()).unwrap();
+        let certificate = radius_certificate(&file, &found).expect(name).text();
+        let accepted = secant_check::check(&text, &certificate).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(accepted.case, name);
+        let low = change(&certificate, &["proof", "upper"], "1/100".into());
+        assert!(secant_check::check(&text, &low).is_err(), "{name}: a lower bound from above");
+        let high = change(&certificate, &["proof", "lower", "bound"], "99".into());
+        assert!(secant_check::check(&text, &high).is_err(), "{name}: a higher bound from below");
+        let bound = change(&certificate, &["proof", "blocks", "0", "bound"], "1/100".into());
+        assert!(secant_check::check(&text, &bound).is_err(), "{name}: a smaller bound of a block");
+        let basis = change(&certificate, &["proof", "bases", "0", "0"], serde_json::json!(["0"]));
+        assert!(secant_check::check(&text, &basis).is_err(), "{name}: no basis");
+        let other = text.replacen('1', "2", 1);
+        assert!(secant_check::check(&other, &certificate).is_err(), "{name}: other matrices");
+    }
+}
+
+#[test]
+fn curves_say_what_holds_at_every_point() {
+    let every = |case: &str| {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(case);
+        let case = secant::case::Case::read(&path).unwrap();
+        certify(&case.shape, &case.examine).unwrap().everywhere.expect("a curve")
+    };
+    for case in ["two-parameter/boundary.toml", "reversed/generic-regular.toml", "automata/three-states.toml"] {
+        assert_eq!(every(case).verdict, Verdict::Proved, "{case}");
+    }
+    for case in ["two-parameter/corner-2-5.toml", "reversed/generic-corner.toml"] {
+        let found = every(case);
+        assert!(found.verdict == Verdict::Refuted && found.cone.is_some(), "{case}");
+    }
+    for case in ["classical/koch-2.toml", "classical/takagi.toml", "classical/levy.toml"] {
+        let found = every(case);
+        assert!(found.verdict == Verdict::Refuted && found.cone.is_none(), "{case}");
+    }
+}
+
+#[test]
+fn forged_cones_are_rejected() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/two-parameter/boundary.toml");
+    let case = secant::case::Case::read(&path).unwrap();
+    let found = certify(&case.shape, &case.examine).unwrap();
+    let text = secant::certificate::certificate(&case, &found).unwrap().text();
+    let source = &case.text.text;
+    let accepted = secant_check::check(source, &text).unwrap();
+    assert!(accepted.claims.iter().any(|c| c.starts_with("proved: the curve is G¹")), "{:?}", accepted.claims);
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let answers = json["proof"]["answers"].as_array().unwrap();
+    let at = answers.iter().position(|a| a["question"] == "every point").unwrap().to_string();
+    let own = &answers[at.parse::<usize>().unwrap()];
+    assert!(own["window"] == 2 && own["slow"].as_array().is_some_and(|s| !s.is_empty()), "the border needs Theorem 6′");
+    let zeros = serde_json::json!(["0", "0", "0"]);
+    let forgeries: [(&[&str], serde_json::Value); 9] = [
+        (&["cones", "0", "functional"], zeros.clone()),
+        (&["cones", "0", "chord"], serde_json::json!(["0", "0"])),
+        (&["cones", "0", "rays", "0"], zeros),
+        (&["maps", "0", "0", "0", "0"], "7".into()),
+        (&["window"], 1.into()),
+        (&["slow"], serde_json::json!([])),
+        (&["joints"], serde_json::json!([])),
+        (&["view"], serde_json::Value::Null),
+        (&["verdict"], "refuted".into()),
+    ];
+    for (place, value) in forgeries {
+        let whole = [&["proof", "answers", at.as_str()], place].concat();
+        let forged = change(&text, &whole, value);
+        assert!(secant_check::check(source, &forged).is_err(), "{place:?}");
     }
 }

@@ -403,3 +403,21 @@ fn curve(complex: &secant::shape::Complex, side: &secant::shape::Side, word: &[u
     let address = address.normalise(&complex.shape, side.edge).unwrap();
     side.op.apply(&complex.shape.point(side.edge, &address).unwrap())
 }
+
+#[test]
+fn the_butterfly_scheme_fails_at_high_valences() {
+    // Subdominant eigenvalue of frequency 2 (n = 9, 10) and 3 (n = 14), so the characteristic map winds more than once
+    // (D. Zorin, Ph.D. thesis, Caltech 1998). A change of sign within 10^-9 of the value, and none from there to 1.
+    let rule = MeshRule::Butterfly { w: ratio(1, 16), modified: false };
+    for (n, value) in [(9, 497_294_073), (10, 506_675_611), (14, 501_978_319)] {
+        let m = local(&rule, n, 2).matrix;
+        let factors = secant::poly::factor(&char_poly(&m));
+        let billion = |k: i64| ratio(k, 1_000_000_000);
+        let (low, high) = (billion(value - 1), billion(value + 1));
+        let signs = |p: &secant::poly::Poly, a: &Rational, b: &Rational| (p.eval(a) > 0) != (p.eval(b) > 0);
+        let found: Vec<usize> = factors.iter().filter(|(p, _)| signs(p, &low, &high)).map(|(_, k)| *k).collect();
+        assert_eq!(found.len(), 1, "n = {n}");
+        assert!(found[0].is_multiple_of(2), "n = {n}: {found:?}");
+        assert!(factors.iter().all(|(p, _)| p.degree() == Some(1) || !signs(p, &high, &ratio(1, 1))), "n = {n}");
+    }
+}

@@ -346,3 +346,48 @@ pub fn read(source: &str) -> Result<Case, Problem> {
     }
     Ok(Case { name: text(need(case, "name")?, "name")?.to_owned(), shape, examine })
 }
+/// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
+pub fn matrix_list(text: &str) -> Result<crate::radius::System, Problem> {
+    let parsed = DeTable::parse(text).map_err(|e| e.message().to_owned())?;
+    let file = parsed.get_ref();
+    known(file, &["name", "matrices", "states", "arrows"])?;
+    let reader = Reader { bits: Cell::new(0) };
+    let mut matrices: Vec<Matrix> = Vec::new();
+    for item in array(need(file, "matrices")?, "matrices")? {
+        if let DeValue::Array(rows) = item {
+            let entries = rows.iter().filter_map(|r| r.get_ref().as_array()).flatten();
+            if entries.into_iter().any(|x| matches!(x.get_ref(), DeValue::Float(_))) {
+                return Err("numbers of matrices are integers or texts".to_owned());
+            }
+        }
+        matrices.push(reader.matrix(item, "matrices")?);
+    }
+    let name = get(file, "name").map(text_of).transpose()?.unwrap_or_default();
+    let (dims, arrows) = match (get(file, "states"), get(file, "arrows")) {
+        (None, None) => {
+            let dim = matrices.first().map(|m| m.rows).ok_or("no matrix")?;
+            (vec![dim], (0..matrices.len()).map(|k| (0, 0, matrices[k].clone())).collect::<Vec<_>>())
+        }
+        (states, arrows) => {
+            let states = array(states.ok_or("`states` is missing")?, "states")?;
+            let dims = states.iter().map(|v| index(v, MAX_COORDINATES + 1, "states")).collect::<Result<Vec<_>, _>>()?;
+            let mut list = Vec::new();
+            for arrow in array(arrows.ok_or("`arrows` is missing")?, "arrows")? {
+                let parts = array(arrow, "arrows")?;
+                let [from, to, matrix] = parts[..] else { return Err("an arrow is [from, to, matrix]".to_owned()) };
+                let (from, to) = (index(from, dims.len(), "arrows")?, index(to, dims.len(), "arrows")?);
+                list.push((from, to, matrices[index(matrix, matrices.len(), "arrows")?].clone()));
+            }
+            (dims, list)
+        }
+    };
+    let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
+    if arrows.is_empty() || !arrows.iter().all(fits) {
+        return Err("no arrow, or a matrix of the wrong size".to_owned());
+    }
+    Ok(crate::radius::System { name, dims, arrows })
+}
+
+fn text_of(value: &DeValue<'_>) -> Result<String, Problem> {
+    text(value, "name").map(str::to_owned)
+}

@@ -18,6 +18,7 @@ enum Question {
     Joints,
     Address(Address),
     AnyPoint,
+    EveryPoint,
 }
 
 /// The questions of a case: of a curve its end points and its joints, of a set the fixed points of the maps of the start state
@@ -43,6 +44,9 @@ fn questions(case: &Case) -> Vec<Question> {
 fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Result<Question, Rejected> {
     if item.tag("question")? == "any point" && last {
         return Ok(Question::AnyPoint);
+    }
+    if item.tag("question")? == "every point" && !asked.contains(&Question::EveryPoint) {
+        return Ok(Question::EveryPoint);
     }
     let [_, of, _, _] = item.fields(["question", "address", "verdict", "points"])?;
     let address = crate::rules::read_address(&of)?;
@@ -79,6 +83,9 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
     let mut together = None;
     for (item, question) in items.iter().zip(&asked) {
         let found = at(&item.place, claims.answer(item, question))?;
+        if *question == Question::EveryPoint {
+            continue;
+        }
         together = Some(together.map_or(found, |t: Verdict| t.and(found)));
     }
     if let Some(k) = claims.used.iter().position(|used| !used) {
@@ -123,6 +130,15 @@ impl Claims<'_> {
                     node.fields(["question", "verdict", "theorem", "points", "upstairs"])?;
                 let found = self.joints(&theorem, &points, &upstairs)?;
                 (what.text()? == "joints", verdict, found)
+            }
+            Question::EveryPoint => {
+                let found = crate::everywhere::check(self.model, self.points, node)?;
+                if let Some(k) = found.witness {
+                    self.used[k] = true;
+                }
+                self.lines.push(format!("{}: {}", found.verdict.word(), found.claim));
+                let verdict = Node { value: node.field("verdict")?, place: format!("{}.verdict", node.place) };
+                (node.tag("question")? == "every point", verdict, found.verdict)
             }
             Question::AnyPoint => {
                 let [what, verdict, products] = node.fields(["question", "verdict", "products"])?;

@@ -107,6 +107,17 @@ impl<'a> Node<'a> {
         }
     }
 
+    /// The value of a field.
+    pub fn field(&self, name: &str) -> Result<&'a Json, Rejected> {
+        match self.value {
+            Json::Object(fields) => match fields.iter().find(|(key, _)| key == name) {
+                Some((_, value)) => Ok(value),
+                None => self.malformed(&format!("the field {name:?} is missing")),
+            },
+            _ => self.malformed("an object is needed here"),
+        }
+    }
+
     /// The elements of a list.
     pub fn list(&self) -> Result<Vec<Node<'a>>, Rejected> {
         let Json::List(items) = self.value else { return self.malformed("a list is needed here") };

@@ -5,6 +5,7 @@
 
 pub mod case;
 mod claims;
+mod everywhere;
 mod germ;
 mod jordan;
 pub mod json;
@@ -12,6 +13,7 @@ pub mod matrix;
 pub mod number;
 mod points;
 pub mod poly;
+mod radius;
 mod ring;
 mod rules;
 pub mod shape;
@@ -140,6 +142,7 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
             Err(why) => return unreadable("case", why),
         },
         "spectrum" => jordan::check(case, &proof)?,
+        "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };
     if name.text()? != found.case {

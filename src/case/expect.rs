@@ -47,12 +47,14 @@ pub struct ExpectForced {
 pub struct ExpectPoint {
     /// An address of the point.
     pub address: Address,
-    /// `half-tangent`, `regular`, `cusp`, `oscillating`, `corner` or `none`.
+    /// `half-tangent`, `regular`, `cusp`, `oscillating`, `corner`, `none` or `tangent-plane`.
     pub kind: Option<String>,
     /// `proved`, `refuted` or `undetermined`.
     pub verdict: Option<String>,
     /// Dimension of the tangent subspace.
     pub dimension: Option<usize>,
+    /// Vectors that span the tangent plane of a surface.
+    pub plane: Option<Vec<Vec<Rational>>>,
     /// Direction of the tangent line, up to a factor.
     pub tangent: Option<Vec<Rational>>,
     /// Rays of the left side, up to positive factors.
@@ -64,7 +66,7 @@ pub struct ExpectPoint {
 }
 
 const VERDICTS: [&str; 3] = ["proved", "refuted", "undetermined"];
-const KINDS: [&str; 6] = ["half-tangent", "regular", "cusp", "oscillating", "corner", "none"];
+const KINDS: [&str; 7] = ["half-tangent", "regular", "cusp", "oscillating", "corner", "none", "tangent-plane"];
 
 impl Expect {
     pub(super) fn read(node: &Node<'_>, shape: &Shape) -> Result<Self, Problem> {
@@ -119,7 +121,7 @@ impl ExpectSolve {
 
 impl ExpectPoint {
     fn read(table: &Table<'_>, shape: &Shape) -> Result<Self, Problem> {
-        table.only(&["address", "kind", "verdict", "dimension", "tangent", "left", "right", "eigenvalue"])?;
+        table.only(&["address", "kind", "verdict", "dimension", "plane", "tangent", "left", "right", "eigenvalue"])?;
         let rays = |key: &str| -> Result<Option<Vec<Vec<Rational>>>, Problem> {
             let Some(node) = table.get(key) else { return Ok(None) };
             let rays = node.array(|k| format!("ray {k} of `{key}`"))?;
@@ -130,6 +132,7 @@ impl ExpectPoint {
             kind: table.word("kind", &KINDS)?.map(str::to_owned),
             verdict: table.word("verdict", &VERDICTS)?.map(str::to_owned),
             dimension: table.get("dimension").map(|n| n.index(super::MAX_COORDINATES)).transpose()?,
+            plane: rays("plane")?,
             tangent: table.get("tangent").map(|n| vector(&n)).transpose()?,
             left: rays("left")?,
             right: rays("right")?,

@@ -7,11 +7,15 @@
 //!   Mathematica, `Matrix([[Rational(1, 2), 0], [0, 1]])` of `SymPy`, `[1/2 0; 0 1]` of MATLAB.
 //!
 //! Decimals are read exactly: `0.1` is 1/10. [`MatrixFile::decimals`] counts them, so that the user can be told.
+//!
+//! Entries of plain text and of literals may be real algebraic numbers, such as `sqrt(5)`, `Cos[2 Pi/7]`, `2^(1/3)` or
+//! `root(x^3 - x - 1, 1, 2)` (see [`crate::algebraic::field`]); [`parse_field`] reads them.
 
 mod entry;
 mod literal;
 mod market;
 
+use crate::algebraic::field::{Expression, ExpressionError, FieldBuilder, FieldMatrix, Number};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
 use crate::linalg::Matrix;
@@ -52,6 +56,17 @@ pub struct MatrixFile {
     pub decimals: usize,
 }
 
+/// A square matrix that was read, with entries in a real number field.
+#[derive(Debug, Clone)]
+pub struct FieldFile {
+    /// The matrix, over the smallest field of its entries.
+    pub matrix: FieldMatrix,
+    /// How it was written.
+    pub format: Format,
+    /// How many numbers were decimals, which were taken exactly.
+    pub decimals: usize,
+}
+
 /// What is wrong with a text, and where.
 #[derive(Debug)]
 struct Mistake {
@@ -72,9 +87,21 @@ impl Mistake {
     }
 }
 
+impl From<ExpressionError> for Mistake {
+    fn from(error: ExpressionError) -> Self {
+        let code = match error.code {
+            "syntax" => "syntax",
+            "limit" => "limit",
+            _ => "number",
+        };
+        Self { code, message: error.message, at: error.at, help: error.help }
+    }
+}
+
 /// Rows of exact numbers, with the number of decimals among them.
 struct Rows {
-    rows: Vec<Vec<Rational>>,
+    rows: Vec<Vec<Number>>,
+    builder: FieldBuilder,
     format: Format,
     decimals: usize,
 }
@@ -90,8 +117,22 @@ pub fn parse(text: &str) -> Result<MatrixFile, Problem> {
 /// The same as [`parse`], for a file whose name the messages show.
 ///
 /// # Errors
-/// As [`parse`].
+/// As [`parse`]; a matrix with irrational entries is one of them.
 pub fn parse_named(name: &str, text: &str) -> Result<MatrixFile, Problem> {
+    let FieldFile { matrix, format, decimals } = parse_field(name, text)?;
+    let field = matrix.field().describe();
+    let matrix = matrix.rational().ok_or_else(|| {
+        Problem::new("secant::matrix::irrational", format!("{name} has entries in {field}, not rational ones"))
+            .with_help("`secant spectrum` and `parse_field` read such matrices")
+    })?;
+    Ok(MatrixFile { matrix, format, decimals })
+}
+
+/// Reads a square matrix in any of the formats, with entries in a real number field.
+///
+/// # Errors
+/// As [`parse`]; also for fields of too large a degree.
+pub fn parse_field(name: &str, text: &str) -> Result<FieldFile, Problem> {
     read(text).map_err(|m| {
         let source = SourceText::new(name, text);
         let end = text[m.at.min(text.len())..].chars().next().map_or(0, char::len_utf8);
@@ -104,14 +145,14 @@ pub fn parse_named(name: &str, text: &str) -> Result<MatrixFile, Problem> {
     })
 }
 
-fn read(text: &str) -> Result<MatrixFile, Mistake> {
+fn read(text: &str) -> Result<FieldFile, Mistake> {
     if text.len() > MAX_FILE_BYTES {
         return Err(Mistake::new("limit", 0, format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20)));
     }
     let start = text.trim_start();
     let rows = if start.get(..14).is_some_and(|s| s.eq_ignore_ascii_case("%%MatrixMarket")) {
         market::read(text)?
-    } else if start.starts_with(|c: char| c.is_ascii_digit() || c == '#') && !text.contains(['[', '{', '(']) {
+    } else if words(text, '#').next().is_some_and(|(_, w)| w.starts_with(|c: char| c.is_ascii_digit())) {
         plain(text)?
     } else {
         literal::read(text)?
@@ -119,7 +160,7 @@ fn read(text: &str) -> Result<MatrixFile, Mistake> {
     square(rows)
 }
 
-fn square(found: Rows) -> Result<MatrixFile, Mistake> {
+fn square(found: Rows) -> Result<FieldFile, Mistake> {
     let n = found.rows.len();
     for (i, row) in found.rows.iter().enumerate() {
         if row.len() != n {
@@ -129,7 +170,10 @@ fn square(found: Rows) -> Result<MatrixFile, Mistake> {
         }
     }
     check_size(n, 0)?;
-    Ok(MatrixFile { matrix: Matrix::from_rows(n, found.rows), format: found.format, decimals: found.decimals })
+    let numbers: Vec<Number> = found.rows.into_iter().flatten().collect();
+    let (field, elements) = found.builder.finish(&numbers);
+    let matrix = FieldMatrix::new(&field, n, n, elements);
+    Ok(FieldFile { matrix, format: found.format, decimals: found.decimals })
 }
 
 fn check_size(n: usize, at: usize) -> Result<(), Mistake> {
@@ -151,11 +195,33 @@ struct Tally {
 fn number(token: &str, at: usize, tally: &mut Tally) -> Result<Rational, Mistake> {
     let value = parse_rational(token).map_err(|e| Mistake::new("number", at, e.to_string()))?;
     tally.decimals += usize::from(token.contains(['.', 'e', 'E']));
-    tally.bits += value.numerator_ref().significant_bits() + value.denominator_ref().significant_bits();
-    if tally.bits > MAX_BITS {
-        return Err(Mistake::new("limit", at, "the numbers of this file are too long altogether"));
-    }
+    tally.add(value.numerator_ref().significant_bits() + value.denominator_ref().significant_bits(), at)?;
     Ok(value)
+}
+
+impl Tally {
+    fn add(&mut self, bits: u64, at: usize) -> Result<(), Mistake> {
+        self.bits = self.bits.saturating_add(bits);
+        if self.bits > MAX_BITS {
+            return Err(Mistake::new("limit", at, "the numbers of this file are too long altogether"));
+        }
+        Ok(())
+    }
+
+    /// One entry from a place on, with what comes after it; a tight one ends at white space outside of brackets.
+    fn entry(
+        &mut self,
+        builder: &mut FieldBuilder,
+        text: &str,
+        at: usize,
+        tight: bool,
+    ) -> Result<(Number, usize), Mistake> {
+        let mut expression = Expression::new(text, at, tight);
+        let value = expression.number(builder)?;
+        self.decimals += usize::from(expression.decimals > 0);
+        self.add(expression.bits, at)?;
+        Ok((value, expression.position()))
+    }
 }
 
 /// The words of a text with their byte offsets; `comment` starts a comment.
@@ -167,6 +233,19 @@ fn words(text: &str, comment: char) -> impl Iterator<Item = (usize, &str)> {
         .map(move |word| (word.as_ptr() as usize - base, word))
 }
 
+/// The next byte that is neither white space nor in a comment.
+fn next_entry(text: &str, mut at: usize) -> usize {
+    loop {
+        let rest = &text[at..];
+        let trimmed = rest.trim_start();
+        at += rest.len() - trimmed.len();
+        if !trimmed.starts_with('#') {
+            return at;
+        }
+        at += trimmed.find('\n').unwrap_or(trimmed.len());
+    }
+}
+
 fn plain(text: &str) -> Result<Rows, Mistake> {
     let mut tokens = words(text, '#');
     let (at, first) = tokens.next().ok_or_else(|| Mistake::new("empty", 0, "there is no matrix in this file"))?;
@@ -174,24 +253,35 @@ fn plain(text: &str) -> Result<Rows, Mistake> {
         Mistake::new("size", at, format!("`{first}` is not the size of a matrix")).help("the file starts with n")
     })?;
     check_size(n, at)?;
+    let mut builder = FieldBuilder::new();
     let mut tally = Tally::default();
+    let mut position = at + first.len();
     let mut rows = Vec::new();
     for i in 0..n {
         let mut row = Vec::with_capacity(n);
         for j in 0..n {
-            let Some((at, word)) = tokens.next() else {
+            position = next_entry(text, position);
+            if position == text.len() {
                 let message = format!("{} numbers are expected, but only {} are there", n * n, i * n + j);
-                return Err(Mistake::new("short", text.len(), message));
-            };
-            row.push(number(word, at, &mut tally)?);
+                return Err(Mistake::new("short", position, message));
+            }
+            let (value, end) = tally.entry(&mut builder, text, position, true)?;
+            if let Some(c) = text[end..].chars().next().filter(|c| !c.is_whitespace() && *c != '#') {
+                return Err(Mistake::new("number", end, format!("`{c}` comes after a number"))
+                    .help("entries of plain text are separated by blanks, with blanks inside brackets only"));
+            }
+            position = end;
+            row.push(value);
         }
         rows.push(row);
     }
-    if let Some((at, word)) = tokens.next() {
+    let end = next_entry(text, position);
+    if end < text.len() {
+        let word: String = text[end..].chars().take_while(|c| !c.is_whitespace()).take(40).collect();
         let message = format!("`{word}` comes after the last of {} entries", n * n);
-        return Err(Mistake::new("long", at, message).help("the file starts with n, then come n rows of n numbers"));
+        return Err(Mistake::new("long", end, message).help("the file starts with n, then come n rows of n numbers"));
     }
-    Ok(Rows { rows, format: Format::Plain, decimals: tally.decimals })
+    Ok(Rows { rows, builder, format: Format::Plain, decimals: tally.decimals })
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 
 mod expect;
 mod faces;
+mod field;
 mod maps;
 mod matrix;
 pub mod matrix_file;
@@ -11,8 +12,11 @@ mod node;
 mod read;
 mod scheme;
 mod states;
+mod vertex;
 
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
+pub use field::FieldCase;
+pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{Heading, Mask, MeshRule, complex_text};
@@ -165,6 +169,31 @@ impl Case {
     #[must_use]
     pub fn complex(&self) -> Complex {
         Complex { shape: self.shape.clone(), faces: self.faces.clone(), reversals: self.reversals.clone() }
+    }
+
+    /// States that nothing leads to: neither a piece of a state that the start reaches, nor a boundary or reversal of one.
+    #[must_use]
+    pub fn dangling(&self) -> Vec<usize> {
+        if self.scheme.is_some() {
+            return Vec::new();
+        }
+        let mut reached = vec![self.shape.start];
+        let mut next = 0;
+        while let Some(&e) = reached.get(next) {
+            let state = &self.shape.states[e];
+            let boundaries = [&state.left, &state.right].into_iter().flatten().map(|b| b.vertex);
+            let sides = self.faces.get(&e).into_iter().flat_map(|f| f.sides.iter().map(|s| s.edge));
+            let reversal = self.reversals.get(&e).map(|r| r.edge);
+            let all: Vec<usize> =
+                state.pieces.iter().map(|p| p.target).chain(boundaries).chain(sides).chain(reversal).collect();
+            for target in all {
+                if !reached.contains(&target) {
+                    reached.push(target);
+                }
+            }
+            next += 1;
+        }
+        (0..self.shape.states.len()).filter(|e| !reached.contains(e)).collect()
     }
 
     /// The identities of the case with its open entries as unknowns.

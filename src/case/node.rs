@@ -1,4 +1,5 @@
 use super::MAX_BITS;
+use crate::algebraic::field::FieldBuilder;
 use crate::arith::{ParseNumberError, Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
 use malachite_base::num::logic::traits::SignificantBits;
@@ -11,11 +12,28 @@ use toml::de::{DeTable, DeValue};
 pub(super) struct File {
     pub source: SourceText,
     bits: Cell<u64>,
+    sample: Option<Sample>,
+}
+
+/// A rational number in the place of the generator of a number field: what is linear in the entries holds for them
+/// exactly when it holds for enough samples.
+pub(super) struct Sample {
+    pub builder: FieldBuilder,
+    pub at: Rational,
 }
 
 impl File {
     pub fn new(source: SourceText) -> Self {
-        Self { source, bits: Cell::new(0) }
+        Self { source, bits: Cell::new(0), sample: None }
+    }
+
+    /// The file with a number in the place of the generator.
+    pub fn sampled(source: SourceText, sample: Sample) -> Self {
+        Self { sample: Some(sample), ..Self::new(source) }
+    }
+
+    pub fn is_sampled(&self) -> bool {
+        self.sample.is_some()
     }
 
     pub fn problem(&self, code: &str, message: impl AsRef<str>, span: Range<usize>, note: impl AsRef<str>) -> Problem {
@@ -132,7 +150,7 @@ impl<'a> Node<'a> {
             DeValue::Float(digits) => digits.as_str(),
             _ => return Err(self.wrong_type("a number such as \"3/4\", -1 or 0.25")),
         };
-        let number = parse_rational(text).map_err(|error| self.number_problem(&error))?;
+        let number = parse_rational(text).or_else(|error| self.expression(text, &error))?;
         let bits = number.numerator_ref().significant_bits() + number.denominator_ref().significant_bits();
         let total = self.file.bits.get().saturating_add(bits);
         self.file.bits.set(total);
@@ -142,6 +160,44 @@ impl<'a> Node<'a> {
                 .with_help(format!("all numbers of a case together may have {MAX_BITS} bits")));
         }
         Ok(number)
+    }
+
+    /// A number such as `sqrt(5)`, where those are expected; otherwise a hint.
+    fn expression(&self, text: &str, error: &ParseNumberError) -> Result<Rational, Problem> {
+        let plain =
+            matches!(self.value.get_ref(), DeValue::Float(_)) || !matches!(error, ParseNumberError::Malformed(_));
+        if plain || is_infinite(text) {
+            return Err(self.number_problem(error));
+        }
+        let mut builder = self.file.sample.as_ref().map_or_else(FieldBuilder::new, |s| s.builder.clone());
+        let value = match builder.parse(text) {
+            Ok(value) => value,
+            Err(e) if e.code == "name" && !text.contains(['(', '[']) => return Err(self.number_problem(error)),
+            Err(e) => {
+                let column = text[..e.at.min(text.len())].chars().count() + 1;
+                let message = format!("{} cannot be read: {e} (character {column} of it)", self.what);
+                let problem = self.problem("number", message, "not a number");
+                return Err(problem.with_help(e.help.as_deref().unwrap_or("see docs/case-format.md for what is read")));
+            }
+        };
+        match (&self.file.sample, builder.is_rational(&value)) {
+            (_, Some(q)) if self.file.sample.is_some() => Ok(q),
+            (Some(sample), _) => Ok(builder.elem(&value).0.eval(&sample.at)),
+            (None, Some(q)) => {
+                let message = format!("{} is an expression with the rational value {q}", self.what);
+                Err(self
+                    .problem("expression", message, format!("this is {q}"))
+                    .with_help(format!("write \"{q}\" here")))
+            }
+            (None, None) => {
+                let field = builder.field().describe();
+                let message = format!("{} is irrational, a number of {field}", self.what);
+                Err(self.problem("irrational-entry", message, "an irrational number").with_help(
+                    "verdicts are proved for rational operators only; `secant spectrum FILE` prints the exact spectra over \
+                     the number field of this case",
+                ))
+            }
+        }
     }
 
     fn not_a_number(&self, help: &str) -> Problem {

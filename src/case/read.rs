@@ -58,7 +58,7 @@ impl Case {
     }
 
     /// The case, if no entry was left open.
-    fn closed(self) -> Result<Self, Problem> {
+    pub(super) fn closed(self) -> Result<Self, Problem> {
         let Some(first) = self.unknown.first() else { return Ok(self) };
         let count = self.unknown.len();
         let message =
@@ -114,6 +114,11 @@ impl Case {
     /// # Errors
     /// As [`Case::read_open`].
     pub fn parse_open(name: &str, text: &str) -> Result<Self, Problem> {
+        Self::parse_as(name, text, File::new)
+    }
+
+    /// The same, with the file as `open` makes it.
+    pub(super) fn parse_as(name: &str, text: &str, open: impl FnOnce(SourceText) -> File) -> Result<Self, Problem> {
         let source = SourceText::new(name, text);
         if text.len() > MAX_BYTES {
             return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
@@ -124,12 +129,12 @@ impl Case {
             return Err(Problem::new("secant::case::empty", format!("{name} is empty"))
                 .with_help("a case needs at least `name`, `convention` and `pieces`; see docs/case-format.md"));
         }
-        let file = File::new(source);
+        let file = open(source);
         build(&file, &Table::root(&file, &table))
     }
 }
 
-fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
+pub(super) fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
     let end = source.text.len();
     let span = error.span().unwrap_or(end..end);
     let message = error.message();
@@ -147,6 +152,11 @@ fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
 }
 
 fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
+    if case.get("vertex").is_some() {
+        return Err(case
+            .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
+            .with_help("`secant certify FILE --valence 3..32` goes through valences; it takes one file at a time"));
+    }
     case.only(&KEYS)?;
     let name = name(case)?;
     let title = case.optional_text("title")?.unwrap_or(&name).to_owned();
@@ -192,7 +202,8 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
 /// Checks the identities of the cells that the engine does not look at: those of faces and reversals.
 fn check_identities(file: &File, model: &Model) -> Result<(), Problem> {
     let complex = &model.complex;
-    if complex.faces.is_empty() && complex.reversals.is_empty() {
+    // Samples of a number field say nothing about what is not linear in the entries.
+    if file.is_sampled() || complex.faces.is_empty() && complex.reversals.is_empty() {
         return Ok(());
     }
     let problem = |error: &ComplexError| {
@@ -229,7 +240,7 @@ fn failed(file: &File, model: &Model, identity: &Identity, failure: &Failure) ->
     problem.with_help(help)
 }
 
-fn name(case: &Table<'_>) -> Result<String, Problem> {
+pub(super) fn name(case: &Table<'_>) -> Result<String, Problem> {
     let name = case.text("name", "\"my-curve\"")?;
     let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
     if name.is_empty() || name.len() > 100 || name.starts_with('.') || !name.chars().all(plain) {

@@ -4,11 +4,15 @@
 //! shares no code with this crate.
 
 mod branch;
+mod everywhere;
 mod hull;
+mod joint;
 mod radius;
 mod spectrum;
 mod top;
 mod tree;
+
+pub use joint::radius_certificate;
 
 use crate::arith::Rational;
 use crate::case::Case;
@@ -93,6 +97,9 @@ fn laid_out(value: &Value, depth: usize) -> String {
 /// # Cost
 /// Linear in the evidence, apart from the choice of radii between neighbouring moduli.
 pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupported> {
+    if found.surface.is_some() {
+        return unsupported("the tangent planes of a surface", "points");
+    }
     let Contraction::Proved(contraction) = &found.contraction else {
         return unsupported("a system whose contraction is not proved", "contraction");
     };
@@ -112,6 +119,13 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     let answers = answers(case, found, &points)?;
     let proof = json!({"contraction": states, "points": points.json, "answers": answers});
     Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
+}
+
+/// The SHA-256 digest of a text, in hexadecimal.
+#[must_use]
+pub fn sha256(text: &str) -> String {
+    use sha2::{Digest, Sha256};
+    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Why a decided verdict was not proved again.
@@ -246,6 +260,8 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
+    let place_of = |point: &PointReport| points.places.iter().position(|p| *p == place_json(point));
+    answers.extend(everywhere::answer(shape, found, place_of));
     if let Some(similarities) = &found.similarities {
         let gram = &similarities.gram;
         let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();

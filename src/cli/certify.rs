@@ -10,7 +10,8 @@ use crate::diagnostic::Problem;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
 use crate::shape::{Address, CurveError, Frame, word_text};
-use crate::theorem::{Certified, ModelError, Verdict, certify};
+use crate::theorem::surface::certify_complex;
+use crate::theorem::{Certified, ModelError, Verdict};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -32,7 +33,13 @@ pub fn run(args: &CertifyArgs) -> u8 {
     if args.approx {
         return approximate::run(args);
     }
-    let [path] = args.cases.as_slice() else { return many::run(args) };
+    let path = match args.cases.as_slice() {
+        [path] if args.resume.is_none() => path,
+        _ => return many::run(args),
+    };
+    if args.valence.is_some() || super::vertex::is_about_vertices(path) {
+        return super::vertex::run(path, args);
+    }
     let waiting = Waiting::new(args.quiet);
     let certified = one(path, args);
     waiting.finish();
@@ -46,6 +53,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
     match done {
         Ok((case, found, evidence)) => {
             if !args.quiet {
+                note_dangling(&case);
                 print(&printed(&case, &found, evidence.as_ref(), args));
             }
             exit_code(found.verdict)
@@ -60,20 +68,50 @@ pub fn run(args: &CertifyArgs) -> u8 {
     }
 }
 
+/// Says so where a state of the case plays no part.
+fn note_dangling(case: &Case) {
+    for state in case.dangling() {
+        let message = format!("nothing leads to state `{}`, so it plays no part", case.shape.states[state].name);
+        let help = "leave it out, or let a piece lead to it";
+        complain(&case.problem_at_state(state, "secant::case::dangling", &message, help));
+    }
+}
+
 /// Says so where a decided verdict has no certificate that could be checked.
 fn note_unconfirmed(unsupported: &Unsupported) {
     let message = format!("the verdict was not proved again: {unsupported}");
-    complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 9"));
+    complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 10"));
 }
 
 /// The certificate that the checker accepted, or why the format has none.
 pub type Evidence = Result<Certificate, Unsupported>;
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
-    if args.cases.len() > 1 && (args.report.is_some() || args.svg.is_some() || args.certificate.is_some() || args.json)
+    if args.cases.len() > 1
+        && (args.report.is_some()
+            || args.svg.is_some()
+            || args.png.is_some()
+            || args.certificate.is_some()
+            || args.json)
     {
-        return Err(Problem::new("secant::usage", "--json, --report, --svg and --certificate are for a single case")
-            .with_help("use --jsonl for many cases, and write the reports one by one"));
+        return Err(Problem::new(
+            "secant::usage",
+            "--json, --report, --svg, --png and --certificate are for a single case",
+        )
+        .with_help("use --jsonl for many cases, and write the reports one by one"));
+    }
+    if args.resume.is_some()
+        && (args.report.is_some()
+            || args.svg.is_some()
+            || args.png.is_some()
+            || args.certificate.is_some()
+            || args.json)
+    {
+        return Err(Problem::new(
+            "secant::usage",
+            "--json, --report, --svg, --png and --certificate do not go with --resume",
+        )
+        .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
     let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
     if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
@@ -83,7 +121,7 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     Ok(())
 }
 
-fn extension(path: &Path) -> String {
+pub(super) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
@@ -93,7 +131,7 @@ fn extension(path: &Path) -> String {
 /// The [`Problem`] of the file, of an address, or of the model.
 pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<Evidence>), Problem> {
     let (case, addresses) = read(path, args)?;
-    let found = certify(&case.shape, &addresses).map_err(|error| model_problem(&case, &error))?;
+    let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(&case, &error))?;
     if args.no_check || found.verdict == Verdict::Undetermined {
         return Ok((case, found, None));
     }
@@ -187,12 +225,16 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
         None => None,
         Some(path) => Some((path, picture(case, found)?)),
     };
+    let png = match args.png.as_deref() {
+        None => None,
+        Some(path) => Some((path, figures::attractor_png(case, found).ok_or_else(|| undrawn(case))?)),
+    };
     let proof = match args.certificate.as_deref() {
         None => None,
         Some(path) => {
             let written = evidence.cloned().unwrap_or_else(|| certificate(case, found)).map_err(|unsupported| {
                 Problem::new("secant::certificate::none", unsupported.to_string())
-                    .with_help("see docs/certificate.md, section 9; nothing was written")
+                    .with_help("see docs/certificate.md, section 10; nothing was written")
             })?;
             Some((path, written.text()))
         }
@@ -200,15 +242,19 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
     for (path, content) in report.into_iter().chain(svg).chain(proof) {
         write_file(path, &content)?;
     }
+    if let Some((path, image)) = png {
+        write_file(path, &image)?;
+    }
     Ok(())
 }
 
 fn picture(case: &Case, found: &Certified) -> Result<String, Problem> {
-    let drawn = figures::attractor(case, found);
-    drawn.map(|p| p.svg).ok_or_else(|| {
-        Problem::new("secant::picture", format!("{} cannot be drawn", case.name))
-            .with_help("no point of the shape can be computed, because contraction is not decided")
-    })
+    figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(case))
+}
+
+fn undrawn(case: &Case) -> Problem {
+    Problem::new("secant::picture", format!("{} cannot be drawn", case.name))
+        .with_help("no point of the shape can be computed, because contraction is not decided")
 }
 
 fn printed(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &CertifyArgs) -> String {
@@ -218,13 +264,16 @@ fn printed(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &C
     text::render(&summary::summary(case, found, args.verbose), stdout_colour())
 }
 
+/// What [`check_json`] says where there is no evidence.
+pub const NOT_ASKED: &str = "the checker was not asked";
+
 /// A report with what the checker said of the certificate.
 #[must_use]
 pub fn check_json(mut report: serde_json::Value, evidence: Option<&Evidence>) -> serde_json::Value {
     let why = match evidence {
         Some(Ok(_)) => None,
         Some(Err(unsupported)) => Some(unsupported.to_string()),
-        None => Some("the checker was not asked".to_owned()),
+        None => Some(NOT_ASKED.to_owned()),
     };
     report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});
     report

@@ -1,26 +1,76 @@
-//! `secant certify` of several cases: in parallel, printed in the order given.
+//! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
-use super::certify::{Evidence, check_json, exit_code, json_text, one};
+use super::certify::{Evidence, NOT_ASKED, check_json, exit_code, json_text, one};
 use super::output::{complain, print, stdout_colour};
 use super::progress::Progress;
+use super::resume::Store;
 use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED};
-use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::report::document::{Block, Document, Inline, Line, Table, Tone, words};
 use crate::report::{json, text, words as phrases};
-use crate::theorem::{Certified, Verdict};
+use crate::theorem::{Certified, Kind, Verdict};
 use rayon::prelude::*;
+use serde_json::Value;
+use std::path::Path;
 
-type Outcome = Result<(Case, Certified, Option<Evidence>), Problem>;
+/// What is printed of a case.
+struct Done {
+    name: String,
+    verdict: Verdict,
+    kinds: String,
+    /// What the checker said of the certificate.
+    checked: Checked,
+    json: Value,
+    /// Whether the result was kept from an earlier run.
+    kept: bool,
+}
+
+/// Whether the checker proved a verdict again.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Checked {
+    Yes,
+    NoRule,
+    NotAsked,
+}
+
+impl Checked {
+    /// As [`check_json`] says it; `None` where a report does not say it.
+    fn of(report: &Value) -> Option<Self> {
+        let said = &report["certificate"];
+        Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
+            (true, None) => Self::Yes,
+            (false, Some(NOT_ASKED)) => Self::NotAsked,
+            (false, Some(_)) => Self::NoRule,
+            _ => return None,
+        })
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::NoRule => "no rule",
+            Self::NotAsked => "–",
+        }
+    }
+}
+
+type Outcome = Result<Done, Problem>;
 
 /// Certifies all cases; the exit code is the gravest.
 pub fn run(args: &CertifyArgs) -> u8 {
+    let store = match args.resume.as_deref().map(|dir| Store::open(dir, args)).transpose() {
+        Ok(store) => store,
+        Err(problem) => {
+            complain(&problem);
+            return BAD_INPUT;
+        }
+    };
     let progress = Progress::new(args.cases.len(), args.quiet);
     let outcomes: Vec<Outcome> = args
         .cases
         .par_iter()
         .map(|path| {
-            let outcome = one(path, args);
+            let outcome = case(path, args, store.as_ref());
             progress.step();
             outcome
         })
@@ -29,11 +79,10 @@ pub fn run(args: &CertifyArgs) -> u8 {
     let names: Vec<String> = args.cases.iter().map(|p| p.display().to_string()).collect();
     if args.jsonl {
         for (name, outcome) in names.iter().zip(&outcomes) {
-            let value = match outcome {
-                Ok((case, found, evidence)) => check_json(json::report(case, found), evidence.as_ref()),
-                Err(problem) => json::refusal(name, problem),
-            };
-            print(&json_text(&value, false));
+            match outcome {
+                Ok(done) => print(&json_text(&done.json, false)),
+                Err(problem) => print(&json_text(&json::refusal(name, problem), false)),
+            }
         }
     } else if !args.quiet {
         print(&text::render(&table(&names, &outcomes), stdout_colour()));
@@ -41,7 +90,48 @@ pub fn run(args: &CertifyArgs) -> u8 {
     for problem in outcomes.iter().filter_map(|o| o.as_ref().err()) {
         complain(problem);
     }
-    gravest(outcomes.iter().map(|o| o.as_ref().map_or(BAD_INPUT, |(_, found, _)| exit_code(found.verdict))))
+    gravest(outcomes.iter().map(|o| o.as_ref().map_or(BAD_INPUT, |done| exit_code(done.verdict))))
+}
+
+/// One case: from the store where its result is up to date, otherwise certified and stored.
+fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
+    if let Some(json) = store.and_then(|s| s.find(path))
+        && let Some(done) = kept(json)
+    {
+        return Ok(done);
+    }
+    let (case, found, evidence) = one(path, args)?;
+    let json = check_json(json::report(&case, &found), evidence.as_ref());
+    let done = Done {
+        name: case.name.clone(),
+        verdict: found.verdict,
+        kinds: kinds(&found).join(", "),
+        checked: Checked::of(&json).unwrap_or(Checked::NotAsked),
+        json,
+        kept: false,
+    };
+    if let Some(store) = store {
+        let certificate = evidence.and_then(Evidence::ok).map(|c| c.text());
+        store.keep(path, &case.text.text, &done.json, certificate.as_deref())?;
+    }
+    Ok(done)
+}
+
+/// A stored result, read back; `None` where it is not what this version writes.
+fn kept(json: Value) -> Option<Done> {
+    let verdict = verdict_of(json["verdict"].as_str()?)?;
+    let points = json["points"].as_array()?.iter().map(|p| {
+        let verdict = verdict_of(p["verdict"].as_str()?)?;
+        Some(point_word(verdict, p["kind"].as_str()?).to_owned())
+    });
+    let points: Vec<String> = points.collect::<Option<_>>()?;
+    let kinds = counted(points.iter().map(String::as_str)).join(", ");
+    let (name, checked) = (json["case"].as_str()?.to_owned(), Checked::of(&json)?);
+    Some(Done { name, verdict, kinds, checked, json, kept: true })
+}
+
+fn verdict_of(word: &str) -> Option<Verdict> {
+    [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined].into_iter().find(|v| v.word() == word)
 }
 
 fn gravest(codes: impl Iterator<Item = u8>) -> u8 {
@@ -52,10 +142,9 @@ fn gravest(codes: impl Iterator<Item = u8>) -> u8 {
 fn table(names: &[String], outcomes: &[Outcome]) -> Document {
     let row = |(name, outcome): (&String, &Outcome)| -> Vec<Line> {
         match outcome {
-            Ok((case, found, evidence)) => {
-                let kinds: Vec<String> = kinds(found);
-                let mark = vec![phrases::mark(found.verdict)];
-                vec![words(case.name.clone()), mark, words(checked(evidence.as_ref())), words(kinds.join(", "))]
+            Ok(done) => {
+                let mark = vec![phrases::mark(done.verdict)];
+                vec![words(done.name.clone()), mark, words(done.checked.word()), words(done.kinds.clone())]
             }
             Err(problem) => {
                 let mark = vec![Inline::Mark(Tone::Bad, "refused".to_owned())];
@@ -68,50 +157,56 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         header: vec![words("Case"), words("Verdict"), words("Checked"), words("Points")],
         rows: names.iter().zip(outcomes).map(row).collect(),
     };
-    let count = |code: u8| {
-        outcomes.iter().filter(|o| o.as_ref().map_or(BAD_INPUT, |(_, f, _)| exit_code(f.verdict)) == code).count()
-    };
-    let unchecked = outcomes.iter().flatten();
-    let unchecked =
-        unchecked.filter(|(_, f, e)| f.verdict != Verdict::Undetermined && !matches!(e, Some(Ok(_)))).count();
-    let unchecked = match unchecked {
-        0 => String::new(),
-        n => format!(" {} decided but not proved again by the checker.", phrases::count(n, "case")),
-    };
-    let total = format!(
-        "{}: {} proved, {} refuted, {} undetermined, {} refused.{unchecked}",
+    let count =
+        |code: u8| outcomes.iter().filter(|o| o.as_ref().map_or(BAD_INPUT, |d| exit_code(d.verdict)) == code).count();
+    let mut total = format!(
+        "{}: {} proved, {} refuted, {} undetermined, {} refused.",
         phrases::count(outcomes.len(), "case"),
         count(PROVED),
         count(REFUTED),
         count(UNDETERMINED),
         count(BAD_INPUT)
     );
-    Document { title: "secant certify".to_owned(), blocks: vec![Block::Table(table), Block::Paragraph(words(total))] }
-}
-
-/// What the checker said of the certificate of a case.
-fn checked(evidence: Option<&Evidence>) -> &'static str {
-    match evidence {
-        Some(Ok(_)) => "yes",
-        Some(Err(_)) => "no rule",
-        None => "–",
+    let unchecked = |d: &&Done| d.verdict != Verdict::Undetermined && d.checked != Checked::Yes;
+    let unchecked = outcomes.iter().flatten().filter(unchecked).count();
+    if unchecked > 0 {
+        let cases = phrases::count(unchecked, "case");
+        total.push_str(&format!(" {cases} decided but not proved again by the checker."));
     }
+    let kept = outcomes.iter().flatten().filter(|d| d.kept).count();
+    if kept > 0 {
+        total.push_str(&format!(" {kept} kept from an earlier run."));
+    }
+    Document { title: "secant certify".to_owned(), blocks: vec![Block::Table(table), Block::Paragraph(words(total))] }
 }
 
 /// The name of the file without directory and ending.
 fn stem(path: &str) -> String {
-    std::path::Path::new(path).file_stem().map_or_else(|| path.to_owned(), |s| s.to_string_lossy().into_owned())
+    Path::new(path).file_stem().map_or_else(|| path.to_owned(), |s| s.to_string_lossy().into_owned())
 }
 
 /// The kinds of the examined points, each with its number.
 pub fn kinds(found: &Certified) -> Vec<String> {
+    let surface = found.surface.iter().flat_map(|s| &s.points).map(|p| match p.verdict {
+        Verdict::Proved => "tangent plane",
+        Verdict::Refuted => "no tangent plane",
+        Verdict::Undetermined => "undetermined",
+    });
+    counted(surface.chain(found.points.iter().map(|p| point_word(p.verdict, p.kind.word()))))
+}
+
+fn point_word(verdict: Verdict, kind: &str) -> &str {
+    match verdict {
+        Verdict::Undetermined => "undetermined",
+        Verdict::Proved if kind == Kind::None.word() => "tangent line",
+        Verdict::Refuted if kind == Kind::None.word() => "no tangent",
+        _ => kind,
+    }
+}
+
+fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut counted: Vec<(&str, usize)> = Vec::new();
-    for point in &found.points {
-        let word = if point.kind == crate::theorem::Kind::None { "no tangent" } else { point.kind.word() };
-        let word = match point.verdict {
-            Verdict::Undetermined => "undetermined",
-            _ => word,
-        };
+    for word in items {
         match counted.iter_mut().find(|(w, _)| *w == word) {
             Some((_, n)) => *n += 1,
             None => counted.push((word, 1)),

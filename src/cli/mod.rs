@@ -5,14 +5,19 @@ mod certify;
 mod expand;
 mod explain;
 mod gallery;
+mod import;
 mod init;
+mod irrational;
 mod many;
 mod output;
 mod progress;
 mod radius;
+mod render;
+mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
+mod vertex;
 
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
@@ -46,10 +51,7 @@ enum Command {
     /// Print the exact spectrum of a matrix, or of the operators of a case.
     Spectrum(SpectrumArgs),
     /// Bound the joint spectral radius of the matrices of a file (docs/radius.md).
-    Jsr {
-        /// A TOML file with `matrices = [...]`.
-        file: PathBuf,
-    },
+    Jsr(JsrArgs),
     /// The regularity of the subdivision scheme of a mask, from a joint spectral radius.
     Regularity(RegularityArgs),
     /// List the named schemes, or write one as a case.
@@ -67,6 +69,19 @@ enum Command {
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
     },
+    /// Write a file of another program (Fractint .ifs, JSON) as a case, with the convention it was read in.
+    Import {
+        /// The file.
+        file: PathBuf,
+        /// The entry of a Fractint file that has several.
+        #[arg(long)]
+        entry: Option<String>,
+        /// Write to a file instead of the standard output.
+        #[arg(short, long, value_name = "FILE")]
+        output: Option<PathBuf>,
+    },
+    /// Draw a case from exact points: SVG, PNG, OBJ or PLY.
+    Render(RenderArgs),
     /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
     Solve(SolveArgs),
     /// Print a statement with its proof and reference.
@@ -102,22 +117,32 @@ struct CertifyArgs {
     #[arg(long)]
     jsonl: bool,
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
-    #[arg(long, value_name = "ADDRESS")]
+    #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
+    /// For a case with a [vertex] table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
+    #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "certificate", "approx"])]
+    valence: Option<String>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// The same as PNG, without the words in the picture.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Do not have the verdict proved again by the checker before it is printed.
     #[arg(long)]
     no_check: bool,
+    /// Keep the results and certificates of many cases in a directory, and skip the cases whose result there is up to
+    /// date: same text of the case, same addresses and checks, same version of secant.
+    #[arg(long, value_name = "DIR", conflicts_with = "approx")]
+    resume: Option<PathBuf>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
@@ -150,6 +175,33 @@ struct SpectrumArgs {
 }
 
 #[derive(Debug, Args)]
+struct RenderArgs {
+    /// A case file; `-` reads the standard input.
+    case: PathBuf,
+    /// Write an SVG drawing; surfaces are projected.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a PNG image.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+    /// Write a Wavefront OBJ file.
+    #[arg(long, value_name = "FILE")]
+    obj: Option<PathBuf>,
+    /// Write a PLY file, with colours.
+    #[arg(long, value_name = "FILE")]
+    ply: Option<PathBuf>,
+    /// Letters of the words whose cells are drawn; by default as many as give about 20 000 points.
+    #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
+    depth: Option<usize>,
+    /// Draw this many points with random addresses instead (the chaos game).
+    #[arg(long, value_name = "POINTS")]
+    chaos: Option<usize>,
+    /// The seed of the chaos game.
+    #[arg(long, default_value_t = 1, requires = "chaos")]
+    seed: u64,
+}
+
+#[derive(Debug, Args)]
 struct SolveArgs {
     /// A case with unknown entries; `-` reads the standard input.
     case: PathBuf,
@@ -169,12 +221,28 @@ struct SolveArgs {
 
 #[derive(Debug, Args)]
 struct RegularityArgs {
-    /// The mask: coefficients such as "1/4,3/4,3/4,1/4", or the symbol such as "(1+z)^3/4".
-    #[arg(allow_hyphen_values = true)]
-    mask: String,
-    /// The arity of the scheme.
+    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet `db2` to `db12`, a mask such as
+    /// "1/4,3/4,3/4,1/4", or a symbol such as "(1+z)^3/4".
+    #[arg(allow_hyphen_values = true, value_name = "CASE")]
+    what: String,
+    /// Parameters of a named scheme, as in `w=1/16`.
+    #[arg(value_name = "NAME=VALUE")]
+    parameters: Vec<String>,
+    /// The arity of a mask.
     #[arg(long, default_value_t = 2)]
     arity: usize,
+}
+
+#[derive(Debug, Args)]
+struct JsrArgs {
+    /// A TOML file with `matrices = [...]` (docs/radius.md).
+    file: PathBuf,
+    /// Draw the invariant polytope (systems with a state of two dimensions).
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a certificate of the bounds that secant-check proves again (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -182,6 +250,9 @@ struct GalleryArgs {
     /// The directory with the families of cases.
     #[arg(default_value = "cases", value_name = "CASES")]
     cases: PathBuf,
+    /// Write a report for every case, not only for a selection.
+    #[arg(long, conflicts_with = "check")]
+    all: bool,
     /// Where the page is written.
     #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
     out: PathBuf,
@@ -204,10 +275,12 @@ pub fn main() -> ExitCode {
     let code = match cli.command {
         Command::Certify(args) => certify::run(&args),
         Command::Spectrum(args) => spectrum::run(&args),
-        Command::Jsr { file } => radius::jsr(&file),
-        Command::Regularity(args) => radius::mask(&args),
+        Command::Jsr(args) => radius::jsr(&args),
+        Command::Regularity(args) => radius::regularity(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),
+        Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
+        Command::Render(args) => render::run(&args),
         Command::Solve(args) => solve::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// A [`Problem`] that names the file.
-pub fn write_file(path: &Path, content: &str) -> Result<(), Problem> {
+pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem> {
     let problem = |error: &std::io::Error| {
         Problem::new("secant::output", format!("{} cannot be written: {error}", path.display()))
             .with_help("the directory must exist and be writable; nothing was left half-written")
@@ -18,7 +18,7 @@ pub fn write_file(path: &Path, content: &str) -> Result<(), Problem> {
     // A link stays a link: what it points to is replaced.
     let target: PathBuf = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if std::fs::metadata(&target).is_ok_and(|m| !m.is_file()) {
-        return std::fs::write(&target, content).map_err(|e| problem(&e));
+        return std::fs::write(&target, content.as_ref()).map_err(|e| problem(&e));
     }
     let directory = match target.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -33,7 +33,7 @@ pub fn write_file(path: &Path, content: &str) -> Result<(), Problem> {
         builder.permissions(std::fs::Permissions::from_mode(mode));
     }
     let mut file = builder.tempfile_in(directory).map_err(|e| problem(&e))?;
-    file.write_all(content.as_bytes()).and_then(|()| file.flush()).map_err(|e| problem(&e))?;
+    file.write_all(content.as_ref()).and_then(|()| file.flush()).map_err(|e| problem(&e))?;
     file.persist(&target).map_err(|e| problem(&e.error))?;
     Ok(())
 }

@@ -16,10 +16,20 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar of `count` steps, not shown yet; never shown when `quiet`, or where the standard error is no terminal.
+    /// A bar of `count` cases, not shown yet; never shown when `quiet`, or where the standard error is no terminal.
     pub fn new(count: usize, quiet: bool) -> Self {
-        let bar = ProgressBar::with_draw_target(u64::try_from(count).ok(), ProgressDrawTarget::hidden());
-        if let Ok(style) = ProgressStyle::with_template("  {bar:40} {pos}/{len} cases, {elapsed}") {
+        Self::of(count, "cases", quiet)
+    }
+
+    /// A bar of `count` things of a kind; 0: it is not known how many.
+    pub fn of(count: usize, what: &str, quiet: bool) -> Self {
+        let length = u64::try_from(count).ok().filter(|n| *n > 0);
+        let bar = ProgressBar::with_draw_target(length, ProgressDrawTarget::hidden());
+        let template = match length {
+            Some(_) => format!("  {{bar:40}} {{pos}}/{{len}} {what}, {{elapsed}}"),
+            None => format!("  {{spinner}} {{pos}} {what}, {{elapsed}}"),
+        };
+        if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
         Self { bar, begun: Instant::now(), quiet }
@@ -27,10 +37,15 @@ impl Progress {
 
     /// One case is done.
     pub fn step(&self) {
+        self.advance(1);
+    }
+
+    /// Several are done.
+    pub fn advance(&self, count: usize) {
         if !self.quiet && self.bar.is_hidden() && self.begun.elapsed() > PATIENCE {
             self.bar.set_draw_target(ProgressDrawTarget::stderr());
         }
-        self.bar.inc(1);
+        self.bar.inc(count as u64);
     }
 
     /// All are done.

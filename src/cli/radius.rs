@@ -1,31 +1,26 @@
 //! `secant jsr` and `secant regularity`.
 
-use super::output::{complain, print};
-use super::{BAD_INPUT, PROVED, RegularityArgs, UNDETERMINED};
+use super::output::{complain, print, write_file};
+use super::{BAD_INPUT, JsrArgs, PROVED, RegularityArgs, UNDETERMINED};
 use crate::arith::{Rational, parse_rational};
+use crate::case::{Case, Origin};
 use crate::diagnostic::Problem;
+use crate::picture::polytope;
 use crate::radius::{Options, file, joint_radius};
 use crate::report::radius as report;
-use crate::scheme::Mask;
-use crate::theorem::regularity::regularity;
+use crate::scheme::{self, Mask};
+use crate::shape::{Contraction, Spaces};
+use crate::theorem::regularity;
+use crate::theorem::smoothness::curve_regularity;
+use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Prints bounds of the joint spectral radius of the matrices of a file.
-pub fn jsr(path: &Path) -> u8 {
-    let name = path.display();
-    let wrong = |message: String, help: &str| Problem::new("secant::jsr", message).with_help(help);
-    let found = std::fs::read_to_string(path)
-        .map_err(|e| wrong(format!("{name} cannot be read: {e}"), "name a TOML file with `matrices = [...]`"))
-        .and_then(|text| {
-            file::parse(&text).map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md for the format"))
-        })
-        .and_then(|file| {
-            joint_radius(&file.system, &Options::default())
-                .map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md"))
-        });
-    match found {
-        Ok(radius) => {
-            print(&report::joint_radius(&radius));
+pub fn jsr(args: &JsrArgs) -> u8 {
+    match radius(args) {
+        Ok(text) => {
+            print(&text);
             PROVED
         }
         Err(problem) => {
@@ -35,19 +30,45 @@ pub fn jsr(path: &Path) -> u8 {
     }
 }
 
-/// Prints the regularity of the scheme of a mask.
-pub fn mask(args: &RegularityArgs) -> u8 {
-    let wrong = |message: String| {
-        Problem::new("secant::mask", message)
-            .with_help("write the coefficients as in \"1/4,3/4,3/4,1/4\" or the symbol as in \"(1+z)^3/4\"")
-    };
-    let coefficients = read_mask(&args.mask, args.arity).map_err(wrong);
-    let found =
-        coefficients.and_then(|c| regularity(&c, args.arity, &Options::default()).map_err(|e| wrong(e.to_string())));
-    match found {
-        Ok(found) => {
-            print(&report::regularity(&found));
-            if found.exponent.is_some() { PROVED } else { UNDETERMINED }
+fn radius(args: &JsrArgs) -> Result<String, Problem> {
+    let name = args.file.display();
+    let wrong = |message: String, help: &str| Problem::new("secant::jsr", message).with_help(help);
+    let text = std::fs::read_to_string(&args.file)
+        .map_err(|e| wrong(format!("{name} cannot be read: {e}"), "name a TOML file with `matrices = [...]`"))?;
+    let file = file::parse(&text).map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md for the format"))?;
+    let found = joint_radius(&file.system, &Options::default())
+        .map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md"))?;
+    if let Some(path) = &args.svg {
+        let drawn = polytope(&found).ok_or_else(|| {
+            wrong("no polytope in two dimensions was used".to_owned(), "--svg draws invariant polytopes in the plane")
+        })?;
+        write_file(path, &drawn)?;
+    }
+    if let Some(path) = &args.certificate {
+        let certificate = crate::certificate::radius_certificate(&file, &found)
+            .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; nothing was written"))?;
+        let written = certificate.text();
+        secant_check::check(&text, &written).map_err(|e| {
+            wrong(format!("the certificate is not accepted: {e}"), "this is a mistake in secant: please report it")
+        })?;
+        write_file(path, &written)?;
+    }
+    Ok(report::joint_radius(&found))
+}
+
+/// What `secant regularity` is asked about.
+enum Subject {
+    Wavelet(usize),
+    Mask(Mask),
+    Curve(Box<crate::shape::Shape>),
+}
+
+/// Prints the regularity of a scheme, a curve or a scaling function.
+pub fn regularity(args: &RegularityArgs) -> u8 {
+    match subject(args).and_then(|subject| table(&subject)) {
+        Ok((text, decided)) => {
+            print(&text);
+            if decided { PROVED } else { UNDETERMINED }
         }
         Err(problem) => {
             complain(&problem);
@@ -56,12 +77,95 @@ pub fn mask(args: &RegularityArgs) -> u8 {
     }
 }
 
-fn read_mask(text: &str, arity: usize) -> Result<Vec<Rational>, String> {
+fn wrong(message: String) -> Problem {
+    Problem::new("secant::regularity", message).with_help(
+        "name a case file, a scheme of `secant schemes`, a wavelet such as db2, or write a mask as in \
+         \"1/4,3/4,3/4,1/4\" or a symbol as in \"(1+z)^3/4\"",
+    )
+}
+
+fn table(subject: &Subject) -> Result<(String, bool), Problem> {
+    let options = Options::default();
+    match subject {
+        Subject::Wavelet(moments) => match wavelet(*moments, &options) {
+            Some(found) => Ok((report::wavelet(&found), true)),
+            None => Err(wrong(format!("no bounds were found for db{moments}"))),
+        },
+        Subject::Mask(mask) => {
+            let found = regularity::regularity(mask.coefficients(), mask.arity(), &options);
+            let found = found.map_err(|e| wrong(e.to_string()))?;
+            Ok((report::regularity(&found), found.exponent.is_some()))
+        }
+        Subject::Curve(shape) => {
+            let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
+            let found = curve_regularity(shape, &spaces, &options).map_err(|e| wrong(e.to_string()))?;
+            let decided = found.exponent.is_some() || found.polynomial;
+            Ok((report::curve_regularity(shape, &found), decided))
+        }
+    }
+}
+
+fn subject(args: &RegularityArgs) -> Result<Subject, Problem> {
+    let what = args.what.trim();
+    let no_parameters = || match args.parameters.first() {
+        Some(extra) => Err(wrong(format!("`{extra}` is a parameter, but only named schemes have parameters"))),
+        None => Ok(()),
+    };
+    if let Some(moments) = what.strip_prefix("db").and_then(|n| n.parse::<usize>().ok()) {
+        no_parameters()?;
+        if (2..=MAX_MOMENTS).contains(&moments) {
+            return Ok(Subject::Wavelet(moments));
+        }
+        return Err(wrong(format!("{what} is not known: db2 to db{MAX_MOMENTS} are")));
+    }
+    if scheme::list().iter().any(|s| s.name == what) {
+        return named(what, &args.parameters);
+    }
+    no_parameters()?;
+    if what.ends_with(".toml") || Path::new(what).is_file() {
+        return case(Path::new(what));
+    }
+    mask(what, args.arity).map(Subject::Mask).map_err(wrong)
+}
+
+fn named(name: &str, parameters: &[String]) -> Result<Subject, Problem> {
+    let mut values: BTreeMap<String, Rational> = BTreeMap::new();
+    for text in parameters {
+        let Some((key, value)) = text.split_once('=') else {
+            return Err(wrong(format!("`{text}` is not of the form name=value")));
+        };
+        values.insert(key.trim().to_owned(), parse_rational(value).map_err(|e| wrong(e.to_string()))?);
+    }
+    match scheme::mask(name, &values).map_err(|e| wrong(e.to_string()))? {
+        Some(mask) => Ok(Subject::Mask(mask)),
+        None => {
+            let shape = scheme::build(name, &values).map_err(|e| wrong(e.to_string()))?;
+            Ok(Subject::Curve(Box::new(shape)))
+        }
+    }
+}
+
+/// The mask of a case with one, or its curve, which must be a model that contracts.
+fn case(path: &Path) -> Result<Subject, Problem> {
+    let case = Case::read(path)?;
+    if let Some(Origin::Mask(mask)) = &case.scheme {
+        return Ok(Subject::Mask(mask.clone()));
+    }
+    case.shape.check_curves().map_err(|e| super::certify::model_problem(&case, &e.into()))?;
+    let contraction =
+        crate::theorem::contraction_of(&case.shape).map_err(|e| super::certify::model_problem(&case, &e))?;
+    if !matches!(contraction, Contraction::Proved(_)) {
+        return Err(wrong(format!("{}: contraction is not decided", case.name)));
+    }
+    Ok(Subject::Curve(Box::new(case.shape)))
+}
+
+fn mask(text: &str, arity: usize) -> Result<Mask, String> {
     if text.contains('z') {
-        return Ok(Mask::from_symbol(arity, text).map_err(|e| e.to_string())?.coefficients().to_vec());
+        return Mask::from_symbol(arity, text).map_err(|e| e.to_string());
     }
     let inner = text.trim().trim_start_matches('[').trim_end_matches(']');
     let entries = inner.split(',').map(|t| parse_rational(t).map_err(|e| e.to_string()));
     let coefficients: Vec<Rational> = entries.collect::<Result<_, _>>()?;
-    Ok(Mask::new(arity, coefficients).map_err(|e| e.to_string())?.coefficients().to_vec())
+    Mask::new(arity, coefficients).map_err(|e| e.to_string())
 }

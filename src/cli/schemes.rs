@@ -1,19 +1,25 @@
 //! `secant schemes`: the named schemes, and each of them written as a case.
 
+use super::irrational;
 use super::output::{complain, print};
 use super::{BAD_INPUT, PROVED};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::Problem;
-use crate::scheme::{self, Heading, SchemeInfo, case_text};
+use crate::scheme::{self, Heading, case_text};
 use std::collections::BTreeMap;
 
 /// Lists the schemes, or writes one as a case file to the standard output.
 pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
     let Some(name) = name else {
-        print(&scheme::list().iter().map(entry).collect::<String>());
+        let curves = scheme::list().iter().map(|i| entry(i.name, i.summary, i.parameters, i.source));
+        let meshes = scheme::mesh_rules().iter().map(|i| entry(i.name, i.summary, i.parameters, i.source));
+        let curves: String = curves.chain(irrational::LIST.iter().map(irrational::entry)).collect();
+        let meshes: String = meshes.collect();
+        print(&format!("{curves}\nMesh rules, for `mesh = …` and `valence = …` under [scheme] in a case:\n\n{meshes}"));
         return PROVED;
     };
-    match written(name, parameters) {
+    let text = irrational::written(name, parameters).unwrap_or_else(|| written(name, parameters));
+    match text {
         Ok(text) => {
             print(&text);
             PROVED
@@ -27,16 +33,19 @@ pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
     }
 }
 
-fn entry(info: &SchemeInfo) -> String {
+fn entry(name: &str, summary: &str, parameters: &[scheme::Parameter], source: &str) -> String {
     let parameter = |p: &scheme::Parameter| match p.default {
         Some(value) => format!("    {} (default {value}): {}\n", p.name, p.summary),
         None => format!("    {}: {}\n", p.name, p.summary),
     };
-    let parameters: String = info.parameters.iter().map(parameter).collect();
-    format!("{}\n    {}\n{parameters}    source: {}\n", info.name, info.summary, info.source)
+    let parameters: String = parameters.iter().map(parameter).collect();
+    format!("{name}\n    {summary}\n{parameters}    source: {source}\n")
 }
 
 fn written(name: &str, parameters: &[String]) -> Result<String, String> {
+    if scheme::mesh_rules().iter().any(|r| r.name == name) {
+        return Err(format!("`{name}` is a mesh rule: write a case with [scheme] mesh = \"{name}\" and its valence"));
+    }
     let mut values: BTreeMap<String, Rational> = BTreeMap::new();
     for text in parameters {
         let (key, value) = text.split_once('=').ok_or_else(|| format!("`{text}` is not of the form name=value"))?;

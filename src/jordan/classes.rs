@@ -21,7 +21,7 @@ pub(super) fn group(factors: &[&[Root]]) -> Vec<ModulusClass> {
     for (factor, roots) in factors.iter().enumerate() {
         for (root, r) in roots.iter().enumerate() {
             // A conjugate shares the range of its partner.
-            let mirrored = !r.is_real() && r.conjugate().index() < root;
+            let mirrored = !r.is_real() && r.conjugate().index() < r.index();
             if !mirrored {
                 entries.push(Entry { eigenvalue: Eigenvalue { factor, root }, root: r, range: r.modulus(48) });
             }

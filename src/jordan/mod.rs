@@ -4,6 +4,7 @@
 mod chains;
 mod classes;
 mod echelon;
+mod field;
 mod generators;
 mod operator;
 mod reconstruct;
@@ -18,6 +19,7 @@ use malachite_base::num::logic::traits::SignificantBits;
 use rayon::prelude::*;
 
 pub use crate::linalg::char_poly;
+pub use field::{FieldFactor, FieldSpectrum, estimated_field_work};
 
 /// A chain of generalised eigenvectors of one Jordan block, for every root `θ` of a factor at once: entries are
 /// elements of `Q[x] / (factor)`.

@@ -106,7 +106,7 @@ impl<'a> Task<'a> {
     }
 }
 
-fn embed_vector(v: &[Elem], embedding: &[Vec<(usize, Integer)>], size: usize) -> Vec<Elem> {
+pub(super) fn embed_vector(v: &[Elem], embedding: &[Vec<(usize, Integer)>], size: usize) -> Vec<Elem> {
     let width = v.iter().map(|e| e.0.coeffs().len()).max().unwrap_or(0);
     let mut out = vec![vec![Rational::from(0); width]; size];
     for (element, places) in v.iter().zip(embedding) {
@@ -122,13 +122,22 @@ fn embed_vector(v: &[Elem], embedding: &[Vec<(usize, Integer)>], size: usize) ->
 
 /// Factors and chains of all summands, equal factors merged, in order.
 pub(super) fn decompose(summands: &[Summand]) -> Vec<Merged> {
+    decompose_some(summands, &|_| true)
+}
+
+/// The same for the factors that are wanted; a factor that is wanted in one summand is so in all.
+pub(super) fn decompose_some(summands: &[Summand], wanted: &dyn Fn(&Poly) -> bool) -> Vec<Merged> {
     let size: usize = summands.iter().map(|s| s.right.matrix.rows()).sum();
     let lists = all_factors(summands);
     let sides: Vec<(&Side, usize)> =
         summands.iter().enumerate().flat_map(|(k, s)| [(&s.right, k), (&s.left, k)]).collect();
     let tasks: Vec<Task> = sides.iter().map(|(side, k)| Task::new(side, &lists[*k])).collect();
-    let jobs: Vec<(usize, usize)> =
-        tasks.iter().enumerate().flat_map(|(t, task)| (0..task.parts.len()).map(move |f| (t, f))).collect();
+    let jobs: Vec<(usize, usize)> = tasks
+        .iter()
+        .enumerate()
+        .flat_map(|(t, task)| (0..task.parts.len()).map(move |f| (t, f)))
+        .filter(|(t, f)| wanted(&lists[t / 2][*f].0))
+        .collect();
     let work = |(t, f): &(usize, usize)| tasks[*t].chains(*f, size);
     let results: Vec<Vec<Chain>> =
         if size < PARALLEL { jobs.iter().map(work).collect() } else { jobs.par_iter().map(work).collect() };

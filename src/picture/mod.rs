@@ -1,17 +1,35 @@
 //! Pictures of attractors as SVG. Floats are used here and prove nothing; exact points only start the computation.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
+pub mod characteristic;
+mod chart;
+mod diagram;
+mod germ;
+mod invariant;
+mod plot;
+mod png;
 mod projection;
 mod svg;
 mod tikz;
 mod trace;
 
+pub use chart::{CellBox, Turning, functional, turning as turning_chart};
+pub use diagram::{Arrow, Dot, Drawing, automaton, spectrum};
+pub use germ::{profile, turning, zoom};
+pub use invariant::polytope;
+pub use plot::Plot;
 pub use projection::Projection;
 
 use crate::arith::Rational;
 use crate::shape::{CellKind, Shape};
 use svg::Canvas;
 use trace::Tracer;
+
+/// The style sheet that every picture carries.
+#[must_use]
+pub fn style() -> &'static str {
+    svg::STYLE
+}
 
 /// What is drawn at an examined point.
 #[derive(Debug, Clone)]
@@ -63,10 +81,45 @@ pub struct Picture {
 #[must_use]
 pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> {
     let projection = Projection::of(shape);
+    let canvas = draw(shape, &projection, title, marks)?;
+    let what = if shape.states[shape.start].kind == CellKind::Edge { "curve" } else { "set" };
+    let drawn = match marks.len() {
+        0 => String::new(),
+        1 => " One examined point is marked.".to_owned(),
+        n => format!(" {n} examined points are marked."),
+    };
+    let framed = projection.polygon().len() >= 2;
+    let with = if framed { " with its control polygon" } else { "" };
+    let seen = match (framed, marks.iter().any(|m| !m.rays.is_empty())) {
+        (true, true) => ", its control polygon and the limit rays found",
+        (true, false) => " and its control polygon",
+        (false, true) => " and the limit rays found",
+        (false, false) => "",
+    };
+    let caption = format!("The {what}{seen}. {}{drawn}", projection.words());
+    let alt = format!("Drawing of the {what} “{title}”{with}. {}{drawn}", projection.words());
+    Some(Picture {
+        svg: canvas.svg(),
+        thumbnail: canvas.thumbnail(),
+        tikz: tikz::picture(canvas.elements()),
+        caption,
+        alt,
+    })
+}
+
+/// The drawing of [`attractor`] as a PNG file on white, without the words; the same input gives the same bytes.
+///
+/// Returns `None` where [`attractor`] does.
+#[must_use]
+pub fn attractor_png(shape: &Shape, marks: &[Mark]) -> Option<Vec<u8>> {
+    let canvas = draw(shape, &Projection::of(shape), "", marks)?;
+    let [width, height] = canvas.size();
+    png::render(canvas.elements(), width, height)
+}
+
+fn draw(shape: &Shape, projection: &Projection, title: &str, marks: &[Mark]) -> Option<Canvas> {
     let tracer = Tracer::new(shape)?;
-    let start = &shape.states[shape.start];
-    let is_curve = start.kind == CellKind::Edge;
-    let points = tracer.points(&projection);
+    let points = tracer.points(projection);
     let polygon = projection.polygon();
     let spots: Vec<[f64; 2]> = marks.iter().map(|m| projection.point(&m.at)).collect();
     let all: Vec<[f64; 2]> = points.iter().chain(&polygon).chain(&spots).copied().collect();
@@ -75,7 +128,7 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
     }
     let mut canvas = Canvas::around(&all, title);
     canvas.polygon(&polygon);
-    if is_curve {
+    if shape.states[shape.start].kind == CellKind::Edge {
         canvas.curve(&points);
     } else {
         canvas.cloud(&points);
@@ -84,21 +137,7 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
         let rays: Vec<[f64; 2]> = mark.rays.iter().map(|r| projection.direction(r)).collect();
         canvas.mark(mark.style, *at, &rays, &mark.label);
     }
-    let what = if is_curve { "curve" } else { "set" };
-    let drawn = match marks.len() {
-        0 => String::new(),
-        1 => " One examined point is marked.".to_owned(),
-        n => format!(" {n} examined points are marked."),
-    };
-    let caption = format!("The {what}, its control polygon and the rays found. {}{drawn}", projection.words());
-    let alt = format!("Drawing of the {what} {title} with its control polygon. {}{drawn}", projection.words());
-    Some(Picture {
-        svg: canvas.svg(),
-        thumbnail: canvas.thumbnail(),
-        tikz: tikz::picture(canvas.elements()),
-        caption,
-        alt,
-    })
+    Some(canvas)
 }
 
 #[cfg(test)]
@@ -125,6 +164,8 @@ mod tests {
         assert_eq!(a, b);
         assert!(a.svg.contains("a &amp; b") && a.svg.contains("(0) &lt;&amp;&gt;"));
         assert!(a.caption.contains("triangle"));
+        let png = attractor_png(&spline(), &[]).unwrap();
+        assert!(png.starts_with(b"\x89PNG") && attractor_png(&spline(), &[]).unwrap() == png);
         assert!(a.svg.len() < 200_000, "{}", a.svg.len());
     }
 

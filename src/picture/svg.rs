@@ -6,17 +6,31 @@ const MARGIN: f64 = 36.0;
 const RAY: f64 = 78.0;
 
 /// Colours that can be told apart on light and on dark paper.
-const STYLE: &str = ".sc-p{fill:none;stroke:#8a8f98;stroke-width:1;stroke-dasharray:4 3}\
+pub(super) const STYLE: &str = ".sc-p{fill:none;stroke:#8a8f98;stroke-width:1;stroke-dasharray:4 3}\
 .sc-k{fill:#8a8f98}.sc-c{fill:none;stroke:#1f5fbf;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}\
 .sc-s{fill:none;stroke:#1f5fbf;stroke-width:1.3;stroke-linecap:round}\
 .sc-r{fill:none;stroke-width:2;stroke-linecap:round}.sc-d{stroke:none}\
-.sc-t{font:12px sans-serif;fill:#3c4048}\
+.sc-t{font:12px sans-serif;fill:#3c4048}.sc-a{fill:none;stroke:#6b717b;stroke-width:1}\
+.sc-x{fill:#1f5fbf;fill-opacity:.22;stroke:#1f5fbf;stroke-width:.8}\
+.sc-y{fill:#b06a00;fill-opacity:.22;stroke:#b06a00;stroke-width:.8}\
 .sc-tangent{stroke:#1a8a4a;fill:#1a8a4a}.sc-cusp{stroke:#b06a00;fill:#b06a00}\
 .sc-corner{stroke:#c4332b;fill:#c4332b}.sc-open{stroke:#7a4fb5;fill:#7a4fb5}\
 path.sc-r{fill:none}\
-@media (prefers-color-scheme:dark){.sc-c,.sc-s{stroke:#7fb0ff}.sc-t{fill:#d4d8de}\
+@media screen and (prefers-color-scheme:dark){.sc-c,.sc-s{stroke:#7fb0ff}.sc-t{fill:#d4d8de}.sc-a{stroke:#9aa2ae}\
+.sc-x{fill:#7fb0ff;stroke:#7fb0ff}.sc-y{fill:#f0b050;stroke:#f0b050}\
 .sc-tangent{stroke:#5fd08f;fill:#5fd08f}.sc-cusp{stroke:#f0b050;fill:#f0b050}\
 .sc-corner{stroke:#ff8077;fill:#ff8077}.sc-open{stroke:#c0a0f0;fill:#c0a0f0}}";
+
+/// Where a label stands with respect to its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// The text begins there.
+    Start,
+    /// It is centred there.
+    Middle,
+    /// It ends there.
+    End,
+}
 
 /// Something drawn, in pixels with y pointing down.
 pub(super) enum Element {
@@ -26,8 +40,8 @@ pub(super) enum Element {
     Cloud { class: &'static str, points: Vec<[f64; 2]> },
     /// A disc.
     Disc { class: &'static str, at: [f64; 2], radius: f64 },
-    /// Words beside a point; `left` of it or right.
-    Label { at: [f64; 2], left: bool, text: String },
+    /// Words at a point of their base line.
+    Label { at: [f64; 2], anchor: Anchor, text: String },
 }
 
 /// A drawing in the making; y points up in the coordinates given to it.
@@ -97,7 +111,8 @@ impl Canvas {
         self.elements.push(Element::Disc { class, at, radius: 4.0 });
         let left = at[0] > WIDTH - 90.0;
         let spot = [if left { at[0] - 8.0 } else { at[0] + 8.0 }, (at[1] - 8.0).max(14.0)];
-        self.elements.push(Element::Label { at: spot, left, text: label.to_owned() });
+        let anchor = if left { Anchor::End } else { Anchor::Start };
+        self.elements.push(Element::Label { at: spot, anchor, text: label.to_owned() });
     }
 
     fn arrow(&mut self, class: &'static str, from: [f64; 2], unit: [f64; 2]) {
@@ -111,13 +126,7 @@ impl Canvas {
 
     /// The drawing as a complete SVG document.
     pub fn svg(&self) -> String {
-        let (w, h) = (fixed(WIDTH), fixed(self.height));
-        let body: String = self.elements.iter().map(svg_element).collect();
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\">\n\
-             <title>{}</title>\n<style>{STYLE}</style>\n{body}</svg>\n",
-            escaped(&self.title)
-        )
+        document(&self.elements, WIDTH, self.height, &self.title)
     }
 
     /// The shape alone, with few points, as a small SVG document.
@@ -137,10 +146,26 @@ impl Canvas {
         )
     }
 
+    /// Width and height.
+    pub fn size(&self) -> [f64; 2] {
+        [WIDTH, self.height]
+    }
+
     /// The elements, for other formats.
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
+}
+
+/// A complete SVG document.
+pub(super) fn document(elements: &[Element], width: f64, height: f64, title: &str) -> String {
+    let (w, h) = (fixed(width), fixed(height));
+    let body: String = elements.iter().map(svg_element).collect();
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" height=\"{h}\" role=\"img\">\n\
+         <title>{}</title>\n<style>{STYLE}</style>\n{body}</svg>\n",
+        escaped(title)
+    )
 }
 
 /// Drops points near the one kept before.
@@ -162,7 +187,8 @@ fn svg_element(element: &Element) -> String {
             for (k, [x, y]) in points.iter().enumerate() {
                 let _ = write!(d, "{}{} {}", if k == 0 { 'M' } else { 'L' }, fixed(*x), fixed(*y));
             }
-            let ray = if matches!(*class, "sc-p" | "sc-c") { String::new() } else { "sc-r ".to_owned() };
+            let own = matches!(*class, "sc-p" | "sc-c" | "sc-a" | "sc-x" | "sc-y");
+            let ray = if own { String::new() } else { "sc-r ".to_owned() };
             format!("<path class=\"{ray}{class}\" d=\"{d}\"/>\n")
         }
         Element::Cloud { class, points } => {
@@ -175,8 +201,12 @@ fn svg_element(element: &Element) -> String {
             let (x, y, r) = (fixed(*x), fixed(*y), fixed(*radius));
             format!("<circle class=\"sc-d {class}\" cx=\"{x}\" cy=\"{y}\" r=\"{r}\"/>\n")
         }
-        Element::Label { at: [x, y], left, text } => {
-            let anchor = if *left { "end" } else { "start" };
+        Element::Label { at: [x, y], anchor, text } => {
+            let anchor = match anchor {
+                Anchor::Start => "start",
+                Anchor::Middle => "middle",
+                Anchor::End => "end",
+            };
             let (x, y, text) = (fixed(*x), fixed(*y), escaped(text));
             format!("<text class=\"sc-t\" x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\">{text}</text>\n")
         }
@@ -191,7 +221,7 @@ pub(super) fn fixed(x: f64) -> String {
 }
 
 /// Text for SVG and HTML.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {

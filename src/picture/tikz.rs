@@ -1,10 +1,10 @@
-use super::svg::{Element, fixed, spaced};
+use super::svg::{Anchor, Element, fixed, spaced};
 use std::fmt::Write;
 
 /// Most points of a path; TeX's memory is small.
 const MAX_POINTS: usize = 1_200;
 /// Points per pixel.
-const UNIT: &str = "0.62pt";
+const UNIT: &str = "0.52pt";
 
 /// The drawing as a `tikzpicture`; the colours are those that the LaTeX report defines.
 pub(super) fn picture(elements: &[Element]) -> String {
@@ -21,6 +21,9 @@ fn colour(class: &str) -> &'static str {
         "sc-p" => "neutral,dashed",
         "sc-k" => "neutral",
         "sc-c" | "sc-s" => "curve",
+        "sc-a" => "neutral",
+        "sc-x" => "curve,fill=curve!20",
+        "sc-y" => "cusp,fill=cusp!20",
         "sc-tangent" => "tangent,thick",
         "sc-cusp" => "cusp,thick",
         "sc-corner" => "corner,thick",
@@ -51,16 +54,17 @@ fn write_element(out: &mut String, element: &Element) {
             }
         }
         Element::Disc { class, at, radius } => {
-            let radius = fixed(radius * 0.62);
+            let radius = fixed(radius * 0.52);
             let _ = writeln!(out, "\\fill[{}] {} circle[radius={radius}pt];", colour(class), spot(at));
         }
-        Element::Label { at, left, text } => {
-            let side = if *left { "south east" } else { "south west" };
-            let plain: String = text
-                .chars()
-                .filter(|c| c.is_ascii_alphanumeric() || matches!(c, '(' | ')' | ',' | '=' | ' '))
-                .collect();
-            let _ = writeln!(out, "\\node[anchor={side},inner sep=0pt,font=\\scriptsize] at {} {{{plain}}};", spot(at));
+        Element::Label { at, anchor, text } => {
+            let side = match anchor {
+                Anchor::Start => "base west",
+                Anchor::Middle => "base",
+                Anchor::End => "base east",
+            };
+            let text = crate::report::latex::escaped(text);
+            let _ = writeln!(out, "\\node[anchor={side},inner sep=0pt,font=\\scriptsize] at {} {{{text}}};", spot(at));
         }
     }
 }

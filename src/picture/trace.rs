@@ -1,4 +1,5 @@
 use super::projection::{Projection, floats};
+use super::svg::Element;
 use crate::arith::to_f64;
 use crate::shape::{Address, CellKind, End, Shape};
 use nalgebra::DMatrix;
@@ -52,6 +53,74 @@ impl<'a> Tracer<'a> {
                 return thinned(points, tolerance / 4.0);
             }
             tolerance *= 1.5;
+        }
+    }
+
+    /// The points of the cell of a state under a map to the plane, about `most` of them.
+    pub fn cell(&self, state: usize, map: &DMatrix<f64>, most: usize) -> Vec<[f64; 2]> {
+        let size = extent(&self.walk(state, map, 0.0, 3, MAX_POINTS)).max(f64::MIN_POSITIVE);
+        let mut tolerance = size * 4.0 * FINE;
+        loop {
+            let points = thinned(self.walk(state, map, tolerance, MAX_DEPTH, MAX_POINTS), tolerance);
+            if points.len() <= most || tolerance > size {
+                return points;
+            }
+            tolerance *= 1.4;
+        }
+    }
+
+    /// Points of a cell as the element that suits its state: a curve, or a cloud.
+    pub fn element(&self, state: usize, points: Vec<[f64; 2]>) -> Element {
+        if self.shape.states[state].kind == CellKind::Edge {
+            Element::Path { class: "sc-c", points }
+        } else {
+            Element::Cloud { class: "sc-s", points }
+        }
+    }
+
+    /// Points of the image of a state's attractor under `op`, at least `least` of them, as columns.
+    pub fn spread(&self, state: usize, op: &DMatrix<f64>, least: usize) -> Vec<DMatrix<f64>> {
+        let mut cells = vec![(state, op.clone())];
+        for _ in 0..MAX_DEPTH {
+            if cells.len() >= least.max(1) {
+                break;
+            }
+            let inner = |(e, op): &(usize, DMatrix<f64>)| -> Vec<(usize, DMatrix<f64>)> {
+                let pieces = self.shape.states[*e].pieces.iter().zip(&self.ops[*e]);
+                pieces.map(|(piece, next)| (piece.target, op * next)).collect()
+            };
+            cells = cells.iter().flat_map(inner).collect();
+        }
+        let points = |(e, op): &(usize, DMatrix<f64>)| -> Vec<DMatrix<f64>> {
+            let images = op * &self.samples[*e];
+            (0..images.ncols()).map(|j| images.columns(j, 1).into_owned()).collect()
+        };
+        cells.iter().flat_map(points).collect()
+    }
+
+    /// The graph of a functional over the uniform parameter of an edge state.
+    pub fn profile(&self, state: usize, row: &DMatrix<f64>) -> Vec<[f64; 2]> {
+        let most = self.shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1).max(2);
+        let depth = (1..=12).take_while(|d| most.pow(*d) <= 400).count().max(1);
+        let mut out = Vec::new();
+        self.graph(state, row, (0.0, 1.0), depth, false, &mut out);
+        out
+    }
+
+    fn graph(&self, e: usize, row: &DMatrix<f64>, t: (f64, f64), depth: usize, back: bool, out: &mut Vec<[f64; 2]>) {
+        let pieces = &self.shape.states[e].pieces;
+        if depth == 0 {
+            let ends = row * &self.samples[e];
+            let (a, b) = if back { (1, 0) } else { (0, 1) };
+            out.extend([[t.0, ends[(0, a)]], [t.1, ends[(0, b)]]]);
+            return;
+        }
+        let step = (t.1 - t.0) / pieces.len() as f64;
+        for k in 0..pieces.len() {
+            let letter = if back { pieces.len() - 1 - k } else { k };
+            let piece = &pieces[letter];
+            let part = (t.0 + step * k as f64, t.0 + step * (k as f64 + 1.0));
+            self.graph(piece.target, &(row * &self.ops[e][letter]), part, depth - 1, back != piece.reversed, out);
         }
     }
 

@@ -18,37 +18,78 @@ pub struct Block {
     pub irreducible: bool,
 }
 
+/// One step of a flag of invariant families of subspaces: the arrows act on the quotient by the steps before as a block.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// For every state of the whole system, vectors (columns) that span the step modulo the ones before.
+    pub frame: Vec<Matrix>,
+    /// The block; `None` where all its products over long paths vanish (its matrices are 0).
+    pub block: Option<Block>,
+}
+
+/// A part of the system with its vectors in the whole system.
+struct Part {
+    system: System,
+    states: Vec<usize>,
+    /// By state of the part.
+    frame: Vec<Matrix>,
+}
+
 /// The diagonal blocks with a cyclic path; an empty list means that all products over long paths vanish.
 ///
 /// # Cost
 /// Polynomial; one characteristic polynomial and a few closures for each block and trial.
 #[must_use]
 pub fn blocks(system: &System) -> Vec<Block> {
+    flag(system).into_iter().filter_map(|step| step.block).collect()
+}
+
+/// A flag of invariant families of subspaces, as fine as it was found: in its frames, all arrows are block upper triangular.
+#[must_use]
+pub fn flag(system: &System) -> Vec<Step> {
     let arrows = system.arrows.iter().enumerate().map(|(k, a)| Arrow { label: k, ..a.clone() }).collect();
-    let whole = System { dims: system.dims.clone(), arrows };
-    let states: Vec<usize> = (0..system.dims.len()).collect();
-    let nonnegative = system.is_nonnegative();
-    let mut done = Vec::new();
-    let mut open = components(&whole, &states);
-    while let Some((part, states)) = open.pop() {
-        if nonnegative {
-            done.push(Block { system: part, states, irreducible: true });
+    let whole = Part {
+        system: System { dims: system.dims.clone(), arrows },
+        states: (0..system.dims.len()).collect(),
+        frame: system.dims.iter().map(|d| Matrix::identity(*d)).collect(),
+    };
+    let mut steps = Vec::new();
+    refine(&whole, system, &mut steps);
+    steps
+}
+
+fn refine(part: &Part, whole: &System, steps: &mut Vec<Step>) {
+    for (component, cyclic) in components(part) {
+        let frame = (0..whole.dims.len()).map(|s| {
+            let own = component.states.iter().position(|k| *k == s);
+            own.map_or_else(|| Matrix::zero(whole.dims[s], 0), |k| component.frame[k].clone())
+        });
+        let frame = frame.collect();
+        if !cyclic {
+            steps.push(Step { frame, block: None });
             continue;
         }
-        match split(&part) {
-            Split::Irreducible => done.push(Block { system: part, states, irreducible: true }),
-            Split::Unknown => done.push(Block { system: part, states, irreducible: false }),
+        let done =
+            |irreducible| Block { system: component.system.clone(), states: component.states.clone(), irreducible };
+        if component.system.is_nonnegative() {
+            steps.push(Step { frame, block: Some(done(true)) });
+            continue;
+        }
+        match split(&component) {
+            Split::Irreducible => steps.push(Step { frame, block: Some(done(true)) }),
+            Split::Unknown => steps.push(Step { frame, block: Some(done(false)) }),
             Split::Parts(sub, quotient) => {
-                open.extend(components(&sub, &states));
-                open.extend(components(&quotient, &states));
+                refine(&sub, whole, steps);
+                refine(&quotient, whole, steps);
             }
         }
     }
-    done
 }
 
-/// The strongly connected parts of the graph on (state, coordinate) pairs that contain a cycle.
-fn components(system: &System, states: &[usize]) -> Vec<(System, Vec<usize>)> {
+/// The strongly connected parts of the graph on (state, coordinate) pairs, those before that are reached, and whether they
+/// contain a cycle.
+fn components(part: &Part) -> Vec<(Part, bool)> {
+    let system = &part.system;
     let offsets: Vec<usize> = system
         .dims
         .iter()
@@ -75,21 +116,22 @@ fn components(system: &System, states: &[usize]) -> Vec<(System, Vec<usize>)> {
             }
         }
     }
-    let mut parts = Vec::new();
-    for (top, row) in reach.iter().enumerate() {
-        let mutual = |i: usize| row[i] && reach[i][top];
-        if mutual(top) && (0..top).all(|i| !mutual(i)) {
-            let kept: Vec<Vec<usize>> = (0..system.dims.len())
-                .map(|s| (0..system.dims[s]).filter(|i| mutual(offsets[s] + i)).collect())
-                .collect();
-            parts.push(restrict(system, states, &kept));
-        }
-    }
-    parts
+    let together = |i: usize, j: usize| i == j || (reach[i][j] && reach[j][i]);
+    let mut tops: Vec<usize> = (0..count).filter(|&t| (0..t).all(|i| !together(i, t))).collect();
+    // `reach[i][j]`: axis j is mapped to axis i in the end. What is reached by fewer comes first.
+    tops.sort_by_key(|&t| ((0..count).filter(|&i| reach[i][t]).count(), !reach[t][t], t));
+    tops.into_iter()
+        .map(|top| {
+            let own = |s: usize| (0..system.dims[s]).filter(|i| together(offsets[s] + i, top)).collect();
+            let kept: Vec<Vec<usize>> = (0..system.dims.len()).map(own).collect();
+            (restrict(part, &kept), reach[top][top])
+        })
+        .collect()
 }
 
 /// The principal part on some coordinates of every state; states without coordinates and zero arrows are dropped.
-fn restrict(system: &System, states: &[usize], kept: &[Vec<usize>]) -> (System, Vec<usize>) {
+fn restrict(part: &Part, kept: &[Vec<usize>]) -> Part {
+    let system = &part.system;
     let alive: Vec<usize> = (0..kept.len()).filter(|s| !kept[*s].is_empty()).collect();
     let renamed = |s: usize| alive.iter().position(|a| *a == s);
     let arrows = system
@@ -102,24 +144,32 @@ fn restrict(system: &System, states: &[usize], kept: &[Vec<usize>]) -> (System, 
             (!matrix.is_zero()).then_some(Arrow { from, to, matrix, label: a.label })
         })
         .collect();
-    let dims = alive.iter().map(|s| kept[*s].len()).collect();
-    (System { dims, arrows }, alive.iter().map(|s| states[*s]).collect())
+    let frame = |s: &usize| {
+        let old = &part.frame[*s];
+        Matrix::from_fn(old.rows(), kept[*s].len(), |i, j| old[(i, kept[*s][j])].clone())
+    };
+    Part {
+        system: System { dims: alive.iter().map(|s| kept[*s].len()).collect(), arrows },
+        states: alive.iter().map(|s| part.states[*s]).collect(),
+        frame: alive.iter().map(frame).collect(),
+    }
 }
 
 enum Split {
     Irreducible,
     Unknown,
-    Parts(System, System),
+    Parts(Part, Part),
 }
 
 /// Looks for a common invariant family of subspaces (Norton's criterion on random elements of the algebra of a state).
-fn split(system: &System) -> Split {
+fn split(part: &Part) -> Split {
+    let system = &part.system;
     let home = (0..system.dims.len()).min_by_key(|s| system.dims[*s]).unwrap_or(0);
     let whole = Matrix::identity(system.dims[home]);
     // What one state generates, and what never returns to it.
     for (left, family) in [(false, spin(system, home, &whole, false)), (true, spin(system, home, &whole, true))] {
         if proper(system, &family) {
-            return parts(system, &oriented(system, family, left));
+            return parts(part, &oriented(system, family, left));
         }
     }
     if system.dims[home] == 1 {
@@ -140,13 +190,13 @@ fn split(system: &System) -> Split {
             let seed = Matrix::from_rows(system.dims[home], vec![kernel.column(0)]);
             let family = spin(system, home, &seed, false);
             if proper(system, &family) {
-                return parts(system, &family);
+                return parts(part, &family);
             }
             let cokernel = value.transpose().kernel();
             let seed = Matrix::from_rows(system.dims[home], vec![cokernel.column(0)]);
             let family = spin(system, home, &seed, true);
             if proper(system, &family) {
-                return parts(system, &oriented(system, family, true));
+                return parts(part, &oriented(system, family, true));
             }
             if factor.poly.degree() == Some(kernel.cols()) {
                 return Split::Irreducible;
@@ -247,7 +297,8 @@ fn oriented(system: &System, family: Vec<Matrix>, left: bool) -> Vec<Matrix> {
 }
 
 /// The systems induced on an invariant family and on its quotient.
-fn parts(system: &System, family: &[Matrix]) -> Split {
+fn parts(part: &Part, family: &[Matrix]) -> Split {
+    let system = &part.system;
     // A basis of every state whose first vectors span the family: columns; and its inverse.
     let frames: Option<Vec<(usize, Matrix, Matrix)>> = family
         .iter()
@@ -272,7 +323,15 @@ fn parts(system: &System, family: &[Matrix]) -> Split {
                 Matrix::from_fn(rows.len(), cols.len(), |i, j| whole[(rows.start + i, cols.start + j)].clone());
             Arrow { matrix, ..a.clone() }
         });
-        System { arrows: arrows.collect(), dims: (0..system.dims.len()).map(|s| range(s).len()).collect() }
+        let frame = |s: usize| {
+            let basis = &part.frame[s] * &frames[s].1;
+            Matrix::from_fn(basis.rows(), range(s).len(), |i, j| basis[(i, range(s).start + j)].clone())
+        };
+        Part {
+            system: System { arrows: arrows.collect(), dims: (0..system.dims.len()).map(|s| range(s).len()).collect() },
+            states: part.states.clone(),
+            frame: (0..system.dims.len()).map(frame).collect(),
+        }
     };
     Split::Parts(block(true), block(false))
 }

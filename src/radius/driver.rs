@@ -1,7 +1,8 @@
 //! The joint spectral radius: candidates, polytopes, and what was proved.
 #![allow(clippy::float_arithmetic, reason = "chooses candidates and scales; every bound is recomputed exactly")]
 
-use super::blocks::{Block, blocks};
+use super::balanced::{self, Balanced};
+use super::blocks::{Block, Step, flag};
 use super::exact::{LeadingVector, closes, exact_points, grid, rational};
 use super::float::Floats;
 use super::grow::{Grown, Origin, Task, Vertex, grow, missing_axes};
@@ -11,6 +12,7 @@ use super::quadratic::Quadratic;
 use super::search::{Candidate, candidates, canonical};
 use super::simplex::Body;
 use super::system::{System, SystemError};
+use super::tree::{self, Tree};
 use crate::arith::{Interval, Rational, to_f64};
 use malachite_base::num::arithmetic::traits::CheckedRoot;
 use std::cmp::Ordering;
@@ -37,6 +39,10 @@ pub enum Proof {
     Polytope(Polytope),
     /// Quadratic norms.
     Quadratic(Quadratic),
+    /// An invariant complex balanced polytope.
+    Balanced(Balanced),
+    /// Norms of the words of a tree.
+    Tree(Tree),
 }
 
 /// A diagonal block and what was proved of it.
@@ -78,6 +84,8 @@ pub struct JointRadius {
     pub growth: Growth,
     /// The diagonal blocks.
     pub blocks: Vec<BlockProof>,
+    /// The flag of invariant families to which the blocks belong, in its order.
+    pub flag: Vec<Step>,
 }
 
 /// Computes the joint spectral radius of a set or an automaton of rational matrices.
@@ -89,11 +97,12 @@ pub struct JointRadius {
 /// Bounded by the options; small sets take milliseconds.
 pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, SystemError> {
     let system = system.clone().checked()?;
-    let parts = blocks(&system);
+    let steps = flag(&system);
+    let parts: Vec<Block> = steps.iter().filter_map(|s| s.block.clone()).collect();
     let mut found: Vec<Vec<Candidate>> = parts.iter().map(|b| candidates(&b.system, options.longest, 1e-7)).collect();
     for _ in 0..8 {
         match attempt(&system, &parts, &found, options) {
-            Ok(result) => return Ok(result),
+            Ok(result) => return Ok(JointRadius { flag: steps, ..result }),
             Err((block, path)) => {
                 let word = canonical(&path);
                 let value = Floats::of(&parts[block].system.product(&word)).radius().powf(1.0 / word.len() as f64);
@@ -102,7 +111,8 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
             }
         }
     }
-    attempt_without_restart(&system, &parts, &found, options)
+    let result = attempt_without_restart(&system, &parts, &found, options)?;
+    Ok(JointRadius { flag: steps, ..result })
 }
 
 type Restart = (usize, Vec<usize>);
@@ -126,7 +136,14 @@ fn attempt(
     let Some(best) = best_word(parts, found) else {
         let exact = parts.is_empty();
         let upper = exact.then(|| Rational::from(0));
-        return Ok(JointRadius { lower: None, upper, exact, growth: Growth::Unknown, blocks: Vec::new() });
+        return Ok(JointRadius {
+            lower: None,
+            upper,
+            exact,
+            growth: Growth::Unknown,
+            blocks: Vec::new(),
+            flag: Vec::new(),
+        });
     };
     let mut proofs = Vec::new();
     for (k, block) in parts.iter().enumerate() {
@@ -194,7 +211,7 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     } else {
         Growth::Unknown
     };
-    JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs }
+    JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs, flag: Vec::new() }
 }
 
 fn prove(
@@ -219,7 +236,11 @@ fn prove(
     if own.iter().any(|l| !l.root.is_real()) && by_quadratic(&mut result, square.as_ref(), &own) {
         return Ok(result);
     }
-    if !result.roots.is_empty() {
+    let turning = own.iter().any(|l| real_power(&block.system, l).is_none());
+    if turning && by_balanced(&mut result, best, &own, options) {
+        return Ok(result);
+    }
+    if !result.roots.is_empty() && !turning {
         at_radius(&mut result, best, options)?;
         if result.attains || by_quadratic(&mut result, square.as_ref(), &own) {
             return Ok(result);
@@ -234,7 +255,53 @@ fn prove(
             break;
         }
     }
+    by_tree(&mut result, best.float);
     Ok(result)
+}
+
+/// A bound by norms of words, where there is no other or no good one.
+fn by_tree(result: &mut BlockProof, float: f64) {
+    if result.bound.as_ref().is_some_and(|b| to_f64(b) <= float * 1.001) {
+        return;
+    }
+    let tree = tree::find(&result.block.system, float * 1.0001, TREE_WORDS);
+    let bound = tree.bound(&result.block.system);
+    if bound.is_some() && result.bound.as_ref().is_none_or(|old| bound.as_ref() < Some(old)) {
+        result.bound = bound;
+        result.proof = Some(Proof::Tree(tree));
+    }
+}
+
+/// Most words of a tree.
+const TREE_WORDS: usize = 1500;
+/// Most vertices of a balanced polytope.
+const BALANCED_VERTICES: usize = 400;
+
+/// Tries a complex balanced polytope at the radius itself; true if it proved that the word attains it.
+fn by_balanced(result: &mut BlockProof, best: &Best, own: &[&Lower], options: &Options) -> bool {
+    let system = result.block.system.clone();
+    let mut roots = Vec::new();
+    for lower in own {
+        let Some(mut vector) = Eigenvector::of(&system.product(&lower.path), &lower.root) else { return false };
+        let size = |z: &(Interval, Interval)| to_f64(&z.0.mid()).hypot(to_f64(&z.1.mid()));
+        let largest = balanced::complex_enclosure(&vector, &lower.root, 64).iter().map(size).fold(0.0, f64::max);
+        if largest == 0.0 || !largest.is_finite() {
+            return false;
+        }
+        vector.scale(&scale_near(1.0 / largest));
+        roots.push(LeadingVector { lower: (*lower).clone(), vector });
+    }
+    let scaled = scaled(&system, best.float);
+    let most = options.vertices.min(BALANCED_VERTICES);
+    let task = balanced::Task { system: &system, scaled: &scaled, roots: &roots, radius: &best.lower, most };
+    let Some(found) = balanced::find(&task) else { return false };
+    if result.bound.as_ref().is_none_or(|old| found.bound < *old) {
+        result.bound = Some(found.bound);
+        result.proof = Some(Proof::Balanced(found.polytope));
+        result.attains = found.attains;
+        result.roots = roots;
+    }
+    result.attains
 }
 
 /// Real eigenvectors of the leading words, scaled to about 1 and, for nonnegative matrices, made nonnegative.
@@ -390,6 +457,9 @@ fn smaller(block: &Block, value: f64, best: &Best, options: &Options) -> Result<
             break;
         }
     }
+    if result.bound.is_none() {
+        by_tree(&mut result, best.float);
+    }
     Ok(result)
 }
 
@@ -399,7 +469,7 @@ fn body(system: &System) -> Body {
 
 fn limit(system: &System, options: &Options) -> usize {
     let dim = system.dims.iter().copied().max().unwrap_or(1).max(1);
-    options.vertices.min(12_000 / dim)
+    options.vertices.min(1500).min(12_000 / dim)
 }
 
 fn scaled(system: &System, radius: f64) -> Vec<Floats> {

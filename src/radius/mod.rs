@@ -2,6 +2,7 @@
 //!
 //! Floats propose words, polytopes and coefficients; exact arithmetic decides every bound.
 
+mod balanced;
 mod blocks;
 mod contracts;
 mod driver;
@@ -15,8 +16,10 @@ mod quadratic;
 mod search;
 mod simplex;
 mod system;
+mod tree;
 
-pub use blocks::{Block, blocks};
+pub use balanced::{Balanced, Complex, ComplexInclusion, ComplexPoint};
+pub use blocks::{Block, Step, blocks, flag};
 pub use contracts::{NormContraction, contraction_by_norms, linear_system};
 pub use driver::{BlockProof, Growth, JointRadius, Options, Proof, joint_radius};
 pub use exact::LeadingVector;
@@ -27,3 +30,4 @@ pub use quadratic::Quadratic;
 pub use simplex::Body;
 pub(crate) use simplex::cone_combination;
 pub use system::{Arrow, System, SystemError};
+pub use tree::Tree;

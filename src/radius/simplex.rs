@@ -31,24 +31,29 @@ enum Sign {
     Dominating,
 }
 
+/// A column of the basis.
 #[derive(Clone, Copy)]
-enum Column {
+pub(super) enum Column {
+    /// A point and its sign (or phase).
     Point(usize, f64),
+    /// The excess in a coordinate.
     Surplus(usize),
+    /// What is not yet combined.
     Artificial,
 }
 
 const ARTIFICIAL_COST: f64 = 1e7;
 
-struct Tableau {
+/// The revised simplex method: the inverse of the basis, and the values of its columns.
+pub(super) struct Tableau {
     n: usize,
     inverse: Vec<f64>,
-    basis: Vec<Column>,
-    values: Vec<f64>,
+    pub basis: Vec<Column>,
+    pub values: Vec<f64>,
 }
 
 impl Tableau {
-    fn start(x: &[f64]) -> Self {
+    pub fn start(x: &[f64]) -> Self {
         let n = x.len();
         let mut inverse = vec![0.0; n * n];
         for (i, v) in x.iter().enumerate() {
@@ -57,7 +62,7 @@ impl Tableau {
         Self { n, inverse, basis: vec![Column::Artificial; n], values: x.iter().map(|v| v.abs()).collect() }
     }
 
-    fn dual(&self) -> Vec<f64> {
+    pub fn dual(&self) -> Vec<f64> {
         let mut y = vec![0.0; self.n];
         for (k, column) in self.basis.iter().enumerate() {
             let cost = match column {
@@ -72,7 +77,7 @@ impl Tableau {
         y
     }
 
-    fn pivot(&mut self, column: Column, entries: &[f64]) -> bool {
+    pub fn pivot(&mut self, column: Column, entries: &[f64]) -> bool {
         let n = self.n;
         let d: Vec<f64> = self.inverse.chunks(n).map(|row| dot(row, entries)).collect();
         let mut leaving: Option<(usize, f64)> = None;
@@ -98,7 +103,7 @@ impl Tableau {
         true
     }
 
-    fn combination(&self) -> Combination {
+    pub fn combination(&self) -> Combination {
         let mut terms: Vec<(usize, f64)> = Vec::new();
         let mut value = 0.0;
         let mut loose = Vec::new();

@@ -2,23 +2,35 @@
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
 use super::mathml::math_element;
+use crate::picture;
 
 const STYLE: &str = include_str!("style.css");
+/// Tables of a list that may be skipped stand open up to this length.
+const OPEN_ROWS: usize = 12;
 
 /// Writes a document as one HTML file that needs nothing else.
 #[must_use]
 pub fn render(document: &Document) -> String {
     let title = escaped(&document.title);
     let mut out = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n"
     );
     for block in &document.blocks {
         write_block(&mut out, block);
     }
     out.push_str("</main>\n</body>\n</html>\n");
-    out
+    one_style(&out)
+}
+
+/// Leaves the style sheet of the pictures in the first of them only: it holds for the whole page.
+fn one_style(page: &str) -> String {
+    let style = format!("<style>{}</style>\n", picture::style());
+    match page.split_once(&style) {
+        Some((before, after)) => format!("{before}{style}{}", after.replace(&style, "")),
+        None => page.to_owned(),
+    }
 }
 
 fn write_block(out: &mut String, block: &Block) {
@@ -57,7 +69,10 @@ fn write_block(out: &mut String, block: &Block) {
             out.push_str(&format!("<figure>\n{svg}<figcaption>{}</figcaption>\n</figure>\n", inline(caption)));
         }
         Block::Details { summary, blocks } => {
-            out.push_str(&format!("<details>\n<summary>{}</summary>\n", inline(summary)));
+            // Short lists stand open; paper shows all of them.
+            let short = blocks.iter().all(|b| matches!(b, Block::Table(t) if t.rows.len() <= OPEN_ROWS));
+            let open = if short { " open=\"open\"" } else { "" };
+            out.push_str(&format!("<details{open}>\n<summary>{}</summary>\n", inline(summary)));
             for block in blocks {
                 write_block(out, block);
             }

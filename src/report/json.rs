@@ -3,14 +3,15 @@
 use super::text::math_line;
 use super::theorems;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
-use super::words::ratio;
+use super::words::{deciding, ratio};
 use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
+use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Outcome, PointReport, Rate, Role, Side, Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Outcome, PointReport, Position, Rate, Role, Side, Verdict, Witness,
 };
 use serde_json::{Value, json};
 
@@ -28,8 +29,103 @@ pub fn report(case: &Case, found: &Certified) -> Value {
         "claim": found.claims.first().map(|c| c.text.clone()),
         "claims": found.claims.iter().map(claim).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
-        "points": found.points.iter().map(|p| point(case, p)).collect::<Vec<_>>(),
+        "every_point": super::every::value(found),
+        "points": match &found.surface {
+            Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
+            None => found.points.iter().map(|p| point(case, p)).collect(),
+        },
     })
+}
+
+fn surface_point(p: &SurfacePoint) -> Value {
+    let (kind, side) = match p.spot {
+        Spot::Corner(k) => ("corner", Some(k)),
+        Spot::Side(k) => ("side", Some(k)),
+        Spot::Inside => ("inside", None),
+        Spot::Branch => ("branch", None),
+    };
+    json!({
+        "address": p.branches.first().map(|b| b.address.to_string()),
+        "addresses": p.branches.iter().map(|b| b.address.to_string()).collect::<Vec<_>>(),
+        "role": { "kind": format!("surface-{kind}"), "number": side },
+        "parameters": p.parameter.as_ref().map(|x| rationals(x)),
+        "position": rationals(&p.position),
+        "image": p.image.as_ref().map(|x| rationals(x)),
+        "verdict": p.verdict.word(),
+        "dimension": { "at_least": p.dimension.at_least, "exact": p.dimension.exact },
+        "kind": if p.verdict == Verdict::Proved { "tangent-plane" } else { "none" },
+        "plane": p.tangent.as_ref().map(subspace),
+        "theorem": p.statement.map(|s| theorems::of(s).id),
+        "reason": p.reason,
+        "product": p.product.as_ref().map(|e| json!({
+            "verdict": e.verdict.word(),
+            "curves": [e.first.verdict.word(), e.second.verdict.word()],
+            "plane": e.tangent.as_ref().map(subspace),
+        })),
+        "branches": p.branches.iter().map(surface_branch).collect::<Vec<_>>(),
+    })
+}
+
+/// Vectors that span a subspace; a vector whose `lambda` is not real stands for its real and imaginary part.
+fn subspace(space: &Subspace) -> Value {
+    let decimals = |d: &Direction| {
+        let real = Subspace { generators: vec![d.clone()] }.to_f64();
+        json!(real.iter().map(|v| v.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>()).collect::<Vec<_>>())
+    };
+    let one = |d: &Direction| {
+        let rational = d.rational();
+        let exact: Vec<String> = match &rational {
+            Some(v) => rationals(v),
+            None => d.coords.iter().map(|c| math_line(&elem_math(c)).replace('−', "-")).collect(),
+        };
+        let generator = if rational.is_some() { Value::Null } else { root_value(&d.root) };
+        json!({ "exact": exact, "lambda": generator, "decimals": decimals(d) })
+    };
+    space.generators.iter().map(one).collect()
+}
+
+fn surface_branch(b: &SurfaceBranch) -> Value {
+    let o = &b.outcome;
+    let witness = o.witness.as_ref().map(|w| match w {
+        SurfaceWitness::Points(points) => json!({
+            "kind": "points",
+            "points": points.iter().map(|(a, x)| json!({ "address": a.to_string(), "offset": rationals(x) })).collect::<Vec<_>>(),
+        }),
+        SurfaceWitness::SignChange(w) => witness_value(w),
+        SurfaceWitness::Winding(w) => json!({
+            "kind": "winding",
+            "cell": word_text(&w.cell),
+            "number": w.number,
+            "path": w.path.iter().map(|d| json!({
+                "cell": word_text(&d.word), "functional": d.functional, "sign": d.sign,
+            })).collect::<Vec<_>>(),
+        }),
+    });
+    json!({
+        "address": b.address.to_string(),
+        "relevant": b.relevant,
+        "visible": b.linear.rows(),
+        "spectrum": spectrum_value(&b.spectrum),
+        "top": o.row,
+        "theorem": o.statement.map(|s| theorems::of(s).id),
+        "dimension": { "at_least": o.dimension.at_least, "exact": o.dimension.exact, "at_most": o.at_most },
+        "contains": subspace(&o.contains),
+        "cells": o.ring.as_ref().map(|r| r.discharged.len()),
+        "depth": o.depth.as_ref().map(|(depth, proof)| json!({ "depth": depth, "cells": proof.discharged.len() })),
+        "witness": witness,
+        "reason": o.open.as_ref().map(|(reason, _)| reason),
+        "cell": o.open.as_ref().and_then(|(_, place)| place.as_ref().map(|w| word_text(w))),
+    })
+}
+
+fn spectrum_value(spectrum: &crate::jordan::Spectrum) -> Value {
+    let member = |m: &crate::jordan::Eigenvalue| {
+        let mut value = root_value(spectrum.root(*m));
+        value["multiplicity"] = json!(spectrum.factor(*m).multiplicity);
+        value["blocks"] = json!(spectrum.factor(*m).blocks);
+        value
+    };
+    spectrum.classes.iter().map(|class| class.members.iter().map(member).collect::<Value>()).collect()
 }
 
 /// A refused case as data.
@@ -55,7 +151,7 @@ fn claim(c: &Claim) -> Value {
     json!({
         "claim": c.text,
         "verdict": c.verdict.word(),
-        "theorem": c.statement.map(|s| theorems::of(s).id),
+        "theorem": deciding(c).map(|s| theorems::of(s).id),
         "reason": c.reason,
     })
 }
@@ -125,15 +221,24 @@ fn role(case: &Case, role: &Role) -> Value {
 /// What is said of a branch: eigenvalue, Jordan block, theorem, rate, Hölder exponent, witness or reason.
 fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
     match &b.outcome {
-        Outcome::Line { statement, eigenvalue, block, rate, holder, .. } => {
+        Outcome::Line { statement, eigenvalue, block, rate, holder, proof, .. } => {
+            // Rates need the ring condition; exponents besides a parameter.
+            let curve = b.ring.iter().all(|p| p.position != Position::Unordered);
+            let where_known = |value: Value, known: bool| if known { value } else { Value::Null };
             let root = &b.spectrum.factors[eigenvalue.0].roots[eigenvalue.1];
             let exponent = exponent(&holder.eigenvalue.modulus(80), &holder.scale);
             vec![
                 ("eigenvalue", root_value(root)),
                 ("jordan", json!({ "block": block, "blocks": b.spectrum.factors[eigenvalue.0].blocks })),
                 ("theorem", json!(theorems::of(*statement).id)),
-                ("rate", rate_value(rate)),
-                ("holder", json!({ "decimal": exponent, "scale": holder.scale.to_string(), "power": holder.power })),
+                ("rate", where_known(rate_value(rate), proof.is_some())),
+                (
+                    "holder",
+                    where_known(
+                        json!({ "decimal": exponent, "scale": holder.scale.to_string(), "power": holder.power }),
+                        proof.is_some() && curve,
+                    ),
+                ),
             ]
         }
         Outcome::AtLeast { statement, eigenvalues, witness, .. } => {
@@ -164,14 +269,7 @@ fn branch_value(b: &BranchReport) -> Value {
         "side": match b.side { Side::Left => "left", Side::Right => "right", Side::Both => "both" },
         "relevant": b.relevant,
         "visible": b.linear.rows(),
-        "spectrum": b.spectrum.classes.iter().map(|class| {
-            class.members.iter().map(|m| {
-                let mut value = root_value(b.spectrum.root(*m));
-                value["multiplicity"] = json!(b.spectrum.factor(*m).multiplicity);
-                value["blocks"] = json!(b.spectrum.factor(*m).blocks);
-                value
-            }).collect::<Vec<_>>()
-        }).collect::<Vec<_>>(),
+        "spectrum": spectrum_value(&b.spectrum),
     });
     if let Value::Object(map) = &mut out {
         for (key, value) in branch_fields(b) {
@@ -181,7 +279,7 @@ fn branch_value(b: &BranchReport) -> Value {
     out
 }
 
-fn root_value(root: &Root) -> Value {
+pub(super) fn root_value(root: &Root) -> Value {
     let (re, im) = root.enclosure(64);
     let interval = |x: &crate::arith::Interval| json!([x.lo.to_string(), x.hi.to_string()]);
     let (re_decimal, im_decimal) = root_decimals(root);

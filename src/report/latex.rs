@@ -27,7 +27,11 @@ const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
 \\sloppy
 \\setlength{\\parindent}{0pt}
 \\setlength{\\parskip}{6pt}
+\\renewcommand{\\arraystretch}{1.25}
 ";
+
+/// About so many characters fit a line of a table.
+const PAGE: usize = 84;
 
 /// Writes a document as a complete LaTeX file.
 #[must_use]
@@ -55,13 +59,10 @@ fn write_block(out: &mut String, block: &Block) {
         Block::Paragraph(text) => out.push_str(&format!("{}\n", inline(text))),
         Block::Formula(math) => {
             // Wide matrices are shrunk to the line.
-            let body = math_tex(math);
-            let wide = body.matches('&').count() > 40 || body.len() > 600;
-            if wide {
-                out.push_str(&format!("\\[\\resizebox{{0.98\\linewidth}}{{!}}{{$\\displaystyle {body}$}}\\]\n"));
-            } else {
-                out.push_str(&format!("\\[{body}\\]\n"));
-            }
+            out.push_str(&format!(
+                "\\[\\resizebox{{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}}{{!}}{{$\\displaystyle {}$}}\\]\n",
+                math_tex(math)
+            ));
         }
         Block::List(items) => {
             let items: String = items.iter().map(|i| format!("\\item {{}}{}\n", inline(i))).collect();
@@ -89,7 +90,7 @@ fn write_block(out: &mut String, block: &Block) {
             ));
         }
         Block::Details { summary, blocks } => {
-            out.push_str(&format!("{}\n", inline(summary)));
+            out.push_str(&format!("{}\n\\nopagebreak\n", inline(summary)));
             for block in blocks {
                 out.push('\n');
                 write_block(out, block);
@@ -107,17 +108,44 @@ fn tick(tone: Tone) -> &'static str {
     }
 }
 
+/// Tables of at most so many rows are kept on one page.
+const SHORT: usize = 24;
+
+/// The widths of the columns of a table: natural ones where a row fits the page and the table is short, otherwise fixed
+/// ones by what they hold, so that a table over several pages needs no second run.
+fn columns(table: &Table) -> String {
+    let length = |cell: &Line| super::text::plain(cell).chars().count();
+    let longest: Vec<usize> = (0..table.header.len())
+        .map(|j| table.rows.iter().chain([&table.header]).filter_map(|row| row.get(j)).map(length).max().unwrap_or(1))
+        .collect();
+    let fits = longest.iter().sum::<usize>() + 3 * longest.len() <= PAGE;
+    if fits && table.rows.len() <= SHORT {
+        return "l".repeat(longest.len());
+    }
+    // A short column gets what it needs, the long ones share the rest.
+    let wanted: Vec<usize> = longest.iter().map(|n| (*n).clamp(8, PAGE / 2)).collect();
+    let total = wanted.iter().sum::<usize>().max(PAGE);
+    let column = |n: &usize| {
+        let permille = (n * 999 / total).max(60);
+        format!(">{{\\raggedright\\arraybackslash}}p{{\\dimexpr0.{permille:03}\\linewidth-2\\tabcolsep\\relax}}")
+    };
+    wanted.iter().map(column).collect()
+}
+
 fn write_table(out: &mut String, table: &Table) {
-    let columns = table.header.len().max(1);
-    let permille = 940 / columns;
-    let spec = format!(">{{\\raggedright\\arraybackslash}}p{{0.{permille:03}\\linewidth}}").repeat(columns);
+    let spec = columns(table);
     let row = |cells: &[Line]| cells.iter().map(|c| inline(c)).collect::<Vec<_>>().join(" & ");
-    out.push_str(&format!("{{\\small\n\\begin{{longtable}}{{@{{}}{spec}@{{}}}}\n"));
-    out.push_str(&format!("{} \\\\\n\\hline\n\\endhead\n", row(&table.header)));
+    let short = table.rows.len() <= SHORT;
+    out.push_str(if short { "\\begin{center}\\small\n" } else { "{\\small\n" });
+    let environment = if short { "tabular" } else { "longtable" };
+    out.push_str(&format!("\\begin{{{environment}}}{{@{{}}{spec}@{{}}}}\n"));
+    let head = if short { "" } else { "\\endhead\n" };
+    out.push_str(&format!("{} \\\\\n\\hline\n{head}", row(&table.header)));
     for cells in &table.rows {
         out.push_str(&format!("{{}}{} \\\\\n", row(cells)));
     }
-    out.push_str("\\end{longtable}}\n");
+    out.push_str(&format!("\\end{{{environment}}}\n"));
+    out.push_str(if short { "\\end{center}\n" } else { "}\n" });
 }
 
 fn inline(text: &[Inline]) -> String {
@@ -125,8 +153,9 @@ fn inline(text: &[Inline]) -> String {
         .map(|run| match run {
             Inline::Text(t) => escaped(t),
             Inline::Strong(t) => format!("\\textbf{{{}}}", escaped(t)),
-            Inline::Code(t) => format!("\\texttt{{{}}}", escaped(t)),
-            Inline::Math(m) => format!("${}$", math_tex(m)),
+            Inline::Code(t) => format!("\\texttt{{{}}}", breakable(t)),
+            // Long vectors may be broken after commas.
+            Inline::Math(m) => format!("${}$", math_tex(m).replace(',', ",\\allowbreak ")),
             Inline::Mark(tone, t) => {
                 let colour = match tone {
                     Tone::Good => "good",
@@ -140,8 +169,19 @@ fn inline(text: &[Inline]) -> String {
         .collect()
 }
 
+/// Long codes, such as digests, may be broken.
+fn breakable(code: &str) -> String {
+    let chars: Vec<char> = code.chars().collect();
+    if chars.len() <= 40 {
+        return escaped(code);
+    }
+    let part = |chunk: &[char]| escaped(&chunk.iter().collect::<String>());
+    chars.chunks(16).map(part).collect::<Vec<_>>().join("\\hspace{0pt}")
+}
+
 /// Text with TeX's special characters and the symbols that its fonts lack replaced.
-pub(super) fn escaped(text: &str) -> String {
+#[must_use]
+pub fn escaped(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {

@@ -175,6 +175,7 @@ fn parse_atom(chars: &mut Chars<'_>, values: &mut dyn Iterator<Item = Math>, dep
             Math::Word(word)
         }
         '-' => Math::Symbol('−'),
+        '½' => Math::Digits("½".to_owned()),
         c if c.is_ascii_digit() => {
             let mut digits = c.to_string();
             while let Some(c) = chars.next_if(|c| c.is_ascii_digit() || *c == '.') {
@@ -220,6 +221,37 @@ pub(super) fn spacing(c: char) -> Spacing {
 /// Whether the number is written with a minus sign, and its absolute value.
 pub(super) fn sign_and_size(x: &Rational) -> (bool, Rational) {
     if *x < 0 { (true, -x.clone()) } else { (false, x.clone()) }
+}
+
+/// Digits of more than this many are shortened in the middle.
+const MAX_DIGITS: usize = 40;
+
+/// The digits of a whole number, shortened in the middle where they are many: the certificate has them in full.
+#[must_use]
+pub fn shortened(digits: &str) -> String {
+    if digits.len() <= MAX_DIGITS {
+        return digits.to_owned();
+    }
+    format!("{}…{}", &digits[..12], &digits[digits.len() - 6..])
+}
+
+/// Whether some number of the formula is shortened.
+#[must_use]
+pub fn is_shortened(math: &Math) -> bool {
+    match math {
+        Math::Number(x) => {
+            let (_, size) = sign_and_size(x);
+            let (p, q) = parts(&size);
+            p.len() > MAX_DIGITS || q.is_some_and(|q| q.len() > MAX_DIGITS)
+        }
+        Math::Digits(_) | Math::Letter(_) | Math::Word(_) | Math::Symbol(_) => false,
+        Math::Row(parts) => parts.iter().any(is_shortened),
+        Math::Script { base, sub, sup } => {
+            is_shortened(base) || sub.as_deref().is_some_and(is_shortened) || sup.as_deref().is_some_and(is_shortened)
+        }
+        Math::Root(inner) => is_shortened(inner),
+        Math::Matrix(rows) => rows.iter().flatten().any(is_shortened),
+    }
 }
 
 /// Numerator and denominator of a rational that is not negative; `None` for the denominator of an integer.

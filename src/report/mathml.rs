@@ -1,7 +1,7 @@
 //! Formulas as MathML.
 
 use super::html::escaped;
-use super::math::{Math, Spacing, parts, sign_and_size, spacing};
+use super::math::{Math, Spacing, parts, shortened, sign_and_size, spacing};
 
 /// A formula as a `<math>` element; `block` puts it in a line of its own.
 #[must_use]
@@ -17,7 +17,7 @@ fn element(math: &Math) -> String {
         Math::Letter(c) => format!("<mi>{}</mi>", escaped(&c.to_string())),
         Math::Word(word) => format!("<mi mathvariant=\"normal\">{}</mi>", escaped(word)),
         Math::Symbol(c) => symbol(*c),
-        Math::Row(parts) => format!("<mrow>{}</mrow>", parts.iter().map(element).collect::<String>()),
+        Math::Row(parts) => format!("<mrow>{}</mrow>", row(parts)),
         Math::Script { base, sub, sup } => {
             let base = element(base);
             match (sub, sup) {
@@ -37,11 +37,42 @@ fn element(math: &Math) -> String {
     }
 }
 
+/// The parts of a row: signs are told from operations, and names such as `dim` keep a distance.
+fn row(parts: &[Math]) -> String {
+    let kind = |m: &Math| match m {
+        Math::Symbol(c) => spacing(*c),
+        _ => Spacing::Tight,
+    };
+    let name = |m: &Math| match m {
+        Math::Word(_) => true,
+        Math::Script { base, .. } => matches!(base.as_ref(), Math::Word(_)),
+        _ => false,
+    };
+    let mut out = String::new();
+    for (k, part) in parts.iter().enumerate() {
+        let before = k.checked_sub(1).map(|j| &parts[j]);
+        if before.is_some_and(name) && !matches!(part, Math::Symbol(_)) {
+            out.push_str("<mspace width=\"0.17em\"/>");
+        }
+        let operand = before.is_some_and(|b| matches!(kind(b), Spacing::Tight | Spacing::Close));
+        match part {
+            Math::Symbol(c) if spacing(*c) == Spacing::Binary && !operand => {
+                out.push_str(&format!(
+                    "<mo form=\"prefix\" lspace=\"0\" rspace=\"0\">{}</mo>",
+                    escaped(&c.to_string())
+                ));
+            }
+            _ => out.push_str(&element(part)),
+        }
+    }
+    out
+}
+
 fn number(x: &crate::arith::Rational) -> String {
     let (negative, size) = sign_and_size(x);
     let body = match parts(&size) {
-        (p, None) => format!("<mn>{p}</mn>"),
-        (p, Some(q)) => format!("<mfrac><mn>{p}</mn><mn>{q}</mn></mfrac>"),
+        (p, None) => format!("<mn>{}</mn>", shortened(&p)),
+        (p, Some(q)) => format!("<mfrac><mn>{}</mn><mn>{}</mn></mfrac>", shortened(&p), shortened(&q)),
     };
     if negative { format!("<mrow><mo form=\"prefix\">−</mo>{body}</mrow>") } else { body }
 }
@@ -50,7 +81,8 @@ fn symbol(c: char) -> String {
     let text = escaped(&c.to_string());
     match spacing(c) {
         Spacing::Open | Spacing::Close => format!("<mo stretchy=\"false\">{text}</mo>"),
-        _ if matches!(c, '|' | '‖') => format!("<mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">{text}</mo>"),
+        _ if c == '…' => "<mi>…</mi>".to_owned(),
+        _ if matches!(c, '|' | '‖' | '/') => format!("<mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">{text}</mo>"),
         _ => format!("<mo>{text}</mo>"),
     }
 }

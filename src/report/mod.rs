@@ -1,6 +1,8 @@
 //! Reports: one document model, and its renderings.
 
 pub mod document;
+pub mod every;
+pub mod field_spectrum;
 pub mod figures;
 pub mod html;
 pub mod json;
@@ -12,9 +14,11 @@ pub mod proof;
 pub mod radius;
 pub mod spectrum;
 pub mod summary;
+pub mod surface;
 mod symbols;
 pub mod tex;
 pub mod text;
 pub mod theorems;
 pub mod values;
+pub mod vertex;
 pub mod words;

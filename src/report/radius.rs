@@ -2,9 +2,11 @@
 
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::radius::{Growth, JointRadius, Proof};
+use crate::shape::Shape;
 use crate::shape::word_text;
-use crate::theorem::cone::{CommonCone, ConeAnswer};
 use crate::theorem::regularity::{Attained, Regularity};
+use crate::theorem::smoothness::{CurveRegularity, JointEquation};
+use crate::theorem::wavelet::Wavelet;
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor, Pow};
 use std::fmt::Write as _;
 
@@ -73,6 +75,10 @@ pub fn joint_radius(radius: &JointRadius) -> String {
         let proof = match &block.proof {
             Some(Proof::Polytope(p)) => format!("polytope of {} points", p.points.len()),
             Some(Proof::Quadratic(_)) => "quadratic norm".to_owned(),
+            Some(Proof::Balanced(p)) => format!("complex balanced polytope of {} points", p.points.len()),
+            Some(Proof::Tree(t)) => {
+                format!("norms of the {} words of a tree", t.codes.iter().map(Vec::len).sum::<usize>())
+            }
             None => "no proof".to_owned(),
         };
         let bound = block.bound.as_ref().map_or_else(|| "-".to_owned(), |b| decimal(b, true, PLACES));
@@ -90,6 +96,7 @@ pub fn regularity(r: &Regularity) -> String {
     let factor: Vec<String> = r.factor.iter().map(ToString::to_string).collect();
     let _ = writeln!(out, "factor b    {}", factor.join(" "));
     out.push_str(&joint_radius(&r.radius));
+    condition(&mut out, r.arity);
     let _ = writeln!(out, "k   JSR of differences of order k+1   bound {}^-k   C^k", r.arity);
     for o in &r.orders {
         let radius = o.radius.as_ref().map_or_else(|| "-".to_owned(), interval);
@@ -114,24 +121,85 @@ pub fn regularity(r: &Regularity) -> String {
     out
 }
 
-/// The answer to the search for a common cone.
-#[must_use]
-pub fn cone(answer: &ConeAnswer) -> String {
-    match answer {
-        ConeAnswer::Proved(c) => proved(c),
-        ConeAnswer::Refuted(o) => {
-            format!("no common cone: the cycle {} of state {} has {}\n", word_text(&o.word), o.state, o.reason)
-        }
-        ConeAnswer::Undetermined => "common cone: not found within the budget\n".to_owned(),
-    }
+/// The words of the condition that the table applies.
+fn condition(out: &mut String, arity: usize) {
+    let _ = writeln!(
+        out,
+        "condition   JSR < {arity}^-m on the differences of order m+1 gives C^m (for arity 2 that of Levin and Levin: \
+         JSR < 2^-m for C^m)"
+    );
 }
 
-fn proved(c: &CommonCone) -> String {
-    let rays: Vec<usize> = c.cones.iter().map(|k| k.rays.cols()).collect();
-    format!(
-        "common cones with {rays:?} rays; they shrink by {} a letter: half-tangents exist at every point\n",
-        decimal(&c.shrink().hi, true, 6)
-    )
+/// The table of `secant regularity` for a scaling function.
+#[must_use]
+pub fn wavelet(w: &Wavelet) -> String {
+    let mut out = String::new();
+    let n = w.moments;
+    let _ = writeln!(out, "Daubechies' scaling function with {n} vanishing moments: a(z) = 2 ((1+z)/2)^{n} q(z)");
+    if let Some(lower) = &w.radius.lower {
+        let _ = writeln!(out, "word        {} ({} letters)", word_text(&lower.word), lower.length);
+    }
+    let _ = writeln!(out, "radius      {}  (of 2^{} q)", interval(&w.enclosure), 1 - i64::try_from(n).unwrap_or(0));
+    condition(&mut out, 2);
+    let _ = writeln!(out, "exponent    {}", interval(&w.exponent));
+    let whole = |x: &Rational| x.ceiling() - Integer::from(1);
+    let (least, most) = (whole(&w.exponent.lo), whole(&w.exponent.hi));
+    if least == most {
+        let _ = writeln!(out, "smoothness  C^{least}");
+    } else {
+        let _ = writeln!(out, "smoothness  at least C^{least}, at most C^{most}");
+    }
+    out
+}
+
+/// The table of `secant regularity` for a curve that is given by its operators.
+#[must_use]
+pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
+    let mut out = String::new();
+    let _ = writeln!(out, "curve of {} pieces in every state, in the uniform parameter", r.pieces);
+    if r.projected {
+        out.push_str("note        this is about the curve before the projection by the control points\n");
+    }
+    condition(&mut out, r.pieces);
+    out.push_str("k   dimensions   JSR on the differences of derivatives   bound      joint equation   C^k   word\n");
+    for o in &r.orders {
+        let radius = o.enclosure.as_ref().map_or_else(|| "-".to_owned(), interval);
+        let joint = match &o.joints {
+            None => "-".to_owned(),
+            Some(JointEquation::Holds) => "holds".to_owned(),
+            Some(JointEquation::Fails { state, right, .. }) if shape.states.len() > 1 => {
+                format!("fails before piece {right} of state {}", shape.states[*state].name)
+            }
+            Some(JointEquation::Fails { right, .. }) => format!("fails before piece {right}"),
+        };
+        let word = match o.smooth {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "not by this condition",
+        };
+        let letters = o.radius.as_ref().and_then(|r| r.lower.as_ref()).map(|l| l.word.clone());
+        let letters = letters.map_or_else(|| "-".to_owned(), |w| word_text(&w));
+        let dims = format!("{:?}", o.dims);
+        let threshold = o.threshold.to_string();
+        let _ = writeln!(out, "{:<3} {dims:<12} {radius:<39} {threshold:<10} {joint:<16} {word:<5} {letters}", o.order);
+    }
+    let k = r.smoothness();
+    if r.polynomial {
+        out.push_str("smoothness  the curve is a polynomial in the parameter\n");
+        return out;
+    }
+    let _ = writeln!(out, "smoothness  C^{k} proved");
+    if let Some(e) = &r.exponent {
+        let most = Rational::from(k as u64 + 1);
+        if e.lo >= most {
+            let _ = writeln!(out, "exponent    >= {most} (as a supremum of exponents)");
+        } else if e.hi > most {
+            let _ = writeln!(out, "exponent    >= {}", decimal(&e.lo, false, PLACES));
+        } else {
+            let _ = writeln!(out, "exponent    {}", interval(e));
+        }
+    }
+    out
 }
 
 #[cfg(test)]

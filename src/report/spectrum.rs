@@ -36,7 +36,7 @@ fn min_factors(s: &Spectrum) -> impl Iterator<Item = (&Poly, usize)> {
 }
 
 #[allow(clippy::float_arithmetic)] // a decimal for the eye
-fn decimal(root: &Root) -> String {
+pub(super) fn decimal(root: &Root) -> String {
     let (re, im) = root.to_f64();
     match (root.is_real(), im < 0.0) {
         (true, _) => format!("{re:.10}"),
@@ -53,7 +53,7 @@ pub fn root_text(root: &Root) -> String {
     }
 }
 
-fn shortened(text: String) -> String {
+pub(super) fn shortened(text: String) -> String {
     let count = text.chars().count();
     if count <= MAX_NUMBER {
         return text;
@@ -61,7 +61,7 @@ fn shortened(text: String) -> String {
     format!("{}… ({count} characters)", text.chars().take(MAX_NUMBER / 2).collect::<String>())
 }
 
-fn modulus_text(root: &Root) -> String {
+pub(super) fn modulus_text(root: &Root) -> String {
     match root.rational() {
         Some(q) => crate::arith::abs(&q).to_string(),
         None => format!("{:.10}", to_f64(&root.modulus(60).mid())),
@@ -81,8 +81,13 @@ pub fn text(s: &Spectrum) -> String {
         let _ = writeln!(out, "  {}. |λ| = {}", k + 1, modulus_text(first));
         for e in &class.members {
             let f = s.factor(*e);
-            let _ =
-                writeln!(out, "       {}, multiplicity {}, {}", root_text(s.root(*e)), f.multiplicity, blocks_text(f));
+            let _ = writeln!(
+                out,
+                "       {}, multiplicity {}, {}",
+                root_text(s.root(*e)),
+                f.multiplicity,
+                blocks_text(&f.blocks)
+            );
         }
     }
     if s.size > MAX_TEXT_SIZE {
@@ -96,31 +101,31 @@ pub fn text(s: &Spectrum) -> String {
             format!("θ a root of {}", f.poly.primitive_display("x"))
         };
         let _ = writeln!(out, "\n{name}");
-        chains_text(&mut out, "right", &f.right);
-        chains_text(&mut out, "left", &f.left);
+        chains_text(&mut out, "right", &f.right, |e| e.display("θ"));
+        chains_text(&mut out, "left", &f.left, |e| e.display("θ"));
     }
     out
 }
 
-fn blocks_text(f: &Factor) -> String {
-    let sizes: Vec<String> = f.blocks.iter().map(ToString::to_string).collect();
+pub(super) fn blocks_text(blocks: &[usize]) -> String {
+    let sizes: Vec<String> = blocks.iter().map(ToString::to_string).collect();
     format!("{} {}", if sizes.len() == 1 { "block" } else { "blocks" }, sizes.join(", "))
 }
 
-fn chains_text(out: &mut String, side: &str, chains: &[Chain]) {
+pub(super) fn chains_text(out: &mut String, side: &str, chains: &[Chain], show: impl Fn(&Elem) -> String) {
     for (k, chain) in chains.iter().enumerate() {
         for (j, v) in chain.vectors.iter().enumerate() {
-            let entries: Vec<String> = v.iter().map(|e| shortened(e.display("θ"))).collect();
+            let entries: Vec<String> = v.iter().map(|e| shortened(show(e))).collect();
             let _ = writeln!(out, "  {side} {}.{}  ({})", k + 1, j + 1, entries.join(", "));
         }
     }
 }
 
-fn interval_json(x: &Interval) -> Value {
+pub(super) fn interval_json(x: &Interval) -> Value {
     json!([x.lo.to_string(), x.hi.to_string()])
 }
 
-fn coefficients(values: &[Rational]) -> Value {
+pub(super) fn coefficients(values: &[Rational]) -> Value {
     values.iter().map(|c| Value::String(c.to_string())).collect()
 }
 
@@ -128,11 +133,11 @@ fn vector_json(v: &[Elem]) -> Value {
     v.iter().map(|e| coefficients(e.0.coeffs())).collect()
 }
 
-fn chains_json(chains: &[Chain]) -> Value {
+pub(super) fn chains_json(chains: &[Chain]) -> Value {
     chains.iter().map(|c| c.vectors.iter().map(|v| vector_json(v)).collect::<Value>()).collect()
 }
 
-fn root_json(root: &Root) -> Value {
+pub(super) fn root_json(root: &Root) -> Value {
     let (re, im) = root.enclosure(64);
     let modulus = root.modulus(64);
     json!({ "index": root.index(), "real": root.is_real(), "re": interval_json(&re), "im": interval_json(&im), "modulus": interval_json(&modulus) })
@@ -163,7 +168,7 @@ pub fn json(s: &Spectrum) -> Value {
     })
 }
 
-fn latex_rational(q: &Rational) -> String {
+pub(super) fn latex_rational(q: &Rational) -> String {
     if *q.denominator_ref() == 1 {
         return q.to_string();
     }
@@ -172,11 +177,11 @@ fn latex_rational(q: &Rational) -> String {
 }
 
 /// A polynomial in LaTeX, in primitive integer form.
-fn latex_poly(f: &Poly, variable: &str) -> String {
+pub(super) fn latex_poly(f: &Poly, variable: &str) -> String {
     latex_terms(&Poly::from_ints(&f.primitive()), variable)
 }
 
-fn latex_terms(f: &Poly, variable: &str) -> String {
+pub(super) fn latex_terms(f: &Poly, variable: &str) -> String {
     let mut out = String::new();
     for (k, c) in f.coeffs().iter().enumerate().rev().filter(|(_, c)| **c != 0) {
         let size = crate::arith::abs(c);

@@ -3,12 +3,12 @@
 use super::document::{Block, Document, Inline, Line, Tone, line, words};
 use super::math::Math;
 use super::words::{
-    addresses, contraction, count, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
+    addresses, contraction, count, deciding, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
     spectrum_line, statement,
 };
 use crate::case::Case;
 use crate::shape::{CellKind, Frame};
-use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Side, Verdict};
+use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Role, Side, Verdict};
 
 /// How many classes of eigenvalues are shown without `--verbose`.
 const CLASSES: usize = 3;
@@ -29,8 +29,15 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
     }
     blocks.push(Block::heading(2, "Shape"));
     blocks.push(Block::Facts(shape_facts(case, found)));
+    if let Some(every) = &found.everywhere {
+        blocks.push(Block::heading(2, "Every point"));
+        blocks.push(Block::Facts(super::every::facts(case, found, every)));
+    }
     for point in &found.points {
         blocks.extend(point_blocks(case, point, verbose));
+    }
+    if let Some(surface) = &found.surface {
+        blocks.extend(super::surface::summary(surface, verbose));
     }
     blocks.push(Block::heading(2, "Verdict"));
     let mut verdict = vec![mark(found.verdict)];
@@ -46,8 +53,13 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
 /// A claim with its verdict, statement and reason.
 pub(super) fn claim_line(claim: &Claim) -> Line {
     let mut out = vec![mark(claim.verdict)];
-    out.extend(words(format!("  {}", claim.text)));
-    if let Some(s) = claim.statement {
+    let text = match claim.verdict {
+        Verdict::Proved => format!("  {}", claim.text),
+        Verdict::Refuted => format!("  it is false that {}", claim.text),
+        Verdict::Undetermined => format!("  whether {}", claim.text),
+    };
+    out.extend(words(text));
+    if let Some(s) = deciding(claim) {
         out.extend(words(format!(" [{}]", statement(s))));
     }
     if let Some(reason) = &claim.reason {
@@ -60,7 +72,11 @@ pub(super) fn claim_line(claim: &Claim) -> Line {
 pub(super) fn shape_line(case: &Case) -> Line {
     let shape = &case.shape;
     let start = &shape.states[shape.start];
-    let what = if start.kind == CellKind::Edge { "curve" } else { "set" };
+    let what = match start.kind {
+        CellKind::Edge => "curve",
+        CellKind::Face => "surface",
+        CellKind::Vertex | CellKind::Set => "set",
+    };
     let pieces = count(start.pieces.len(), "piece");
     let states = if shape.states.len() == 1 {
         String::new()
@@ -119,7 +135,7 @@ fn point_blocks(case: &Case, point: &PointReport, verbose: bool) -> Vec<Block> {
     }
     let branches = shown_branches(point);
     for branch in &branches {
-        facts.extend(branch_facts(branches.len() > 1, branch, verbose));
+        facts.extend(branch_facts(branches.len() > 1, branch, verbose, point.role != Role::SetPoint));
     }
     vec![Block::Heading(3, head), Block::Facts(facts)]
 }
@@ -134,8 +150,10 @@ fn verdict_line(point: &PointReport) -> Line {
             out.push(Inline::Strong(kind.word().to_owned()));
         }
     }
-    out.extend(words(", "));
-    out.extend(dimension(point.dimension));
+    if point.dimension.at_least > 0 {
+        out.extend(words(", "));
+        out.extend(dimension(point.dimension));
+    }
     if let Some(reason) = &point.reason {
         out.extend(words(format!("; {reason}")));
     }
@@ -154,7 +172,7 @@ fn shown_branches(point: &PointReport) -> Vec<&BranchReport> {
     out
 }
 
-fn branch_facts(several: bool, branch: &BranchReport, verbose: bool) -> Vec<(String, Line)> {
+fn branch_facts(several: bool, branch: &BranchReport, verbose: bool, ordered: bool) -> Vec<(String, Line)> {
     let side = match branch.side {
         Side::Left => " (left)",
         Side::Right => " (right)",
@@ -164,9 +182,9 @@ fn branch_facts(several: bool, branch: &BranchReport, verbose: bool) -> Vec<(Str
     let name = |text: &str| format!("{text}{side}");
     let most = if verbose { usize::MAX } else { CLASSES };
     let mut facts = vec![(name("spectrum"), spectrum_line(&branch.spectrum, most)), (name("theorem"), outcome(branch))];
-    if let Outcome::Line { rate: r, holder: h, .. } = &branch.outcome {
+    if let Outcome::Line { rate: r, holder: h, proof, .. } = &branch.outcome {
         facts.push((name("rate"), rate(r)));
-        if verbose {
+        if verbose && proof.is_some() && ordered {
             facts.push((name("Hölder exponent"), holder(h)));
         }
     }

@@ -48,6 +48,8 @@ pub(super) fn latex(c: char) -> Option<&'static str> {
         '⊗' => "\\otimes",
         '∖' => "\\setminus",
         '±' => "\\pm",
+        '½' => "\\tfrac12",
+        'Γ' => "\\Gamma",
         '‖' => "\\|",
         '∑' => "\\sum",
         '∼' => "\\sim",

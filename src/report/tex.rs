@@ -1,6 +1,6 @@
 //! Formulas as LaTeX.
 
-use super::math::{Math, parts, sign_and_size};
+use super::math::{Math, parts, shortened, sign_and_size};
 use super::symbols::latex;
 
 /// A formula in LaTeX's mathematics mode.
@@ -11,11 +11,11 @@ pub fn math_tex(math: &Math) -> String {
             let (negative, size) = sign_and_size(x);
             let minus = if negative { "-" } else { "" };
             match parts(&size) {
-                (p, None) => format!("{minus}{p}"),
-                (p, Some(q)) => format!("{minus}\\frac{{{p}}}{{{q}}}"),
+                (p, None) => format!("{minus}{}", digits(&p)),
+                (p, Some(q)) => format!("{minus}\\frac{{{}}}{{{}}}", digits(&p), digits(&q)),
             }
         }
-        Math::Digits(text) => text.replace('−', "-").replace('…', "\\ldots "),
+        Math::Digits(text) => text.replace('−', "-").replace('…', "\\ldots ").replace('½', "\\tfrac12 "),
         Math::Letter('|') | Math::Symbol('|') => "\\vert ".to_owned(),
         Math::Letter(c) | Math::Symbol(c) => latex(*c).map_or_else(|| plain(*c), spaced),
         Math::Word(word) if matches!(word.as_str(), "dim" | "ln" | "max" | "min" | "ker" | "det") => {
@@ -39,6 +39,10 @@ pub fn math_tex(math: &Math) -> String {
             format!("\\begin{{pmatrix}} {body} \\end{{pmatrix}}")
         }
     }
+}
+
+fn digits(text: &str) -> String {
+    shortened(text).replace('…', "\\ldots ")
 }
 
 /// A control word must not run into the next letter.

@@ -20,12 +20,12 @@ pub struct Theorem {
 const SOURCE: &str = "docs/theory.md; S. Podkorytov, Tangent spaces for self-similar shapes, Dijon 2013, chapter 4.";
 
 /// All statements, in the order of the theory.
-pub const THEOREMS: [Theorem; 13] = [
+pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "lemma-1",
         name: "Lemma 1 (contraction by prefix codes)",
         body: "Let every state have a finite complete prefix code of admissible words with $τ(T_w)≤c<1$ for all its words, where \
-               $τ(T)=\\max_{i,j} {1/2}∑_k |t_{ki}-t_{kj}|$ is the norm of $T$ on vectors of sum 0. Then the system contracts and its \
+               $τ(T)=½ \\max_{i,j} ∑_k |t_{ki}-t_{kj}|$ is the norm of $T$ on vectors of sum 0. Then the system contracts and its \
                attractors exist.",
         proof: "Cut a long word into code words, each read from the state where the one before ended, and a rest shorter than the \
                 longest code word. $τ$ is submultiplicative and there are finitely many rests, so $τ(T_w)$ decreases geometrically \
@@ -105,6 +105,18 @@ pub const THEOREMS: [Theorem; 13] = [
         reference: "docs/theory.md §6.",
     },
     Theorem {
+        id: "rays",
+        name: "Rule for rays",
+        body: "Let $D^*$ be the line of $v$ at an isolated branch, so that $L^m x$ is $λ^m c(x) v$ up to a positive factor and smaller terms, with \
+               $c(x)≠0$ on $X$. Let $σ^-$ and $σ^+$ be the signs of $c$ on the parts of the ring before and after the point in the order of the curve, \
+               and $ε=±1$ the product of the orientation signs along the cycle. At an end point there is one part: $λ>0$ gives the one ray $σ v$, \
+               $λ<0$ both rays. Inside, for $ε=1$: $λ>0$ gives the ray $σ^+ v$ after and $σ^- v$ before the point, $λ<0$ both rays on each side. For \
+               $ε=-1$: if $λ>0$ and $σ^+=σ^-$, the ray $σ^+ v$ on both sides, a cusp; if $λ<0$ and $σ^+≠σ^-$, the ray $σ^+ v$ after and \
+               $σ^- v$ before the point; otherwise both rays on each side. Of a shape that is no curve there is one ray if and only if $λ>0$ and $c$ has one sign on $X$.",
+        proof: "$M^m$ carries the part after the point to the side $ε^m$, and the secants of its points have the sign of $λ^m c(x)$.",
+        reference: "docs/theory.md §5 (Rays).",
+    },
+    Theorem {
         id: "joint",
         name: "Rule for joints",
         body: "Let both branches of a joint be isolated, and let the directions not be killed on the way to the point. The curve has a \
@@ -136,12 +148,66 @@ pub const THEOREMS: [Theorem; 13] = [
         reference: "docs/theory.md §9.",
     },
     Theorem {
+        id: "theorem-6",
+        name: "Theorem 6 (common cones)",
+        body: "Let every edge state have rays $G_e$ that span $V_e$, a functional $f_e$ with $f_e G_e>0$, a chord $G_e y_e$ with $y_e≥0$, \
+               $y_e≠0$, and for every piece $ε_i T_i G_δ=G_e B_i$ with $B_i>0$ entrywise. If the pieces meet, then all secants of a cell $u$ \
+               lie in the cone $ε_u T_u C$, these cones shrink to a ray at a uniform geometric rate, and both half-tangents exist at \
+               every point. If they agree at the first-level joints of all reachable states, the curve is G¹ with a \
+               Hölder-continuous tangent. With control points the same holds for the projected curve if $h P G>0$ for some $h$.",
+        proof: "A secant between vertices of cells is a sum of chords of smaller cells, all in the cone; take closures. Positive matrices \
+                shrink cones by $(\\sqrt{D}-1)/(\\sqrt{D}+1)$ in Hilbert's metric, $D$ the largest cross-ratio.",
+        reference: "docs/theory.md §11; G. Birkhoff, Extensions of Jentzsch's theorem, Trans. AMS 85 (1957).",
+    },
+    Theorem {
+        id: "theorem-6-slow",
+        name: "Theorem 6′ (cones that shrink slowly)",
+        body: "Theorem 6 holds, but for the rate, with $B_i≥0$ without zero columns, if every address has again and again factors of \
+               bounded length with a positive product, or ends in one of finitely many cycles whose product on $V$ has one positive \
+               eigenvalue with the one longest Jordan block of largest modulus, the leading coefficient of which is positive on all rays.",
+        proof: "Nonnegative matrices do not expand Hilbert's metric, and each positive factor contracts it. Along the cycles all rays of \
+                the cone tend to the eigenvector at the end of the longest chain. So the cones shrink along every address; their diameters \
+                decrease, hence they shrink uniformly, by compactness.",
+        reference: "docs/theory.md §11.",
+    },
+    Theorem {
         id: "similarities",
         name: "Similarities",
         body: "If all maps are similarities for one scalar product and $\\dim V≥2$, then $\\dim D^*≥2$ at every point, periodic or not.",
         proof: "Each cell at the point is a scaled copy of one of finitely many attractors; by compactness none lies in a fixed narrow \
                 double cone about a line.",
         reference: "docs/theory.md §5; C. Bandt, A. Kravchenko, Differentiability of fractal curves, Nonlinearity 24 (2011), Theorem 1.",
+    },
+    Theorem {
+        id: "surface-point",
+        name: "Rule for points of a surface",
+        body: "A point of a patch complex has one branch for each cell that contains it: one inside a cell, two inside an edge, one for each \
+               incident patch at a vertex. The tangent subspace of the point is the sum of those of its branches, and the surface \
+               is differentiable there if and only if the sum has dimension 2.",
+        proof: "In a valid complex the map from the parameters to the surface is well defined and continuous, and the addresses of a \
+                parameter are the paths through the cells that contain it: the cells of the branches make up a neighbourhood of it.",
+        reference: "docs/theory.md §9; the thesis, chapter 4.",
+    },
+    Theorem {
+        id: "theorem-5-surface",
+        name: "Theorem 5″ (a dense set of a surface)",
+        body: "Let all $T_i : W_δ→W_e$ be injective, and let every reachable face $e$ have a vertex $j_e$ inside it at which it is \
+               differentiable in $W_e$ with tangent plane $Π_e$. Then the surface has the tangent plane $P T_u Π_e$ at the vertex \
+               $u j_e$ for every path $u$ from the start on which $P T_u$ does not fold $Π_e$. If $P$ is injective on $W$ that is every \
+               cell, hence a dense set.",
+        proof: "The germ of the vertex $u j_e$ is the image under $T_u$ of the germ of $j_e$, because $j_e$ lies inside the face; a linear \
+                map that is injective on the span of the limit directions takes it to the span of the limit directions of the image. \
+                Every cell contains such a vertex, and cells shrink.",
+        reference: "docs/theory.md §9.",
+    },
+    Theorem {
+        id: "tensor-product",
+        name: "Theorem on tensor products",
+        body: "Let $p(s,t)=a(s)⊗b(t)$ in barycentric space, neither curve constant. The surface is differentiable at $(s,t)$ if and only \
+               if both curves are, and $D^*=D^*_a⊗b(t)+a(s)⊗D^*_b$. With control points $P$ must be injective on $D^*$.",
+        proof: "The mixed term $(a(s')-a(s))⊗(b(t')-b(t))$ is of higher order, and the two summands are independent because $a(s)$ has the \
+                coordinate sum 1 and $D^*_a$ the sum 0.",
+        reference: "docs/theory.md §9.",
     },
 ];
 
@@ -171,6 +237,9 @@ pub fn of(statement: Statement) -> &'static Theorem {
         Statement::Theorem5 => "theorem-5",
         Statement::Theorem5Projected => "theorem-5-projected",
         Statement::Similarities => "similarities",
+        Statement::SurfacePoint => "surface-point",
+        Statement::Theorem5Surface => "theorem-5-surface",
+        Statement::TensorProduct => "tensor-product",
     };
     THEOREMS.iter().find(|t| t.id == id).unwrap_or(&THEOREMS[0])
 }
@@ -181,7 +250,7 @@ mod tests {
 
     #[test]
     fn every_statement_is_found() {
-        for theorem in &THEOREMS {
+        for theorem in THEOREMS {
             assert_eq!(find(theorem.id).unwrap().id, theorem.id);
         }
         assert_eq!(find("Theorem 2").unwrap().id, "theorem-2");

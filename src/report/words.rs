@@ -11,8 +11,8 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::shape::{Contraction, Shape, word_text};
 use crate::theorem::{
-    BranchReport, Dimension, Direction, Holder, Outcome, PointReport, Rate, RingProof, Role, Statement, Verdict,
-    Witness,
+    BranchReport, Claim, Dimension, Direction, Holder, Kind, Outcome, PointReport, Rate, RingProof, Role, Statement,
+    Verdict, Witness,
 };
 
 /// The colour of a verdict.
@@ -173,7 +173,7 @@ pub fn spectrum_line(spectrum: &Spectrum, most: usize) -> Line {
 #[must_use]
 pub fn rate(rate: &Rate) -> Line {
     match rate {
-        Rate::Exact => words("the cell has no component off the line"),
+        Rate::Exact => line("0 from some turn on: $M^m A$ lies on the line", []),
         Rate::Harmonic => line("$O(1/m)$ after $m$ turns of the cycle", []),
         Rate::Geometric { slower, dominant, power } => {
             let prefix = match power {
@@ -220,11 +220,43 @@ pub fn holder(h: &Holder) -> Line {
         Some(x) => Math::number(&crate::arith::abs(&x)),
         None => decimal_math(&modulus.mid(), 6),
     };
-    let mut out = line("$\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]);
+    // Whole exponents are recognised exactly.
+    let mut power = h.scale.clone();
+    let mut whole = None;
+    for k in 1..=6usize {
+        if h.eigenvalue.rational().is_some_and(|x| crate::arith::abs(&x) == power) {
+            whole = Some(k);
+        }
+        power *= &h.scale;
+    }
+    let mut out = match whole {
+        Some(k) => line("$h=\\ln(@)/\\ln(@)=@$", [size, Math::number(&h.scale), Math::count(k)]),
+        None => line("$h=\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]),
+    };
     if h.power > 0 {
-        out.extend(line("; the quotient diverges like $m^{@}$", [Math::count(h.power)]));
+        out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m^{@}$", [Math::count(h.power)]));
     }
     out
+}
+
+/// What a kind of point means, in brackets after its name.
+#[must_use]
+pub fn kind_meaning(kind: Kind) -> &'static str {
+    match kind {
+        Kind::HalfTangent => "one limit ray",
+        Kind::Regular => "one ray on each side, opposite to one another",
+        Kind::Cusp => "one ray on each side, the same",
+        Kind::Oscillating => "the tangent line exists, and both of its rays are limit rays on a side",
+        Kind::Corner => "one ray on each side, on different lines",
+        Kind::None => "",
+    }
+}
+
+/// The statement that decides a claim; none where the claim's own theorem does not apply.
+#[must_use]
+pub fn deciding(claim: &Claim) -> Option<Statement> {
+    let dense = |s: &Statement| matches!(s, Statement::Theorem5 | Statement::Theorem5Projected | Statement::Joint);
+    claim.statement.filter(|s| claim.verdict == Verdict::Proved || !dense(s))
 }
 
 /// The dimension of the tangent subspace.
@@ -249,7 +281,8 @@ pub fn witness(w: &Witness) -> Line {
     match w {
         Witness::Point { address, offset } => line(
             &format!(
-                "the point of the ring with address `{address}` has no component along it: $x=@$ in coordinates of $V$"
+                "the point of the ring with address `{address}` has no component in the leading part: its offset from $q$ is $x=@$ in \
+                 coordinates of $V$, and the functional vanishes there exactly"
             ),
             [Math::vector(offset)],
         ),
@@ -335,7 +368,8 @@ pub fn contraction(c: &Contraction) -> Line {
 }
 
 /// A bound, exactly where it is short, otherwise rounded upwards.
-fn short_bound(x: &Rational) -> Math {
+#[must_use]
+pub fn short_bound(x: &Rational) -> Math {
     if x.to_string().len() <= 16 {
         return Math::number(x);
     }

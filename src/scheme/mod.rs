@@ -3,6 +3,7 @@
 mod curves;
 mod error;
 mod fractint;
+mod irrational;
 mod json;
 mod laurent;
 mod mask;
@@ -11,6 +12,7 @@ mod patch;
 mod refine;
 mod registry;
 mod rules;
+mod sector;
 mod tensor;
 mod text;
 mod univariate;
@@ -22,6 +24,7 @@ pub use curves::{
 };
 pub use error::SchemeError;
 pub use fractint::{FractintEntry, parse_fractint};
+pub use irrational::{FieldLocalMatrix, FieldMask, daubechies, field_local_matrix};
 pub use json::parse_json;
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
@@ -30,6 +33,7 @@ pub use patch::{disc, disc_complex, patch};
 pub use refine::{DualWeights, LoopWeights, MeshRule, VertexWeights, rational_cosine};
 pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask};
 pub use rules::{RuleInfo, mesh_rule, mesh_rules};
+pub use sector::{Place, SectorStencils, Weight, sector_stencils};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use text::{Heading, case_text, complex_text};
 pub use univariate::{

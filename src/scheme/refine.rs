@@ -57,6 +57,8 @@ pub enum LoopWeights {
 pub enum DualWeights {
     /// `δ_j/4 + (3 + 2cos(2πj/n))/(4n)` (Doo and Sabin 1978).
     Original,
+    /// `δ_j/4 + (3 + 2cos(2πfj/n))/(4n)`: the same with another frequency `f`, for counter-examples.
+    Frequency(usize),
     /// The mean of the corner, the two midpoints of its edges, and the centre of the face (Catmull and Clark 1978).
     CatmullClark,
     /// `1/2, 1/4, 0, …, 0, 1/4`: two steps of the midedge scheme (Peters and Reif 1997; Habib and Warren 1999).
@@ -461,9 +463,13 @@ impl MeshRule {
                 let part = |j: usize| if j == 0 { ratio(1, 2) } else { ratio(i64::from(next(j)), 8) };
                 Ok((0..n).map(|j| part(j) + &rest).collect())
             }
-            DualWeights::Original | DualWeights::Given(_) => (0..n)
+            DualWeights::Original | DualWeights::Frequency(_) | DualWeights::Given(_) => (0..n)
                 .map(|j| {
-                    let sum = ratio(3, 1) + ratio(2, 1) * rational_cosine(j, n)?;
+                    let turns = match rule {
+                        DualWeights::Frequency(f) if central => f % n,
+                        _ => 1,
+                    };
+                    let sum = ratio(3, 1) + ratio(2, 1) * rational_cosine(turns * j, n)?;
                     Some(quarter(j) + sum / (ratio(4, 1) * count(n)))
                 })
                 .collect::<Option<_>>()

@@ -86,6 +86,16 @@ const RULES: &[RuleInfo] = &[
         build: |_| MeshRule::DooSabin(DualWeights::CatmullClark),
     },
     RuleInfo {
+        name: "doo-sabin-frequency",
+        parameters: &[p("frequency", Some("2"), "how often the weights turn around the face")],
+        source: "a counter-example: its characteristic map winds as often as the frequency says",
+        summary: "dual, Doo and Sabin's weights with another frequency; rational for valences 3, 4, 6",
+        build: |v| {
+            let frequency = usize::try_from(v.number("frequency")).unwrap_or(1).clamp(1, 1024);
+            MeshRule::DooSabin(DualWeights::Frequency(frequency))
+        },
+    },
+    RuleInfo {
         name: "four-eight",
         parameters: &[],
         source: "L. Velho, D. Zorin, CAGD 18 (2001)",

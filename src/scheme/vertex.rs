@@ -85,7 +85,7 @@ pub fn local_matrix_of(rule: &MeshRule, sectors: &[Sector], rings: usize) -> Res
 }
 
 /// A combination of points that are combinations themselves.
-fn substitute(row: &Row, points: &[Row]) -> Row {
+pub(super) fn substitute(row: &Row, points: &[Row]) -> Row {
     let mut result = Row::new();
     for (v, weight) in row {
         for (old, c) in &points[*v] {

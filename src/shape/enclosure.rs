@@ -11,6 +11,7 @@ use crate::linalg::dot;
 pub struct Balls {
     radius: Vec<Rational>,
     hulls: Option<Hulls>,
+    simplex: bool,
 }
 
 impl Balls {
@@ -43,13 +44,28 @@ impl Balls {
                 })
                 .collect();
         }
-        Self { radius, hulls: None }
+        Self { radius, hulls: None, simplex: false }
     }
 
     /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
     #[must_use]
     pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
-        Some(Self { radius: self.radius.clone(), hulls: Some(hulls(shape, spaces)?) })
+        Some(Self { radius: self.radius.clone(), hulls: Some(hulls(shape, spaces)?), simplex: self.simplex })
+    }
+
+    /// The same balls together with the simplex of the coordinates, which holds the attractors where all operators of the
+    /// states that are reached are nonnegative.
+    #[must_use]
+    pub fn with_simplex(&self, shape: &Shape) -> Self {
+        let pieces = || shape.reachable().into_iter().flat_map(|e| shape.states[e].pieces.iter());
+        let nonnegative = |op: &crate::linalg::Matrix| (0..op.rows()).all(|i| op.row(i).iter().all(|x| *x >= 0));
+        Self { simplex: pieces().all(|p| nonnegative(&p.op)), ..self.clone() }
+    }
+
+    /// Whether the simplex of the coordinates is used besides the balls.
+    #[must_use]
+    pub fn in_simplex(&self) -> bool {
+        self.simplex
     }
 
     /// The vertices of the polygon of a state, where polygons are used.
@@ -81,7 +97,13 @@ impl Balls {
         }
         let centre = dot(row, &spaces.of(state).base);
         let spread = oscillation(row) / Rational::from(2) * &self.radius[state];
-        Interval { lo: &centre - &spread, hi: centre + spread }
+        let ball = Interval { lo: &centre - &spread, hi: centre + spread };
+        match (row.iter().min(), row.iter().max()) {
+            (Some(lo), Some(hi)) if self.simplex => {
+                Interval { lo: ball.lo.max(lo.clone()), hi: ball.hi.min(hi.clone()) }
+            }
+            _ => ball,
+        }
     }
 }
 

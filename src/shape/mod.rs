@@ -7,6 +7,7 @@ mod enclosure;
 mod hull;
 mod identities;
 mod model;
+mod sample;
 mod space;
 mod unknown;
 
@@ -18,5 +19,6 @@ pub use curve::{CurveError, End};
 pub use enclosure::{Balls, oscillation};
 pub use identities::{Complex, ComplexError, Face, Failure, Identity, IdentityKind, Layout, OpName, Reversal, Side};
 pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
+pub use sample::{MAX_SAMPLES, Sample, random_sample, sample};
 pub use space::{Spaces, StateSpace, difference};
 pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError};

@@ -18,6 +18,8 @@ pub struct StateSpace {
     /// Rows on `V_e` whose common kernel is the largest family that stays in the kernel of the control points
     /// (or, without control points, of the paths from the start); as many rows as that quotient has dimensions.
     pub visible: Matrix,
+    /// Points of the attractor with short addresses, see [`Shape::landmarks`].
+    pub landmarks: Vec<(Address, Vec<Rational>)>,
 }
 
 /// The relevant spaces of all reachable states; `None` for the others.
@@ -55,7 +57,9 @@ impl Spaces {
             let basis = spans[e].transpose();
             let coordinates = left_inverse(&basis);
             let visible = (&rows[e] * &basis).echelon().rows;
-            spaces[e] = Some(StateSpace { base: point, base_address, basis, coordinates, visible });
+            let landmarks =
+                shape.landmarks(e).into_iter().filter_map(|a| Some((a.clone(), shape.point(e, &a)?))).collect();
+            spaces[e] = Some(StateSpace { base: point, base_address, basis, coordinates, visible, landmarks });
         }
         Some(Self(spaces))
     }

@@ -11,7 +11,7 @@ use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
 use std::cell::OnceCell;
 
 /// Products of a row and an operator that one ring condition may cost.
-const MAX_ROWS: usize = 6_000;
+pub(super) const MAX_ROWS: usize = 6_000;
 /// The same for the first try with balls, where polygons may do better.
 const FIRST_ROWS: usize = 1_000;
 
@@ -32,15 +32,15 @@ pub struct Context<'a> {
 }
 
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
-struct Quotient {
+pub(super) struct Quotient {
     /// `Y <- V`, reduced echelon form.
-    chart: Matrix,
+    pub chart: Matrix,
     /// `V <- Y`, a right inverse.
-    lift: Matrix,
+    pub lift: Matrix,
 }
 
 impl Quotient {
-    fn new(view: &Matrix, linear: &Matrix) -> Self {
+    pub fn new(view: &Matrix, linear: &Matrix) -> Self {
         let mut rows = view.echelon();
         loop {
             let grown = rows.rows.stack(&(&rows.rows * linear)).echelon();
@@ -102,7 +102,13 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
 }
 
 /// Marks the pieces that fall into `q` as a whole (Lemma 2).
-fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
+pub(super) fn mark_collapsing(
+    cx: &Context,
+    chart: &Matrix,
+    linear: &Matrix,
+    fixed: &[Rational],
+    ring: &mut [RingPiece],
+) {
     let falls = &power(linear, linear.rows()) * chart;
     for piece in ring {
         let space = cx.spaces.of(piece.end);
@@ -434,12 +440,12 @@ impl Analysis<'_> {
 }
 
 /// The rows that vanish on the generalised kernel of `linear` (theory §3, Isolation): all coordinates where it is invertible.
-fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
+pub(super) fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
     let rows = power(linear, linear.rows()).echelon().rows;
     (0..rows.rows()).map(|k| Functional::rational(rows.row(k))).collect()
 }
 
-fn longest_chain(chains: &[Chain], block: usize) -> &Chain {
+pub(super) fn longest_chain(chains: &[Chain], block: usize) -> &Chain {
     chains.iter().find(|c| c.vectors.len() == block).expect("a chain of every block size")
 }
 
@@ -454,7 +460,7 @@ fn second_functional(factor: &Factor) -> Vec<Elem> {
     longest_chain(&factor.left, 2).vectors[1].clone()
 }
 
-fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
+pub(super) fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
     let zero = Elem::from_rational(&Rational::from(0));
     (0..matrix.rows())
         .map(|i| {
@@ -515,7 +521,7 @@ fn real_dimension(spectrum: &Spectrum, members: &[(usize, usize)], block: usize)
 }
 
 /// A basis of the cyclic hull of `x`, as columns.
-fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
+pub(super) fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
     let mut rows = Matrix::zero(0, x.len());
     let mut v = x.to_vec();
     loop {
@@ -529,7 +535,7 @@ fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
 }
 
 /// The matrix of `linear` on an invariant subspace.
-fn restrict(linear: &Matrix, basis: &Matrix) -> Option<Matrix> {
+pub(super) fn restrict(linear: &Matrix, basis: &Matrix) -> Option<Matrix> {
     basis.solve(&(linear * basis))
 }
 

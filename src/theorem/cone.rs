@@ -1,13 +1,14 @@
-//! Theorem 6: strictly invariant cones, and what they say about every point of a curve.
+//! Theorems 6 and 6′: invariant cones, and what they say about every point of a curve.
 
-use super::cone_search::{Frame, propose};
+use super::cone_search::{BUDGET, Frame, propose, propose_closed};
+use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
 use crate::arith::{Interval, Rational};
 use crate::jordan::Spectrum;
 use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 
-/// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B > 0`.
+/// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConeMap {
     /// The state of the piece.
@@ -33,8 +34,8 @@ pub struct Cone {
     pub chord: Vec<Rational>,
 }
 
-/// The certificate of Theorem 6.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The certificate of Theorem 6, or of Theorem 6′ where some `B` is not positive.
+#[derive(Debug, Clone)]
 pub struct CommonCone {
     /// One cone for every reachable state.
     pub cones: Vec<Cone>,
@@ -42,7 +43,21 @@ pub struct CommonCone {
     pub maps: Vec<ConeMap>,
     /// `h` with `h P G > 0` for the start state, where control points are given and one was found.
     pub view: Option<Vec<Rational>>,
-    /// The largest cross-ratio `B_ij B_kl / (B_kj B_il)`: the cones shrink by `(√D − 1)/(√D + 1)` a letter (Birkhoff).
+    /// The length of the words in which factors with a positive product are looked for; 1 in Theorem 6.
+    pub window: usize,
+    /// The cycles that end all addresses without such factors; none in Theorem 6.
+    pub slow: Vec<SlowCycle>,
+    /// How fast the cones shrink; `None` where they do so at no uniform geometric rate that was found.
+    pub rate: Option<ConeRate>,
+}
+
+/// Products of `length` letters have cross-ratios `B_ij B_kl / (B_kj B_il)` of at most `cross_ratio = D`, so that they shrink the
+/// cones by `(√D − 1)/(√D + 1)` (Birkhoff).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ConeRate {
+    /// How many letters.
+    pub length: usize,
+    /// The largest cross-ratio.
     pub cross_ratio: Rational,
 }
 
@@ -86,24 +101,53 @@ pub fn common_cone(shape: &Shape, spaces: &Spaces) -> Option<ConeAnswer> {
     let frame = frame(shape, spaces)?;
     let attempts = if frame.dims.iter().any(|d| *d > 5) { 3 } else { 8 };
     for attempt in 0..attempts {
-        if let Some(rays) = propose(&frame, attempt)
-            && let Some(cone) = exact(shape, spaces, &frame, &rays)
-            && cone.holds(shape, spaces)
-        {
+        if let Some(cone) = propose(&frame, attempt).and_then(|rays| proved_cone(shape, spaces, &frame, &rays, 1)) {
             return Some(ConeAnswer::Proved(cone));
         }
         if attempt == 1
             && let Some(obstacle) = obstacle(&frame)
         {
-            return Some(ConeAnswer::Refuted(obstacle));
+            let cone = closed_cone(shape, spaces, &frame);
+            return Some(cone.map_or(ConeAnswer::Refuted(obstacle), ConeAnswer::Proved));
         }
     }
-    Some(ConeAnswer::Undetermined)
+    Some(closed_cone(shape, spaces, &frame).map_or(ConeAnswer::Undetermined, ConeAnswer::Proved))
+}
+
+/// Cones of Theorem 6′.
+fn closed_cone(shape: &Shape, spaces: &Spaces, frame: &Frame) -> Option<CommonCone> {
+    proved_cone(shape, spaces, frame, &propose_closed(frame)?, MAX_WINDOW)
+}
+
+fn proved_cone(
+    shape: &Shape,
+    spaces: &Spaces,
+    frame: &Frame,
+    rays: &[Vec<Vec<Rational>>],
+    longest: usize,
+) -> Option<CommonCone> {
+    let mut cone = exact(shape, spaces, frame, rays, longest > 1)?;
+    for window in 1..=longest {
+        let Some(cycles) = slow::cycles(&cone, shape, window) else { continue };
+        let slow = cycles.iter().map(|(state, word)| SlowCycle::find(&cone, shape, spaces, *state, word));
+        let Some(slow) = slow.collect::<Option<Vec<_>>>() else { continue };
+        cone.window = window;
+        cone.slow = slow;
+        cone.rate = cone.best_rate(shape);
+        return cone.holds(shape, spaces).then_some(cone);
+    }
+    None
 }
 
 fn frame(shape: &Shape, spaces: &Spaces) -> Option<Frame> {
     let states = shape.reachable();
-    let mut frame = Frame { states: states.clone(), dims: Vec::new(), chords: Vec::new(), maps: Vec::new() };
+    let mut frame = Frame {
+        states: states.clone(),
+        dims: Vec::new(),
+        chords: Vec::new(),
+        maps: Vec::new(),
+        budget: std::cell::Cell::new(BUDGET),
+    };
     for (k, &e) in states.iter().enumerate() {
         let state = &shape.states[e];
         if state.kind != CellKind::Edge || spaces.of(e).basis.cols() == 0 {
@@ -123,7 +167,15 @@ fn frame(shape: &Shape, spaces: &Spaces) -> Option<Frame> {
 }
 
 /// The exact certificate for proposed rays (in coordinates of `V`).
-fn exact(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational>>]) -> Option<CommonCone> {
+///
+/// With `boundary`, images may lie on the boundary of the cone.
+fn exact(
+    shape: &Shape,
+    spaces: &Spaces,
+    frame: &Frame,
+    rays: &[Vec<Vec<Rational>>],
+    boundary: bool,
+) -> Option<CommonCone> {
     let mut cones = Vec::new();
     for (k, &state) in frame.states.iter().enumerate() {
         let local = Matrix::from_columns(frame.dims[k], &rays[k]);
@@ -133,12 +185,13 @@ fn exact(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational
         cones.push(Cone { state, rays: &spaces.of(state).basis * &local, functional, chord });
     }
     let mut maps = Vec::new();
-    let mut cross_ratio = Rational::from(1);
     for (from, letter, to, matrix) in &frame.maps {
-        let columns: Option<Vec<Vec<Rational>>> =
-            rays[*to].iter().map(|r| interior(&rays[*from], &matrix.apply(r))).collect();
+        let column = |r: &Vec<Rational>| {
+            let image = matrix.apply(r);
+            interior(&rays[*from], &image).or_else(|| if boundary { combine(&rays[*from], &image) } else { None })
+        };
+        let columns: Option<Vec<Vec<Rational>>> = rays[*to].iter().map(column).collect();
         let b = Matrix::from_columns(rays[*from].len(), &columns?);
-        cross_ratio = cross_ratio.max(largest_cross_ratio(&b)?);
         let state = frame.states[*from];
         let sign = if shape.states[state].pieces[*letter].reversed { -1 } else { 1 };
         maps.push(ConeMap { state, letter: *letter, sign, matrix: b });
@@ -147,11 +200,11 @@ fn exact(shape: &Shape, spaces: &Spaces, frame: &Frame, rays: &[Vec<Vec<Rational
         let images = p * &cones[0].rays;
         super::cone_search::functional(&(0..images.cols()).map(|j| images.column(j)).collect::<Vec<_>>())
     });
-    Some(CommonCone { cones, maps, view, cross_ratio })
+    Some(CommonCone { cones, maps, view, window: 1, slow: Vec::new(), rate: None })
 }
 
 /// Nonnegative exact coefficients of a vector of the cone.
-fn combine(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Vec<Rational>> {
+pub(super) fn combine(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Vec<Rational>> {
     let basis = super::cone_search::carrier(rays, x)?;
     let columns: Vec<Vec<Rational>> = basis.iter().map(|k| rays[*k].clone()).collect();
     let right = Matrix::from_columns(x.len(), &[x.to_vec()]);
@@ -199,9 +252,28 @@ fn largest_cross_ratio(b: &Matrix) -> Option<Rational> {
 }
 
 impl CommonCone {
-    /// Whether all hypotheses of Theorem 6 on the cones hold, by multiplication.
+    /// Whether all hypotheses of Theorem 6 (or 6′) on the cones hold, by multiplication.
     #[must_use]
     pub fn holds(&self, shape: &Shape, spaces: &Spaces) -> bool {
+        self.invariant(shape, spaces) && self.shrinks(shape, spaces) && self.seen(shape)
+    }
+
+    /// Whether every address without positive factors ends in one of the slow cycles, and these shrink.
+    fn shrinks(&self, shape: &Shape, spaces: &Spaces) -> bool {
+        let Some(cycles) = slow::cycles(self, shape, self.window) else { return false };
+        cycles.len() == self.slow.len()
+            && cycles.iter().zip(&self.slow).all(|((e, w), s)| (*e, w) == (s.state, &s.word))
+            && self.slow.iter().all(|s| s.holds(self, shape, spaces))
+    }
+
+    /// Whether `h P G > 0`, where `h` is given.
+    fn seen(&self, shape: &Shape) -> bool {
+        let (Some(h), Some(p)) = (&self.view, &shape.control) else { return self.view.is_none() };
+        let images = self.cones.iter().find(|c| c.state == shape.start).map(|c| p * &c.rays);
+        images.is_some_and(|m| h.len() == m.rows() && (0..m.cols()).all(|j| dot(h, &m.column(j)) > 0))
+    }
+
+    fn invariant(&self, shape: &Shape, spaces: &Spaces) -> bool {
         let cone = |state: usize| self.cones.iter().find(|c| c.state == state);
         let states = shape.reachable();
         states.iter().all(|&e| cone(e).is_some_and(|c| c.holds(shape, spaces)))
@@ -213,13 +285,86 @@ impl CommonCone {
                     let b = &map.matrix;
                     map.sign == sign
                         && (b.rows(), b.cols()) == (from.rays.cols(), to.rays.cols())
-                        && (0..b.rows()).all(|i| b.row(i).iter().all(|x| *x > 0))
+                        && (0..b.rows()).all(|i| b.row(i).iter().all(|x| *x >= 0))
+                        && (0..b.cols()).all(|j| b.column(j).iter().any(|x| *x > 0))
                         && (&piece.op * &to.rays).scale(&Rational::from(sign)) == &from.rays * b
                 })
             })
     }
 
-    /// The factor `(√D − 1)/(√D + 1)` by which the cones shrink with every letter.
+    /// The product of the matrices `B` of a word, and the state where it ends.
+    fn coefficients(&self, shape: &Shape, state: usize, word: &[usize]) -> Option<(Matrix, usize)> {
+        let mut at = state;
+        let mut product = Matrix::identity(self.cones.iter().find(|c| c.state == state)?.rays.cols());
+        for &letter in word {
+            product = &product * &self.maps.iter().find(|m| (m.state, m.letter) == (at, letter))?.matrix;
+            at = shape.states[at].pieces[letter].target;
+        }
+        Some((product, at))
+    }
+
+    /// The largest cross-ratio of the products of `length` letters; `None` where one is not positive.
+    #[must_use]
+    pub fn cross_ratio(&self, shape: &Shape, length: usize) -> Option<Rational> {
+        let mut layer: Vec<(usize, Matrix)> = Vec::new();
+        for &e in &shape.reachable() {
+            layer.push((e, self.coefficients(shape, e, &[])?.0));
+        }
+        for _ in 0..length {
+            let mut longer = Vec::new();
+            for (at, product) in &layer {
+                for (letter, piece) in shape.states[*at].pieces.iter().enumerate() {
+                    let (step, _) = self.coefficients(shape, *at, &[letter])?;
+                    longer.push((piece.target, product * &step));
+                }
+            }
+            layer = longer;
+        }
+        layer.iter().map(|(_, b)| largest_cross_ratio(b)).collect::<Option<Vec<_>>>()?.into_iter().max()
+    }
+
+    /// The rate with the best bound of the exponent, over products of few letters.
+    fn best_rate(&self, shape: &Shape) -> Option<ConeRate> {
+        let pieces = most_pieces(shape);
+        let states = shape.reachable().len();
+        let rays = self.cones.iter().map(|c| c.rays.cols()).max().unwrap_or(1);
+        let mut best: Option<(Rational, ConeRate)> = None;
+        for length in 1..=8 {
+            let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
+            if words.is_none_or(|w| w > MAX_RATE_WORDS || w * rays.pow(3) > MAX_RATE_WORK) {
+                break;
+            }
+            let length = length as usize;
+            let Some(cross_ratio) = self.cross_ratio(shape, length) else { continue };
+            let rate = ConeRate { length, cross_ratio: rounded_up(&cross_ratio) };
+            let Some(exponent) = rate.exponent(pieces) else { continue };
+            if best.as_ref().is_none_or(|(old, _)| exponent > *old) {
+                best = Some((exponent, rate));
+            }
+        }
+        best.map(|b| b.1)
+    }
+}
+
+/// How many products are formed to find how fast cones shrink.
+const MAX_RATE_WORDS: usize = 300;
+/// How many multiplications of numbers these may cost.
+const MAX_RATE_WORK: usize = 200_000;
+
+/// The largest number of pieces of a state.
+#[must_use]
+pub fn most_pieces(shape: &Shape) -> usize {
+    shape.reachable().iter().map(|e| shape.states[*e].pieces.len()).max().unwrap_or(1)
+}
+
+/// A short number not below one that is at least 1.
+fn rounded_up(x: &Rational) -> Rational {
+    let short = Interval::point(x.clone()).outward(40).hi;
+    if x.to_string().len() <= 24 { x.clone() } else { short.max(x.clone()) }
+}
+
+impl ConeRate {
+    /// The factor `(√D − 1)/(√D + 1)` by which the cones shrink with every `length` letters.
     #[must_use]
     pub fn shrink(&self) -> Interval {
         let one = Interval::point(Rational::from(1));
@@ -228,10 +373,16 @@ impl CommonCone {
         Interval::new(&top.lo / &bottom.hi, &top.hi / &bottom.lo)
     }
 
-    /// A lower bound of the Hölder exponent of the tangent in the uniform parameter, where every state has `arity` pieces.
+    /// A lower bound of the Hölder exponent of the tangent in the uniform parameter of a curve whose states have at most
+    /// `pieces` pieces: two points closer than `pieces^-k` lie in one cell of level `k` or in two that meet, and the tangents in
+    /// a cell differ by at most a constant times `shrink^(k/length)`. `None` where the cones are rays (a straight line) or `pieces < 2`.
     #[must_use]
-    pub fn tangent_exponent(&self, arity: usize) -> Option<Rational> {
-        super::regularity::minus_log(&self.shrink(), arity).map(|e| e.lo)
+    pub fn exponent(&self, pieces: usize) -> Option<Rational> {
+        if pieces < 2 {
+            return None;
+        }
+        let lo = super::regularity::minus_log(&self.shrink(), pieces)?.lo / Rational::from(self.length);
+        (lo > 0).then_some(lo)
     }
 }
 

@@ -4,6 +4,7 @@
 use crate::arith::{Integer, Rational, to_f64};
 use crate::linalg::Matrix;
 use crate::radius::cone_combination;
+use std::cell::Cell;
 
 /// The maps of a curve in coordinates of the relevant spaces, with orientation signs.
 pub(super) struct Frame {
@@ -12,9 +13,99 @@ pub(super) struct Frame {
     pub chords: Vec<Vec<Rational>>,
     /// State, letter, target (both as positions in `states`), signed linear part.
     pub maps: Vec<(usize, usize, usize, Matrix)>,
+    /// How much arithmetic the search may still do.
+    pub budget: Cell<usize>,
 }
 
+impl Frame {
+    /// Takes the cost of about one linear program over `rays` out of the budget; `None` where it is spent.
+    fn spend(&self, rays: &Rays) -> Option<()> {
+        let dim = rays.first().map_or(1, Vec::len);
+        let left = self.budget.get().checked_sub(3 * dim * dim * rays.len())?;
+        self.budget.set(left);
+        Some(())
+    }
+}
+
+/// The arithmetic that a search may do.
+pub(super) const BUDGET: usize = 300_000_000;
+
 type Rays = Vec<Vec<f64>>;
+
+/// Rays for cones that the maps do not leave, though images may lie on the boundary: chords and the rays to which short cycles
+/// pull, closed under the maps.
+pub(super) fn propose_closed(frame: &Frame) -> Option<Vec<Vec<Vec<Rational>>>> {
+    let mut cones: Vec<Vec<Vec<Rational>>> =
+        frame.chords.iter().map(|c| Some(vec![scaled(c)?])).collect::<Option<_>>()?;
+    for (state, product) in short_cycles(frame) {
+        if let Some(ray) = super::slow::limit_ray(&product, &frame.chords[state]) {
+            cones[state].push(scaled(&ray)?);
+        }
+    }
+    for _ in 0..CLOSING_ROUNDS {
+        for rays in &mut cones {
+            prune_exactly(rays)?;
+        }
+        let mut grown = false;
+        for (from, _, to, matrix) in &frame.maps {
+            for ray in cones[*to].clone() {
+                let image = scaled(&matrix.apply(&ray))?;
+                if super::cone::combine(&cones[*from], &image).is_none() {
+                    cones[*from].push(image);
+                    grown = true;
+                }
+            }
+        }
+        if !grown {
+            return Some(cones);
+        }
+    }
+    None
+}
+
+const CLOSING_ROUNDS: usize = 12;
+const MAX_CLOSED_RAYS: usize = 24;
+
+/// The products of the cycles of up to three letters, by position of the state.
+fn short_cycles(frame: &Frame) -> Vec<(usize, Matrix)> {
+    let mut found = Vec::new();
+    let start = |s: usize| (s, s, Matrix::identity(frame.dims[s]));
+    let mut layer: Vec<(usize, usize, Matrix)> = (0..frame.dims.len()).map(start).collect();
+    for _ in 0..3 {
+        let mut longer = Vec::new();
+        for (home, at, product) in &layer {
+            for (_, _, to, matrix) in frame.maps.iter().filter(|m| m.0 == *at) {
+                longer.push((*home, *to, product * matrix));
+            }
+        }
+        found.extend(longer.iter().filter(|(home, at, _)| home == at).map(|(home, _, p)| (*home, p.clone())));
+        layer = longer;
+        if layer.len() > 100 {
+            break;
+        }
+    }
+    found
+}
+
+/// The vector divided by its largest entry in absolute value; `None` for 0.
+fn scaled(v: &[Rational]) -> Option<Vec<Rational>> {
+    let largest = v.iter().map(crate::arith::abs).max().filter(|x| *x > 0)?;
+    Some(v.iter().map(|x| x / &largest).collect())
+}
+
+/// `None` where the rays lie in no half-space, or are too many.
+fn prune_exactly(rays: &mut Vec<Vec<Rational>>) -> Option<()> {
+    functional(rays)?;
+    let mut k = 0;
+    while k < rays.len() && rays.len() > 1 {
+        let ray = rays.remove(k);
+        if super::cone::combine(rays, &ray).is_none() {
+            rays.insert(k, ray);
+            k += 1;
+        }
+    }
+    (rays.len() <= MAX_CLOSED_RAYS).then_some(())
+}
 
 const MAX_RAYS: usize = 160;
 
@@ -35,7 +126,7 @@ pub(super) fn propose(frame: &Frame, attempt: usize) -> Option<Vec<Vec<Vec<Ratio
             }
         }
         for rays in &mut cones {
-            prune(rays)?;
+            prune(frame, rays)?;
         }
     }
     for (rays, &dim) in cones.iter_mut().zip(&frame.dims) {
@@ -58,6 +149,7 @@ fn close(frame: &Frame, maps: &[Vec<Vec<f64>>], cones: &mut [Rays], push: f64) -
     for (map, (from, _, to, _)) in maps.iter().zip(&frame.maps) {
         for ray in cones[*to].clone() {
             let image = unit(apply(map, &ray));
+            frame.spend(&cones[*from])?;
             if !well_inside(&cones[*from], &image, 1e-5) {
                 let centre = centre(&cones[*from]);
                 let height: f64 = dot(&image, &centre) / dot(&centre, &centre);
@@ -66,16 +158,17 @@ fn close(frame: &Frame, maps: &[Vec<Vec<f64>>], cones: &mut [Rays], push: f64) -
                 grown = true;
             }
         }
-        prune(&mut cones[*from])?;
+        prune(frame, &mut cones[*from])?;
     }
     Some(grown)
 }
 
 /// `None` where the rays lie in no half-space, or are too many.
-fn prune(rays: &mut Rays) -> Option<()> {
+fn prune(frame: &Frame, rays: &mut Rays) -> Option<()> {
     direction(rays)?;
     let mut k = 0;
     while k < rays.len() && rays.len() > 1 {
+        frame.spend(rays)?;
         let others: Vec<&[f64]> = rays.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, r)| r.as_slice()).collect();
         if cone_combination(&others, &rays[k]).is_some() {
             rays.remove(k);

@@ -89,7 +89,7 @@ fn examine_deeper(cx: &Context, dense: &DenseSet, found: &mut Certified) -> Clai
 /// Theorem 5′, its operators being injective.
 fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
     let claim = |verdict, reason| claim(Statement::Theorem5Projected, PROJECTED, verdict, reason);
-    dense.upstairs = upstairs(cx);
+    dense.upstairs = first_level_joints(cx);
     if dense.upstairs.iter().any(|p| p.verdict != Verdict::Proved) {
         let reason = "the projection is not injective, and before it a first-level joint is not proved";
         return claim(Verdict::Undetermined, Some(reason));
@@ -102,23 +102,19 @@ fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
 }
 
 /// The first-level joints of all reachable edge states, each in the visible quotient of its own state.
-fn upstairs(cx: &Context) -> Vec<PointReport> {
-    let mut reports = Vec::new();
-    for state in cx.shape.reachable() {
-        if cx.shape.states[state].kind != CellKind::Edge {
-            continue;
-        }
-        let space = cx.spaces.of(state);
-        let own = Context { root: state, view: &space.visible * &space.coordinates, ..*cx };
-        for (left, right) in point::joint_pairs(&own, state) {
-            let spec = point::joint_spec(&own, &[], left, right);
-            reports.extend(spec.and_then(|spec| point::examine_point(&own, &spec)));
-        }
-    }
-    for report in &mut reports {
-        report.image = None;
-    }
-    reports
+fn first_level_joints(cx: &Context) -> Vec<PointReport> {
+    let edges = cx.shape.reachable().into_iter().filter(|e| cx.shape.states[*e].kind == CellKind::Edge);
+    let pairs = edges.flat_map(|e| point::joint_pairs(cx, e).into_iter().map(move |pair| (e, pair)));
+    pairs.filter_map(|(state, pair)| first_level_joint(cx, state, pair)).collect()
+}
+
+/// The joint of two pieces of a state in the visible quotient of that state.
+pub fn first_level_joint(cx: &Context, state: usize, (left, right): (usize, usize)) -> Option<PointReport> {
+    let space = cx.spaces.of(state);
+    let own = Context { root: state, view: &space.visible * &space.coordinates, ..*cx };
+    let mut report = point::examine_point(&own, &point::joint_spec(&own, &[], left, right)?)?;
+    report.image = None;
+    Some(report)
 }
 
 /// Whether the smallest invariant family that contains the (rational) tangent lines is all of `W`.

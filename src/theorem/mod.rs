@@ -5,17 +5,23 @@ pub mod cone;
 mod cone_search;
 mod dense;
 mod direction;
+mod everywhere;
 mod point;
 pub mod regularity;
 mod ring;
 mod similarity;
+mod slow;
+pub mod smoothness;
+pub mod surface;
 mod verdict;
 pub mod wavelet;
 
 pub use branch::Context;
 pub use direction::{Direction, primitive};
+pub use everywhere::{EveryJoint, Everywhere};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use similarity::Similarities;
+pub use slow::SlowCycle;
 pub use verdict::{
     BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
     StateReport, Statement, Verdict,
@@ -25,8 +31,10 @@ use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
+use crate::radius::{NormContraction, Options, contraction_by_norms};
 use crate::shape::{
-    Address, AddressError, Balls, CellKind, Contraction, CurveError, End, Shape, ShapeError, Spaces, contraction,
+    Address, AddressError, Balls, CellKind, ComplexError, Contracting, Contraction, CurveError, End, Shape, ShapeError,
+    Spaces, contraction,
 };
 use thiserror::Error;
 
@@ -39,6 +47,9 @@ pub enum ModelError {
     /// The pieces of a curve do not meet, or an identity fails.
     #[error(transparent)]
     Curve(#[from] CurveError),
+    /// An identity of a surface fails, or its cells do not fit.
+    #[error(transparent)]
+    Complex(#[from] ComplexError),
     /// An address does not exist.
     #[error(transparent)]
     Address(#[from] AddressError),
@@ -72,7 +83,7 @@ impl ModelError {
             Self::Shape(ShapeError::Control { .. }) => "secant::case::control",
             Self::Shape(ShapeError::Boundary { .. }) => "secant::case::boundary",
             Self::Curve(CurveError::Apart { .. }) => "secant::shape::adjacency",
-            Self::Curve(CurveError::Identity { .. }) => "secant::shape::identity",
+            Self::Curve(CurveError::Identity { .. }) | Self::Complex(_) => "secant::shape::identity",
             Self::Address(_) => "secant::case::address",
             Self::Expands { .. } | Self::FixedPoint => "secant::shape::contraction",
         }
@@ -89,28 +100,25 @@ impl ModelError {
 pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelError> {
     shape.check()?;
     let contraction = contraction(shape, expands);
-    let proof = match &contraction {
-        Contraction::Proved(proof) => proof.clone(),
-        Contraction::Refuted { state, word } => {
-            let name = shape.states[*state].name.clone();
-            return Err(ModelError::Expands { state: name, index: *state, word: word.clone() });
-        }
-        Contraction::Undetermined { length, open } => return Ok(without_contraction(&contraction, *length, *open)),
+    let Some(proof) = contracting(shape, &contraction)? else {
+        return Ok(without_contraction(&contraction, by_norms(shape)?));
     };
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
-    let balls = Balls::new(shape, &spaces, &proof);
+    let balls = Balls::new(shape, &spaces, proof);
     let hulls = std::cell::OnceCell::new();
     let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
     let mut found = Certified {
         claims: Vec::new(),
         verdict: Verdict::Undetermined,
-        contraction,
+        contraction: contraction.clone(),
         states: shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect(),
         points: Vec::new(),
         dense: None,
         polygons: None,
         similarities: similarity::similarities(&cx),
+        everywhere: None,
+        surface: None,
     };
     let mut asked = Vec::new();
     for address in addresses {
@@ -118,6 +126,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
+        found.everywhere = everywhere::everywhere(&cx, &mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
@@ -140,8 +149,59 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     Ok(found)
 }
 
-fn without_contraction(contraction: &Contraction, length: usize, open: usize) -> Certified {
-    let reason = format!("contraction is not decided: {open} words of length {length} are left");
+/// Decides whether a checked shape contracts.
+///
+/// # Errors
+/// [`ModelError::Expands`] with a cycle that does not contract.
+pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
+    shape.check()?;
+    let found = contraction(shape, expands);
+    contracting(shape, &found)?;
+    Ok(found)
+}
+
+/// The proof of contraction, if there is one.
+fn contracting<'a>(shape: &Shape, contraction: &'a Contraction) -> Result<Option<&'a Contracting>, ModelError> {
+    match contraction {
+        Contraction::Proved(proof) => Ok(Some(proof)),
+        Contraction::Refuted { state, word } => {
+            let name = shape.states[*state].name.clone();
+            Err(ModelError::Expands { state: name, index: *state, word: word.clone() })
+        }
+        Contraction::Undetermined { .. } => Ok(None),
+    }
+}
+
+/// Largest number of coordinates of a state for which norms other than those of words are tried.
+const MAX_NORM_DIMENSION: usize = 12;
+
+/// An upper bound below 1 of the joint spectral radius of the linear parts, where words did not decide.
+fn by_norms(shape: &Shape) -> Result<Option<Rational>, ModelError> {
+    if shape.reachable().into_iter().any(|e| shape.states[e].dim > MAX_NORM_DIMENSION) {
+        return Ok(None);
+    }
+    match contraction_by_norms(shape, &Options::default()) {
+        Some(NormContraction::Refuted { state, word, .. }) => {
+            Err(ModelError::Expands { state: shape.states[state].name.clone(), index: state, word })
+        }
+        Some(NormContraction::Proved(radius)) => Ok(radius.upper),
+        _ => Ok(None),
+    }
+}
+
+fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Certified {
+    let (length, open) = match contraction {
+        Contraction::Undetermined { length, open } => (*length, *open),
+        _ => (0, 0),
+    };
+    let reason = match norm {
+        Some(bound) => format!(
+            "the system contracts (the joint spectral radius of its linear parts is at most {:.6}), but the 1-norm does not show \
+             it: {open} words of length {length} are left, and without them the attractor is not enclosed",
+            crate::arith::to_f64(&bound)
+        ),
+        None => format!("contraction is not decided: {open} words of length {length} are left"),
+    };
     let claim = Claim {
         text: "the shape has tangents".to_owned(),
         verdict: Verdict::Undetermined,
@@ -158,6 +218,8 @@ fn without_contraction(contraction: &Contraction, length: usize, open: usize) ->
         dense: None,
         polygons: None,
         similarities: None,
+        everywhere: None,
+        surface: None,
     }
 }
 

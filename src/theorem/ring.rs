@@ -60,7 +60,7 @@ impl Functional {
     }
 
     /// A dyadic approximation of the entries and a bound of its error in each.
-    fn approximate(&self, bits: u64) -> (Vec<Rational>, Rational) {
+    pub(super) fn approximate(&self, bits: u64) -> (Vec<Rational>, Rational) {
         let exact: Option<Vec<Rational>> = self.row.iter().map(Elem::is_rational).collect();
         if let Some(row) = exact {
             return match self.part {
@@ -186,11 +186,12 @@ pub struct Ring<'a> {
     pub pieces: &'a [RingPiece],
 }
 
-struct Node {
-    word: Vec<usize>,
-    end: usize,
-    position: Position,
-    rows: Vec<Vec<Rational>>,
+/// A cell with the functionals carried to it.
+pub(super) struct Node {
+    pub word: Vec<usize>,
+    pub end: usize,
+    pub position: Position,
+    pub rows: Vec<Vec<Rational>>,
 }
 
 const MAX_BITS: u64 = 1_024;
@@ -261,13 +262,13 @@ impl Ring<'_> {
     }
 
     /// A bound of the 1-norm of `chart (x − q)` over the attractor.
-    fn chart_bound(&self) -> Rational {
+    pub(super) fn chart_bound(&self) -> Rational {
         let radius = self.balls.radius(self.state);
         (0..self.chart.rows()).fold(Rational::from(0), |s, k| s + oscillation(self.chart.row(k)) * radius)
     }
 
     /// A functional on `Y` as a row on `R^n` that vanishes at `q`.
-    fn row_on_points(&self, on_y: &[Rational]) -> Vec<Rational> {
+    pub(super) fn row_on_points(&self, on_y: &[Rational]) -> Vec<Rational> {
         let row = self.chart.apply_left(on_y);
         let at_q = dot(&row, self.fixed);
         row.into_iter().map(|x| x - &at_q).collect()
@@ -328,12 +329,12 @@ impl Ring<'_> {
     }
 
     /// Points of opposite sign of one functional in one connected part, looked for among the ends of the first cells.
-    fn find_sign_change(&self, functional: &Functional) -> Option<Witness> {
+    fn find_sign_change(&self, functional: &Functional, cells: usize) -> Option<Witness> {
         let (row, error) = functional.approximate(256);
         let error = error * self.chart_bound();
         let mut queue = self.roots(&[self.row_on_points(&row)]);
         let mut signs = Signs::default();
-        for _ in 0..SIGN_NODES {
+        for _ in 0..cells {
             let node = queue.pop_front()?;
             if let Some(witness) = self.sign_change(&mut signs, &node, &error) {
                 return Some(witness);
@@ -343,8 +344,15 @@ impl Ring<'_> {
         None
     }
 
+    /// Points of opposite sign of one functional on one piece of the ring, for pieces that are connected.
+    pub(super) fn sign_change_on_piece(&self, functional: &Functional, cells: usize) -> Option<Witness> {
+        self.pieces
+            .iter()
+            .find_map(|piece| Ring { pieces: std::slice::from_ref(piece), ..*self }.find_sign_change(functional, cells))
+    }
+
     /// The pieces of the ring as cells, with the rows carried to them.
-    fn roots(&self, rows: &[Vec<Rational>]) -> VecDeque<Node> {
+    pub(super) fn roots(&self, rows: &[Vec<Rational>]) -> VecDeque<Node> {
         let node = |p: &RingPiece| Node {
             word: p.word.clone(),
             end: p.end,
@@ -354,7 +362,7 @@ impl Ring<'_> {
         self.pieces.iter().map(node).collect()
     }
 
-    fn children(&self, node: &Node) -> Vec<Node> {
+    pub(super) fn children(&self, node: &Node) -> Vec<Node> {
         let pieces = self.shape.states[node.end].pieces.iter().enumerate();
         pieces
             .map(|(letter, piece)| {
@@ -369,15 +377,15 @@ impl Ring<'_> {
     /// Evaluates the only functional at the ends of the cell and compares with the signs met before in the same part.
     fn sign_change(&self, signs: &mut Signs, node: &Node, error: &Rational) -> Option<Witness> {
         let part = usize::from(node.position == Position::After);
-        for address in self.shape.landmarks(node.end) {
-            let value = dot(&node.rows[0], &self.shape.point(node.end, &address)?);
+        for (address, point) in &self.spaces.of(node.end).landmarks {
+            let value = dot(&node.rows[0], point);
             if abs(&value) <= *error {
                 continue;
             }
             let known = &mut signs.0[part][usize::from(value > 0)];
             if known.is_none() {
                 let prefix = [node.word.as_slice(), &address.prefix].concat();
-                let address = Address { prefix, cycle: address.cycle };
+                let address = Address { prefix, cycle: address.cycle.clone() };
                 let bound = &Interval::point(value) + &Interval::symmetric(error.clone());
                 *known = Some((address, bound));
             }
@@ -387,19 +395,23 @@ impl Ring<'_> {
     }
 
     /// Tries the points of the cell with known addresses as exact common zeros.
-    fn point_witness(&self, functionals: &[Functional], node: &Node, errors: &[Rational]) -> Option<Witness> {
-        for address in self.shape.landmarks(node.end) {
-            let local = self.shape.point(node.end, &address)?;
-            let near = node.rows.iter().zip(errors).all(|(row, e)| abs(&dot(row, &local)) <= *e);
+    pub(super) fn point_witness(
+        &self,
+        functionals: &[Functional],
+        node: &Node,
+        errors: &[Rational],
+    ) -> Option<Witness> {
+        for (address, local) in &self.spaces.of(node.end).landmarks {
+            let near = node.rows.iter().zip(errors).all(|(row, e)| abs(&dot(row, local)) <= *e);
             if !near {
                 continue;
             }
             let (op, _) = self.shape.product(self.state, &node.word);
-            let offset = self.chart.apply(&difference(&op.apply(&local), self.fixed));
+            let offset = self.chart.apply(&difference(&op.apply(local), self.fixed));
             if functionals.iter().all(|f| f.vanishes(&offset)) {
                 let mut prefix = node.word.clone();
                 prefix.extend(&address.prefix);
-                let address = Address { prefix, cycle: address.cycle };
+                let address = Address { prefix, cycle: address.cycle.clone() };
                 let address = address.normalise(self.shape, self.state).ok()?;
                 return Some(Witness::Point { address, offset });
             }
@@ -414,7 +426,9 @@ impl Ring<'_> {
         [Position::Before, Position::After].into_iter().find_map(|part| {
             let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| p.position == part).cloned().collect();
             let ring = Ring { pieces: &pieces, ..*self };
-            let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2)? else { return None };
+            let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2, SIGN_NODES)? else {
+                return None;
+            };
             let RingAnswer::Holds(cover) = ring.decide(&[c2.clone(), c1.clone()], budget) else { return None };
             let mut signs = cover.discharged.iter().filter(|d| d.functional == 1).map(|d| d.sign);
             let sign = signs.next()?;

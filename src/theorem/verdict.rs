@@ -63,6 +63,12 @@ pub enum Statement {
     Similarities,
     /// Theorem 5′, the same for a projection that is not injective.
     Theorem5Projected,
+    /// The rule of §9 for a point of a surface: the sum of the tangent subspaces of its branches.
+    SurfacePoint,
+    /// Theorem 5″, a dense set of points of a surface.
+    Theorem5Surface,
+    /// The theorem on tensor products.
+    TensorProduct,
 }
 
 /// Kinds of points (theory §2).
@@ -358,4 +364,8 @@ pub struct Certified {
     pub polygons: Option<Vec<Vec<Vec<Rational>>>>,
     /// The scalar product for which all maps are similarities, where there is one.
     pub similarities: Option<super::similarity::Similarities>,
+    /// What is known of every point of a curve (Theorem 6). Its verdict is its own: the claims are about what was asked.
+    pub everywhere: Option<super::everywhere::Everywhere>,
+    /// What is found of a surface; the points are then listed there.
+    pub surface: Option<super::surface::Surface>,
 }

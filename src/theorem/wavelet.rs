@@ -9,7 +9,8 @@ use crate::algebraic::roots;
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::Matrix;
 use crate::poly::{Poly, factor};
-use crate::radius::{JointRadius, Options, Proof, System, joint_radius};
+use crate::radius::{JointRadius, Lower, Options, Proof, System, joint_radius};
+use malachite_base::num::arithmetic::traits::Square;
 
 /// The regularity of a scaling function.
 #[derive(Debug, Clone)]
@@ -118,7 +119,6 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
     let mut largest = Rational::from(0);
     for part in &radius.blocks {
         // Blocks must be principal parts, on which the true matrices have the same zeros.
-        let Some(Proof::Polytope(p)) = &part.proof else { return None };
         if radius.blocks.len() > 1 || part.block.system.dims != system.dims {
             return None;
         }
@@ -126,9 +126,19 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
         if entries.any(|x| *x != 0 && abs(x) <= *error) {
             return None;
         }
-        let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(abs)).max()?;
+        // Of a complex number, |re| + |im|.
+        let (size, interior) = match part.proof.as_ref()? {
+            Proof::Polytope(p) => {
+                let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(abs)).max()?;
+                (size, p.interior(&part.block.system, 0)?)
+            }
+            Proof::Balanced(p) => {
+                let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(|z| abs(&z.0) + abs(&z.1))).max()?;
+                (size, p.interior(&part.block.system, 0)?)
+            }
+            Proof::Quadratic(_) | Proof::Tree(_) => return None,
+        };
         let n = Rational::from(part.block.system.dims[0] as u64);
-        let interior = p.interior(&part.block.system, 0)?;
         // ‖E q‖_1 <= n · n · error · max|q|.
         largest = largest.max(part.bound.clone()? + interior * &n * &n * error * size);
     }
@@ -138,7 +148,10 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
 /// A true eigenvalue of the leading word near that of the rational matrices, by a change of sign of `det(x − T_w)` that the
 /// difference of the matrices cannot undo.
 fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rational> {
-    let lower = radius.lower.as_ref().filter(|l| l.root.is_real())?;
+    let lower = radius.lower.as_ref()?;
+    if !lower.root.is_real() {
+        return turning(system, lower, error);
+    }
     let product = system.product(&lower.path);
     let n = product.rows();
     let count = Rational::from((n * n) as u64);
@@ -168,6 +181,74 @@ fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
     let least = sides.iter().map(abs).min()?;
     let floor = crate::radius::root_floor(&least, lower.length, 96);
     (signs[0] != signs[1]).then_some(floor)
+}
+
+/// The same for an eigenvalue that is not real: with the characteristic polynomial `χ` of the true product enclosed by intervals,
+/// some eigenvalue lies within `n |χ/χ'|` of any point.
+fn turning(system: &System, lower: &Lower, error: &Rational) -> Option<Rational> {
+    let wide = |x: &Rational| match *x == 0 {
+        true => Interval::point(x.clone()),
+        false => Interval::new(x - error, x + error),
+    };
+    let of = |k: usize| -> Vec<Vec<Interval>> {
+        let m = &system.arrows[k].matrix;
+        (0..m.rows()).map(|i| m.row(i).iter().map(wide).collect()).collect()
+    };
+    let mut product = of(lower.path[0]);
+    for &k in &lower.path[1..] {
+        product = times(&product, &of(k));
+    }
+    let chi = characteristic(&product);
+    let n = product.len();
+    let (re, im) = lower.root.enclosure(BITS);
+    let z = (Interval::point(re.mid()), Interval::point(im.mid()));
+    let derivative: Vec<Interval> = (1..chi.len()).map(|k| &chi[k] * &Rational::from(k as u64)).collect();
+    let square = |p: &[Interval]| {
+        let (a, b) = value(p, &z);
+        &a.square() + &b.square()
+    };
+    let (top, bottom) = (square(&chi), square(&derivative));
+    if bottom.lo <= 0 {
+        return None;
+    }
+    let radius = crate::radius::square_root(&(top.hi / bottom.lo), 200).hi * Rational::from(n as u64);
+    let modulus = crate::radius::square_root(&(re.mid().square() + im.mid().square()), 200).lo - radius;
+    (modulus > 0).then(|| crate::radius::root_floor(&modulus, lower.length, 96))
+}
+
+fn times(a: &[Vec<Interval>], b: &[Vec<Interval>]) -> Vec<Vec<Interval>> {
+    let zero = || Interval::point(Rational::from(0));
+    let entry =
+        |row: &[Interval], j: usize| row.iter().zip(b).fold(zero(), |s, (x, r)| &s + &(x * &r[j])).outward(2 * BITS);
+    a.iter().map(|row| (0..b.first().map_or(0, Vec::len)).map(|j| entry(row, j)).collect()).collect()
+}
+
+/// Enclosures of the coefficients of the characteristic polynomial, lowest first (Faddeev and LeVerrier).
+fn characteristic(a: &[Vec<Interval>]) -> Vec<Interval> {
+    let n = a.len();
+    let point = |k: i64| Interval::point(Rational::from(k));
+    let mut coefficients = vec![point(0); n + 1];
+    coefficients[n] = point(1);
+    let mut m: Vec<Vec<Interval>> = (0..n).map(|i| (0..n).map(|j| point(i64::from(i == j))).collect()).collect();
+    for k in 1..=n {
+        m = times(a, &m);
+        let trace = (0..n).fold(point(0), |s, i| &s + &m[i][i]);
+        let c = &trace * &(Rational::from(-1) / Rational::from(k as u64));
+        for (i, row) in m.iter_mut().enumerate() {
+            row[i] = &row[i] + &c;
+        }
+        coefficients[n - k] = c;
+    }
+    coefficients
+}
+
+/// An enclosure of a polynomial at a complex point.
+fn value(p: &[Interval], z: &(Interval, Interval)) -> (Interval, Interval) {
+    let zero = || Interval::point(Rational::from(0));
+    p.iter().rev().fold((zero(), zero()), |s, c| {
+        let re = &(&(&s.0 * &z.0) - &(&s.1 * &z.1)) + c;
+        (re.outward(2 * BITS), (&(&s.0 * &z.1) + &(&s.1 * &z.0)).outward(2 * BITS))
+    })
 }
 
 /// The largest 1-norm of a column.

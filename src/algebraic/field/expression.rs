@@ -37,6 +37,8 @@ pub(crate) struct Expression<'a> {
     at: usize,
     /// Whether white space outside brackets ends the expression.
     tight: bool,
+    /// How many brackets are open.
+    open: usize,
     /// How many decimals were read.
     pub decimals: usize,
     /// The bits of all rational numbers that were read.
@@ -75,10 +77,9 @@ const WRITE: &str = "write integers, fractions, decimals, sqrt(5), cbrt(2), cos(
 
 impl<'a> Expression<'a> {
     pub fn new(text: &'a str, at: usize, tight: bool) -> Self {
-        Self { text, at, tight, decimals: 0, bits: 0 }
+        Self { text, at, tight, open: 0, decimals: 0, bits: 0 }
     }
 
-    #[allow(dead_code)] // for the readers of matrices
     pub fn position(&self) -> usize {
         self.at
     }
@@ -97,8 +98,8 @@ impl<'a> Expression<'a> {
     }
 
     /// Skips blanks where they do not end the expression; true when the expression may go on.
-    fn skip_inside(&mut self, depth: usize) -> bool {
-        if depth > 0 || !self.tight {
+    fn skip_inside(&mut self) -> bool {
+        if self.open > 0 || !self.tight {
             self.skip();
             return true;
         }
@@ -137,7 +138,7 @@ impl<'a> Expression<'a> {
 
     fn sum(&mut self, builder: &mut FieldBuilder, depth: usize) -> Read<Value> {
         let mut value = self.product(builder, depth)?;
-        while self.skip_inside(depth) {
+        while self.skip_inside() {
             let at = self.at;
             let minus = match self.peek() {
                 Some('+') => false,
@@ -165,7 +166,7 @@ impl<'a> Expression<'a> {
 
     fn product(&mut self, builder: &mut FieldBuilder, depth: usize) -> Read<Value> {
         let mut value = self.signed(builder, depth)?;
-        while self.skip_inside(depth) {
+        while self.skip_inside() {
             let at = self.at;
             let divide = match self.peek() {
                 Some('*' | '·' | '×') => {
@@ -180,7 +181,7 @@ impl<'a> Expression<'a> {
                 Some(c) if c.is_alphabetic() || c == '(' || c == '√' || c == 'π' => false,
                 _ => break,
             };
-            self.skip_inside(depth);
+            self.skip_inside();
             let next = self.signed(builder, depth)?;
             value = multiply(builder, value, next, divide, at)?;
         }
@@ -210,7 +211,7 @@ impl<'a> Expression<'a> {
 
     fn power(&mut self, builder: &mut FieldBuilder, depth: usize) -> Read<Value> {
         let base = self.primary(builder, depth)?;
-        if !self.skip_inside(depth) {
+        if !self.skip_inside() {
             return Ok(base);
         }
         let rest = self.rest();
@@ -236,8 +237,10 @@ impl<'a> Expression<'a> {
         match self.peek() {
             Some('(') => {
                 self.at += 1;
+                self.open += 1;
                 let value = self.sum(builder, depth + 1)?;
                 self.expect(')')?;
+                self.open -= 1;
                 Ok(value)
             }
             Some('√') => {
@@ -318,8 +321,10 @@ impl<'a> Expression<'a> {
             _ => return Err(unknown(full, start)),
         };
         self.at += 1;
+        self.open += 1;
         let value = self.call(builder, name, start, depth)?;
         self.expect(close)?;
+        self.open -= 1;
         Ok(value)
     }
 

@@ -56,17 +56,20 @@ fn sum_matrix(f: &Poly, g: &Poly, s: i64) -> Matrix {
 }
 
 impl Norm {
-    /// For irreducible `f` of `α` and `g`.
+    /// For irreducible `f` of `α` and `g`, up to a bound of the degree.
     pub fn of(f: &Poly, g: &Poly) -> Result<Self, FieldError> {
-        let (f, g) = (&f.monic(), &g.monic());
         let degree = f.degree().unwrap_or(1) * g.degree().unwrap_or(1);
         if degree > MAX_NORM_DEGREE {
             return Err(FieldError::Degree(degree));
         }
+        Ok(Self::unbounded(&f.monic(), &g.monic()))
+    }
+
+    fn unbounded(f: &Poly, g: &Poly) -> Self {
         for shift in shifts() {
             let norm = char_poly(&sum_matrix(f, g, shift));
             if norm.gcd(&norm.derivative()).degree() == Some(0) {
-                return Ok(Self { shift, factors: factor(&norm).into_iter().map(|(m, _)| m).collect() });
+                return Self { shift, factors: factor(&norm).into_iter().map(|(m, _)| m).collect() };
             }
         }
         unreachable!("only finitely many shifts make two sums of roots coincide")
@@ -89,6 +92,12 @@ impl Extension {
         Self { poly: m.clone(), alpha, lambda, shift }
     }
 
+    /// Whether the generator is that of the field itself.
+    #[must_use]
+    pub fn is_own(&self, field: &NumberField) -> bool {
+        self.poly == *field.poly() && self.alpha == Elem::generator(field.poly())
+    }
+
     /// The roots `θ` for which the image of `α` is the given root of its minimal polynomial.
     #[must_use]
     pub fn roots_over(&self, field: &NumberField) -> Vec<Root> {
@@ -99,7 +108,12 @@ impl Extension {
 
 /// Whether an element, known to be a root of the minimal polynomial of `target`, is `target` at the root `at`.
 pub(crate) fn equals(elem: &Elem, at: &Root, target: &Root) -> bool {
-    let all = roots(target.minpoly());
+    let all: Vec<Root> = (0..target.degree()).map(|index| Root { index, ..target.clone() }).collect();
+    place(elem, at, &all).same(target)
+}
+
+/// The one of all conjugates that the value of an element, known to be one of them, is at a root.
+pub(crate) fn place<'a>(elem: &Elem, at: &Root, all: &'a [Root]) -> &'a Root {
     let mut bits = 48;
     loop {
         let (re, im) = elem.enclosure(at, bits);
@@ -109,7 +123,7 @@ pub(crate) fn equals(elem: &Elem, at: &Root, target: &Root) -> bool {
         };
         let mut hits = all.iter().filter(meets);
         if let (Some(only), None) = (hits.next(), hits.next()) {
-            return only.same(target);
+            return only;
         }
         bits *= 2;
     }
@@ -122,13 +136,23 @@ impl NumberField {
     /// # Errors
     /// [`FieldError::Degree`] when `deg g * deg K` is over the limit.
     pub fn extensions(&self, g: &Poly) -> Result<Vec<Extension>, FieldError> {
-        let f = self.poly();
-        if self.is_rational() {
-            let alpha = Elem::zero();
-            return Ok(vec![Extension { poly: g.monic(), alpha, lambda: Elem::generator(&g.monic()), shift: 0 }]);
+        let degree = self.degree() * g.degree().unwrap_or(1);
+        if degree > MAX_NORM_DEGREE { Err(FieldError::Degree(degree)) } else { Ok(self.all_extensions(g)) }
+    }
+
+    /// The same for every degree.
+    pub(crate) fn all_extensions(&self, g: &Poly) -> Vec<Extension> {
+        let (f, g) = (self.poly(), &g.monic());
+        if self.is_rational() || g.degree() == Some(1) {
+            let (alpha, lambda) = match g.degree() {
+                Some(1) => (Elem::generator(f), Elem::from_rational(&-g.coeff(0))),
+                _ => (Elem::zero(), Elem::generator(g)),
+            };
+            let poly = if g.degree() == Some(1) { f } else { g };
+            return vec![Extension { poly: poly.clone(), alpha, lambda, shift: 0 }];
         }
-        let norm = Norm::of(f, g)?;
-        Ok(norm.factors.iter().map(|m| Extension::from_factor(f, g, norm.shift, m)).collect())
+        let norm = Norm::unbounded(f, g);
+        norm.factors.iter().map(|m| Extension::from_factor(f, g, norm.shift, m)).collect()
     }
 
     /// The field of `α` and a real number, as an extension, and its generator `θ`.

@@ -16,8 +16,10 @@ mod named;
 mod over;
 
 pub use builder::{FieldBuilder, FieldError, Number};
+pub(crate) use expression::Expression;
 pub use expression::ExpressionError;
 pub use extension::Extension;
+pub(crate) use extension::place;
 pub use matrix::FieldMatrix;
 pub use named::{cosine, real_root};
 
@@ -26,6 +28,7 @@ use crate::arith::{Interval, Rational, sign, to_f64};
 use crate::linalg::Matrix;
 use crate::poly::Poly;
 use std::cmp::Ordering;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Largest degree of a field that is built.
@@ -179,13 +182,17 @@ impl NumberField {
     /// whole of a larger field, its generator stays.
     #[must_use]
     pub fn shrunk(&self, elements: &[Elem]) -> (Self, Vec<Elem>) {
-        let irrational: Vec<&Elem> = elements.iter().filter(|e| e.is_rational().is_none()).collect();
-        let Some(first) = irrational.first() else {
+        let irrational: BTreeMap<&[Rational], &Elem> =
+            elements.iter().filter(|e| e.is_rational().is_none()).map(|e| (e.0.coeffs(), e)).collect();
+        let Some(first) = irrational.values().next() else {
             return (Self::rationals(), elements.to_vec());
         };
         let mut base = (*first).clone();
         if self.degree() > 2 {
-            for e in &irrational {
+            for e in irrational.values() {
+                if base.minpoly(self.poly()).degree() == Some(self.degree()) {
+                    break;
+                }
                 base = self.joint_generator(&base, e);
             }
             if base.minpoly(self.poly()).degree() == Some(self.degree()) {
@@ -251,6 +258,83 @@ impl NumberField {
             _ => a.display("α"),
         }
     }
+}
+
+impl NumberField {
+    /// An element as an expression that [`FieldBuilder::parse`] reads, without blanks: in `sqrt(5)`, in the cosines
+    /// `cos(2*pi*k/n)` where the generator is `2*cos(2*pi/n)`, or in powers of `root(polynomial,lo,hi)`.
+    #[must_use]
+    pub fn expression(&self, a: &Elem) -> String {
+        if let Some(q) = a.is_rational() {
+            return q.to_string();
+        }
+        let label = self.label().unwrap_or_default();
+        if let Some(n) = label.strip_prefix("2*cos(2*pi/").and_then(|t| t.strip_suffix(')')) {
+            let angle = |k: usize| if k == 1 { format!("cos(2*pi/{n})") } else { format!("cos({}*pi/{n})", 2 * k) };
+            return terms(&cosine_coordinates(a), angle);
+        }
+        let name = if label.starts_with("sqrt(") { label.to_owned() } else { self.bracketed() };
+        let coefficients: Vec<Rational> = a.0.coeffs().to_vec();
+        terms(&coefficients, |k| if k == 1 { name.clone() } else { format!("{name}^{k}") })
+    }
+
+    /// The generator as `root(polynomial,lo,hi)`.
+    fn bracketed(&self) -> String {
+        let others: Vec<Root> = super::roots(self.poly()).into_iter().filter(|r| r.is_real()).collect();
+        let mut bits = 4;
+        loop {
+            let own = self.root.enclosure(bits).0.outward(bits);
+            let alone = |r: &&Root| r.enclosure(bits + 4).0.disjoint(&own);
+            if others.iter().filter(alone).count() + 1 == others.len() {
+                let poly = self.poly().primitive_display("x").replace(' ', "");
+                return format!("root({poly},{},{})", own.lo, own.hi);
+            }
+            bits *= 2;
+        }
+    }
+}
+
+/// The coordinates in `1, cos φ, cos 2φ, …` of a polynomial in `2 cos φ`.
+fn cosine_coordinates(a: &Elem) -> Vec<Rational> {
+    let d = a.0.coeffs().len();
+    let mut out = vec![Rational::from(0); d];
+    // x^m = sum of binomial(m, j) z^(m - 2j) with z = e^(iφ).
+    let mut binomials = vec![Rational::from(1)];
+    for (m, c) in a.0.coeffs().iter().enumerate() {
+        for (j, b) in binomials.iter().enumerate() {
+            out[m.abs_diff(2 * j)] += c * b;
+        }
+        let mut next = vec![Rational::from(1)];
+        next.extend(binomials.windows(2).map(|w| &w[0] + &w[1]));
+        next.push(Rational::from(1));
+        binomials = next;
+    }
+    out
+}
+
+/// The sum of the coefficients times their names, the first one alone.
+fn terms(coefficients: &[Rational], name: impl Fn(usize) -> String) -> String {
+    let mut out = String::new();
+    for (k, c) in coefficients.iter().enumerate().filter(|(_, c)| **c != 0) {
+        let size = crate::arith::abs(c);
+        out.push_str(if *c < 0 {
+            "-"
+        } else if out.is_empty() {
+            ""
+        } else {
+            "+"
+        });
+        match (k, size == 1) {
+            (0, _) => out.push_str(&size.to_string()),
+            (_, true) => out.push_str(&name(k)),
+            (_, false) => {
+                out.push_str(&size.to_string());
+                out.push('*');
+                out.push_str(&name(k));
+            }
+        }
+    }
+    out
 }
 
 /// `a + b label`.

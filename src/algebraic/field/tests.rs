@@ -1,5 +1,8 @@
+#![allow(clippy::float_arithmetic)] // values for comparison
+
 use super::*;
 use crate::arith::ratio;
+use proptest::prelude::*;
 
 fn read(texts: &[&str]) -> (NumberField, Vec<Elem>) {
     NumberField::read(texts).unwrap_or_else(|(k, e)| panic!("{}: {e}", texts[k]))
@@ -160,4 +163,55 @@ fn matrices_over_a_field() {
     assert_eq!((singular.rank(), kernel.cols()), (2, 1));
     assert!(singular.mul(&kernel).is_zero());
     assert_eq!(singular.apply(&kernel.column(0)), vec![Elem::zero(); 3]);
+}
+
+#[test]
+fn expressions_of_elements_are_read_back() {
+    for texts in [
+        &["sqrt(5)", "1/2-3*sqrt(5)/4", "-sqrt(5)"][..],
+        &["cos(2*pi/7)", "3/8-cos(4*pi/7)^2/5", "2*cos(6*pi/7)"],
+        &["cos(2*pi/16)", "sqrt(2)/3"],
+        &["sqrt(2)+sqrt(3)", "sqrt(6)/2-1"],
+        &["root(x^3-x-1, 1, 2)^2/3", "root(x^3-x-1, 1, 2)"],
+    ] {
+        let (field, x) = read(texts);
+        let written: Vec<String> = x.iter().map(|e| field.expression(e)).collect();
+        assert!(written.iter().all(|t| !t.contains(' ')));
+        let all: Vec<&str> = texts.iter().copied().chain(written.iter().map(String::as_str)).collect();
+        let (_, both) = read(&all);
+        let (given, again) = both.split_at(texts.len());
+        assert_eq!(given, again, "{texts:?} {written:?}");
+    }
+    assert_eq!(read(&["3/8-cos(4*pi/7)/4"]).0.degree(), 3);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, ..ProptestConfig::default() })]
+
+    #[test]
+    fn arbitrary_tokens_never_panic(
+        tokens in prop::collection::vec(
+            prop::sample::select(vec![
+                "sqrt(", "Sqrt[", "cbrt(", "cos(", "pi", "root(x^2-2,", "CRootOf(", "x", "#", "&", "2", "3", "0", "1/2", "-", "+",
+                "*", "/", "^", "**", "(", ")", "]", ",", " ", "√", "π", "é", "1e9", "golden_ratio",
+            ]),
+            0..12,
+        )
+    ) {
+        let _ = FieldBuilder::new().parse(&tokens.concat());
+    }
+
+    /// `(a + b sqrt p)(c + d sqrt q)` is what the four products add up to, and its sign that of its value.
+    #[test]
+    fn products_and_signs(a in -9i64..9, b in -9i64..9, c in -9i64..9, d in -9i64..9, p in 2i64..12, q in 2i64..12) {
+        let mut builder = FieldBuilder::new();
+        let whole = builder.parse(&format!("({a}+({b})*sqrt({p}))*({c}+({d})*sqrt({q}))")).unwrap();
+        let text = format!("{}+({})*sqrt({p})+({})*sqrt({q})+({})*sqrt({})", a * c, b * c, a * d, b * d, p * q);
+        let parts = builder.parse(&text).unwrap();
+        prop_assert_eq!(builder.sign(&builder.sub(&whole, &parts)), 0);
+        let value = (a as f64 + b as f64 * (p as f64).sqrt()) * (c as f64 + d as f64 * (q as f64).sqrt());
+        if value.abs() > 1e-9 {
+            prop_assert_eq!(f64::from(builder.sign(&whole)), value.signum());
+        }
+    }
 }

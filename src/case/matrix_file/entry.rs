@@ -1,19 +1,17 @@
-use super::{Mistake, Tally, number};
-use crate::arith::Rational;
-
-/// Deepest nesting of brackets in an entry.
-const MAX_DEPTH: usize = 16;
+use super::{Mistake, Tally};
+use crate::algebraic::field::{FieldBuilder, Number};
 
 /// Reads the entries of a literal from left to right.
 pub(super) struct Scanner<'a> {
     text: &'a str,
     at: usize,
     pub tally: Tally,
+    pub builder: FieldBuilder,
 }
 
 impl<'a> Scanner<'a> {
     pub fn new(text: &'a str, at: usize) -> Self {
-        Self { text, at, tally: Tally::default() }
+        Self { text, at, tally: Tally::default(), builder: FieldBuilder::new() }
     }
 
     pub fn position(&self) -> usize {
@@ -70,134 +68,20 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// A sum of products, white space allowed.
-    pub fn expression(&mut self, depth: usize) -> Result<Rational, Mistake> {
-        let mut sum = self.product(depth)?;
-        loop {
-            if self.accept('+') {
-                sum += self.product(depth)?;
-            } else if self.accept('-') {
-                sum -= self.product(depth)?;
-            } else {
-                return Ok(sum);
-            }
-        }
+    /// An entry, white space allowed.
+    pub fn expression(&mut self) -> Result<Number, Mistake> {
+        self.entry(false)
     }
 
-    fn product(&mut self, depth: usize) -> Result<Rational, Mistake> {
-        let mut value = self.primary(depth)?;
-        loop {
-            if self.accept('*') {
-                value *= self.primary(depth)?;
-            } else if self.accept('/') {
-                value = self.divided(value, depth)?;
-            } else {
-                return Ok(value);
-            }
-        }
+    /// An entry without white space outside of brackets: `1/2`, `-3`, `(1 + 2)/4`.
+    pub fn tight_entry(&mut self) -> Result<Number, Mistake> {
+        self.entry(true)
     }
 
-    fn divided(&mut self, value: Rational, depth: usize) -> Result<Rational, Mistake> {
-        let at = self.at;
-        let divisor = self.primary(depth)?;
-        if divisor == 0 {
-            return Err(Mistake::new("number", at, "a division by zero"));
-        }
-        Ok(value / divisor)
-    }
-
-    /// An entry without white space inside, apart from brackets: `1/2`, `-3`, `(1 + 2)/4`.
-    pub fn tight_entry(&mut self) -> Result<Rational, Mistake> {
-        let mut value = self.primary(0)?;
-        loop {
-            let next = self.rest().chars().next();
-            let operator = match next {
-                Some(c @ ('*' | '/')) => c,
-                _ => return Ok(value),
-            };
-            self.at += 1;
-            value = if operator == '*' { value * self.primary(0)? } else { self.divided(value, 0)? };
-        }
-    }
-
-    fn primary(&mut self, depth: usize) -> Result<Rational, Mistake> {
+    fn entry(&mut self, tight: bool) -> Result<Number, Mistake> {
         self.skip_blanks();
-        if depth > MAX_DEPTH {
-            return Err(Mistake::new("limit", self.at, "an entry is nested too deeply"));
-        }
-        let rest = self.rest();
-        match rest.chars().next() {
-            Some('-') => {
-                self.at += 1;
-                Ok(-self.primary(depth + 1)?)
-            }
-            Some('+') => {
-                self.at += 1;
-                self.primary(depth + 1)
-            }
-            Some('(') => {
-                self.at += 1;
-                let value = self.expression(depth + 1)?;
-                self.expect(')')?;
-                Ok(value)
-            }
-            Some(c) if c.is_ascii_alphabetic() => self.call(depth),
-            _ => self.number(),
-        }
-    }
-
-    /// `Rational(1, 2)`, `S(1)`, `QQ(1/2)`, `Integer(3)`, `sym(1/2)`.
-    fn call(&mut self, depth: usize) -> Result<Rational, Mistake> {
-        let start = self.at;
-        let rest = self.rest();
-        let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == '.')).unwrap_or(rest.len());
-        let name = &rest[..length];
-        self.at += length;
-        if !matches!(
-            name.trim_start_matches("sympy.").trim_start_matches("sp."),
-            "Rational" | "S" | "QQ" | "ZZ" | "Integer" | "sym"
-        ) {
-            let message = format!("`{}` is not a rational number", name.chars().take(40).collect::<String>());
-            return Err(Mistake::new("number", start, message).help("entries are exact fractions or decimals"));
-        }
-        self.expect('(')?;
-        let mut value = self.expression(depth + 1)?;
-        if self.accept(',') {
-            let at = self.at;
-            let divisor = self.expression(depth + 1)?;
-            if divisor == 0 {
-                return Err(Mistake::new("number", at, "a division by zero"));
-            }
-            value /= divisor;
-        }
-        self.expect(')')?;
-        Ok(value)
-    }
-
-    fn number(&mut self) -> Result<Rational, Mistake> {
-        let rest = self.rest();
-        let mut length = 0;
-        let bytes = rest.as_bytes();
-        while length < bytes.len() {
-            let c = bytes[length];
-            let exponent = length > 0 && matches!(c, b'e' | b'E');
-            let sign = matches!(c, b'+' | b'-') && length > 0 && matches!(bytes[length - 1], b'e' | b'E');
-            if !(c.is_ascii_digit() || c == b'.' || exponent || sign) {
-                break;
-            }
-            length += 1;
-        }
-        let token = &rest[..length];
-        if length == 0 {
-            let found = rest.chars().next().map_or("the end of the text".to_owned(), |c| format!("`{c}`"));
-            return Err(Mistake::new("number", self.at, format!("a number is expected here, not {found}")));
-        }
-        let value = number(token, self.at, &mut self.tally)?;
-        self.at += length;
-        // Mathematica marks the precision of a decimal with a back quote.
-        if self.rest().starts_with('`') {
-            self.at += 1;
-        }
+        let (value, end) = self.tally.entry(&mut self.builder, self.text, self.at, tight)?;
+        self.at = end;
         Ok(value)
     }
 }

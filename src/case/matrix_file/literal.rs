@@ -1,6 +1,6 @@
 use super::entry::Scanner;
 use super::{Format, MAX_SIZE, Mistake, Rows};
-use crate::arith::Rational;
+use crate::algebraic::field::Number;
 
 /// Reads a matrix literal of a computer algebra system.
 pub(super) fn read(text: &str) -> Result<Rows, Mistake> {
@@ -23,7 +23,7 @@ pub(super) fn read(text: &str) -> Result<Rows, Mistake> {
     };
     scanner.finish()?;
     let (rows, format) = rows;
-    Ok(Rows { rows, format, decimals: scanner.tally.decimals })
+    Ok(Rows { rows, builder: scanner.builder, format, decimals: scanner.tally.decimals })
 }
 
 /// The sizes in `matrix(QQ, 2, 3, ` or `Matrix(2, 2, `.
@@ -36,28 +36,24 @@ fn flat_sizes(prefix: &str) -> Option<(usize, usize)> {
     }
 }
 
-fn flat(
-    scanner: &mut Scanner,
-    (rows, cols): (usize, usize),
-    at: usize,
-) -> Result<(Vec<Vec<Rational>>, Format), Mistake> {
+fn flat(scanner: &mut Scanner, (rows, cols): (usize, usize), at: usize) -> Result<(Vec<Vec<Number>>, Format), Mistake> {
     let entries = list(scanner, '[', ']', MAX_SIZE * MAX_SIZE)?;
     if rows.checked_mul(cols) != Some(entries.len()) || cols == 0 {
         let message = format!("{rows} x {cols} entries are announced, but {} are listed", entries.len());
         return Err(Mistake::new("size", at, message));
     }
-    Ok((entries.chunks(cols).map(<[Rational]>::to_vec).collect(), Format::Flat))
+    Ok((entries.chunks(cols).map(<[Number]>::to_vec).collect(), Format::Flat))
 }
 
 /// `[a, b, c]`.
-fn list(scanner: &mut Scanner, open: char, close: char, limit: usize) -> Result<Vec<Rational>, Mistake> {
+fn list(scanner: &mut Scanner, open: char, close: char, limit: usize) -> Result<Vec<Number>, Mistake> {
     scanner.expect(open)?;
     let mut out = Vec::new();
     if scanner.accept(close) {
         return Ok(out);
     }
     loop {
-        out.push(scanner.expression(0)?);
+        out.push(scanner.expression()?);
         if out.len() > limit {
             return Err(Mistake::new("limit", scanner.position(), format!("more than {limit} entries in a list")));
         }
@@ -72,7 +68,7 @@ fn list(scanner: &mut Scanner, open: char, close: char, limit: usize) -> Result<
 }
 
 /// `[[a, b], [c, d]]`.
-fn nested_rows(scanner: &mut Scanner, open: char, close: char) -> Result<Vec<Vec<Rational>>, Mistake> {
+fn nested_rows(scanner: &mut Scanner, open: char, close: char) -> Result<Vec<Vec<Number>>, Mistake> {
     scanner.expect(open)?;
     let mut rows = Vec::new();
     loop {
@@ -91,9 +87,9 @@ fn nested_rows(scanner: &mut Scanner, open: char, close: char) -> Result<Vec<Vec
 }
 
 /// `[a b; c d]`, with commas, blanks or both between the entries, and semicolons or line ends between the rows.
-fn semicolon_rows(scanner: &mut Scanner) -> Result<Vec<Vec<Rational>>, Mistake> {
+fn semicolon_rows(scanner: &mut Scanner) -> Result<Vec<Vec<Number>>, Mistake> {
     scanner.expect('[')?;
-    let mut rows: Vec<Vec<Rational>> = vec![Vec::new()];
+    let mut rows: Vec<Vec<Number>> = vec![Vec::new()];
     loop {
         let new_line = scanner.skip_blanks();
         if scanner.accept(']') {

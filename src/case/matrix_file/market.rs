@@ -1,4 +1,5 @@
 use super::{Format, Mistake, Rows, Tally, check_size, number};
+use crate::algebraic::field::FieldBuilder;
 use crate::arith::Rational;
 
 /// How the entries below the diagonal determine the others.
@@ -52,7 +53,9 @@ pub(super) fn read(text: &str) -> Result<Rows, Mistake> {
         }
         rows.iter_mut().flatten().for_each(|x| *x /= &d);
     }
-    Ok(Rows { rows, format: Format::MatrixMarket, decimals: tally.decimals })
+    let builder = FieldBuilder::new();
+    let rows = rows.iter().map(|row| row.iter().map(|x| builder.rational(x)).collect()).collect();
+    Ok(Rows { rows, builder, format: Format::MatrixMarket, decimals: tally.decimals })
 }
 
 /// The value in `denominator: 64`, `common denominator = 64` or `denominator 64`.

@@ -56,6 +56,40 @@ fn mistakes_are_told() {
     assert_eq!(parse(&deep).unwrap_err().id(), "secant::matrix::limit");
 }
 
+#[test]
+fn every_notation_reads_algebraic_numbers() {
+    let mut seen = Vec::new();
+    for text in [
+        "2\nsqrt(5) cos(2*pi/5)\n0 (1 + 1)/4 # the end\n",
+        "2 sqrt( 5 ) (sqrt(5)-1)/4 0 1/2",
+        "Matrix([[sqrt(5), cos(2*pi/5)], [0, Rational(1, 2)]])",
+        "Matrix([[5**Rational(1, 2), -S(1)/4 + sqrt(5)/4], [0, S(1)/2]])",
+        "{{Sqrt[5], Cos[2 Pi/5]}, {0, 1/2}}",
+        "{{Sqrt[5], (-1 + Sqrt[5])/4}, {0, 1/2}}",
+        "{{Root[#^2 - 5 &, 2], Sin[Pi/10]}, {0, 1/2}}",
+        "matrix(AA, [[sqrt(5), cos(2*pi/5)], [0, 1/2]])",
+        "matrix(AA, 2, 2, [sqrt(5), 1/4*sqrt(5) - 1/4, 0, 1/2])",
+        "A = [sqrt(5) cos(2*pi/5); 0 1/2];",
+    ] {
+        let found = parse_field("matrix", text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
+        assert_eq!(found.matrix.field().label(), Some("sqrt(5)"), "{text}");
+        seen.push(found.matrix);
+    }
+    assert!(seen.windows(2).all(|w| w[0].same(&w[1])));
+    assert_eq!(parse("2 sqrt(5) 1 1 1").unwrap_err().id(), "secant::matrix::irrational");
+    assert_eq!(parse("2 sqrt(4) 1 1 1").unwrap().matrix[(0, 0)], ratio(2, 1));
+    for (text, code) in [
+        ("2 sqrt(-1) 1 1 1", "number"),
+        ("2 sqrt (5) 1 1 1", "number"),
+        ("2 pi 1 1 1", "number"),
+        ("2 1, 2 3 4", "number"),
+        ("[[1, sqrt(2], [0, 1]]", "syntax"),
+        ("1 cos(2*pi/997)", "limit"),
+    ] {
+        assert_eq!(parse_field("matrix", text).unwrap_err().id(), format!("secant::matrix::{code}"), "{text}");
+    }
+}
+
 proptest! {
     #[test]
     fn arbitrary_text_never_panics(text in "\\PC{0,80}") {
@@ -68,7 +102,7 @@ proptest! {
             prop::sample::select(vec![
                 "[", "]", "{", "}", "(", ")", ",", ";", "\n", " ", "1", "2", "-", "+", "/", "*", "0", ".5", "1e3", "1e99999",
                 "Rational", "matrix(QQ, 2, ", "%%MatrixMarket matrix array integer general\n", "%", "#", "...", "é",
-                "denominator: 0", "S(",
+                "denominator: 0", "S(", "sqrt(", "Sqrt[2]", "cos(", "pi", "root(x^2-", "^", "Root[#", "&", "√",
             ]),
             0..30,
         )

@@ -5,20 +5,35 @@ use super::super::words::{mark, point_name, tone};
 use super::quoted;
 use crate::case::Case;
 use crate::report::theorems;
-use crate::theorem::{Certified, DenseSet, Statement};
+use crate::theorem::{Certified, DenseSet, Kind, Statement, Verdict};
 
 pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
     let Some(dense) = &found.dense else { return Vec::new() };
     let is_dense = |s: Statement| matches!(s, Statement::Theorem5 | Statement::Theorem5Projected);
     let Some(claim) = found.claims.iter().find(|c| c.statement.is_some_and(is_dense)) else { return Vec::new() };
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    if let Some(s) = claim.statement {
-        blocks.push(quoted(theorems::of(s)));
+    let statement = claim.statement.map(theorems::of);
+    match (claim.verdict, statement) {
+        (Verdict::Proved, Some(theorem)) => blocks.push(quoted(theorem)),
+        (Verdict::Undetermined, Some(theorem)) => {
+            blocks.push(quoted(theorem));
+            blocks.push(Block::text("It is not applied: of its hypotheses some fail or are not decided.", []));
+        }
+        _ => {
+            let text = "The claim below is about all joints, and one that was examined above has no tangent line; no further theorem is \
+                        needed. For the record, the joints and the maps:";
+            blocks.push(Block::text(text, []));
+        }
     }
     blocks.push(Block::Checks(checks(case, found, dense)));
     let mut conclusion: Line = line("**Conclusion.** ", []);
     conclusion.push(mark(claim.verdict));
-    conclusion.extend(words(format!(": {}", claim.text)));
+    let how = match claim.verdict {
+        Verdict::Proved => "",
+        Verdict::Refuted => "it is false that ",
+        Verdict::Undetermined => "whether ",
+    };
+    conclusion.extend(words(format!(": {how}{}", claim.text)));
     if let Some(reason) = &claim.reason {
         conclusion.extend(words(format!("; {reason}")));
     }
@@ -34,7 +49,9 @@ fn checks(case: &Case, found: &Certified, dense: &DenseSet) -> Vec<Check> {
         let Some(point) = found.points.get(index) else { continue };
         let mut text = words(format!("{}: ", point_name(shape, point)));
         text.push(mark(point.verdict));
-        text.push(Inline::Text(format!(", {}", point.kind.word())));
+        if point.kind != Kind::None {
+            text.push(Inline::Text(format!(", {}", point.kind.word())));
+        }
         checks.push(Check { tone: tone(point.verdict), text });
     }
     for &(state, letter, ok) in &dense.injective {

@@ -3,15 +3,18 @@
 
 mod cycles;
 mod dense;
+mod every;
 mod points;
 mod scheme;
+mod statements;
+mod surface;
 
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
 use super::summary::{claim_line, shape_line};
 use super::theorems::{THEOREMS, Theorem};
-use super::words::{mark, statement};
+use super::words::{deciding, mark, statement};
 use crate::case::Case;
 use crate::shape::Spaces;
 use crate::theorem::{BranchReport, Certified, Verdict};
@@ -23,27 +26,70 @@ pub fn document(case: &Case, found: &Certified) -> Document {
     blocks.extend(scheme::section(case, found));
     let cycles = cycles::distinct(found);
     if let Some(spaces) = Spaces::new(&case.shape).filter(|_| !found.points.is_empty()) {
+        let mut seen = Quoted::default();
+        blocks.extend(definitions());
         blocks.push(Block::heading(2, "The cycles"));
-        blocks.push(Block::text(
-            "Every point examined has one or two branches: addresses $u w^ω$ with a prefix $u$ and a cycle $w$. What follows depends on the \
-             cycle alone: $M=T_w$ has the fixed point $q$, $V$ is the span of the differences of the attractor, $L$ is $M$ on $V$ (on the part of \
-             $V$ that is seen, where control points do not see all of it), the ring $K$ is what leaves the cycle during its first turn, \
-             and $X=K-q$. All points near $q$ are images $M^m x$ of points of the ring.",
-            [],
-        ));
         for (k, branch) in cycles.iter().enumerate() {
-            blocks.extend(cycles::section(case, &spaces, branch, k));
+            blocks.extend(cycles::section(case, &spaces, branch, k, &mut seen));
         }
         blocks.extend(points::section(case, found, &cycles));
     }
+    if let Some(surface) = &found.surface {
+        blocks.extend(surface::section(case, surface));
+    }
     blocks.extend(dense::section(case, found));
+    blocks.extend(every::section(case, found));
+    blocks.extend(certificate_section(case, found));
     blocks.extend(closing(found));
     Document { title: case.title.clone(), blocks }
 }
 
+/// The statements quoted so far: each is quoted in full where it is first used.
+#[derive(Default)]
+struct Quoted(Vec<&'static str>);
+
+impl Quoted {
+    /// The statement in full, or a reference to where it stands.
+    fn once(&mut self, theorem: &Theorem) -> Vec<Block> {
+        if self.0.contains(&theorem.id) {
+            let name = theorem.name.split(" (").next().unwrap_or(theorem.name);
+            return vec![Block::text(&format!("**{name}** (above) applies:"), [])];
+        }
+        self.0.push(theorem.id);
+        vec![quoted(theorem)]
+    }
+
+    /// The statement with an id in full, or nothing where it was quoted before.
+    fn once_id(&mut self, id: &'static str) -> Vec<Block> {
+        if self.0.contains(&id) {
+            return Vec::new();
+        }
+        self.0.push(id);
+        vec![quoted_id(id)]
+    }
+}
+
+/// The words that the statements use.
+fn definitions() -> Vec<Block> {
+    let items = [
+        "A unit vector $d$ is a **limit direction** at $p$ if $(a_k-p)/|a_k-p|→d$ for points $a_k≠p$ of the shape whose addresses tend to that of $p$; \
+         the **tangent subspace** $D^*$ is the span of the limit directions. There is a **tangent line** if and only if $\\dim D^*=1$.",
+        "Every point examined has one or two **branches**: addresses $u w^ω$ with a prefix $u$ and a cycle $w$. What follows depends on the \
+         cycle alone, up to the map $T_u$ of the prefix: $M=T_w$ has the fixed point $q$, $V$ is the span of the differences of the attractor, $L$ is $M$ on $V$, \
+         the **ring** $K$ is what leaves the cycle during its first turn, and $X=K-q$. All points near $q$ are images $M^m x$ of points of the ring.",
+        "$ρ_1>ρ_2>…$ are the different moduli of the eigenvalues of $L$, $E_i$ is the real generalised eigenspace of modulus $ρ_i$, \
+         $F_i=E_{i+1}⊕E_{i+2}⊕…$, and $π_i$ is the projection of $V$ to $E_1⊕…⊕E_i$ along $F_i$. The smallest $i$ with $0∉π_i(X)$ is the **depth**. \
+         $E_i$ is **semisimple** if all its Jordan blocks have size 1. $U$ is the span of the eigenvectors that end the longest Jordan chains of modulus $ρ_1$, \
+         and the **leading coefficient** of $x$ is the part in $U$ of the term that dominates $L^m x$ for large $m$.",
+        "A branch is **isolated** if no point of $X$ lies in the generalised kernel of $L$. The **hull** of a vector is the smallest $L$-invariant \
+         subspace that contains it.",
+    ];
+    vec![Block::heading(2, "Definitions"), Block::List(items.iter().map(|t| line(t, [])).collect())]
+}
+
 fn opening(case: &Case, found: &Certified) -> Vec<Block> {
-    let mut blocks = vec![Block::heading(2, "What is claimed")];
-    let mut shape = line("Let $A$ be the attractor of the case ", []);
+    let mut blocks = vec![Block::heading(2, "Statement")];
+    let mut shape = line("Let $A$ be the shape of the case ", []);
     shape.push(Inline::Code(case.name.clone()));
     shape.extend(words(": a "));
     shape.extend(shape_line(case));
@@ -60,6 +106,11 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
         Verdict::Refuted => ". The witness is given below. Every number is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
         Verdict::Undetermined => ". What was established, and where the proof stopped, is given below.",
     }));
+    if has_long_numbers(case) {
+        verdict.extend(words(
+            " Numbers of more than 40 digits are shortened in the middle by …; the case file and the certificate have them in full.",
+        ));
+    }
     blocks.push(Block::Paragraph(verdict));
     if let Some(picture) = figures::attractor(case, found) {
         blocks.push(Block::Figure {
@@ -72,6 +123,11 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     blocks
 }
 
+fn has_long_numbers(case: &Case) -> bool {
+    let pieces = case.shape.states.iter().flat_map(|s| &s.pieces);
+    pieces.map(|p| &p.op).any(|m| crate::report::math::is_shortened(&Math::matrix(m)))
+}
+
 /// A statement, quoted.
 fn quoted(theorem: &Theorem) -> Block {
     Block::Statement { name: theorem.name.to_owned(), body: line(theorem.body, []) }
@@ -80,6 +136,30 @@ fn quoted(theorem: &Theorem) -> Block {
 /// The statement with an id, quoted.
 fn quoted_id(id: &str) -> Block {
     quoted(THEOREMS.iter().find(|t| t.id == id).unwrap_or(&THEOREMS[0]))
+}
+
+/// What identifies the case and its certificate.
+fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
+    let digest = |text: &str| Line::from([Inline::Code(crate::certificate::sha256(text))]);
+    let mut facts = vec![("case file, SHA-256".to_owned(), digest(&case.text.text))];
+    match crate::certificate::certificate(case, found) {
+        Ok(certificate) => {
+            facts.push(("certificate, SHA-256".to_owned(), digest(&certificate.text())));
+            facts.push((
+                "how to check".to_owned(),
+                line(
+                    &format!(
+                        "`secant certify CASE --certificate FILE` writes the certificate; `secant-check CASE FILE`, which shares no code with \
+                         secant, proves {} again from it and the case file.",
+                        if found.verdict == Verdict::Undetermined { "what is decided" } else { "the verdict" }
+                    ),
+                    [],
+                ),
+            ));
+        }
+        Err(unsupported) => facts.push(("certificate".to_owned(), words(format!("none: {unsupported}.")))),
+    }
+    vec![Block::heading(2, "Certificate"), Block::Facts(facts)]
 }
 
 fn closing(found: &Certified) -> Vec<Block> {
@@ -92,7 +172,13 @@ fn closing(found: &Certified) -> Vec<Block> {
             }
         }
     }
-    for name in found.claims.iter().filter_map(|c| c.statement).map(statement) {
+    let of_surface = found.surface.iter().flat_map(|s| &s.points).flat_map(|p| &p.branches);
+    for name in of_surface.filter_map(|b| b.outcome.statement).map(statement) {
+        if !used.contains(&name) {
+            used.push(name);
+        }
+    }
+    for name in found.claims.iter().filter_map(deciding).map(statement) {
         if !used.contains(&name) {
             used.push(name);
         }

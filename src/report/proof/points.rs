@@ -2,24 +2,30 @@
 
 use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
 use super::super::math::Math;
-use super::super::words::{addresses, dimension, direction, mark, point_name, ray_line};
+use super::super::words::{addresses, dimension, direction, kind_meaning, mark, point_name, ray_line};
 use super::{cycles, equation, quoted_id};
 use crate::case::Case;
-use crate::shape::word_text;
+use crate::report::figures;
+use crate::shape::{CellKind, word_text};
 use crate::theorem::{BranchReport, Certified, Kind, Outcome, PointReport, Role, Side, Verdict};
+
+/// So many points are shown enlarged.
+const MAX_PICTURED: usize = 5;
 
 pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport]) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "The points")];
     if found.points.iter().any(|p| p.branches.len() > 1) {
         blocks.push(quoted_id("joint"));
     }
-    for point in &found.points {
-        blocks.extend(one(case, point, listed));
+    for (k, point) in found.points.iter().enumerate() {
+        // Points asked for come last, and are shown in any case.
+        let asked = found.claims.iter().any(|c| c.asked.as_ref().is_some_and(|(_, index)| *index == k));
+        blocks.extend(one(case, point, listed, k < MAX_PICTURED || asked));
     }
     blocks
 }
 
-fn one(case: &Case, point: &PointReport, listed: &[&BranchReport]) -> Vec<Block> {
+fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: bool) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -38,6 +44,9 @@ fn one(case: &Case, point: &PointReport, listed: &[&BranchReport]) -> Vec<Block>
     }
     if point.branches.len() > 1 {
         blocks.extend(agreement(point));
+    }
+    if pictured {
+        blocks.extend(figures::germ(case, point));
     }
     blocks.push(Block::Paragraph(conclusion(point)));
     blocks
@@ -58,9 +67,14 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
     };
     let mut text = line(&format!("**{side}** `{}`: {from}, then ", branch.address), []);
     text.push(Inline::Strong(name));
-    text.extend(line(". Directions in coordinates of $V$ are brought to the point by", []));
-    blocks.push(Block::Paragraph(text));
-    blocks.push(equation("G", Math::matrix(&branch.view)));
+    if branch.view.cols() == 0 || matches!(branch.outcome, Outcome::NoGerm { .. }) {
+        text.extend(words("."));
+        blocks.push(Block::Paragraph(text));
+    } else {
+        text.extend(line(". A direction in the coordinates of $L$ is brought to the point by", []));
+        blocks.push(Block::Paragraph(text));
+        blocks.push(equation("G", Math::matrix(&branch.view)));
+    }
     match &branch.outcome {
         Outcome::Line { direction: d, rays, .. } => {
             let mut text = line("The tangent line of this branch has the direction $G v$: ", []);
@@ -68,8 +82,12 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
             text.extend(words("."));
             blocks.push(Block::Paragraph(text));
             let lists = [("before", &rays.left), ("after", &rays.right)];
+            let ordered = case.shape.states[case.shape.start].kind == CellKind::Edge;
             for (name, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
-                let mut text = words(format!("Rays of the points {name} $p$: ").replace(" $p$", " it"));
+                let of =
+                    if ordered { format!(" of the points {name} it in the order of the curve") } else { String::new() };
+                let noun = if list.len() == 1 { "Limit ray" } else { "Limit rays" };
+                let mut text = words(format!("{noun}{of}: "));
                 text.extend(super::super::words::rays(list));
                 text.extend(words("."));
                 blocks.push(Block::Paragraph(text));
@@ -78,7 +96,9 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
         Outcome::AtLeast { dimension, .. } => {
             blocks.push(Block::text("On this branch $\\dim D^*≥@$.", [Math::count(*dimension)]))
         }
-        Outcome::NoGerm { reason } => blocks.push(Block::Paragraph(words(format!("{reason}.")))),
+        Outcome::NoGerm { reason } => {
+            blocks.push(Block::Paragraph(words(format!("There are no secants to look at: {reason}."))));
+        }
         Outcome::Open { reason, .. } => blocks.push(Block::Paragraph(words(format!("Not decided: {reason}.")))),
     }
     blocks
@@ -106,18 +126,26 @@ fn agreement(point: &PointReport) -> Option<Block> {
 }
 
 fn conclusion(point: &PointReport) -> Line {
+    let no_germ = point.branches.iter().all(|b| matches!(b.outcome, Outcome::NoGerm { .. }));
     let mut out = line("**Conclusion.** ", []);
     out.push(mark(point.verdict));
     out.extend(words(": "));
     let kind = match (point.verdict, point.kind) {
         (Verdict::Proved, Kind::None) => "a tangent line exists; its rays are not settled".to_owned(),
         (Verdict::Refuted, Kind::None) => "no tangent line".to_owned(),
+        (Verdict::Undetermined, _) if no_germ => "there is no tangent question".to_owned(),
         (Verdict::Undetermined, _) => "not decided".to_owned(),
         (_, kind) => kind.word().to_owned(),
     };
     out.push(Inline::Strong(kind));
-    out.extend(words(", "));
-    out.extend(dimension(point.dimension));
+    let meaning = kind_meaning(point.kind);
+    if !meaning.is_empty() {
+        out.extend(words(format!(" ({meaning})")));
+    }
+    if point.dimension.at_least > 0 {
+        out.extend(words(", "));
+        out.extend(dimension(point.dimension));
+    }
     if let Some(tangent) = &point.tangent {
         out.extend(words("; tangent line of "));
         out.extend(direction(tangent));

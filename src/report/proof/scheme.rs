@@ -2,9 +2,10 @@
 
 use super::super::document::{Block, Check, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
-use super::super::words::{contraction, count};
+use super::super::words::{contraction, count, short_bound};
 use super::{equation, quoted_id};
 use crate::case::{Case, Convention};
+use crate::report::figures;
 use crate::shape::{Balls, CellKind, Contraction, End, Frame, Shape, Spaces, word_text};
 use crate::theorem::{BranchReport, Certified, Outcome, Witness};
 
@@ -16,6 +17,7 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
     let shape = &case.shape;
     let mut blocks = vec![Block::heading(2, "The scheme")];
     blocks.push(Block::Paragraph(convention(case)));
+    blocks.extend(figures::automaton(shape));
     for (e, state) in shape.states.iter().enumerate() {
         if shape.states.len() > 1 {
             blocks.push(Block::Paragraph(state_line(shape, e)));
@@ -47,6 +49,14 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
         blocks.extend(spaces(shape, found));
     }
     blocks
+}
+
+/// A number exactly where that is short, otherwise as an upper bound.
+fn bounded(x: &crate::arith::Rational) -> Math {
+    match short_bound(x) {
+        exact @ Math::Number(_) => exact,
+        above => Math::parse("≤@", &mut std::iter::once(above)),
+    }
 }
 
 fn convention(case: &Case) -> Line {
@@ -113,7 +123,7 @@ fn code_words(shape: &Shape, found: &Contraction) -> Option<Block> {
     let mut rows = Vec::new();
     for (e, code_of_state) in proof.codes.iter().enumerate() {
         for word in code_of_state {
-            let mut row = vec![code(word_text(&word.word)), formula(Math::number(&word.tau))];
+            let mut row = vec![code(word_text(&word.word)), formula(bounded(&word.tau))];
             if several {
                 row.insert(0, words(shape.states[e].name.clone()));
             }
@@ -205,7 +215,8 @@ fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Relevant spaces and enclosures")];
     blocks.push(Block::text(
         "$V_e$ is the span of the differences of points of the attractor $A_e$, computed by closing the differences of one point of each \
-         attractor under the operators. Each attractor lies in the 1-norm ball around its base point with the radius given.",
+         attractor under the operators; the dimension that is seen is that of its image under the control points, after division by what all operators \
+         keep invisible. Each attractor lies in the 1-norm ball around its base point with the radius given.",
         [],
     ));
     let rows = found.states.iter().map(|s| {
@@ -214,10 +225,11 @@ fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
             formula(Math::count(s.relevant)),
             formula(Math::count(s.visible)),
             formula(Math::vector(&s.base)),
-            formula(Math::number(&s.radius)),
+            formula(bounded(&s.radius)),
         ]
     });
-    let header = vec![words("state"), line("$\\dim V_e$", []), words("seen"), words("base point"), words("radius")];
+    let header =
+        vec![words("state"), line("$\\dim V_e$", []), line("$\\dim$ seen", []), words("base point"), words("radius")];
     blocks.push(Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }));
     blocks.extend(polygons(shape, found));
     if let Some(similar) = &found.similarities {

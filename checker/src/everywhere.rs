@@ -1,0 +1,423 @@
+//! Every point of a curve: invariant cones (Theorems 6 and 6′), joints at which the half-tangents agree, or a point that has
+//! no tangent that turns continuously.
+
+use crate::germ::Root;
+use crate::json::Node;
+use crate::matrix::Matrix;
+use crate::number::{Q, whole};
+use crate::points::{Place, Point, joints};
+use crate::ring::Model;
+use crate::shape::{End, Kind};
+use crate::spectrum::{Top, residual};
+use crate::{Rejected, Verdict, at, reject};
+use num_traits::{Signed, Zero};
+
+/// Longest window, and most words of one window without a positive factor.
+const MAX_WINDOW: usize = 8;
+const MAX_WORDS: usize = 1_000;
+/// Longest words and most products from which a rate is computed.
+const MAX_RATE: (usize, usize) = (12, 5_000);
+
+/// What follows from the answer to "every point": the verdict on G¹, the point used, and a claim in words.
+pub struct Answer {
+    /// Whether the curve is G¹.
+    pub verdict: Verdict,
+    /// The index of the point that refutes it.
+    pub witness: Option<usize>,
+    /// The claim.
+    pub claim: String,
+}
+
+/// The cones of all reachable states, breadth first, and the matrices of the images of their rays.
+struct Cones<'a> {
+    model: &'a Model<'a>,
+    /// By state: the rays, one a row.
+    rays: Vec<Matrix>,
+    /// By state and letter.
+    maps: Vec<Vec<Matrix>>,
+}
+
+/// Checks `{"question": "every point", …}`.
+pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Answer, Rejected> {
+    let [_, _, cones, maps, view, window, slow, rate, together, witness] =
+        node.fields(["question", "verdict", "cones", "maps", "view", "window", "slow", "rate", "joints", "witness"])?;
+    let witness = refuting(points, &witness)?;
+    let named = |verdict, claim: &str| Ok(Answer { verdict, witness, claim: claim.to_owned() });
+    if cones.list()?.is_empty() {
+        let empty = [&maps, &slow, &together].into_iter().all(|n| n.list().is_ok_and(|l| l.is_empty()));
+        if !empty || !view.is_null() || !rate.is_null() || window.index(1)? != 0 || witness.is_none() {
+            return reject("every-point", &node.place, "without cones only a point can refute");
+        }
+        return named(Verdict::Refuted, "the curve is G¹");
+    }
+    let found = at(&cones.place, Cones::read(model, &cones, &maps))?;
+    let first = at(&view.place, found.seen(&cones, &view))?;
+    at(&slow.place, found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
+    let exponent = at(&rate.place, found.rate(&rate))?;
+    let agree = !together.list()?.is_empty() || model.reachable.iter().all(|&e| joints(model, e).is_empty());
+    if agree {
+        at(&together.place, regular_joints(model, points, &together))?;
+    }
+    let half = if first {
+        "both half-tangents exist at every point"
+    } else {
+        "before the projection both half-tangents exist at every point"
+    };
+    match (witness, first && agree) {
+        (Some(_), _) => named(Verdict::Refuted, &format!("the curve is G¹; but {half}")),
+        (None, true) => named(
+            Verdict::Proved,
+            &format!("the curve is G¹: a tangent at every point, which turns continuously{exponent}"),
+        ),
+        (None, false) => named(Verdict::Undetermined, &format!("the curve is G¹; but {half}")),
+    }
+}
+
+/// The index of a point at which the tangent does not exist or does not turn continuously.
+fn refuting(points: &[Point], node: &Node<'_>) -> Result<Option<usize>, Rejected> {
+    let items = node.list()?;
+    let [item] = &items[..] else {
+        return if items.is_empty() { Ok(None) } else { node.malformed("at most one point is needed here") };
+    };
+    let k = item.index(points.len())?;
+    let broken = points[k].verdict == Verdict::Refuted || matches!(points[k].kind, "cusp" | "oscillating");
+    if broken { Ok(Some(k)) } else { reject("every-point", &item.place, "the point has a tangent like any other") }
+}
+
+/// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state, or as a listed
+/// point through a map that is injective on that quotient.
+fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<(), Rejected> {
+    let mut listed = Vec::new();
+    for item in node.list()? {
+        let own;
+        let (point, e) = if item.field("listed").is_ok() {
+            let [state, index] = item.fields(["state", "listed"])?;
+            let (e, k) = (state.index(model.shape.states.len())?, index.index(points.len())?);
+            at(&item.place, injective(model, &points[k], e))?;
+            (&points[k], e)
+        } else {
+            let [state, point] = item.fields(["state", "point"])?;
+            let e = state.index(model.shape.states.len())?;
+            let space = at(&state.place, model.spaces.of(e))?;
+            let root = Root { state: e, view: space.visible.times(&space.reading)? };
+            own = Point::check(model, &root, &point)?;
+            if !matches!(&own.place, Place::Joint { path, .. } if path.is_empty()) {
+                return reject("every-point", &item.place, "a first-level joint is needed here");
+            }
+            (&own, e)
+        };
+        let Place::Joint { left, right, .. } = &point.place else {
+            return reject("every-point", &item.place, "a joint is needed here");
+        };
+        if point.verdict != Verdict::Proved || point.kind != "regular" {
+            return reject("every-point", &item.place, "the joint must be regular");
+        }
+        listed.push((e, *left, *right));
+    }
+    for &e in &model.reachable {
+        for (left, right) in joints(model, e) {
+            if !listed.contains(&(e, left, right)) {
+                let why = format!("the joint of the pieces {left} and {right} of state {e} is missing");
+                return reject("every-point", &node.place, why);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The point is a joint of the state, and the map along its path to where it is looked at is injective on the quotient.
+fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<(), Rejected> {
+    let shape = model.shape;
+    let Place::Joint { path, .. } = &point.place else { return reject("every-point", "", "a joint is needed here") };
+    let (op, end) = shape.product(shape.start, path)?;
+    let space = model.spaces.of(e)?;
+    let seen = shape.view.times(&op)?.times(&space.basis)?;
+    if end != e || seen.rank()? != space.visible.rows {
+        return reject("every-point", "", "the joint of another state, or directions are lost where it is looked at");
+    }
+    Ok(())
+}
+
+/// Reads a matrix of the given size, by rows.
+fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Result<Matrix, Rejected> {
+    let found = node.matrix(cols)?;
+    if found.rows == rows { Ok(found) } else { node.malformed(&format!("{rows} rows are needed here")) }
+}
+
+impl<'a> Cones<'a> {
+    /// The cones are pointed, span the relevant spaces, hold the chords, and are mapped into each other.
+    fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Result<Self, Rejected> {
+        let shape = model.shape;
+        let (own, images) = (cones.list()?, maps.list()?);
+        if own.len() != model.reachable.len() || images.len() != own.len() {
+            return reject("cone", &cones.place, "one cone for each reachable state is needed, breadth first");
+        }
+        let mut rays: Vec<Matrix> = shape.states.iter().map(|s| Matrix::empty(s.dim)).collect();
+        for (item, &e) in own.iter().zip(&model.reachable) {
+            rays[e] = at(&item.place, Self::cone(model, e, item))?;
+        }
+        let mut all: Vec<Vec<Matrix>> = shape.states.iter().map(|_| Vec::new()).collect();
+        for (item, &e) in images.iter().zip(&model.reachable) {
+            let items = item.list()?;
+            if items.len() != shape.states[e].pieces.len() {
+                return item.malformed("one matrix for each piece is needed here");
+            }
+            for (item, piece) in items.iter().zip(&shape.states[e].pieces) {
+                let b = matrix(item, rays[e].rows, rays[piece.target].rows)?;
+                let zero = (0..b.cols).any(|j| b.columns(&[j]).is_zero());
+                if zero || b.data.iter().any(Signed::is_negative) {
+                    return reject("cone", &item.place, "coefficients are not negative, and no column is 0");
+                }
+                let turned = whole(if piece.reversed { -1 } else { 1 });
+                let image = piece.op.times(&rays[piece.target].transpose())?;
+                let combined = rays[e].transpose().times(&b)?;
+                if image != combined.scaled(&turned) {
+                    return reject("cone", &item.place, "the images of the rays are other vectors");
+                }
+                all[e].push(b);
+            }
+        }
+        Ok(Self { model, rays, maps: all })
+    }
+
+    fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Result<Matrix, Rejected> {
+        let [rays, functional, chord] = node.fields(["rays", "functional", "chord"])?;
+        let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
+        if state.kind != Kind::Edge || space.basis.cols == 0 {
+            return reject("cone", &node.place, "only curves that are more than a point have cones");
+        }
+        let rows = matrix(&rays, rays.list()?.len(), state.dim)?;
+        let coordinates = space.reading.times(&rows.transpose())?;
+        if space.basis.times(&coordinates)? != rows.transpose() || rows.rank()? != space.basis.cols {
+            return reject("cone", &rays.place, "the rays do not span the relevant space");
+        }
+        let values = rows.times(&Matrix::new(state.dim, 1, &functional.vector(state.dim)?))?;
+        if let Some(k) = values.data.iter().position(|x| !x.is_positive()) {
+            return reject("cone", &functional.place, format!("the functional is not positive on ray {k}"));
+        }
+        let y = Matrix::new(rows.rows, 1, &chord.vector(rows.rows)?);
+        let end = |end: End| model.shape.end_point(e, end);
+        let difference = end(End::Finish)?.minus(&end(End::Start)?);
+        if y.is_zero() || y.data.iter().any(Signed::is_negative) || rows.transpose().times(&y)? != difference {
+            return reject("cone", &chord.place, "the chord is no such combination of the rays");
+        }
+        Ok(rows)
+    }
+
+    /// Whether a functional is given that is positive on the cone of the start as it is looked at.
+    fn seen(&self, cones: &Node<'_>, view: &Node<'_>) -> Result<bool, Rejected> {
+        if view.is_null() {
+            return Ok(false);
+        }
+        let start = self.model.shape.start;
+        let images = self.model.shape.view.times(&self.rays[start].transpose())?;
+        let values = Matrix::new(1, images.rows, &view.vector(images.rows)?).times(&images)?;
+        match values.data.iter().position(|x| !x.is_positive()) {
+            Some(k) => reject("cone", &cones.place, format!("the functional of the view is not positive on ray {k}")),
+            None => Ok(true),
+        }
+    }
+
+    /// All words of `length` letters whose factors have no positive product, by state and then by letters, with the state.
+    fn idle_words(&self, length: usize) -> Result<Vec<(usize, Vec<usize>)>, Rejected> {
+        let shape = self.model.shape;
+        let mut words: Vec<(usize, usize, Vec<usize>)> = self.model.reachable.iter().map(|&e| (e, e, vec![])).collect();
+        for _ in 0..length {
+            let mut longer = Vec::new();
+            for (from, to, word) in words {
+                for (letter, piece) in shape.states[to].pieces.iter().enumerate() {
+                    let word = [word.as_slice(), &[letter]].concat();
+                    if self.idle(from, &word)? {
+                        longer.push((from, piece.target, word));
+                    }
+                }
+            }
+            if longer.len() > MAX_WORDS {
+                return reject("limit", "", "too many words without a positive factor");
+            }
+            words = longer;
+        }
+        Ok(words.into_iter().map(|(from, _, word)| (from, word)).collect())
+    }
+
+    /// Whether no end of a word has a positive product.
+    fn idle(&self, from: usize, word: &[usize]) -> Result<bool, Rejected> {
+        let states = self.model.shape.path(from, word).unwrap_or_default();
+        let mut product: Option<Matrix> = None;
+        for (&e, &letter) in states.iter().zip(word).rev() {
+            let step = pattern(&self.maps[e][letter]);
+            let next = match product {
+                None => step,
+                Some(p) => pattern(&step.times(&p)?),
+            };
+            if next.data.iter().all(Signed::is_positive) {
+                return Ok(false);
+            }
+            product = Some(next);
+        }
+        Ok(true)
+    }
+
+    /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
+    fn shrink(&self, window: usize, slow: &Node<'_>) -> Result<(), Rejected> {
+        if window == 0 {
+            return reject("slow", &slow.place, "the window must be positive");
+        }
+        let cycles = self.idle_cycles(&self.idle_words(window)?)?;
+        let items = slow.list()?;
+        if items.len() != cycles.len() {
+            return reject("slow", &slow.place, format!("there are {} cycles without positive products", cycles.len()));
+        }
+        for (item, (e, word)) in items.iter().zip(&cycles) {
+            at(&item.place, self.pulls(item, *e, word))?;
+        }
+        Ok(())
+    }
+
+    /// The cycles of the graph of overlapping words, which must not meet; each from its first word on.
+    fn idle_cycles(&self, words: &[(usize, Vec<usize>)]) -> Result<Vec<(usize, Vec<usize>)>, Rejected> {
+        let shape = self.model.shape;
+        let n = words.len();
+        let follows = |(e, a): &(usize, Vec<usize>), (f, b): &(usize, Vec<usize>)| {
+            shape.states[*e].pieces[a[0]].target == *f && a[1..] == b[..b.len() - 1]
+        };
+        let next: Vec<Vec<usize>> = words.iter().map(|a| (0..n).filter(|&k| follows(a, &words[k])).collect()).collect();
+        let mut reach = vec![vec![false; n]; n];
+        for (k, row) in reach.iter_mut().enumerate() {
+            let mut open = next[k].clone();
+            while let Some(j) = open.pop() {
+                if !row[j] {
+                    row[j] = true;
+                    open.extend(&next[j]);
+                }
+            }
+        }
+        let (mut cycles, mut seen) = (Vec::new(), vec![false; n]);
+        for k in (0..n).filter(|&k| reach[k][k]) {
+            if next[k].iter().filter(|&&j| reach[j][k]).count() != 1 {
+                return reject("slow", "", "two cycles without positive products meet");
+            }
+            let (mut at, mut word) = (k, Vec::new());
+            while !seen[at] {
+                seen[at] = true;
+                word.push(words[at].1[0]);
+                at = next[at].iter().copied().find(|&j| reach[j][at]).unwrap_or(at);
+            }
+            if !word.is_empty() {
+                cycles.push((words[k].0, word));
+            }
+        }
+        Ok(cycles)
+    }
+
+    /// The cycle has one positive leading eigenvalue with one longest chain; each ray has a positive leading coefficient, or
+    /// is the ray to which the others are pulled.
+    fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Result<(), Rejected> {
+        let [state, letters, top, functional] = node.fields(["state", "word", "top", "functional"])?;
+        if state.index(usize::MAX)? != e || letters.word()? != word {
+            return reject("slow", &node.place, format!("the cycle {word:?} of state {e} is expected here"));
+        }
+        let model = self.model;
+        let (product, _) = model.shape.product(e, word)?;
+        let turn = whole(i64::from(model.shape.orientation(e, word)));
+        let linear = model.spaces.linear(&product, e, e)?.scaled(&turn);
+        let Top::Real { field, chains } = Top::read(&top, &linear)? else {
+            return reject("slow", &top.place, "a real top is needed here");
+        };
+        let length = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
+        let longest: Vec<_> = chains.iter().filter(|c| c.vectors.len() == length).collect();
+        let [chain] = longest[..] else {
+            return reject("slow", &top.place, "exactly one longest chain is needed here");
+        };
+        if chain.sign * field.interval.sign() <= 0 {
+            return reject("slow", &top.place, "the leading eigenvalue must be positive");
+        }
+        let row = field.vector(&functional, linear.rows)?;
+        if !residual(&field, &linear.transpose(), chain.sign, &row)?.is_zero() {
+            return reject("slow", &functional.place, "the row is no left eigenvector");
+        }
+        for other in &chains {
+            let pairing = field.dot(&row, &other.vectors[other.vectors.len() - 1])?;
+            if !std::ptr::eq(other, chain) && !pairing.is_zero() {
+                return reject("slow", &functional.place, "the row sees a shorter chain");
+            }
+        }
+        let pairing = field.sign(&field.dot(&row, &chain.vectors[length - 1])?)?;
+        if pairing == 0 {
+            return reject("slow", &functional.place, "the row is not seen to be nonzero");
+        }
+        let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
+        for k in 0..rays.rows {
+            let ray = rays.row(k);
+            if field.sign(&ray.times(&row)?)? > 0 {
+                continue;
+            }
+            // The others tend to `pairing · v_1`; this one must be a positive multiple of it.
+            let (v, ray) = (&chain.vectors[0], ray.entries());
+            let parallel = |i: usize| (0..i).all(|j| v.row(j).scaled(&ray[i]) == v.row(i).scaled(&ray[j]));
+            if !(0..ray.len()).all(parallel) {
+                let why = format!("the leading coefficient of ray {k} is not positive");
+                return reject("slow", &functional.place, why);
+            }
+            let values = field.enclose(v)?;
+            let along = (0..ray.len()).map(|i| values.sign(i) * if ray[i].is_negative() { -1 } else { 1 });
+            let along = along.zip(&ray).find(|(s, x)| *s != 0 && !x.is_zero()).map_or(0, |(s, _)| s);
+            if along != pairing {
+                return reject(
+                    "slow",
+                    &functional.place,
+                    format!("ray {k} is not the one to which the others are pulled"),
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Products of `length` letters have cross-ratios of at most `cross_ratio`; says what follows.
+    fn rate(&self, node: &Node<'_>) -> Result<String, Rejected> {
+        if node.is_null() {
+            return Ok(String::new());
+        }
+        let [length, bound] = node.fields(["length", "cross_ratio"])?;
+        let (length, most) = (length.index(MAX_RATE.0 + 1)?, bound.rational()?);
+        let shape = self.model.shape;
+        let identity = |e: usize| (e, Matrix::identity(self.rays[e].rows));
+        let mut layer: Vec<(usize, Matrix)> = self.model.reachable.iter().map(|&e| identity(e)).collect();
+        for _ in 0..length {
+            let mut longer = Vec::new();
+            for (e, product) in &layer {
+                for (piece, b) in shape.states[*e].pieces.iter().zip(&self.maps[*e]) {
+                    longer.push((piece.target, product.times(b)?));
+                }
+            }
+            if longer.len() > MAX_RATE.1 {
+                return reject("limit", "", "too many products");
+            }
+            layer = longer;
+        }
+        for (_, b) in &layer {
+            if length == 0 || b.data.iter().any(|x| !x.is_positive()) || !within(b, &most) {
+                return reject("rate", &bound.place, "a product is not positive, or has a larger cross-ratio");
+            }
+        }
+        Ok(format!(" (cones shrink by (√D − 1)/(√D + 1) with every {length} letters, D = {most})"))
+    }
+}
+
+/// 1 where an entry is positive, otherwise 0.
+fn pattern(m: &Matrix) -> Matrix {
+    Matrix::ones(m.rows, m.cols, |i, j| m.data[i * m.cols + j].is_positive())
+}
+
+/// Whether `b_ij b_kl <= D b_kj b_il` for all entries of a positive matrix.
+fn within(b: &Matrix, bound: &Q) -> bool {
+    (0..b.cols).all(|j| {
+        (0..j).all(|l| {
+            let ratios: Vec<Q> = (0..b.rows).map(|i| b.at(i, j) / b.at(i, l)).collect();
+            match (ratios.iter().max(), ratios.iter().min()) {
+                (Some(hi), Some(lo)) => *hi <= bound * lo,
+                _ => true,
+            }
+        })
+    })
+}

@@ -1,0 +1,225 @@
+//! Case files about the vertices of a mesh: a `[vertex]` table names the rule on meshes, its weights and the valences.
+
+use super::MAX_BYTES;
+use super::node::{File, Node, Table};
+use crate::arith::{Rational, ratio};
+use crate::diagnostic::{Problem, SourceText};
+use crate::scheme::{DualWeights, MAX_VALENCE, MeshRule, SchemeError, mesh_rule, mesh_rules};
+use crate::theorem::Verdict;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use toml::de::DeTable;
+
+/// The valences asked about.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Valences {
+    /// These, ascending.
+    List(Vec<usize>),
+    /// Every valence from 3 on.
+    All,
+}
+
+impl Valences {
+    /// Reads `5`, `3..32` (both ends included), `3,5,8..10` or `all`.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant::case::Valences;
+    /// assert_eq!(Valences::parse("3..5, 8"), Ok(Valences::List(vec![3, 4, 5, 8])));
+    /// assert_eq!(Valences::parse("all"), Ok(Valences::All));
+    /// assert!(Valences::parse("2").is_err());
+    /// ```
+    pub fn parse(text: &str) -> Result<Self, String> {
+        if text.trim() == "all" {
+            return Ok(Self::All);
+        }
+        let number = |part: &str| {
+            let n: usize = part.trim().parse().map_err(|_| format!("`{}` is no valence", part.trim()))?;
+            if (3..=MAX_VALENCE).contains(&n) {
+                Ok(n)
+            } else {
+                Err(format!("the valence {n} is not between 3 and {MAX_VALENCE}"))
+            }
+        };
+        let mut all = BTreeSet::new();
+        for part in text.split(',') {
+            match part.split_once("..") {
+                Some((from, to)) => {
+                    let (from, to) = (number(from)?, number(to.trim_start_matches('='))?);
+                    if from > to {
+                        return Err(format!("the range {from}..{to} is empty"));
+                    }
+                    all.extend(from..=to);
+                }
+                None => {
+                    all.insert(number(part)?);
+                }
+            }
+        }
+        Ok(Self::List(all.into_iter().collect()))
+    }
+}
+
+/// A case about the vertices of a mesh.
+#[derive(Debug, Clone)]
+pub struct VertexCase {
+    /// The name.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Where the scheme and the claim come from.
+    pub source: Option<String>,
+    /// The name of the scheme.
+    pub scheme: String,
+    /// The rule.
+    pub rule: MeshRule,
+    /// The valences of the file.
+    pub valences: Option<Valences>,
+    /// What a test expects at which valences.
+    pub expect: Vec<(usize, Verdict)>,
+    /// The file.
+    pub text: SourceText,
+}
+
+impl VertexCase {
+    /// Whether a text has a `[vertex]` table.
+    #[must_use]
+    pub fn is_one(text: &str) -> bool {
+        text.lines().any(|line| line.trim_start().starts_with("[vertex]"))
+    }
+
+    /// Reads and checks a case file.
+    ///
+    /// # Errors
+    /// A [`Problem`] for everything that is wrong with it.
+    pub fn read(path: &Path) -> Result<Self, Problem> {
+        let name = path.display().to_string();
+        let unreadable = |error: &std::io::Error| {
+            Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
+                .with_help("give the path of a case file")
+        };
+        let size = std::fs::metadata(path).map_err(|e| unreadable(&e))?.len();
+        if size > MAX_BYTES as u64 {
+            return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
+                .with_help("case files are at most 4 MiB long"));
+        }
+        let text = std::fs::read_to_string(path).map_err(|e| unreadable(&e))?;
+        Self::parse(&name, &text)
+    }
+
+    /// Reads and checks the text of a case; `name` is shown in diagnostics.
+    ///
+    /// # Errors
+    /// As [`VertexCase::read`].
+    pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
+        let source = SourceText::new(name, text);
+        let table = DeTable::parse(text).map_err(|error| super::read::syntax(&source, &error))?;
+        let file = File::new(source);
+        let root = Table::root(&file, &table);
+        // With --valence a `[scheme]` of a mesh is a case about vertices too.
+        let mesh = |t: &Table<'_>| t.get("mesh").is_some();
+        let scheme = root.get("scheme").map(|node| node.table()).transpose()?.filter(mesh);
+        if root.get("vertex").is_none() && scheme.is_none() {
+            let message = format!("{name} has no [vertex] table, so that there are no valences to go through");
+            return Err(Problem::new("secant::case::missing-key", message).with_help(
+                "--valence is for cases such as cases/surfaces/catmull-clark.toml; see docs/case-format.md",
+            ));
+        }
+        if scheme.is_none() {
+            root.only(&["name", "title", "source", "vertex", "expect"])?;
+        }
+        let case_name = super::read::name(&root)?;
+        let title = root.optional_text("title")?.unwrap_or(&case_name).to_owned();
+        let expects = scheme.is_none();
+        let mut vertex = match scheme {
+            Some(table) => table,
+            None => root.need("vertex", "{ mesh = \"catmull-clark\" }")?.table()?,
+        };
+        vertex.what = if expects { "`[vertex]`" } else { "`[scheme]`" }.to_owned();
+        let (scheme, rule) = rule(&vertex)?;
+        let valences = match vertex.get("valence") {
+            None => None,
+            Some(node) => Some(valences(&node)?),
+        };
+        let expect = root.get("expect").filter(|_| expects).map(|node| expect(&node)).transpose()?.unwrap_or_default();
+        let source = root.optional_text("source")?.map(str::to_owned);
+        Ok(Self { name: case_name, title, source, scheme, rule, valences, expect, text: file.source.clone() })
+    }
+}
+
+fn valences(node: &Node<'_>) -> Result<Valences, Problem> {
+    let text = match node.index(MAX_VALENCE) {
+        Ok(n) => n.to_string(),
+        Err(_) => node.text()?.to_owned(),
+    };
+    Valences::parse(&text).map_err(|error| {
+        node.problem("value", error, "not a range of valences")
+            .with_help("write valence = 5, \"3..32\" (both ends included), \"3,5,8\" or \"all\"")
+    })
+}
+
+/// What the file expects: a list of valences for each verdict.
+fn expect(node: &Node<'_>) -> Result<Vec<(usize, Verdict)>, Problem> {
+    let table = node.table()?;
+    table.only(&["proved", "refuted", "undetermined"])?;
+    let mut all = Vec::new();
+    for (key, verdict) in
+        [("proved", Verdict::Proved), ("refuted", Verdict::Refuted), ("undetermined", Verdict::Undetermined)]
+    {
+        if let Some(node) = table.get(key)
+            && let Valences::List(list) = valences(&node)?
+        {
+            all.extend(list.into_iter().map(|n| (n, verdict)));
+        }
+    }
+    Ok(all)
+}
+
+fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
+    let scheme = table.text("mesh", "\"catmull-clark\"")?;
+    let Some(info) = mesh_rules().iter().find(|r| r.name == scheme) else {
+        let error = mesh_rule(scheme, &BTreeMap::new()).err().map(|e| e.to_string()).unwrap_or_default();
+        let names: Vec<&str> = mesh_rules().iter().map(|r| r.name).collect();
+        return Err(table
+            .need("mesh", "\"catmull-clark\"")?
+            .problem("value", error, "not a scheme on meshes")
+            .with_help(format!("the schemes are {}", names.join(", "))));
+    };
+    let mut known = vec!["mesh", "valence", "cell"];
+    known.extend(info.parameters.iter().map(|p| p.name));
+    let variant = scheme == "catmull-clark-variant";
+    let dual = scheme == "doo-sabin";
+    if variant {
+        known.push("gamma");
+    }
+    if dual {
+        known.push("weights");
+    }
+    table.only(&known)?;
+    if let Some(node) = table.get("weights").filter(|_| dual) {
+        let weights: Vec<Rational> =
+            node.array(|k| format!("weight {k}"))?.iter().map(Node::number).collect::<Result<_, _>>()?;
+        return Ok((scheme.to_owned(), MeshRule::DooSabin(DualWeights::Given(weights))));
+    }
+    let mut parameters = BTreeMap::new();
+    for parameter in info.parameters {
+        if let Some(node) = table.get(parameter.name) {
+            parameters.insert(parameter.name.to_owned(), node.number()?);
+        }
+    }
+    if let Some(node) = table.get("gamma").filter(|_| variant) {
+        let sum = parameters.values().fold(node.number()?, |s, x| s + x);
+        if sum != ratio(1, 1) {
+            return Err(node
+                .problem("value", format!("alpha + beta + gamma is {sum}, not 1"), "the weights do not add up to 1")
+                .with_help("the three weights are shares of a mean; leave gamma out to have it computed"));
+        }
+    }
+    let rule = mesh_rule(scheme, &parameters).map_err(|error: SchemeError| {
+        table.problem("value", error.to_string(), "here").with_help("`secant schemes` lists schemes and parameters")
+    })?;
+    Ok((scheme.to_owned(), rule))
+}

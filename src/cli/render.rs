@@ -1,0 +1,140 @@
+//! `secant render`: exact points of a shape, drawn.
+
+use super::output::{complain, print, write_file};
+use super::progress::Progress;
+use super::{BAD_INPUT, PROVED, RenderArgs};
+use crate::arith::to_f64;
+use crate::case::Case;
+use crate::diagnostic::Problem;
+use crate::linalg::char_poly;
+use crate::picture::Plot;
+use crate::shape::{CellKind, Contraction, MAX_SAMPLES, Sample, Shape, contraction, random_sample, sample};
+use std::path::Path;
+
+/// Longest words.
+const MAX_DEPTH: usize = 64;
+/// Points drawn where no depth is given.
+const DEFAULT_POINTS: usize = 20_000;
+
+/// Renders the case into the files asked for.
+pub fn run(args: &RenderArgs) -> u8 {
+    match render(args) {
+        Ok(text) => {
+            print(&text);
+            PROVED
+        }
+        Err(problem) => {
+            complain(&problem);
+            BAD_INPUT
+        }
+    }
+}
+
+fn render(args: &RenderArgs) -> Result<String, Problem> {
+    let targets = [&args.svg, &args.png, &args.obj, &args.ply];
+    if targets.iter().all(|t| t.is_none()) {
+        return Err(Problem::new("secant::usage::render", "no file to write is given")
+            .with_help("add --svg FILE, --png FILE, --obj FILE or --ply FILE"));
+    }
+    let case = Case::read(&args.case)?;
+    let (found, how) = points(&case, args)?;
+    let contracts = matches!(contraction(&case.shape, |_| false), Contraction::Proved(_));
+    let note = if contracts { "" } else { "; contraction is not proved, so there may be no attractor" };
+    let curve = case.shape.states[case.shape.start].kind == CellKind::Edge && args.chaos.is_none();
+    let plot = Plot::new(&case.shape, &found, curve).ok_or_else(|| {
+        Problem::new("secant::render", format!("{} cannot be drawn", case.name))
+            .with_help("its points are too large, or there are none at this depth; try --depth")
+    })?;
+    let mut files: Vec<(&Path, Vec<u8>)> = Vec::new();
+    if let Some(path) = &args.svg {
+        files.push((path, plot.svg(&case.title).into_bytes()));
+    }
+    if let Some(path) = &args.png {
+        let image = plot
+            .png()
+            .ok_or_else(|| Problem::new("secant::render", "the image cannot be encoded").with_help("try --svg"))?;
+        files.push((path, image));
+    }
+    if let Some(path) = &args.obj {
+        files.push((path, plot.obj(&case.title).into_bytes()));
+    }
+    if let Some(path) = &args.ply {
+        files.push((path, plot.ply(&case.title).into_bytes()));
+    }
+    for (path, content) in &files {
+        write_file(path, content)?;
+    }
+    let faces = if found.faces.is_empty() { String::new() } else { format!(" and {} polygons", found.faces.len()) };
+    Ok(format!("{}: {} exact points{faces}, {how}{note}\n", case.name, found.points.len()))
+}
+
+fn points(case: &Case, args: &RenderArgs) -> Result<(Sample, String), Problem> {
+    let failed = |help: &str| {
+        Problem::new("secant::render", format!("no points of {} can be computed", case.name)).with_help(help)
+    };
+    if let Some(count) = args.chaos {
+        if count > MAX_SAMPLES {
+            return Err(failed(&format!("at most {MAX_SAMPLES} points are drawn")));
+        }
+        let progress = Progress::of(count, "points", false);
+        let weights: Vec<Vec<f64>> = (0..case.shape.states.len()).map(|e| weights(&case.shape, e)).collect();
+        let mut random = oorandom::Rand64::new(u128::from(args.seed));
+        let mut next = |state: usize| pick(&weights[state], random.rand_float());
+        let found = random_sample(&case.shape, count, &mut next, &mut |_| progress.step());
+        progress.finish();
+        let how = format!("chaos game with seed {}", args.seed);
+        return Ok((found.ok_or_else(|| failed("the shape must contract"))?, how));
+    }
+    let complex = case.complex();
+    let depth = args.depth.unwrap_or_else(|| depth(&case.shape));
+    if depth > MAX_DEPTH {
+        return Err(failed(&format!("a depth of at most {MAX_DEPTH} is drawn")));
+    }
+    let progress = Progress::of(0, "points", false);
+    let found = sample(&complex, depth, &mut |n| progress.advance(n));
+    progress.finish();
+    let help = format!("the shape must contract, and have at most {MAX_SAMPLES} points at this depth; try --depth");
+    Ok((found.ok_or_else(|| failed(&help))?, format!("all words of {depth} letters")))
+}
+
+/// The largest depth with not too many words, and a patch not finer than can be seen.
+fn depth(shape: &Shape) -> usize {
+    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
+    let limit = if shape.states.iter().any(|s| s.kind == CellKind::Face) { 3_000 } else { DEFAULT_POINTS };
+    let mut counts = vec![1usize; shape.states.len()];
+    let mut depth = 0;
+    while most > 1 && depth < 24 {
+        let next = |s: &crate::shape::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
+        counts = shape.states.iter().map(next).collect();
+        if counts[shape.start] > limit {
+            break;
+        }
+        depth += 1;
+    }
+    depth.max(1)
+}
+
+/// How often each piece is drawn: by its determinant where it has one, and never too seldom.
+#[allow(clippy::float_arithmetic, reason = "weights of a picture")]
+fn weights(shape: &Shape, state: usize) -> Vec<f64> {
+    let pieces = &shape.states[state].pieces;
+    let size = |op: &crate::linalg::Matrix| {
+        if op.rows() == op.cols() { to_f64(&char_poly(op).coeff(0)).abs() } else { 0.0 }
+    };
+    let sizes: Vec<f64> = pieces.iter().map(|p| size(&p.op)).collect();
+    let total: f64 = sizes.iter().sum();
+    let least = if total > 0.0 { total / 50.0 } else { 1.0 };
+    sizes.iter().map(|s| s.max(least)).collect()
+}
+
+#[allow(clippy::float_arithmetic, reason = "draws of a picture")]
+fn pick(weights: &[f64], draw: f64) -> usize {
+    let mut rest = draw * weights.iter().sum::<f64>();
+    for (k, w) in weights.iter().enumerate() {
+        rest -= w;
+        if rest < 0.0 {
+            return k;
+        }
+    }
+    weights.len().saturating_sub(1)
+}

@@ -1,0 +1,144 @@
+//! Characteristic maps: the ring of all sectors and two smaller copies of it.
+#![allow(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "pictures")]
+
+use crate::vertex::net::Net;
+use std::fmt::Write as _;
+
+/// Side of a panel in pixels.
+const SIDE: f64 = 240.0;
+/// Room for the words under a panel.
+const FOOT: f64 = 26.0;
+/// Points on a line of a patch.
+const STEPS: usize = 8;
+
+/// What is drawn of one valence.
+#[derive(Debug, Clone, Copy)]
+pub struct Panel<'a> {
+    /// The patches of sector 0.
+    pub patches: &'a [Net<(f64, f64)>],
+    /// The valence.
+    pub valence: usize,
+    /// The frequency of the block.
+    pub frequency: usize,
+    /// The eigenvalue, by which the copies shrink.
+    pub eigenvalue: f64,
+}
+
+type Polyline = Vec<(f64, f64)>;
+
+/// The point of a net at two variables (de Casteljau).
+fn point(net: &Net<(f64, f64)>, u: f64, v: f64) -> (f64, f64) {
+    let mix = |a: (f64, f64), b: (f64, f64), t: f64| (a.0 + (b.0 - a.0) * t, a.1 + (b.1 - a.1) * t);
+    let line = |points: &[(f64, f64)], t: f64| {
+        let mut level = points.to_vec();
+        while level.len() > 1 {
+            level = level.windows(2).map(|w| mix(w[0], w[1], t)).collect();
+        }
+        level[0]
+    };
+    if !net.triangle {
+        let column: Vec<(f64, f64)> = net.rows.iter().map(|row| line(row, u)).collect();
+        return line(&column, v);
+    }
+    let mut rows = net.rows.clone();
+    let w = 1.0 - u - v;
+    while rows.len() > 1 {
+        rows = (0..rows.len() - 1)
+            .map(|r| {
+                (0..rows[r].len() - 1)
+                    .map(|s| {
+                        let (a, b, c) = (rows[r][s], rows[r][s + 1], rows[r + 1][s]);
+                        (w * a.0 + u * b.0 + v * c.0, w * a.1 + u * b.1 + v * c.1)
+                    })
+                    .collect()
+            })
+            .collect();
+    }
+    rows[0][0]
+}
+
+/// The borders of the patches, and for squares two lines across; turned into all sectors and shrunk twice.
+fn lines(panel: &Panel<'_>) -> Vec<(usize, Polyline)> {
+    let mut own: Vec<Polyline> = Vec::new();
+    let share = |k: usize| k as f64 / STEPS as f64;
+    for net in panel.patches {
+        let mut line = |f: &dyn Fn(f64) -> (f64, f64)| {
+            own.push((0..=STEPS).map(|k| f(share(k))).map(|(u, v)| point(net, u, v)).collect());
+        };
+        if net.triangle {
+            line(&|t| (t, 0.0));
+            line(&|t| (0.0, t));
+            line(&|t| (1.0 - t, t));
+        } else {
+            for at in [0.0, 0.5, 1.0] {
+                line(&|t| (t, at));
+                line(&|t| (at, t));
+            }
+        }
+    }
+    let mut all = Vec::new();
+    let mut size = 1.0;
+    for copy in 0..3 {
+        for sector in 0..panel.valence {
+            let angle = std::f64::consts::TAU * (panel.frequency * sector) as f64 / panel.valence as f64;
+            let (s, c) = angle.sin_cos();
+            let turn = |p: &(f64, f64)| (size * (p.0 * c - p.1 * s), size * (p.0 * s + p.1 * c));
+            all.extend(own.iter().map(|l| (copy, l.iter().map(turn).collect::<Polyline>())));
+        }
+        size *= panel.eigenvalue;
+    }
+    all
+}
+
+fn extent(lines: &[(usize, Polyline)]) -> f64 {
+    lines.iter().flat_map(|(_, l)| l).fold(1e-9, |m: f64, p| m.max(p.0.abs()).max(p.1.abs()))
+}
+
+/// A sheet with one panel for each valence.
+#[must_use]
+pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
+    let columns = panels.len().clamp(1, 6);
+    let rows = panels.len().div_ceil(columns).max(1);
+    let (width, height) = (columns as f64 * SIDE, rows as f64 * (SIDE + FOOT));
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{}</title>\n\
+         <style>path{{fill:none;stroke-linejoin:round}}.c0{{stroke:#1f5fbf;stroke-width:1}}.c1{{stroke:#1a8a4a;stroke-width:.8}}\
+         .c2{{stroke:#8a8f98;stroke-width:.6}}text{{font:12px sans-serif;fill:#3c4048;text-anchor:middle}}\
+         @media (prefers-color-scheme:dark){{.c0{{stroke:#7fb0ff}}.c1{{stroke:#5fd08f}}text{{fill:#d4d8de}}}}</style>\n",
+        crate::report::html::escaped(title)
+    );
+    for (index, panel) in panels.iter().enumerate() {
+        let all = lines(panel);
+        let scale = (SIDE / 2.0 - 8.0) / extent(&all);
+        let (cx, cy) =
+            ((index % columns) as f64 * SIDE + SIDE / 2.0, (index / columns) as f64 * (SIDE + FOOT) + SIDE / 2.0);
+        for copy in 0..3 {
+            let mut path = String::new();
+            for (_, line) in all.iter().filter(|(c, _)| *c == copy) {
+                for (k, p) in line.iter().enumerate() {
+                    let letter = if k == 0 { 'M' } else { 'L' };
+                    let _ = write!(path, "{letter}{:.1} {:.1}", cx + p.0 * scale, cy - p.1 * scale);
+                }
+            }
+            let _ = writeln!(svg, "<path class=\"c{copy}\" d=\"{path}\"/>");
+        }
+        let foot = cy + SIDE / 2.0 + 14.0;
+        let _ = writeln!(svg, "<text x=\"{cx}\" y=\"{foot}\">valence {}</text>", panel.valence);
+    }
+    svg.push_str("</svg>\n");
+    svg
+}
+
+/// One panel as a TikZ picture.
+#[must_use]
+pub fn tikz(panel: &Panel<'_>) -> String {
+    let all = lines(panel);
+    let scale = 3.0 / extent(&all);
+    let mut text = String::from("\\begin{tikzpicture}\n");
+    for (_, line) in all.iter().filter(|(copy, _)| *copy < 2) {
+        let points: Vec<String> = line.iter().map(|p| format!("({:.3},{:.3})", p.0 * scale, p.1 * scale)).collect();
+        let _ = writeln!(text, "\\draw[very thin] {};", points.join(" -- "));
+    }
+    text.push_str("\\end{tikzpicture}\n");
+    text
+}

@@ -1,0 +1,329 @@
+//! Reports on extraordinary vertices, by valence.
+
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone, code, words};
+use super::math::Math;
+use super::words::{mark, tone};
+use crate::arith::Rational;
+use crate::case::VertexCase;
+use crate::picture::characteristic::{Panel, sheet, tikz};
+use crate::poly::Poly;
+use crate::theorem::Verdict;
+use crate::vertex::{AtValence, Every, decimal};
+use serde_json::{Value, json};
+
+/// The place in the lattice of a sector where the Jacobian determinant has a sign.
+type Spot = (usize, (Rational, Rational));
+
+/// What the reports say where the independent checker has no part.
+pub const UNCHECKED: &str =
+    "the independent checker does not cover characteristic maps: these verdicts were proved once, not twice";
+
+/// The equation of the eigenvalue with `c = cos(2πk/n)` in its coefficients, with whole numbers.
+#[must_use]
+pub fn equation(found: &AtValence) -> Option<String> {
+    let top = found.top.as_ref()?;
+    let two = Poly::new(vec![0.into(), 2.into()]);
+    let in_c: Vec<Poly> = top
+        .poly
+        .iter()
+        .map(|p| p.coeffs().iter().rev().fold(Poly::zero(), |v, c| &(&v * &two) + &Poly::constant(c.clone())))
+        .collect();
+    let all = Poly::new(in_c.iter().flat_map(|p| p.coeffs().iter().cloned()).collect());
+    let factor =
+        all.primitive().iter().zip(all.coeffs()).find(|(_, q)| **q != 0).map(|(i, q)| Rational::from(i) / q)?;
+    let last = in_c.last()?.scale(&factor);
+    let factor = if last.coeff(0) < 0 { -factor } else { factor };
+    let mut text = String::new();
+    for (power, c) in in_c.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()) {
+        let c = c.scale(&factor);
+        let variable = match power {
+            0 => String::new(),
+            1 => "x".to_owned(),
+            _ => format!("x^{power}"),
+        };
+        let constant = c.degree() == Some(0);
+        let shown = c.display("c");
+        let term = match (constant, shown.as_str()) {
+            (true, "1") if power > 0 => variable,
+            (true, "-1") if power > 0 => format!("-{variable}"),
+            (true, _) => format!("{shown}{variable}"),
+            (false, _) => format!("({shown}){variable}"),
+        };
+        match term.strip_prefix('-') {
+            Some(rest) if !text.is_empty() => text.push_str(&format!(" - {rest}")),
+            _ if text.is_empty() => text.push_str(&term),
+            _ => text.push_str(&format!(" + {term}")),
+        }
+    }
+    Some(text)
+}
+
+fn yes_no(value: Option<bool>) -> Line {
+    match value {
+        Some(true) => vec![Inline::Mark(Tone::Good, "yes".to_owned())],
+        Some(false) => vec![Inline::Mark(Tone::Bad, "no".to_owned())],
+        None => vec![Inline::Mark(Tone::Open, "–".to_owned())],
+    }
+}
+
+/// The exact eigenvalue: the number, a short minimal polynomial, or its equation over Q(c).
+fn exact(found: &AtValence) -> Line {
+    let Some(top) = &found.top else { return words("–") };
+    match (&top.rational, &found.minimal) {
+        (Some(q), _) => vec![Inline::Math(Math::number(q))],
+        (None, Some(p)) if p.degree() == Some(2) => code(p.primitive_display("x")),
+        _ => code(equation(found).unwrap_or_default()),
+    }
+}
+
+fn digits(found: &AtValence) -> String {
+    found.top.as_ref().map_or_else(String::new, |t| format!("{:.10}", decimal(t)))
+}
+
+/// The blocks of the leading eigenvalues, such as `1, 4` or `0 (3×3)`.
+fn frequencies(found: &AtValence) -> String {
+    let Some(top) = &found.top else { return "–".to_owned() };
+    let name = |m: &crate::vertex::top::Member| {
+        let longest = m.blocks.first().copied().unwrap_or(1);
+        let more = m.blocks.len();
+        let sign = if m.negative { "−" } else { "" };
+        let sizes = if longest > 1 || more > 1 {
+            let sizes: Vec<String> = m.blocks.iter().map(|b| format!("{b}×{b}")).collect();
+            format!(" ({})", sizes.join(", "))
+        } else {
+            String::new()
+        };
+        let twin = if m.frequency == 0 || 2 * m.frequency == found.valence {
+            String::new()
+        } else {
+            format!(", {sign}{}", found.valence - m.frequency)
+        };
+        format!("{sign}{}{twin}{sizes}", m.frequency)
+    };
+    top.members.iter().map(name).collect::<Vec<_>>().join("; ")
+}
+
+/// The gravest verdict of several.
+#[must_use]
+pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
+    if every.is_some_and(|e| !e.proved()) && found.iter().all(|f| f.smooth != Verdict::Refuted) {
+        Verdict::Undetermined
+    } else if found.iter().any(|f| f.smooth == Verdict::Refuted) {
+        Verdict::Refuted
+    } else if found.iter().all(|f| f.smooth == Verdict::Proved) {
+        Verdict::Proved
+    } else {
+        Verdict::Undetermined
+    }
+}
+
+/// The table by valence, with reasons below it and, in full, the evidence and a picture of each.
+#[must_use]
+pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, full: bool) -> Document {
+    let header =
+        ["valence", "λ", "decimals", "blocks", "regular", "injective", "tangent plane", "C¹"].map(words).to_vec();
+    let row = |f: &AtValence| {
+        vec![
+            words(f.valence.to_string()),
+            exact(f),
+            words(digits(f)),
+            words(frequencies(f)),
+            yes_no(f.regular()),
+            yes_no(f.injective()),
+            vec![mark(f.plane)],
+            vec![mark(f.smooth)],
+        ]
+    };
+    let caption = words(format!("{}: C¹ for almost all control points, by valence", case.title));
+    let mut blocks = every.map(all_valences).unwrap_or_default();
+    if !found.is_empty() {
+        blocks.push(Block::Table(Table { caption, header, rows: found.iter().map(row).collect() }));
+    }
+    let mut grouped: Vec<(String, Verdict, Vec<usize>)> = Vec::new();
+    for f in found {
+        match grouped.iter_mut().find(|(reason, verdict, _)| *reason == f.reason && *verdict == f.smooth) {
+            Some((_, _, list)) => list.push(f.valence),
+            None => grouped.push((f.reason.clone(), f.smooth, vec![f.valence])),
+        }
+    }
+    let reasons = grouped.iter().map(|(reason, verdict, list)| {
+        let mut line = vec![mark(*verdict)];
+        line.extend(words(format!(" at {}: {reason}", ranges(list))));
+        line
+    });
+    let reasons: Vec<Line> = reasons.collect();
+    if !reasons.is_empty() {
+        blocks.push(Block::List(reasons));
+    }
+    let witnesses: Vec<Line> = found.iter().filter_map(|f| witness(case, f)).collect();
+    if !witnesses.is_empty() {
+        blocks.push(Block::List(witnesses));
+    }
+    blocks.push(Block::Paragraph(words(format!("Note: {UNCHECKED}."))));
+    if full {
+        for f in found {
+            blocks.push(Block::Heading(2, words(format!("Valence {}", f.valence))));
+            blocks.push(Block::Facts(evidence(f)));
+            if let Some(panel) = panel(f) {
+                let title = format!("{}, valence {}", case.title, f.valence);
+                blocks.push(Block::Figure {
+                    svg: sheet(&[panel], &title),
+                    tikz: tikz(&panel),
+                    alt: format!("The characteristic map at valence {}", f.valence),
+                    caption: words("The ring of the characteristic map and two smaller copies."),
+                });
+            }
+        }
+    }
+    Document { title: case.title.clone(), blocks }
+}
+
+/// The statement for all valences, with its conditions.
+fn all_valences(every: &Every) -> Vec<Block> {
+    let verdict = if every.proved() { Verdict::Proved } else { Verdict::Undetermined };
+    let mut head = vec![mark(verdict)];
+    head.extend(words(format!(
+        " at every valence n ≥ {}: C¹ for almost all control points (Theorem 9); {}.",
+        every.from, every.setting
+    )));
+    let check = |c: &crate::vertex::Condition| Check {
+        tone: if c.holds { Tone::Good } else { Tone::Open },
+        text: words(c.claim.clone()),
+    };
+    let pieces = format!("{} pieces of patches and interval were needed.", every.pieces);
+    vec![
+        Block::Paragraph(head),
+        Block::Checks(every.conditions.iter().map(check).collect()),
+        Block::Paragraph(words(pieces)),
+    ]
+}
+
+/// Valences as ranges, such as `3–5, 8`.
+#[must_use]
+pub fn ranges(list: &[usize]) -> String {
+    let mut parts: Vec<(usize, usize)> = Vec::new();
+    for n in list {
+        match parts.last_mut() {
+            Some((_, to)) if *to + 1 == *n => *to = *n,
+            _ => parts.push((*n, *n)),
+        }
+    }
+    let name = |(a, b): &(usize, usize)| if a == b { a.to_string() } else { format!("{a}–{b}") };
+    let word = if list.len() == 1 { "valence" } else { "valences" };
+    format!("{word} {}", parts.iter().map(name).collect::<Vec<_>>().join(", "))
+}
+
+fn witness(case: &VertexCase, f: &AtValence) -> Option<Line> {
+    let signs = f.jacobian.as_ref().filter(|s| s.changes())?;
+    let place = |at: &Option<Spot>| {
+        let (u, v) = f.lattice(&case.rule, at.as_ref()?)?;
+        Some(format!("({u}, {v})"))
+    };
+    let (positive, negative) = (place(&signs.positive)?, place(&signs.negative)?);
+    Some(words(format!(
+        "Witness at valence {}: in the lattice of a sector the Jacobian determinant is positive at {positive} and negative at \
+         {negative}.",
+        f.valence
+    )))
+}
+
+fn evidence(f: &AtValence) -> Vec<(String, Line)> {
+    let mut facts = vec![("C¹".to_owned(), vec![mark(f.smooth)]), ("tangent plane".to_owned(), vec![mark(f.plane)])];
+    if let Some(text) = equation(f) {
+        facts.push(("equation of the eigenvalue".to_owned(), code(format!("{text} = 0, c = cos(2πk/n)"))));
+    }
+    if let Some(p) = &f.minimal {
+        facts.push(("minimal polynomial".to_owned(), code(p.primitive_display("x"))));
+    }
+    if let Some(top) = &f.top {
+        facts.push(("all others below".to_owned(), words(format!("{:.10}", crate::arith::to_f64(&top.others)))));
+    }
+    if let Some(signs) = &f.jacobian {
+        let text = format!(
+            "one strict sign of all Bernstein coefficients on {} pieces, halved {} times at most",
+            signs.pieces, signs.depth
+        );
+        let text = if signs.strict().is_some() { text } else { "the signs differ or are open".to_owned() };
+        facts.push(("Jacobian determinant".to_owned(), vec![Inline::Mark(tone(f.smooth), text)]));
+    }
+    if let Some((a, b)) = &f.half_plane {
+        facts.push((
+            "half-plane of a sector".to_owned(),
+            words(format!("({a}) x + ({b}) y > 0 in coordinates x + y ω")),
+        ));
+    }
+    if let Some(w) = f.winding {
+        facts.push(("winding number".to_owned(), words(w.to_string())));
+    }
+    facts.push(("reason".to_owned(), words(f.reason.clone())));
+    facts
+}
+
+/// The panel of a picture; `None` where there is no ring.
+#[must_use]
+pub fn panel(f: &AtValence) -> Option<Panel<'_>> {
+    if f.outline.is_empty() {
+        return None;
+    }
+    let eigenvalue = f.top.as_ref().map(decimal)?;
+    Some(Panel { patches: &f.outline, valence: f.valence, frequency: f.frequency?, eigenvalue })
+}
+
+/// One valence as JSON.
+fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
+    let place = |at: &Option<Spot>| {
+        at.as_ref().and_then(|s| f.lattice(&case.rule, s)).map(|(u, v)| json!([u.to_string(), v.to_string()]))
+    };
+    let signs = f.jacobian.as_ref();
+    json!({
+        "valence": f.valence,
+        "verdict": f.smooth.word(),
+        "tangent_plane": f.plane.word(),
+        "reason": f.reason,
+        "eigenvalue": f.top.as_ref().map(|t| json!({
+            "rational": t.rational.as_ref().map(ToString::to_string),
+            "minimal_polynomial": f.minimal.as_ref().map(|p| p.primitive_display("x")),
+            "equation": equation(f),
+            "decimal": digits(f),
+            "others_below": t.others.to_string(),
+            "members": t.members.iter().map(|m| json!({
+                "frequency": m.frequency, "negative": m.negative, "blocks": m.blocks,
+            })).collect::<Vec<_>>(),
+        })),
+        "frequency": f.frequency,
+        "regular": f.regular(),
+        "injective": f.injective(),
+        "winding": f.winding,
+        "half_plane": f.half_plane.as_ref().map(|(a, b)| json!([a.to_string(), b.to_string()])),
+        "jacobian": signs.map(|s| json!({
+            "sign": s.strict(),
+            "pieces": s.pieces,
+            "depth": s.depth,
+            "positive": place(&s.positive),
+            "negative": place(&s.negative),
+            "zero": place(&s.zero),
+        })),
+        "checked": false,
+    })
+}
+
+/// The whole result as JSON.
+#[must_use]
+pub fn json(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> Value {
+    json!({
+        "case": case.name,
+        "title": case.title,
+        "source": case.source,
+        "scheme": case.scheme,
+        "verdict": overall(found, every).word(),
+        "every": every.map(|e| json!({
+            "from": e.from,
+            "proved": e.proved(),
+            "setting": e.setting,
+            "pieces": e.pieces,
+            "conditions": e.conditions.iter().map(|c| json!({"claim": c.claim, "holds": c.holds})).collect::<Vec<_>>(),
+        })),
+        "note": UNCHECKED,
+        "valences": found.iter().map(|f| valence_json(case, f)).collect::<Vec<_>>(),
+    })
+}

@@ -1,0 +1,181 @@
+//! The stencils of one sector around a vertex or face: all others follow by rotation.
+//!
+//! Points have a sector and a place `(i, j)` in the lattice of that sector, whose axes are the spoke of the sector and the
+//! next one. A rule that looks the same from every sector is known when the new points of sector 0 are.
+
+use super::mesh::{Centre, Mesh, Row, Sector};
+use super::{MeshRule, SchemeError};
+use crate::arith::Rational;
+use std::collections::BTreeMap;
+
+/// A place in the lattice of a sector.
+pub type Place = (usize, usize);
+
+/// A weight of an old point: its orbit, how many sectors it lies ahead, and the weight.
+pub type Weight = (usize, i64, Rational);
+
+/// The new points of one sector in terms of old ones.
+#[derive(Debug, Clone)]
+pub struct SectorStencils {
+    /// The places of the points of a sector, one for each orbit of the rotation.
+    pub places: Vec<Place>,
+    /// The weights of each new point of sector 0, apart from that of the centre.
+    pub rows: Vec<Vec<Weight>>,
+    /// The weight of the centre in each of them (dual schemes have no central point).
+    pub from_centre: Vec<Rational>,
+    /// The weight of the old centre in the new one, and the weight of a whole orbit; `None` for dual schemes.
+    pub centre: Option<(Rational, Vec<Rational>)>,
+    /// The faces of a sector.
+    pub sector: Sector,
+    /// Steps of the scheme that the stencils stand for.
+    pub steps: usize,
+}
+
+/// The stencils of a rule around a vertex (for dual schemes: in a face) with a number of rings of faces.
+///
+/// # Errors
+/// As for [`super::local_matrix`].
+pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<SectorStencils, SchemeError> {
+    let sector = match rule {
+        MeshRule::Loop(_) | MeshRule::Sqrt3(_) | MeshRule::Butterfly { .. } => Sector::Triangles,
+        _ => Sector::Quads,
+    };
+    if valence > super::MAX_VALENCE {
+        return Err(SchemeError::Large { what: "valence", size: valence, limit: super::MAX_VALENCE });
+    }
+    if valence < 3 {
+        return Err(SchemeError::value("valence", &valence, "a vertex inside a mesh has at least 3 neighbours"));
+    }
+    let too_small = || SchemeError::Mesh { rule: rule.name().to_owned(), message: "the mesh is too small".to_owned() };
+    let disc = Mesh::disc(&vec![sector; valence], rings + 3);
+    let (mesh, centre) =
+        if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
+    let mut current = rule.refine(&mesh, centre, 0)?;
+    for turn in 1..rule.steps() {
+        let next = rule.refine(&current.mesh, current.centre, turn)?;
+        let rows = next.rows.iter().map(|row| super::vertex::substitute(row, &current.rows)).collect();
+        current = super::refine::Refined { mesh: next.mesh, centre: next.centre, rows };
+    }
+    let places = places(sector, rule.dual(), rings);
+    let mut old: BTreeMap<usize, (usize, i64)> = BTreeMap::new();
+    for (turn, view) in views(&mesh, centre).ok_or_else(too_small)?.into_iter().enumerate() {
+        // Turns beyond half a circle count backwards.
+        let shift = if 2 * turn > valence { turn as i64 - valence as i64 } else { turn as i64 };
+        for (orbit, place) in places.iter().enumerate() {
+            old.insert(locate(&mesh, view, sector, *place).ok_or_else(too_small)?, (orbit, shift));
+        }
+    }
+    let middle = match centre {
+        Centre::Vertex(v, _) => Some(v),
+        _ => None,
+    };
+    let sort = |row: &Row| sort(rule, row, &old, middle, rings);
+    let mut rows = Vec::new();
+    let mut from_centre = Vec::new();
+    for place in &places {
+        let v = locate(&current.mesh, current.centre, sector, *place).ok_or_else(too_small)?;
+        let (weights, own) = sort(&current.rows[v])?;
+        rows.push(weights);
+        from_centre.push(own);
+    }
+    let centre = match current.centre {
+        Centre::Vertex(v, _) => {
+            let (weights, own) = sort(&current.rows[v])?;
+            let mut sums = vec![Rational::from(0); places.len()];
+            weights.iter().for_each(|(orbit, _, w)| sums[*orbit] += w);
+            Some((own, sums))
+        }
+        _ => None,
+    };
+    Ok(SectorStencils { places, rows, from_centre, centre, sector, steps: rule.steps() })
+}
+
+/// The places of one sector up to a number of rings.
+fn places(sector: Sector, dual: bool, rings: usize) -> Vec<Place> {
+    let mut all = Vec::new();
+    for i in 0..=rings {
+        for j in 0..=rings {
+            let inside = match (sector, dual) {
+                (_, true) => i < rings && j < rings,
+                (Sector::Quads, false) => i > 0,
+                (Sector::Triangles, false) => i > 0 && i + j <= rings,
+            };
+            if inside {
+                all.push((i, j));
+            }
+        }
+    }
+    all.sort_by_key(|(i, j)| (i.max(j).to_owned(), *i, *j));
+    all
+}
+
+/// The centre as seen from each sector.
+fn views(mesh: &Mesh, centre: Centre) -> Option<Vec<Centre>> {
+    match centre {
+        Centre::Vertex(v, first) => {
+            Some(mesh.star(v, Some(first))?.into_iter().map(|w| Centre::Vertex(v, w)).collect())
+        }
+        Centre::Face(f, first) => {
+            let face = mesh.faces.get(f)?;
+            let at = face.iter().position(|x| *x == first)?;
+            Some((0..face.len()).map(|k| Centre::Face(f, face[(at + k) % face.len()])).collect())
+        }
+        Centre::Edge(..) | Centre::Across(..) => None,
+    }
+}
+
+/// The point at a place of the sector that a centre is seen from.
+fn locate(mesh: &Mesh, centre: Centre, sector: Sector, (i, j): Place) -> Option<usize> {
+    let (mut v, mut ahead) = match centre {
+        Centre::Vertex(v, ahead) => (v, ahead),
+        // From a corner of the central face the next one lies in direction `−u`.
+        Centre::Face(f, v) => {
+            let face = mesh.faces.get(f)?;
+            let at = face.iter().position(|x| *x == v)?;
+            (v, *mesh.star(v, Some(face[(at + 1) % face.len()]))?.get(2)?)
+        }
+        Centre::Edge(..) | Centre::Across(..) => return None,
+    };
+    let (straight, left) = match sector {
+        Sector::Quads => (2, 1),
+        Sector::Triangles => (3, 2),
+    };
+    for k in 0..i {
+        let next = ahead;
+        if k + 1 < i || j > 0 {
+            ahead = *mesh.star(next, Some(v))?.get(straight)?;
+        }
+        v = next;
+    }
+    for k in 0..j {
+        let next = *mesh.star(v, Some(ahead))?.get(1)?;
+        if k + 1 < j {
+            ahead = *mesh.star(next, Some(v))?.get(left)?;
+        }
+        v = next;
+    }
+    Some(v)
+}
+
+/// The weights of a new point by orbit and sector, and that of the centre.
+fn sort(
+    rule: &MeshRule,
+    row: &Row,
+    old: &BTreeMap<usize, (usize, i64)>,
+    middle: Option<usize>,
+    rings: usize,
+) -> Result<(Vec<Weight>, Rational), SchemeError> {
+    let mut weights = Vec::new();
+    let mut own = Rational::from(0);
+    for (v, weight) in row.iter().filter(|(_, w)| **w != 0) {
+        if Some(*v) == middle {
+            own += weight;
+        } else if let Some((orbit, shift)) = old.get(v) {
+            weights.push((*orbit, *shift, weight.clone()));
+        } else {
+            let message = format!("{rings} ring(s) do not determine their successors; take {}", rings + 1);
+            return Err(SchemeError::Mesh { rule: rule.name().to_owned(), message });
+        }
+    }
+    Ok((weights, own))
+}

@@ -1,0 +1,160 @@
+//! Theorem 6 for a whole curve: a tangent that turns continuously, half-tangents at every point, or a point without a tangent.
+
+use super::branch::Context;
+use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
+use super::dense::first_level_joint;
+use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
+use super::{add_point, point, shortest_paths};
+use crate::arith::Rational;
+use crate::shape::{Address, CellKind};
+
+/// What is known of every point of a curve, not only of a dense set.
+///
+/// The verdict is about the claim *G¹*: there is a tangent line at every point, both rays of which exist and are opposite
+/// inside the curve, and it turns continuously.
+#[derive(Debug, Clone)]
+pub struct Everywhere {
+    /// The verdict on G¹.
+    pub verdict: Verdict,
+    /// The cones: with them both half-tangents exist at every point, and tangent lines at every point that is no joint.
+    pub cone: Option<CommonCone>,
+    /// Whether all this is known of the projected curve too: there are no control points, or a functional sees the cones.
+    pub seen: bool,
+    /// The first-level joints of all reachable states, where cones were found.
+    pub joints: Vec<EveryJoint>,
+    /// A lower bound of the Hölder exponent of the tangent in the uniform parameter, where cones shrink geometrically.
+    pub exponent: Option<Rational>,
+    /// A cycle that admits no strictly invariant cone.
+    pub obstacle: Option<ConeObstacle>,
+    /// The index in [`Certified::points`] of a point that refutes G¹.
+    pub witness: Option<usize>,
+    /// Why the verdict is not `Proved`.
+    pub reason: Option<String>,
+}
+
+/// A first-level joint of a state, seen so that no direction of the visible quotient is lost.
+#[derive(Debug, Clone)]
+pub enum EveryJoint {
+    /// A point of [`Certified::points`], by index: the map to where the shape is looked at is injective on the quotient.
+    Listed(usize),
+    /// The joint in the visible quotient of its own state.
+    Own(Box<PointReport>),
+}
+
+impl EveryJoint {
+    /// What was found there.
+    #[must_use]
+    pub fn report<'a>(&'a self, found: &'a Certified) -> &'a PointReport {
+        match self {
+            Self::Listed(k) => &found.points[*k],
+            Self::Own(report) => report,
+        }
+    }
+}
+
+/// Looks for common cones and decides G¹; `None` for shapes that are no curves or single points.
+pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
+    let edges = cx
+        .shape
+        .reachable()
+        .into_iter()
+        .all(|e| cx.shape.states[e].kind == CellKind::Edge && cx.spaces.of(e).basis.cols() > 0);
+    if !edges {
+        return None;
+    }
+    // Where a point has no half-tangent, or both rays agree, no cone exists before the projection.
+    let hopeless = cx.shape.control.is_none() && found.points.iter().any(has_no_cone) || found.similarities.is_some();
+    let answer = if hopeless { Some(ConeAnswer::Undetermined) } else { common_cone(cx.shape, cx.spaces) };
+    Some(match answer? {
+        ConeAnswer::Proved(cone) => with_cone(cx, found, cone),
+        ConeAnswer::Refuted(obstacle) => without_cone(cx, found, Some(obstacle)),
+        ConeAnswer::Undetermined => without_cone(cx, found, None),
+    })
+}
+
+/// Whether a point contradicts invariant cones.
+fn has_no_cone(p: &PointReport) -> bool {
+    match p.verdict {
+        Verdict::Refuted => p.kind != Kind::Corner,
+        Verdict::Proved => matches!(p.kind, Kind::Cusp | Kind::Oscillating),
+        Verdict::Undetermined => false,
+    }
+}
+
+fn breaks(p: &PointReport) -> bool {
+    p.verdict == Verdict::Refuted || has_no_cone(p)
+}
+
+fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
+    let seen = cx.shape.control.is_none() || cone.view.is_some();
+    let witness = found.points.iter().position(breaks);
+    let joints = if witness.is_none() { joints(cx, found) } else { Vec::new() };
+    let regular = |p: &PointReport| p.verdict == Verdict::Proved && p.kind == Kind::Regular;
+    let agree = joints.iter().all(|j| regular(j.report(found)));
+    let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
+    let (verdict, reason) = match witness {
+        Some(_) => (Verdict::Refuted, Some("the half-tangents at a joint differ".to_owned())),
+        None if !seen => (Verdict::Undetermined, Some(UNSEEN.to_owned())),
+        None if agree => (Verdict::Proved, None),
+        None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
+    };
+    let exponent = exponent.filter(|_| verdict == Verdict::Proved);
+    Everywhere { verdict, cone: Some(cone), seen, joints, exponent, obstacle: None, witness, reason }
+}
+
+/// The first-level joints of all reachable states; what was examined already is used where nothing is lost in it.
+fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
+    let mut out = Vec::new();
+    for state in cx.shape.reachable() {
+        let space = cx.spaces.of(state);
+        let injective = |path: &[usize]| {
+            let (op, _) = cx.shape.product(cx.root, path);
+            (&(&cx.view * &op) * &space.basis).rank() == space.visible.rows()
+        };
+        for pair in point::joint_pairs(cx, state) {
+            let listed = found.points.iter().position(|p| match &p.role {
+                Role::Joint { path, state: e, left, right } => {
+                    (*e, (*left, *right)) == (state, pair) && injective(path)
+                }
+                _ => false,
+            });
+            match listed {
+                Some(k) => out.push(EveryJoint::Listed(k)),
+                None => out.extend(first_level_joint(cx, state, pair).map(|p| EveryJoint::Own(Box::new(p)))),
+            }
+        }
+    }
+    out
+}
+
+const UNSEEN: &str =
+    "no functional was found that is positive on the projected cones, so that this holds before the projection only";
+
+fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstacle>) -> Everywhere {
+    let mut witness = found.points.iter().position(breaks);
+    if let (None, Some(obstacle)) = (witness, &obstacle) {
+        witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
+    }
+    let (verdict, reason) = match (witness, &obstacle) {
+        (Some(_), _) => (Verdict::Refuted, "a point without a tangent that turns continuously".to_owned()),
+        (None, Some(o)) => {
+            let word = crate::shape::word_text(&o.word);
+            (Verdict::Undetermined, format!("no strictly invariant cone exists: the cycle {word} has {}", o.reason))
+        }
+        (None, None) => (Verdict::Undetermined, "no common cone was found within the budget".to_owned()),
+    };
+    let reason = Some(reason);
+    Everywhere { verdict, cone: None, seen: false, joints: Vec::new(), exponent: None, obstacle, witness, reason }
+}
+
+/// Examines the point with the address of an obstacle.
+fn periodic_point(cx: &Context, obstacle: &ConeObstacle, found: &mut Certified) -> Option<usize> {
+    let (path, _) = shortest_paths(cx.shape).into_iter().find(|(_, e)| *e == obstacle.state)?;
+    let address = Address { prefix: path, cycle: obstacle.word.clone() }.normalise(cx.shape, cx.root).ok()?;
+    let spec = point::address_spec(cx, &address)?;
+    let known = found.points.iter().position(|p| match (&p.role, &spec.role) {
+        (Role::Interior, Role::Interior) => p.branches[0].address == address,
+        (a, b) => a == b,
+    });
+    known.or_else(|| add_point(cx, Some(spec), found))
+}

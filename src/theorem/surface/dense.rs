@@ -1,0 +1,176 @@
+//! Theorem 5″: tangent planes at a dense set of points of a surface, by finitely many checks.
+
+use super::branch::Setting;
+use super::place::Chart;
+use super::verdict::{Surface, SurfaceDense, SurfacePoint};
+use crate::algebraic::Elem;
+use crate::arith::Rational;
+use crate::linalg::Matrix;
+use crate::shape::Shape;
+use crate::theorem::{Claim, Context, Statement, Verdict};
+
+/// Largest dimension of the space of bivectors in which density is decided.
+const MAX_BIVECTORS: usize = 300;
+
+const ALL: &str =
+    "the surface has a tangent plane at a dense set of points: at the image of a vertex inside every cell";
+const PROJECTED: &str = "the surface has a tangent plane at the image of the vertex inside a cell wherever the control \
+                         points do not fold the plane before the projection";
+const EVERYWHERE: &str = "; every cell contains such a vertex, so that they are dense";
+
+/// Adds the claim about the dense set, and its evidence.
+pub fn claim(
+    setting: &Setting,
+    chart: &Chart,
+    product: Option<&(Shape, Shape)>,
+    surface: &mut Surface,
+    claims: &mut Vec<Claim>,
+) {
+    let Some(mut dense) = evidence(setting, chart, product) else { return };
+    let injective = dense.injective.iter().all(|(_, _, ok)| *ok);
+    let planes = dense.vertices.iter().all(|(_, p)| p.verdict == Verdict::Proved);
+    let text = if dense.view_injective { ALL.to_owned() } else { PROJECTED.to_owned() };
+    let mut claim = Claim {
+        text,
+        verdict: Verdict::Undetermined,
+        statement: Some(Statement::Theorem5Surface),
+        reason: None,
+        asked: None,
+    };
+    if !injective {
+        claim.reason = Some("an operator is not injective on the visible relevant space".to_owned());
+    } else if !planes {
+        claim.reason = dense.vertices.iter().find(|(_, p)| p.verdict != Verdict::Proved).map(|(e, p)| {
+            let name = &setting.cx.shape.states[*e].name;
+            format!("at the vertices inside state `{name}`: {}", p.reason.clone().unwrap_or_default())
+        });
+    } else {
+        claim.verdict = Verdict::Proved;
+        dense.everywhere = dense.view_injective || bivectors_reach(setting, &dense);
+        if dense.everywhere && !dense.view_injective {
+            claim.text.push_str(EVERYWHERE);
+        }
+    }
+    surface.dense = Some(dense);
+    claims.push(claim);
+}
+
+fn evidence(setting: &Setting, chart: &Chart, product: Option<&(Shape, Shape)>) -> Option<SurfaceDense> {
+    let cx = &setting.cx;
+    let mut dense =
+        SurfaceDense { injective: Vec::new(), view_injective: false, vertices: Vec::new(), everywhere: false };
+    for e in cx.shape.reachable() {
+        for (letter, piece) in cx.shape.states[e].pieces.iter().enumerate() {
+            let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
+            dense.injective.push((e, letter, onto.rank() == cx.spaces.of(piece.target).visible.rows()));
+        }
+        dense.vertices.push((e, vertex_inside(setting, chart, product, e)?));
+    }
+    let start = cx.spaces.of(cx.root);
+    dense.view_injective = (&cx.view * &start.basis).rank() == start.visible.rows();
+    Some(dense)
+}
+
+/// A vertex inside a face in its visible quotient: the first that is proved, or the first.
+fn vertex_inside(
+    setting: &Setting,
+    chart: &Chart,
+    product: Option<&(Shape, Shape)>,
+    state: usize,
+) -> Option<SurfacePoint> {
+    let space = setting.cx.spaces.of(state);
+    let cx = Context { root: state, view: &space.visible * &space.coordinates, ..setting.cx };
+    let own = Setting { cx, ..*setting };
+    let mut first = None;
+    for param in chart.inner_nodes(state) {
+        let addresses = chart.addresses(state, &param)?;
+        let mut point = super::conclude(&own, chart.spot(state, &param), Some(param), &addresses)?;
+        // The product of two curves has one state, so that its theorem applies in the quotient as well.
+        if let Some((first, second)) = product.filter(|_| point.verdict != Verdict::Proved) {
+            super::tensor::add(&mut point, first, second, &own);
+        }
+        if point.verdict == Verdict::Proved {
+            return Some(point);
+        }
+        first.get_or_insert(point);
+    }
+    first
+}
+
+/// Whether every cell contains a vertex whose plane survives the projection: the planes' bivectors span an invariant family
+/// `(B_e)` of equal dimensions on which the maps are injective, and the control points do not kill it.
+fn bivectors_reach(setting: &Setting, dense: &SurfaceDense) -> bool {
+    family(setting, dense).unwrap_or(false)
+}
+
+fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
+    let cx = &setting.cx;
+    let states = cx.shape.reachable();
+    let size = |e: usize| cx.spaces.of(e).visible.rows();
+    let count = |e: usize| size(e) * (size(e).saturating_sub(1)) / 2;
+    if states.iter().any(|&e| count(e) > MAX_BIVECTORS) {
+        return None;
+    }
+    let mut spans: Vec<Matrix> = (0..cx.shape.states.len()).map(|_| Matrix::zero(0, 0)).collect();
+    for &e in &states {
+        let plane = dense.vertices.iter().find(|(s, _)| *s == e)?.1.tangent.clone()?;
+        spans[e] = Matrix::from_rows(count(e), bivectors(&plane)?).echelon().rows;
+    }
+    // The maps on bivectors, in coordinates of the visible quotients.
+    let mut maps = Vec::new();
+    for &e in &states {
+        for piece in &cx.shape.states[e].pieces {
+            let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
+            let on_quotient = cx.spaces.of(piece.target).visible.transpose().solve(&onto.transpose())?;
+            maps.push((e, piece.target, second_power(&on_quotient.transpose())));
+        }
+    }
+    loop {
+        let mut grown = false;
+        for (e, target, map) in &maps {
+            let joined = spans[*e].stack(&(&spans[*target] * &map.transpose())).echelon().rows;
+            grown |= joined.rows() > spans[*e].rows();
+            spans[*e] = joined;
+        }
+        if !grown {
+            break;
+        }
+    }
+    // T_i is injective on W, hence on bivectors; equal dimensions make it onto.
+    let equal = states.iter().all(|&e| spans[e].rows() == spans[cx.root].rows());
+    let start = cx.spaces.of(cx.root);
+    let view = &cx.view * &start.basis;
+    let on_quotient = start.visible.transpose().solve(&view.transpose())?.transpose();
+    let seen = &spans[cx.root] * &second_power(&on_quotient).transpose();
+    Some(equal && !seen.is_zero())
+}
+
+/// The rational vectors that span the smallest rational space with the bivector of the plane.
+fn bivectors(plane: &super::Subspace) -> Option<Vec<Vec<Rational>>> {
+    let reduced = plane.reduced();
+    let [a, b] = &reduced.generators[..] else { return None };
+    let root = if a.rational().is_some() { &b.root } else { &a.root };
+    if !root.is_real() || (a.rational().is_none() && b.rational().is_none() && !a.root.same(&b.root)) {
+        return None;
+    }
+    let f = root.minpoly();
+    let n = a.coords.len();
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in i + 1..n {
+            entries.push(a.coords[i].mul(&b.coords[j], f).sub(&a.coords[j].mul(&b.coords[i], f)));
+        }
+    }
+    let degree = f.degree().unwrap_or(1);
+    Some((0..degree).map(|k| entries.iter().map(|e: &Elem| e.0.coeff(k)).collect()).collect())
+}
+
+/// The matrix on bivectors: its 2x2 minors, pairs in lexicographic order.
+fn second_power(m: &Matrix) -> Matrix {
+    let pairs = |n: usize| (0..n).flat_map(move |i| (i + 1..n).map(move |j| (i, j))).collect::<Vec<_>>();
+    let (rows, cols) = (pairs(m.rows()), pairs(m.cols()));
+    Matrix::from_fn(rows.len(), cols.len(), |r, c| {
+        let ((i, j), (k, l)) = (rows[r], cols[c]);
+        &m[(i, k)] * &m[(j, l)] - &m[(i, l)] * &m[(j, k)]
+    })
+}

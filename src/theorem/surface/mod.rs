@@ -1,0 +1,237 @@
+//! Surfaces: tangent planes at the points of a patch complex (theory §5, §7, §9).
+
+mod branch;
+mod dense;
+mod place;
+mod span;
+mod tensor;
+mod verdict;
+mod winding;
+
+pub use place::{Param, Spot};
+pub use span::{Rank, Subspace};
+pub use tensor::{factors, product_point};
+pub use verdict::{
+    ProductEvidence, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint, SurfaceWitness, Winding,
+};
+
+use super::{
+    Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, contracting, expands, state_report,
+    without_contraction,
+};
+use crate::shape::{Address, Balls, CellKind, Complex, Shape, Spaces, contraction};
+use branch::{Setting, examine};
+use place::Chart;
+
+/// Certifies a surface: the tangent plane at the vertices of the first level, at the addresses, and at a dense set.
+///
+/// The shape starts at a face, or at a set whose pieces are faces (the disc around a vertex). For any other shape the
+/// answer is that of [`super::certify`].
+///
+/// # Errors
+/// [`ModelError`] where the shape is not a model, an identity fails, it does not contract, or an address does not exist.
+///
+/// # Cost
+/// As for [`super::certify`], for each branch of each point examined.
+pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certified, ModelError> {
+    let shape = &complex.shape;
+    let faces = shape.reachable().into_iter().any(|e| shape.states[e].kind == CellKind::Face);
+    if !faces || matches!(shape.states[shape.start].kind, CellKind::Edge | CellKind::Vertex) {
+        return super::certify(shape, addresses);
+    }
+    shape.check()?;
+    complex.check()?;
+    let contraction = contraction(shape, expands);
+    let Some(proof) = contracting(shape, &contraction)? else {
+        return Ok(without_contraction(&contraction, None));
+    };
+    let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
+    let balls = Balls::new(shape, &spaces, proof).with_simplex(shape);
+    let hulls = std::cell::OnceCell::new();
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
+    let chart = Chart::new(complex);
+    let setting = Setting { cx, complex, chart: chart.as_ref().ok() };
+    let mut asked = Vec::new();
+    for address in addresses {
+        asked.push(address.normalise(shape, shape.start)?);
+    }
+    let mut found = Certified {
+        claims: Vec::new(),
+        verdict: Verdict::Undetermined,
+        contraction: contraction.clone(),
+        states: shape.reachable().into_iter().map(|e| state_report(&setting.cx, e)).collect(),
+        points: Vec::new(),
+        dense: None,
+        polygons: None,
+        similarities: None,
+        everywhere: None,
+        surface: None,
+    };
+    let mut surface = Surface {
+        points: Vec::new(),
+        dense: None,
+        unparametrised: chart.as_ref().err().cloned(),
+        simplex: balls.in_simplex(),
+    };
+    let start_is_face = shape.states[shape.start].kind == CellKind::Face;
+    if start_is_face && let Ok(chart) = &chart {
+        parametrised(&setting, chart, &asked, &mut surface, &mut found.claims);
+    } else {
+        branches_only(&setting, &asked, &mut surface, &mut found.claims);
+    }
+    found.surface = Some(surface);
+    found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    Ok(found)
+}
+
+/// The claims on a patch with parameters: the vertices of the first level, the dense set, and the addresses.
+fn parametrised(setting: &Setting, chart: &Chart, asked: &[Address], surface: &mut Surface, claims: &mut Vec<Claim>) {
+    let start = setting.cx.root;
+    let product = factors(setting.complex);
+    let mut vertices = Vec::new();
+    for param in chart.nodes(start, 1) {
+        vertices.extend(add_point(setting, chart, &param, None, product.as_ref(), surface));
+    }
+    claims.push(together(
+        "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)",
+        &vertices,
+        surface,
+    ));
+    dense::claim(setting, chart, product.as_ref(), surface, claims);
+    for address in asked {
+        let Some(param) = chart.locate(start, address) else { continue };
+        if let Some(index) = add_point(setting, chart, &param, Some(address), product.as_ref(), surface) {
+            let text = format!("the parametrised surface has a tangent plane at the address {address}");
+            claims.push(claim(text, &surface.points[index], (address, index)));
+        }
+    }
+}
+
+fn add_point(
+    setting: &Setting,
+    chart: &Chart,
+    param: &Param,
+    asked: Option<&Address>,
+    product: Option<&(Shape, Shape)>,
+    surface: &mut Surface,
+) -> Option<usize> {
+    if let Some(known) = surface.points.iter().position(|p| p.parameter.as_ref() == Some(param)) {
+        return Some(known);
+    }
+    let start = setting.cx.root;
+    let mut point = match (chart.addresses(start, param), asked) {
+        (Some(mut all), _) => {
+            // The address that was asked for comes first.
+            if let Some(at) = asked.and_then(|a| all.iter().position(|b| b == a)) {
+                all.swap(0, at);
+            }
+            conclude(setting, chart.spot(start, param), Some(param.clone()), &all)?
+        }
+        (None, Some(address)) => conclude(setting, Spot::Branch, Some(param.clone()), std::slice::from_ref(address))?,
+        (None, None) => return None,
+    };
+    if let Some((first, second)) = product {
+        tensor::add(&mut point, first, second, setting);
+    }
+    surface.points.push(point);
+    Some(surface.points.len() - 1)
+}
+
+/// The claims on a shape without parameters: the fixed points of its own maps, and the addresses.
+fn branches_only(setting: &Setting, asked: &[Address], surface: &mut Surface, claims: &mut Vec<Claim>) {
+    let shape = setting.cx.shape;
+    let pieces = shape.states[shape.start].pieces.iter().enumerate();
+    let mut addresses: Vec<Address> =
+        pieces.filter(|(_, p)| p.target == shape.start).map(|(i, _)| Address::periodic(vec![i])).collect();
+    addresses.extend(asked.iter().cloned());
+    let mut seen = std::collections::BTreeSet::new();
+    addresses.retain(|a| seen.insert(a.clone()));
+    for address in &addresses {
+        let Some(point) = conclude(setting, Spot::Branch, None, std::slice::from_ref(address)) else { continue };
+        surface.points.push(point);
+        let index = surface.points.len() - 1;
+        let text = format!(
+            "the germ of the branch {address} has a tangent plane (other addresses of the same point are not looked at)"
+        );
+        claims.push(claim(text, &surface.points[index], (address, index)));
+    }
+}
+
+fn claim(text: String, point: &SurfacePoint, (address, index): (&Address, usize)) -> Claim {
+    Claim {
+        text,
+        verdict: point.verdict,
+        statement: point.statement,
+        reason: point.reason.clone(),
+        asked: Some((address.clone(), index)),
+    }
+}
+
+fn together(text: &str, indices: &[usize], surface: &Surface) -> Claim {
+    let points = || indices.iter().map(|&i| &surface.points[i]);
+    let verdict = points().map(|p| p.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    let reason = points().find(|p| p.verdict == verdict && verdict != Verdict::Proved).map(|p| {
+        let place = p.branches.first().map(|b| b.address.to_string()).unwrap_or_default();
+        format!("at {place}: {}", p.reason.clone().unwrap_or_default())
+    });
+    Claim { text: text.to_owned(), verdict, statement: Some(Statement::SurfacePoint), reason, asked: None }
+}
+
+/// Examines the branches of a point and adds up their tangent subspaces.
+fn conclude(setting: &Setting, spot: Spot, parameter: Option<Param>, addresses: &[Address]) -> Option<SurfacePoint> {
+    let branches: Vec<SurfaceBranch> = addresses.iter().map(|a| examine(setting, a)).collect::<Option<_>>()?;
+    let position = setting.cx.shape.point(setting.cx.root, &branches.first()?.address)?;
+    let shape = setting.cx.shape;
+    let image = (setting.cx.root == shape.start).then(|| shape.control.as_ref().map(|p| p.apply(&position))).flatten();
+    let sum = branches.iter().fold(Subspace::default(), |s, b| s.join(&b.outcome.contains));
+    let rank = sum.rank();
+    let single = branches.iter().map(|b| b.outcome.dimension.at_least).max().unwrap_or(0);
+    let mut point = SurfacePoint {
+        spot,
+        parameter,
+        position,
+        image,
+        verdict: Verdict::Undetermined,
+        dimension: Dimension { at_least: rank.at_least.max(single), exact: false },
+        tangent: None,
+        product: None,
+        statement: (branches.len() > 1).then_some(Statement::SurfacePoint),
+        reason: None,
+        branches,
+    };
+    if let [only] = &point.branches[..] {
+        point.statement = only.outcome.statement;
+    }
+    let known = point.branches.iter().all(|b| b.outcome.dimension.exact);
+    if let (true, Some(dimension)) = (known, rank.exact()) {
+        point.dimension = Dimension { at_least: dimension, exact: true };
+        point.tangent = Some(sum);
+    }
+    (point.verdict, point.reason) = verdict(&point, known);
+    Some(point)
+}
+
+fn verdict(point: &SurfacePoint, known: bool) -> (Verdict, Option<String>) {
+    let Dimension { at_least, exact } = point.dimension;
+    if at_least >= 3 {
+        return (Verdict::Refuted, Some("the tangent subspace has more than two dimensions".to_owned()));
+    }
+    match (exact, at_least) {
+        (true, 2) => return (Verdict::Proved, None),
+        (true, 0) => return (Verdict::Refuted, Some("the surface is a single point near this one".to_owned())),
+        (true, _) => {
+            return (Verdict::Refuted, Some("the tangent subspace is a line: dimension 1, not a surface".to_owned()));
+        }
+        _ => {}
+    }
+    if known {
+        let reason = "the tangent subspaces of the branches are known, but it is not decided whether they agree";
+        return (Verdict::Undetermined, Some(reason.to_owned()));
+    }
+    let open = point.branches.iter().find(|b| !b.outcome.dimension.exact);
+    let reason = open.map(|b| match &b.outcome.open {
+        Some((reason, _)) => format!("branch {}: {reason}", b.address),
+        None => format!("branch {} is not decided", b.address),
+    });
+    (Verdict::Undetermined, reason)
+}

@@ -1,0 +1,128 @@
+//! Tensor products by their own theorem (theory §9).
+
+use super::branch::Setting;
+use super::span::Subspace;
+use super::verdict::{ProductEvidence, SurfacePoint};
+use crate::algebraic::Elem;
+use crate::arith::Rational;
+use crate::linalg::Matrix;
+use crate::shape::{Address, CellKind, Complex, Layout, Shape};
+use crate::theorem::{Dimension, Direction, PointReport, Statement, Verdict, certify};
+
+/// The two curves of a patch that is a tensor product of two curves of one state each, `p(u, v) = a(u) ⊗ b(v)`.
+///
+/// Column sums of 1 make the factors unique: `A` has the sums over the blocks of rows of `A ⊗ B`, in any column of a block.
+/// Returns `None` where the patch is no such product, or a factor is no curve.
+#[must_use]
+pub fn factors(complex: &Complex) -> Option<(Shape, Shape)> {
+    let shape = &complex.shape;
+    let [start] = shape.reachable()[..] else { return None };
+    let state = &shape.states[start];
+    let face = complex.faces.get(&start)?;
+    let Layout::Quad { columns, rows } = face.layout else { return None };
+    let plain = |p: &Vec<usize>| p.iter().enumerate().all(|(k, c)| k == *c);
+    if !face.placement.iter().all(plain) || state.pieces.len() != columns * rows {
+        return None;
+    }
+    (2..state.dim).filter(|n| state.dim.is_multiple_of(*n)).find_map(|n| {
+        let ops: Vec<(Matrix, Matrix)> =
+            state.pieces.iter().map(|p| split(&p.op, n, state.dim / n)).collect::<Option<_>>()?;
+        let product =
+            |(k, (a, b)): (usize, &(Matrix, Matrix))| *a == ops[k % columns].0 && *b == ops[k - k % columns].1;
+        if !ops.iter().enumerate().all(product) {
+            return None;
+        }
+        let first = (0..columns).map(|i| ops[i].0.clone()).collect();
+        let second = (0..rows).map(|j| ops[j * columns].1.clone()).collect();
+        let curve = |ops| Shape::single(CellKind::Edge, ops);
+        let (a, b) = (curve(first), curve(second));
+        (a.check_curves().is_ok() && b.check_curves().is_ok()).then_some((a, b))
+    })
+}
+
+/// The factors of a Kronecker product of an `n x n` and an `m x m` matrix with column sums 1.
+fn split(op: &Matrix, n: usize, m: usize) -> Option<(Matrix, Matrix)> {
+    if (op.rows(), op.cols()) != (n * m, n * m) {
+        return None;
+    }
+    let sum = |terms: &mut dyn Iterator<Item = usize>, at: &dyn Fn(usize) -> (usize, usize)| {
+        terms.fold(Rational::from(0), |s, k| s + &op[at(k)])
+    };
+    let a = Matrix::from_fn(n, n, |i, j| sum(&mut (0..m), &|k| (i * m + k, j * m)));
+    let b = Matrix::from_fn(m, m, |i, j| sum(&mut (0..n), &|k| (k * m + i, j)));
+    let product = |r: usize, c: usize| &a[(r / m, c / m)] * &b[(r % m, c % m)];
+    let fits = (0..n * m).all(|r| (0..n * m).all(|c| op[(r, c)] == product(r, c)));
+    fits.then_some((a, b))
+}
+
+/// The addresses of the two parameters of an address of a product with `columns` pieces along the first one.
+fn parts(address: &Address, columns: usize) -> (Address, Address) {
+    let part = |of: &dyn Fn(usize) -> usize| Address {
+        prefix: address.prefix.iter().map(|&l| of(l)).collect(),
+        cycle: address.cycle.iter().map(|&l| of(l)).collect(),
+    };
+    (part(&|l| l % columns), part(&|l| l / columns))
+}
+
+/// The theorem on tensor products at the point with an address, for the product of two curves that start at one state each;
+/// `view` is the matrix of the control points (or the identity).
+///
+/// Returns `None` where a curve is not certified: it does not contract, is a point, or the address is not decided.
+#[must_use]
+pub fn product_point(first: &Shape, second: &Shape, address: &Address, view: &Matrix) -> Option<ProductEvidence> {
+    let columns = first.states[first.start].pieces.len();
+    let (s, t) = parts(address, columns);
+    let point = |curve: &Shape, at: &Address| -> Option<PointReport> {
+        let found = certify(curve, std::slice::from_ref(at)).ok()?;
+        let moves = found.states.iter().all(|s| s.relevant > 0);
+        let index = found.claims.iter().find_map(|c| c.asked.as_ref().map(|(_, k)| *k))?;
+        moves.then(|| found.points[index].clone())
+    };
+    let (a, b) = (point(first, &s)?, point(second, &t)?);
+    let mut evidence = ProductEvidence { verdict: Verdict::Undetermined, tangent: None, first: a, second: b };
+    let (a, b) = (&evidence.first, &evidence.second);
+    if let (Some(x), Some(y)) = (&a.tangent, &b.tangent) {
+        let line = |d: &Direction, coords: Vec<Elem>| Direction {
+            root: d.root.clone(),
+            coords: crate::theorem::branch::apply(view, &coords),
+        };
+        let along = x.coords.iter().flat_map(|e| b.position.iter().map(move |q| e.scale(q))).collect();
+        let up = a.position.iter().flat_map(|q| y.coords.iter().map(move |e| e.scale(q))).collect();
+        let plane = Subspace { generators: vec![line(x, along), line(y, up)] }.reduced();
+        if plane.rank().exact() == Some(2) {
+            evidence.verdict = Verdict::Proved;
+            evidence.tangent = Some(plane);
+        }
+    } else if (a.verdict == Verdict::Refuted || b.verdict == Verdict::Refuted) && view.rank() == view.cols() {
+        evidence.verdict = Verdict::Refuted;
+    }
+    Some(evidence)
+}
+
+/// Adds the theorem on tensor products to a point; it decides where the general one does not, and must agree where it does.
+pub fn add(point: &mut SurfacePoint, first: &Shape, second: &Shape, setting: &Setting) {
+    let Some(address) = point.branches.first().map(|b| b.address.clone()) else { return };
+    let Some(evidence) = product_point(first, second, &address, &setting.cx.view) else { return };
+    let decided = |v: Verdict| v != Verdict::Undetermined;
+    let agree = match (&point.tangent, &evidence.tangent) {
+        (Some(a), Some(b)) => a.same(b) != Some(false),
+        _ => !(decided(point.verdict) && decided(evidence.verdict)) || point.verdict == evidence.verdict,
+    };
+    if !agree {
+        point.verdict = Verdict::Undetermined;
+        point.reason =
+            Some("the theorem on tensor products and the general one disagree: a mistake in secant".to_owned());
+    } else if !decided(point.verdict) && decided(evidence.verdict) {
+        point.verdict = evidence.verdict;
+        point.statement = Some(Statement::TensorProduct);
+        point.reason = None;
+        if evidence.verdict == Verdict::Proved {
+            point.dimension = Dimension { at_least: 2, exact: true };
+            point.tangent.clone_from(&evidence.tangent);
+        } else {
+            point.dimension.at_least = point.dimension.at_least.max(3);
+            point.reason = Some("one of the two curves has no tangent line there".to_owned());
+        }
+    }
+    point.product = Some(evidence);
+}

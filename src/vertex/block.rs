@@ -1,0 +1,365 @@
+//! The Fourier blocks of a scheme at a vertex: frequency `k` turns by `θ = 2πk/n` from sector to sector.
+//!
+//! A point of orbit `o` in sector `s` has the value `ω^s v_o`. In the blocks `k ≠ 0` the centre is 0 and the entries are
+//! the same Laurent polynomials in `ω` for every valence, unless the weights at the centre depend on it. In the block 0 the
+//! values do not change from sector to sector and the centre joins them; entries may there depend on `cos(2π/n)`.
+
+use super::cosine::{gcd, minimal_polynomial};
+use super::turning::Symbol;
+use crate::arith::{Rational, ratio};
+use crate::linalg::{Matrix, strong_components};
+use crate::poly::Poly;
+use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError, SectorStencils, sector_stencils};
+
+/// A scheme at a vertex (for dual schemes: in a face) of one valence.
+#[derive(Debug, Clone)]
+pub struct Vertex {
+    /// The rule.
+    pub rule: MeshRule,
+    /// The valence.
+    pub valence: usize,
+    /// The rings of points.
+    pub rings: usize,
+    /// The stencils; where weights at the centre are irrational, those of a rational stand-in.
+    pub stencils: SectorStencils,
+}
+
+/// One Fourier block. Index 0 is the centre in the block 0 of a scheme that has one; then come the orbits.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// The frequency.
+    pub frequency: usize,
+    /// The angle of `t = 2 cos θ` in the entries, as a multiple of `2π/n`: the frequency, and 1 in the block 0.
+    pub angle: usize,
+    /// The entries.
+    pub entries: Vec<Vec<Symbol>>,
+    /// How many indices stand before the orbits.
+    pub before: usize,
+    /// The strongly connected parts, each after those that it depends on.
+    pub parts: Vec<Part>,
+}
+
+/// A strongly connected part of a block.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// Its indices in the block.
+    pub indices: Vec<usize>,
+    /// Its characteristic polynomial, from the constant coefficient up; the coefficients are polynomials in `t`.
+    pub poly: Vec<Poly>,
+}
+
+impl Vertex {
+    /// The scheme at a vertex.
+    ///
+    /// # Errors
+    /// As for [`crate::scheme::local_matrix`], but for the weights that may be irrational.
+    pub fn new(rule: &MeshRule, valence: usize, rings: usize) -> Result<Self, SchemeError> {
+        if let MeshRule::DooSabin(DualWeights::Frequency(f)) = rule
+            && f.is_multiple_of(valence)
+        {
+            let expected = "weights of a frequency that is a multiple of the valence do not add up to 1";
+            return Err(SchemeError::value("frequency", f, expected));
+        }
+        let stencils = sector_stencils(&stand_in(rule, valence, 0), valence, rings)?;
+        let vertex = Self { rule: rule.clone(), valence, rings, stencils };
+        vertex.check()?;
+        Ok(vertex)
+    }
+
+    /// The weights of new points add up to 1.
+    fn check(&self) -> Result<(), SchemeError> {
+        let s = &self.stencils;
+        for (row, own) in s.rows.iter().zip(&s.from_centre) {
+            let sum = row.iter().fold(own.clone(), |sum, (_, _, w)| sum + w);
+            if sum != 1 {
+                let message = format!("the weights of a new point add up to {sum}, not to 1");
+                return Err(SchemeError::Mesh { rule: self.rule.name().to_owned(), message });
+            }
+        }
+        Ok(())
+    }
+
+    /// The frequencies `0 … n/2`; the others are their mirror images.
+    #[must_use]
+    pub fn frequencies(&self) -> std::ops::RangeInclusive<usize> {
+        0..=self.valence / 2
+    }
+
+    /// The orbit at a place.
+    #[must_use]
+    pub fn orbit(&self, place: (usize, usize)) -> Option<usize> {
+        self.stencils.places.iter().position(|p| *p == place)
+    }
+
+    /// The block of a frequency.
+    ///
+    /// # Errors
+    /// [`SchemeError`] of the stencils; [`SchemeError::Mesh`] where a characteristic polynomial is not real (a scheme
+    /// without mirror symmetry).
+    pub fn block(&self, frequency: usize) -> Result<Block, SchemeError> {
+        let (entries, before, angle) =
+            if frequency == 0 { self.still()? } else { (self.turning(frequency), 0, frequency) };
+        let size = entries.len();
+        let angle_polynomial = minimal_polynomial(self.valence / gcd(angle, self.valence));
+        let pattern = Matrix::from_fn(size, size, |i, j| ratio(i64::from(!entries[i][j].is_zero()), 1));
+        let mut parts = Vec::new();
+        for indices in strong_components(&pattern) {
+            let inner: Vec<Vec<Symbol>> =
+                indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
+            let coefficients = characteristic(&inner);
+            if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
+                let message = "the weights have no mirror symmetry, and the eigenvalues are not real".to_owned();
+                return Err(SchemeError::Mesh { rule: self.rule.name().to_owned(), message });
+            }
+            parts.push(Part { indices, poly: coefficients.into_iter().map(|c| c.x).collect() });
+        }
+        Ok(Block { frequency, angle, entries, before, parts })
+    }
+
+    /// A block of a frequency other than 0.
+    fn turning(&self, k: usize) -> Vec<Vec<Symbol>> {
+        let size = self.stencils.rows.len();
+        let mut entries = vec![vec![Symbol::constant(&ratio(0, 1)); size]; size];
+        for (row, weights) in entries.iter_mut().zip(&self.stencils.rows) {
+            for (orbit, shift, weight) in weights {
+                row[*orbit] = row[*orbit].add(&Symbol::power(*shift, weight));
+            }
+        }
+        if let Some((orbit, weight)) = self.central(k) {
+            entries[orbit].fill(Symbol::constant(&ratio(0, 1)));
+            entries[orbit][orbit] = weight;
+        }
+        if 2 * k == self.valence {
+            // ω = −1 and t = −2.
+            let collapse = |s: &Symbol| {
+                let at = ratio(-2, 1);
+                Symbol::constant(&(s.x.eval(&at) - s.y.eval(&at)))
+            };
+            entries = entries.iter().map(|row| row.iter().map(collapse).collect()).collect();
+        }
+        entries
+    }
+
+    /// The orbit whose new points depend on their own orbit only, with weights that depend on the frequency.
+    fn central(&self, k: usize) -> Option<(usize, Symbol)> {
+        let n = self.valence;
+        let constant = |p, q| Symbol::constant(&ratio(p, q));
+        match &self.rule {
+            // δ/4 + (3 + 2cos)/(4n) has the transform 1, 1/2, 1/4, 1/4, …
+            MeshRule::DooSabin(weights @ (DualWeights::Original | DualWeights::Frequency(_))) => {
+                let turns = if let DualWeights::Frequency(f) = weights { f % n } else { 1 };
+                let own = turns.min(n - turns);
+                // The transform of (3 + 2cos)/(4n): 3/4 at 0, and 1/4 at ± the frequency, which may coincide.
+                let mut value = ratio(1, 4);
+                if k == 0 {
+                    value += ratio(3, 4);
+                }
+                if k == own {
+                    value += if own == 0 || 2 * own == n { ratio(1, 2) } else { ratio(1, 4) };
+                }
+                Some((self.orbit((0, 0))?, Symbol::constant(&value)))
+            }
+            // δ/2 + (δ₁ + δ₋₁)/8 + 1/(4n): written out so that the entry is the same at every valence.
+            MeshRule::DooSabin(DualWeights::CatmullClark) => {
+                let own = if k == 0 { vec![ratio(1, 1)] } else { vec![ratio(1, 2), ratio(1, 8)] };
+                Some((self.orbit((0, 0))?, Symbol::real(Poly::new(own))))
+            }
+            MeshRule::Butterfly { modified: true, .. } if n != 6 => Some((
+                self.orbit((1, 0))?,
+                match k {
+                    0 => constant(1, 4),
+                    1 => constant(1, 2),
+                    2 => constant(1, 4),
+                    _ => constant(0, 1),
+                },
+            )),
+            _ => None,
+        }
+    }
+
+    /// The block 0: entries, the indices before the orbits, the angle.
+    fn still(&self) -> Result<(Vec<Vec<Symbol>>, usize, usize), SchemeError> {
+        let Some(weight) = irrational_weight(&self.rule) else {
+            let rational = self.still_rational(&self.stencils);
+            let entries = rational.iter().map(|row| row.iter().map(Symbol::constant).collect()).collect();
+            return Ok((entries, usize::from(self.stencils.centre.is_some()), 1));
+        };
+        // The entries are polynomials in the weight of a degree not above the number of steps: interpolate.
+        let steps = self.rule.steps();
+        let mut samples = Vec::new();
+        for w in 0..=steps {
+            let stencils = sector_stencils(&stand_in(&self.rule, self.valence, w), self.valence, self.rings)?;
+            samples.push(self.still_rational(&stencils));
+        }
+        let size = samples[0].len();
+        let entry = |i: usize, j: usize| {
+            let values: Vec<&Rational> = samples.iter().map(|s| &s[i][j]).collect();
+            let polynomial = interpolate(&values);
+            Symbol::real(compose(&polynomial, &weight))
+        };
+        let entries = (0..size).map(|i| (0..size).map(|j| entry(i, j)).collect()).collect();
+        Ok((entries, usize::from(self.stencils.centre.is_some()), 1))
+    }
+
+    fn still_rational(&self, s: &SectorStencils) -> Vec<Vec<Rational>> {
+        let before = usize::from(s.centre.is_some());
+        let size = s.rows.len() + before;
+        let mut entries = vec![vec![ratio(0, 1); size]; size];
+        if let Some((own, sums)) = &s.centre {
+            // The stencil of the centre has every sector's weights already.
+            entries[0][0].clone_from(own);
+            entries[0][1..].clone_from_slice(sums);
+        }
+        for (i, weights) in s.rows.iter().enumerate() {
+            if before == 1 {
+                entries[i + 1][0].clone_from(&s.from_centre[i]);
+            }
+            for (orbit, _, weight) in weights {
+                entries[i + before][orbit + before] += weight;
+            }
+        }
+        if let Some((orbit, weight)) = self.central(0) {
+            let own = weight.x.coeff(0);
+            entries[orbit + before].fill(ratio(0, 1));
+            if before == 1 {
+                entries[orbit + before][0] = ratio(1, 1) - &own;
+            }
+            entries[orbit + before][orbit + before] = own;
+        }
+        entries
+    }
+}
+
+/// The irrational weight at the centre as a polynomial in `t = 2cos(2π/n)`: the weight of all neighbours together.
+fn irrational_weight(rule: &MeshRule) -> Option<Poly> {
+    match rule {
+        // 5/8 − (3/8 + t/8)².
+        MeshRule::Loop(LoopWeights::Original) => Some(Poly::new(vec![ratio(31, 64), ratio(-3, 32), ratio(-1, 64)])),
+        // (4 − t)/9.
+        MeshRule::Sqrt3(None) => Some(Poly::new(vec![ratio(4, 9), ratio(-1, 9)])),
+        _ => None,
+    }
+}
+
+/// A rule with rational weights; `weight` takes the place of [`irrational_weight`].
+fn stand_in(rule: &MeshRule, valence: usize, weight: usize) -> MeshRule {
+    let weight = Rational::from(weight as u64);
+    match rule {
+        MeshRule::Loop(LoopWeights::Original) => {
+            MeshRule::Loop(LoopWeights::Given(weight / Rational::from(valence as u64)))
+        }
+        MeshRule::Sqrt3(None) => MeshRule::Sqrt3(Some(weight)),
+        MeshRule::DooSabin(DualWeights::Original | DualWeights::Frequency(_)) => {
+            MeshRule::DooSabin(DualWeights::CatmullClark)
+        }
+        MeshRule::Butterfly { w, modified: true } => MeshRule::Butterfly { w: w.clone(), modified: false },
+        other => other.clone(),
+    }
+}
+
+/// The polynomial with the given values at 0, 1, 2, ….
+fn interpolate(values: &[&Rational]) -> Poly {
+    let mut sum = Poly::zero();
+    for (k, value) in values.iter().enumerate() {
+        let mut basis = Poly::constant((*value).clone());
+        for l in (0..values.len()).filter(|l| *l != k) {
+            let factor = Poly::linear(&Rational::from(l as u64)).scale(&ratio(1, k as i64 - l as i64));
+            basis = &basis * &factor;
+        }
+        sum = &sum + &basis;
+    }
+    sum
+}
+
+fn compose(outer: &Poly, inner: &Poly) -> Poly {
+    outer.coeffs().iter().rev().fold(Poly::zero(), |v, c| &(&v * inner) + &Poly::constant(c.clone()))
+}
+
+/// The characteristic polynomial, from the constant coefficient up (Faddeev and LeVerrier).
+fn characteristic(a: &[Vec<Symbol>]) -> Vec<Symbol> {
+    let n = a.len();
+    let zero = || Symbol::constant(&ratio(0, 1));
+    let mut coefficients = vec![Symbol::constant(&ratio(1, 1))];
+    // M_1 = 1, c_{n−k} = −tr(A M_k)/k, M_{k+1} = A M_k + c_{n−k}.
+    let mut m: Vec<Vec<Symbol>> =
+        (0..n).map(|i| (0..n).map(|j| Symbol::constant(&ratio(i64::from(i == j), 1))).collect()).collect();
+    for k in 1..=n {
+        let mut product = vec![vec![zero(); n]; n];
+        for (i, row) in product.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                for (l, inner) in m.iter().enumerate() {
+                    *entry = entry.add(&a[i][l].mul(&inner[j]));
+                }
+            }
+        }
+        let trace = (0..n).fold(zero(), |s, i| s.add(&product[i][i]));
+        let c = trace.scale(&ratio(-1, k as i64));
+        for (i, row) in product.iter_mut().enumerate() {
+            row[i] = row[i].add(&c);
+        }
+        coefficients.push(c);
+        m = product;
+    }
+    coefficients.reverse();
+    coefficients
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scheme::VertexWeights;
+
+    fn text(part: &Part) -> Vec<String> {
+        part.poly.iter().map(|p| p.display("t")).collect()
+    }
+
+    #[test]
+    fn the_published_polynomials() {
+        let cc = Vertex::new(&MeshRule::CatmullClark(None), 5, 3).unwrap();
+        let block = cc.block(1).unwrap();
+        // x² − (10 + 2c)/16 x + 1/16.
+        let inner = block.parts.iter().find(|p| p.indices.len() == 2).unwrap();
+        assert_eq!(text(inner), ["1/16", "-1/16t - 5/8", "1"]);
+        let lp = Vertex::new(&MeshRule::Loop(LoopWeights::Original), 5, 3).unwrap();
+        assert!(lp.block(2).unwrap().parts.iter().any(|p| text(p) == ["-1/8t - 3/8", "1"]));
+        let still = lp.block(0).unwrap();
+        // (x − 1)(x − (3/8 + c/4)²).
+        let inner = still.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
+        assert_eq!(text(inner), ["1/64t^2 + 3/32t + 9/64", "-1/64t^2 - 3/32t - 73/64", "1"]);
+        let sqrt3 = Vertex::new(&MeshRule::Sqrt3(None), 7, 3).unwrap();
+        assert!(sqrt3.block(3).unwrap().parts.iter().any(|p| text(p) == ["-1/9t - 2/9", "1"]));
+        let midedge = Vertex::new(&MeshRule::DooSabin(DualWeights::Midedge), 5, 3).unwrap();
+        assert!(midedge.block(2).unwrap().parts.iter().any(|p| text(p) == ["-1/4t - 1/2", "1"]));
+    }
+
+    #[test]
+    fn the_blocks_of_a_variant() {
+        let weights = VertexWeights { alpha: ratio(3, 4), beta: ratio(1, 4), gamma: ratio(0, 1) };
+        let v = Vertex::new(&MeshRule::CatmullClark(Some(weights)), 5, 3).unwrap();
+        let block = v.block(0).unwrap();
+        let inner = block.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
+        // (x − 1)(x² − (α − 1/4)x + (1/2 − β)/8).
+        let p = &Poly::linear(&ratio(1, 1)) * &Poly::new(vec![ratio(1, 32), ratio(-1, 2), ratio(1, 1)]);
+        let found: Vec<Rational> = inner.poly.iter().map(|c| c.coeff(0)).collect();
+        assert_eq!(found, p.coeffs());
+    }
+
+    #[test]
+    fn rows_add_up_to_one_and_all_blocks_exist() {
+        for info in crate::scheme::mesh_rules().iter().filter(|r| r.parameters.iter().all(|p| p.default.is_some())) {
+            let rule = crate::scheme::mesh_rule(info.name, &std::collections::BTreeMap::new()).unwrap();
+            for n in [3, 4, 5, 6, 9] {
+                let v = Vertex::new(&rule, n, 3).unwrap_or_else(|e| panic!("{} at {n}: {e}", info.name));
+                for k in v.frequencies() {
+                    let block = v.block(k).unwrap_or_else(|e| panic!("{} at {n}, block {k}: {e}", info.name));
+                    if k == 0 {
+                        for row in &block.entries {
+                            let sum = row.iter().fold(Symbol::constant(&ratio(0, 1)), |s, e| s.add(e));
+                            assert_eq!(sum, Symbol::constant(&ratio(1, 1)), "{} at {n}", info.name);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

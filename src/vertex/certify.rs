@@ -1,0 +1,382 @@
+//! The verdict at one valence: is the surface C¹ at the vertex for almost all control points, and has it a tangent plane?
+
+use super::block::{Block, Vertex};
+use super::butterfly::sign_on_path;
+use super::cosine::{gcd, minimal_polynomial};
+use super::field::{Enclosures, Field, Fixed};
+use super::net::{Net, Signs};
+use super::ring::{self, Values, jacobian, patches};
+use super::top::{Top, TopError, leading_values, top};
+use super::turning::{Rotation, Turning};
+use crate::arith::{Interval, Rational, to_f64};
+use crate::poly::{Poly, factor};
+use crate::scheme::{MeshRule, SchemeError};
+use crate::theorem::Verdict;
+
+/// Binary places of the first attempt and of the second.
+const BITS: [u64; 2] = [192, 768];
+/// How often a patch is halved at most.
+const DEPTH: usize = 14;
+/// Polynomials up to this degree are factored for display.
+const DISPLAY_DEGREE: usize = 24;
+
+/// What holds at one valence.
+#[derive(Debug, Clone)]
+pub struct AtValence {
+    /// The valence.
+    pub valence: usize,
+    /// C¹ for almost all control points.
+    pub smooth: Verdict,
+    /// A tangent plane for almost all control points (the statement of Theorem 2 or 3).
+    pub plane: Verdict,
+    /// The largest eigenvalues below 1, where they were proved.
+    pub top: Option<Top>,
+    /// The minimal polynomial of the eigenvalue over the rationals, where it was computed.
+    pub minimal: Option<Poly>,
+    /// The Fourier block of the characteristic map.
+    pub frequency: Option<usize>,
+    /// The signs of the Jacobian determinant on the patches of one sector.
+    pub jacobian: Option<Signs>,
+    /// How often the boundary of the ring winds around 0, where the ring avoids 0.
+    pub winding: Option<usize>,
+    /// The functional that is positive on the sector, in the coordinates of `x + y ω`.
+    pub half_plane: Option<(Rational, Rational)>,
+    /// Why: the theorem applied, or what failed.
+    pub reason: String,
+    /// The patches of sector 0 as floats `x, y`, for pictures: nets of points in the true plane.
+    pub outline: Vec<Net<(f64, f64)>>,
+}
+
+impl AtValence {
+    fn new(valence: usize) -> Self {
+        Self {
+            valence,
+            smooth: Verdict::Undetermined,
+            plane: Verdict::Undetermined,
+            top: None,
+            minimal: None,
+            frequency: None,
+            jacobian: None,
+            winding: None,
+            half_plane: None,
+            reason: String::new(),
+            outline: Vec::new(),
+        }
+    }
+
+    /// Whether the characteristic map is regular, where that is known.
+    #[must_use]
+    pub fn regular(&self) -> Option<bool> {
+        let signs = self.jacobian.as_ref()?;
+        if signs.strict().is_some() {
+            Some(true)
+        } else if signs.changes() {
+            Some(false)
+        } else {
+            None
+        }
+    }
+
+    /// Whether it is injective, where that is known.
+    #[must_use]
+    pub fn injective(&self) -> Option<bool> {
+        match (self.regular(), self.frequency, self.winding) {
+            (_, Some(k), _) if k != 1 => Some(false),
+            (Some(false), _, _) => Some(false),
+            (Some(true), Some(1), Some(1)) => Some(true),
+            _ => None,
+        }
+    }
+
+    /// The place of a witness in the lattice of sector 0.
+    #[must_use]
+    pub fn lattice(&self, rule: &MeshRule, at: &(usize, (Rational, Rational))) -> Option<(Rational, Rational)> {
+        ring::lattice_point(rule, at.0, &at.1)
+    }
+}
+
+/// Examines a scheme at a vertex (for dual schemes: in a face) of one valence.
+///
+/// # Errors
+/// [`SchemeError`] where the scheme cannot be built there.
+///
+/// # Examples
+/// ```
+/// use secant::{scheme::MeshRule, theorem::Verdict, vertex::at_valence};
+/// let found = at_valence(&MeshRule::CatmullClark(None), 5)?;
+/// assert_eq!((found.smooth, found.winding), (Verdict::Proved, Some(1)));
+/// # Ok::<(), secant::scheme::SchemeError>(())
+/// ```
+///
+/// # Cost
+/// For a few dozen valences a few milliseconds each, apart from the minimal polynomial of the eigenvalue.
+pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeError> {
+    let mut found = AtValence::new(valence);
+    let vertex = Vertex::new(rule, valence, ring::RINGS)?;
+    let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
+        Ok(blocks) => blocks,
+        Err(SchemeError::Mesh { message, .. }) => {
+            found.reason = message;
+            return Ok(found);
+        }
+        Err(error) => return Err(error),
+    };
+    let top = match top(&vertex, &blocks, BITS[0]) {
+        Ok(top) => top,
+        Err(TopError::Scheme(error)) => return Err(error),
+        Err(TopError::Open(reason)) => {
+            found.reason = reason;
+            return Ok(found);
+        }
+    };
+    found.minimal = minimal(&vertex, &top);
+    Judge { vertex: &vertex, blocks: &blocks, top: &top, found: &mut found }.judge();
+    found.top = Some(top);
+    Ok(found)
+}
+
+struct Judge<'a> {
+    vertex: &'a Vertex,
+    blocks: &'a [Block],
+    top: &'a Top,
+    found: &'a mut AtValence,
+}
+
+impl Judge<'_> {
+    fn judge(&mut self) {
+        let n = self.vertex.valence;
+        let (length, dimension) = self.top.longest(n);
+        let leading: Vec<(usize, bool)> = self.top.leading(n).iter().map(|m| (m.frequency, m.negative)).collect();
+        let name = if length > 1 { format!("{length}×{length} Jordan blocks") } else { "eigenvectors".to_owned() };
+        match (dimension, leading.as_slice()) {
+            (3.., _) => {
+                self.refute(format!(
+                    "the leading {name} span a space of dimension {dimension}, and limit directions span all of it \
+                     (corollary to Theorem 4)"
+                ));
+            }
+            (1, [(k, false)]) => self.line(*k, length),
+            (2, [(k, false)]) if 0 < *k && 2 * *k < n => self.pair(*k, length),
+            (2, all) if length == 1 && all.iter().all(|(_, negative)| !negative) => {
+                self.refute(
+                    "the two leading eigenvectors are the same in every second sector, so that the characteristic map is \
+                     not injective (Theorem 8)"
+                        .to_owned(),
+                );
+                self.found.plane = Verdict::Undetermined;
+            }
+            _ => format!("two leading {name} of this kind are not covered").clone_into(&mut self.found.reason),
+        }
+    }
+
+    fn refute(&mut self, reason: String) {
+        self.found.smooth = Verdict::Refuted;
+        self.found.plane = Verdict::Refuted;
+        self.found.reason = reason;
+    }
+
+    /// One leading eigenvector: all limit directions are parallel to it where its function on the ring has no zero.
+    fn line(&mut self, k: usize, length: usize) {
+        self.found.frequency = Some(k);
+        let what = if length > 1 {
+            format!("one {length}×{length} Jordan block")
+        } else {
+            "one simple eigenvalue".to_owned()
+        };
+        let rational = self.top.rational.as_ref().filter(|_| k == 0);
+        if rational.and_then(|value| sign_on_path(self.vertex, value, BITS[0])).is_some() {
+            self.one_sided(&what);
+            return;
+        }
+        let Some((signs, boundary)) = self.signs_of_function(k) else {
+            self.found.reason = format!(
+                "{what} in block {k} leads; whether its function has a zero on the ring is not known for this scheme"
+            );
+            return;
+        };
+        if signs.strict().is_some() {
+            self.refute(format!(
+                "{what} in block {k} leads and its function on the ring has no zero: all limit directions lie on one line \
+                 (Theorem {})",
+                if length > 1 { 3 } else { 2 }
+            ));
+        } else if k == 0 && boundary.strict().is_some() {
+            self.one_sided(&what);
+        } else {
+            self.found.reason = format!("{what} in block {k} leads, and its function has a zero on the ring");
+        }
+    }
+
+    fn one_sided(&mut self, what: &str) {
+        self.refute(format!(
+            "{what} in block 0 leads and its function has no zero on a closed path around the vertex, whose copies stay on \
+             one side of it (Theorem 8)"
+        ));
+        self.found.plane = Verdict::Undetermined;
+    }
+
+    /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary.
+    fn signs_of_function(&self, k: usize) -> Option<(Signs, Signs)> {
+        let (field, values) = self.values(k, BITS[0])?;
+        // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
+        let scalar = |p: &Turning<Fixed>| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) };
+        let nets: Vec<Net<Fixed>> = patches(self.vertex, &field, &values)?.iter().map(|p| p.map(scalar)).collect();
+        let signs = |nets: Vec<Net<Fixed>>| {
+            let mut signs = Signs::default();
+            nets.into_iter().enumerate().for_each(|(index, net)| signs.examine(&field, index, net, DEPTH));
+            signs
+        };
+        let boundary = ring::boundary(&self.vertex.rule, &nets)?;
+        Some((signs(nets), signs(boundary)))
+    }
+
+    fn values(&self, k: usize, bits: u64) -> Option<(Enclosures, Values<Fixed>)> {
+        let values = leading_values(self.vertex, self.blocks, self.top, k, bits)?;
+        if k == 0 {
+            // The orbits do not turn: ω = 1.
+            return Some((Enclosures::of_angle(0, 1, bits), values));
+        }
+        Some((Enclosures::of_angle(k, self.vertex.valence, bits), values))
+    }
+
+    /// A pair of leading eigenvectors in the blocks `k` and `n − k`: the characteristic map.
+    fn pair(&mut self, k: usize, length: usize) {
+        self.found.frequency = Some(k);
+        let known = BITS.iter().any(|bits| self.characteristic(k, *bits));
+        let with_blocks =
+            if length > 1 { format!(", the ends of {length}×{length} Jordan blocks") } else { String::new() };
+        if self.found.winding.is_some() {
+            self.found.plane = Verdict::Proved;
+        }
+        if k != 1 && length > 1 && self.found.winding.is_none() {
+            self.found.reason =
+                format!("the leading Jordan blocks live in block {k}; whether their ring avoids 0 is not known");
+            return;
+        }
+        if k != 1 {
+            self.found.smooth = Verdict::Refuted;
+            self.found.reason = match self.found.winding {
+                Some(w) => format!(
+                    "the leading eigenvectors live in block {k}{with_blocks}: the ring winds {w} times around the vertex \
+                     (Theorem 8)"
+                ),
+                None => format!(
+                    "the leading eigenvectors live in block {k}{with_blocks}: the ring cannot wind once around the vertex \
+                     (Theorem 8)"
+                ),
+            };
+            return;
+        }
+        if !known && self.found.jacobian.is_none() {
+            self.found.reason = format!(
+                "the leading eigenvectors live in block 1{with_blocks}; the ring of this scheme is not polynomial, and no \
+                 enclosures of its derivatives are computed"
+            );
+            return;
+        }
+        match (self.found.regular(), self.found.winding) {
+            (Some(true), Some(1)) => {
+                self.found.smooth = Verdict::Proved;
+                self.found.reason =
+                    format!("the characteristic map is regular and winds once around 0{with_blocks} (Theorem 7)");
+            }
+            (Some(false), _) => {
+                self.found.smooth = Verdict::Refuted;
+                "the Jacobian determinant of the characteristic map changes its sign (Theorem 8)"
+                    .clone_into(&mut self.found.reason);
+            }
+            (None, _) => {
+                "the sign of the Jacobian determinant was not decided everywhere".clone_into(&mut self.found.reason);
+            }
+            _ => "no half-plane through 0 holds the ring of one sector".clone_into(&mut self.found.reason),
+        }
+    }
+
+    /// Examines the characteristic map; whether nothing was left open.
+    fn characteristic(&mut self, k: usize, bits: u64) -> bool {
+        let Some((field, values)) = self.values(k, bits) else { return false };
+        let Some(patches) = patches(self.vertex, &field, &values) else { return false };
+        let mut signs = Signs::default();
+        for (index, patch) in patches.iter().enumerate() {
+            signs.examine(&field, index, jacobian(&field, patch), DEPTH);
+        }
+        let functional = half_plane(&field, &patches);
+        self.found.winding = functional.is_some().then_some(k);
+        self.found.half_plane = functional;
+        self.found.outline = outline(&field, &patches);
+        let decided = signs.strict().is_some() || signs.changes();
+        self.found.jacobian = Some(signs);
+        decided && self.found.winding.is_some()
+    }
+}
+
+/// A functional that is positive on the whole ring of a sector, proved on its Bernstein coefficients.
+///
+/// The ring then avoids 0, and its outer boundary, which leads from a point `P` to `ω P`, turns by an angle between −π and π,
+/// which can only be that of `ω`: the whole boundary winds `k` times around 0.
+fn half_plane(field: &Enclosures, patches: &[Net<Turning<Fixed>>]) -> Option<(Rational, Rational)> {
+    let rotation = Rotation(field);
+    let mut sum = rotation.zero();
+    patches.iter().flat_map(|p| p.rows.iter().flatten()).for_each(|p| sum = rotation.add(&sum, p));
+    // The scalar product with the sum of all points, in the metric of the true plane; rounded to a short fraction.
+    let half = Rational::from_signeds(1, 2);
+    let mixed = |a: &Fixed, b: &Fixed| {
+        let value = field.add(a, &field.scale(&field.mul(&field.twice_cosine(), b), &half));
+        let scaled = field.to_interval(&value).mid() * Rational::from(1 << 12);
+        use malachite_base::num::arithmetic::traits::Floor;
+        Rational::from(scaled.floor()) / Rational::from(1 << 12)
+    };
+    let g = (mixed(&sum.x, &sum.y), mixed(&sum.y, &sum.x));
+    let mut signs = Signs::default();
+    for (index, patch) in patches.iter().enumerate() {
+        let values = patch.map(|p| field.add(&field.scale(&p.x, &g.0), &field.scale(&p.y, &g.1)));
+        signs.examine(field, index, values, DEPTH);
+    }
+    (signs.strict() == Some(1)).then_some(g)
+}
+
+#[allow(clippy::float_arithmetic, reason = "pictures only")]
+fn outline(field: &Enclosures, patches: &[Net<Turning<Fixed>>]) -> Vec<Net<(f64, f64)>> {
+    let cosine = field.to_f64(&field.twice_cosine()) / 2.0;
+    let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+    let point = |p: &Turning<Fixed>| {
+        let (x, y) = (field.to_f64(&p.x), field.to_f64(&p.y));
+        (x + y * cosine, y * sine)
+    };
+    patches.iter().map(|p| p.map(point)).collect()
+}
+
+/// The minimal polynomial of the leading eigenvalue, where its equation is linear in `t` and of moderate degree.
+fn minimal(vertex: &Vertex, top: &Top) -> Option<Poly> {
+    if let Some(q) = &top.rational {
+        return Some(Poly::linear(q));
+    }
+    let frequency = top.members.first()?.frequency;
+    let angle = if frequency == 0 { 1 } else { frequency };
+    let modulus = minimal_polynomial(vertex.valence / gcd(angle, vertex.valence));
+    let degree = modulus.degree()?;
+    if top.poly.iter().any(|c| c.degree().unwrap_or(0) > 1) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
+        return None;
+    }
+    // P = A + t B vanishes with t a root of ψ where B^d ψ(−A/B) does.
+    let a = Poly::new(top.poly.iter().map(|c| c.coeff(0)).collect());
+    let b = Poly::new(top.poly.iter().map(|c| c.coeff(1)).collect());
+    let mut norm = Poly::zero();
+    for (i, c) in modulus.coeffs().iter().enumerate() {
+        norm = &norm + &(&(-&a).pow(i) * &b.pow(degree - i)).scale(c);
+    }
+    let vanishes = |f: &Poly| {
+        let field = Enclosures::with_twice_cosine(&Interval::point(Rational::from(0)), 160);
+        let value = field.eval(f, &field.interval(&top.enclosure));
+        field.sign(&value).is_none_or(|s| s == 0)
+    };
+    let mut near = factor(&norm).into_iter().map(|(f, _)| f).filter(vanishes);
+    let found = near.next()?;
+    near.next().is_none().then_some(found)
+}
+
+/// The leading eigenvalue in floating point, for display.
+#[must_use]
+pub fn decimal(top: &Top) -> f64 {
+    to_f64(&top.enclosure.mid())
+}

@@ -1,0 +1,17 @@
+//! Extraordinary vertices: the subdominant eigenvalues by Fourier block, the characteristic map, and whether the surface
+//! is C¹ (docs/theory.md §10).
+
+pub mod block;
+mod butterfly;
+mod certify;
+pub mod cosine;
+mod every;
+pub mod field;
+pub mod net;
+pub mod ring;
+pub mod solve;
+pub mod top;
+pub mod turning;
+
+pub use certify::{AtValence, at_valence, decimal};
+pub use every::{Condition, Every, every, strict_sign};

@@ -1,0 +1,271 @@
+//! Extraordinary vertices: the cases, an outside oracle that samples densely, the published facts, and the command line.
+
+use secant::arith::{Interval, Rational, ratio, to_f64};
+use secant::case::{Valences, VertexCase};
+use secant::scheme::{DualWeights, LoopWeights, MeshRule, VertexWeights, mesh_rule};
+use secant::theorem::Verdict;
+use secant::vertex::{AtValence, at_valence};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn at(rule: &MeshRule, n: usize) -> AtValence {
+    at_valence(rule, n).unwrap_or_else(|e| panic!("{rule:?} at {n}: {e}"))
+}
+
+fn named(name: &str) -> MeshRule {
+    mesh_rule(name, &BTreeMap::new()).unwrap()
+}
+
+fn secant(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_secant")).args(arguments).current_dir(root()).output().unwrap()
+}
+
+#[test]
+fn every_case_comes_out_as_its_file_expects() {
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(root().join("cases/surfaces")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.sort();
+    let mut seen = 0;
+    for file in files {
+        if !std::fs::read_to_string(&file).is_ok_and(|text| VertexCase::is_one(&text)) {
+            continue;
+        }
+        let case = VertexCase::read(&file).unwrap_or_else(|p| panic!("{}", p.render(false)));
+        assert!(!case.expect.is_empty(), "{} expects nothing", case.name);
+        for (n, verdict) in &case.expect {
+            let found = at(&case.rule, *n);
+            assert_eq!(found.smooth, *verdict, "{} at {n}: {}", case.name, found.reason);
+        }
+        seen += 1;
+    }
+    assert!(seen >= 20, "{seen} cases");
+}
+
+/// tests/oracle/characteristic.py samples the ring; it shares nothing with the program.
+#[test]
+fn dense_samples_agree() {
+    let text = std::fs::read_to_string(root().join("tests/oracle/characteristic.txt")).unwrap();
+    let mut lines = 0;
+    for line in text.lines().filter(|l| !l.starts_with('#')) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let number = |k: usize| words[k].parse::<f64>().unwrap();
+        let n: usize = words[1].parse().unwrap();
+        let found = at(&named(words[0]), n);
+        let top = found.top.as_ref().unwrap();
+        assert!((to_f64(&top.enclosure.mid()) - number(2)).abs() < 1e-9, "{line}");
+        assert_eq!(found.regular(), Some(number(3) > 0.0), "{line}");
+        assert_eq!(found.winding, Some(number(5).round() as usize), "{line}");
+        assert_eq!(found.injective(), Some(number(5).round() as usize == 1), "{line}");
+        lines += 1;
+    }
+    assert!(lines >= 60);
+}
+
+fn contains(interval: &Interval, value: f64) -> bool {
+    to_f64(&interval.lo) - 1e-9 <= value && value <= to_f64(&interval.hi) + 1e-9
+}
+
+#[test]
+fn the_published_eigenvalues() {
+    let lambda = |rule: &MeshRule, n: usize| at(rule, n).top.unwrap();
+    for n in 3..=12 {
+        let c = (std::f64::consts::TAU / n as f64).cos();
+        for (rule, expected) in [
+            (named("loop"), 3.0 / 8.0 + c / 4.0),
+            (named("catmull-clark"), (5.0 + c + ((c + 9.0) * (c + 1.0)).sqrt()) / 16.0),
+            (named("doo-sabin"), 0.5),
+            (named("doo-sabin-catmull-clark"), (2.0 + c) / 4.0),
+            (named("midedge"), f64::midpoint(1.0, c)),
+            (named("sqrt3"), (2.0 + 2.0 * c) / 9.0),
+            (named("butterfly-modified"), 0.5),
+        ] {
+            let found = lambda(&rule, n);
+            assert!(contains(&found.enclosure, expected), "{rule:?} at {n}: {found:?}");
+        }
+    }
+    // Velho and Zorin (2001), values of the quintic.
+    for (n, value) in [(3, 0.408_311_432_254_596), (4, 0.5), (7, 0.601_250_190_088_931), (12, 0.638_622_250_455_408)] {
+        assert!(contains(&lambda(&named("four-eight"), n).enclosure, value), "4-8 at {n}");
+    }
+    let display = |n| at(&named("catmull-clark"), n).minimal.unwrap().primitive_display("x");
+    assert_eq!((display(3), display(6)), ("16x^2 - 9x + 1".to_owned(), "16x^2 - 11x + 1".to_owned()));
+    assert_eq!(lambda(&named("loop"), 3).rational, Some(ratio(1, 4)));
+    assert_eq!(at(&named("loop"), 5).minimal.unwrap().primitive_display("x"), "64x^2 - 40x + 5");
+    // The original butterfly scheme: value and frequency.
+    for (n, value, frequency) in [(9, 0.497_294_073, 2), (10, 0.506_675_611, 2), (14, 0.501_978_319, 3)] {
+        let found = at(&named("butterfly"), n);
+        assert!(contains(&found.top.as_ref().unwrap().enclosure, value), "{n}");
+        assert_eq!((found.frequency, found.smooth), (Some(frequency), Verdict::Refuted), "{n}");
+    }
+}
+
+#[test]
+fn jordan_blocks_at_the_top() {
+    let blocks = |name: &str| -> Vec<(usize, Vec<usize>)> {
+        at(&named(name), 3).top.unwrap().members.into_iter().map(|m| (m.frequency, m.blocks)).collect()
+    };
+    // Midedge at valence 3: 1/4 is semisimple in block 0 and has a 2×2 block in block 1.
+    assert_eq!(blocks("midedge"), [(0, vec![1, 1]), (1, vec![2, 1])]);
+    let butterfly = blocks("butterfly");
+    assert_eq!(butterfly[0], (0, vec![3]));
+}
+
+/// C¹ exactly for (1 − c)/4 < nβ < 1 + c/4 (n ≥ 4): both ends are found, exactly.
+#[test]
+fn the_range_of_the_weight_of_loop() {
+    let verdict = |n: usize, share: &Rational| {
+        let beta = share / Rational::from(n as u64);
+        at(&MeshRule::Loop(LoopWeights::Given(beta)), n).smooth
+    };
+    // Valences 4 (c = 0) and 6 (c = 1/2) have rational ends.
+    for (n, low, high) in [(4, ratio(1, 4), ratio(1, 1)), (6, ratio(1, 8), ratio(9, 8))] {
+        let step = ratio(1, 1_000_000);
+        assert_eq!(verdict(n, &low), Verdict::Refuted, "the lower end at {n}");
+        assert_eq!(verdict(n, &(&low - &step)), Verdict::Refuted, "below at {n}");
+        assert_eq!(verdict(n, &(&low + &step)), Verdict::Proved, "above the lower end at {n}");
+        assert_eq!(verdict(n, &(&high - &step)), Verdict::Proved, "below the upper end at {n}");
+        assert_eq!(verdict(n, &(&high + &step)), Verdict::Refuted, "above at {n}");
+    }
+    for n in [5, 7, 9, 16] {
+        let c = Rational::try_from((std::f64::consts::TAU / n as f64).cos()).unwrap();
+        let step = ratio(1, 100_000);
+        let (low, high) = ((ratio(1, 1) - &c) / ratio(4, 1), ratio(1, 1) + &c / ratio(4, 1));
+        assert_eq!(verdict(n, &(&low - &step)), Verdict::Refuted, "{n}");
+        assert_eq!(verdict(n, &(&low + &step)), Verdict::Proved, "{n}");
+        assert_eq!(verdict(n, &(&high - &step)), Verdict::Proved, "{n}");
+        assert_eq!(verdict(n, &(&high + &step)), Verdict::Refuted, "{n}");
+    }
+}
+
+#[test]
+fn weights_at_the_vertex_of_catmull_and_clark() {
+    let verdict = |n: usize, a: (i64, i64), b: (i64, i64)| {
+        let (alpha, beta) = (ratio(a.0, a.1), ratio(b.0, b.1));
+        let gamma = ratio(1, 1) - &alpha - &beta;
+        at(&MeshRule::CatmullClark(Some(VertexWeights { alpha, beta, gamma })), n).smooth
+    };
+    for n in [3, 4, 6] {
+        assert_eq!(verdict(n, (1, 1), (0, 1)), Verdict::Refuted);
+    }
+    assert_eq!(verdict(5, (3, 4), (1, 4)), Verdict::Proved);
+    assert_eq!(verdict(3, (1, 2), (1, 2)), Verdict::Proved);
+    assert_eq!(verdict(4, (7, 8), (1, 8)), Verdict::Refuted);
+}
+
+#[test]
+fn given_weights_of_a_face() {
+    // The original weights at n = 4, written out, and weights without mirror symmetry.
+    let given =
+        |w: &[(i64, i64)]| MeshRule::DooSabin(DualWeights::Given(w.iter().map(|(p, q)| ratio(*p, *q)).collect()));
+    let usual = at(&given(&[(9, 16), (3, 16), (1, 16), (3, 16)]), 4);
+    assert_eq!((usual.smooth, usual.top.unwrap().rational), (Verdict::Proved, Some(ratio(1, 2))));
+    let skew = at(&given(&[(1, 2), (1, 4), (1, 4), (0, 1)]), 4);
+    assert_eq!(skew.smooth, Verdict::Undetermined);
+    assert!(at_valence(&given(&[(1, 2), (1, 2)]), 4).is_err());
+}
+
+#[test]
+fn a_tangent_plane_without_smoothness() {
+    let found = at(&named("doo-sabin-frequency"), 5);
+    assert_eq!((found.plane, found.smooth), (Verdict::Proved, Verdict::Refuted));
+    assert_eq!((found.regular(), found.injective(), found.winding), (Some(true), Some(false), Some(2)));
+}
+
+/// The curve of thesis §2.1: the functional of the dominant eigenvalue along the ring is no injective map, and the
+/// half-tangent is proved all the same.
+#[test]
+fn the_curve_whose_characteristic_map_is_not_injective() {
+    let case = secant::case::Case::read(&root().join("cases/thesis/half-tangent.toml")).unwrap();
+    let found = secant::theorem::certify(&case.shape, &[]).unwrap();
+    assert_eq!(found.verdict, Verdict::Proved);
+    let ops: Vec<&secant::linalg::Matrix> = case.shape.states[0].pieces.iter().map(|p| &p.op).collect();
+    // Left eigenvectors of T_0 for 3/4, with value 0 at the fixed point (1, 0, 0).
+    let shifted =
+        secant::linalg::Matrix::from_fn(3, 3, |i, j| &ops[0][(j, i)] - if i == j { ratio(3, 4) } else { ratio(0, 1) });
+    let g = shifted.kernel().column(0);
+    // Points of the ring, the second half of the curve, in order: the images of the end point.
+    let mut words: Vec<Vec<usize>> = vec![vec![]];
+    for _ in 0..6 {
+        words = words.iter().flat_map(|w| [0, 1].map(|l| [w.as_slice(), &[l]].concat())).collect();
+    }
+    let values: Vec<Rational> = words
+        .iter()
+        .map(|w| {
+            let mut p = vec![ratio(0, 1), ratio(0, 1), ratio(1, 1)];
+            for letter in w.iter().rev() {
+                p = ops[*letter].apply(&p);
+            }
+            let p = ops[1].apply(&p);
+            p.iter().zip(&g).fold(ratio(0, 1), |s, (a, b)| s + a * b)
+        })
+        .collect();
+    let rises = values.windows(2).any(|w| w[0] < w[1]);
+    let falls = values.windows(2).any(|w| w[0] > w[1]);
+    assert!(rises && falls, "a continuous function that rises and falls is not injective");
+    let sign = values[0] > 0;
+    assert!(values.iter().all(|v| *v != 0 && (*v > 0) == sign), "and it has no zero on the ring");
+}
+
+#[test]
+fn ranges_of_valences() {
+    assert_eq!(Valences::parse(" 3..4,9 "), Ok(Valences::List(vec![3, 4, 9])));
+    for bad in ["", "2", "9..3", "3..", "x", "3..1000", "-5"] {
+        assert!(Valences::parse(bad).is_err(), "{bad}");
+    }
+}
+
+#[test]
+fn the_command_line() {
+    let case = "cases/surfaces/catmull-clark.toml";
+    let done = secant(&["certify", case, "--valence", "3..6", "--json"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let json: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!(json["valences"].as_array().unwrap().len(), 4);
+    assert_eq!(json["valences"][0]["eigenvalue"]["minimal_polynomial"], "16x^2 - 9x + 1");
+    assert_eq!(json["valences"][2]["eigenvalue"]["equation"], "16x^2 + (-2c - 10)x + 1");
+    assert_eq!(json["valences"][0]["checked"], false);
+    let dir = tempfile::tempdir().unwrap();
+    let file = |name: &str| dir.path().join(name).display().to_string();
+    let (svg, html) = (file("map.svg"), file("proof.html"));
+    let done = secant(&["certify", case, "--valence", "3,5", "--svg", &svg, "--report", &html]);
+    assert_eq!(done.status.code(), Some(0));
+    let text = String::from_utf8_lossy(&done.stdout).into_owned();
+    assert!(text.contains("Theorem 7") && text.contains("independent checker"), "{text}");
+    assert_eq!(std::fs::read_to_string(&svg).unwrap().matches("<text").count(), 2);
+    assert!(std::fs::read_to_string(&html).unwrap().contains("winding number"));
+    assert_eq!(secant(&["certify", "cases/surfaces/loop-zero.toml", "--valence", "4"]).status.code(), Some(1));
+    assert_eq!(secant(&["certify", "cases/surfaces/sqrt3.toml", "--valence", "5"]).status.code(), Some(3));
+    for bad in ["2", "all,3", "5.."] {
+        assert_eq!(secant(&["certify", case, "--valence", bad]).status.code(), Some(2), "{bad}");
+    }
+    let other = secant(&["certify", "cases/thesis/half-tangent.toml", "--valence", "5"]);
+    assert_eq!(other.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&other.stderr).contains("[vertex]"));
+    assert_eq!(secant(&["certify", "cases/surfaces/sqrt3.toml", "--valence", "all"]).status.code(), Some(2));
+}
+
+#[test]
+fn all_valences_at_once() {
+    for name in ["catmull-clark", "loop", "doo-sabin", "doo-sabin-catmull-clark"] {
+        let done = secant(&["certify", &format!("cases/surfaces/{name}.toml"), "--valence", "all"]);
+        let text = String::from_utf8_lossy(&done.stdout).into_owned();
+        assert_eq!(done.status.code(), Some(0), "{name}: {text}");
+        assert!(text.contains("n ≥ 3") && text.contains("Theorem 9"), "{text}");
+    }
+}
+
+#[test]
+fn mistakes_in_files_are_shown() {
+    let problem = |text: &str| VertexCase::parse("x.toml", text).err().map(|p| p.render(false)).unwrap_or_default();
+    assert!(problem("name = \"x\"\n[vertex]\nmesh = \"catmul-clark\"\n").contains("catmull-clark"));
+    assert!(problem("name = \"x\"\n[vertex]\nmesh = \"loop-variant\"\n").contains("beta"));
+    assert!(problem("name = \"x\"\n[vertex]\nmesh = \"loop\"\nvalence = 2\n").contains("valence"));
+    let text = "name = \"x\"\n[vertex]\nmesh = \"catmull-clark-variant\"\nalpha = 1\nbeta = 1\ngamma = 1\n";
+    assert!(problem(text).contains("alpha + beta + gamma"));
+    assert!(!Path::new("x.toml").exists());
+}
