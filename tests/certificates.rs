@@ -20,7 +20,7 @@ fn corpus() -> Vec<PathBuf> {
 
 #[test]
 fn every_case_has_a_certificate_that_passes() {
-    let mut mistakes = Vec::new();
+    let (mut mistakes, mut times) = (Vec::new(), Vec::new());
     let (mut bytes, mut count, mut prove, mut check) = (0, 0, std::time::Duration::ZERO, std::time::Duration::ZERO);
     for path in corpus() {
         let family = path.parent().unwrap().file_name().unwrap().to_string_lossy().into_owned();
@@ -28,7 +28,7 @@ fn every_case_has_a_certificate_that_passes() {
         let case = Case::read(&path).unwrap();
         let begin = std::time::Instant::now();
         let Ok(found) = certify_complex(&case.complex(), &case.examine) else { continue };
-        prove += begin.elapsed();
+        let proved = begin.elapsed();
         let text = match certificate(&case, &found) {
             Ok(certificate) => certificate.text(),
             // The format has no rules for surfaces yet, and the writer must say so.
@@ -45,7 +45,8 @@ fn every_case_has_a_certificate_that_passes() {
         (bytes, count) = (bytes + text.len(), count + 1);
         let begin = std::time::Instant::now();
         let checked = secant_check::check(&case.checked_text(), &text);
-        check += begin.elapsed();
+        (prove, check) = (prove + proved, check + begin.elapsed());
+        times.push((proved, begin.elapsed(), text.len(), name.clone()));
         match checked {
             Ok(accepted) if accepted.verdict.word() == found.verdict.word() => {}
             Ok(accepted) => {
@@ -53,6 +54,10 @@ fn every_case_has_a_certificate_that_passes() {
             }
             Err(rejected) => mistakes.push(format!("{name}: {rejected}")),
         }
+    }
+    times.sort_by_key(|t| std::cmp::Reverse(t.1));
+    for (proved, checked, size, name) in &times[..10] {
+        println!("{name}: {size} bytes; proved in {proved:?}, checked in {checked:?}");
     }
     println!("{count} certificates, {bytes} bytes; proved in {prove:?}, checked in {check:?}");
     assert!(mistakes.is_empty(), "{}", mistakes.join("\n"));

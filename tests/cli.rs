@@ -174,12 +174,22 @@ fn json_lines_come_in_the_order_given() {
     let lines: Vec<Value> = out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
     let names: Vec<&str> = lines.iter().map(|v| v["case"].as_str().unwrap()).collect();
     assert_eq!(names, ["levy", "half-tangent", "cases/refused/empty.toml", "degree-2"]);
+    let checked: Vec<&Value> = lines.iter().map(|v| &v["certificate"]["checked"]).collect();
+    assert_eq!(checked, [&Value::from(true), &Value::from(true), &Value::Null, &Value::from(true)]);
+    let (out, _) = output(&["certify", "--no-check", "--jsonl", HALF, "cases/classical/levy.toml"], 1);
+    for line in out.lines() {
+        let line: Value = serde_json::from_str(line).unwrap();
+        assert_eq!(line["certificate"]["why"], "the checker was not asked");
+    }
 }
 
 #[test]
 fn several_cases_give_a_table_and_the_gravest_code() {
     let (out, _) = output(&["certify", HALF, "cases/bspline/degree-2.toml"], 0);
     assert!(out.contains("2 cases: 2 proved"), "{out}");
+    assert!(out.contains("Checked") && !out.contains("not proved again"), "{out}");
+    let (out, _) = output(&["certify", "--no-check", HALF, "cases/bspline/degree-2.toml"], 0);
+    assert!(out.contains("2 cases decided but not proved again by the checker"), "{out}");
     output(&["certify", HALF, "cases/classical/levy.toml"], 1);
     output(&["certify", "--json", HALF, "cases/classical/levy.toml"], 2);
 }

@@ -3,7 +3,8 @@
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction};
 use crate::shape::{Address, Kind, Piece, Shape, State};
-use num_traits::{One, Zero};
+use num_bigint::BigInt;
+use num_traits::One;
 use std::cell::Cell;
 use toml::de::{DeTable, DeValue};
 
@@ -102,7 +103,7 @@ fn inclusion(points: &DeValue<'_>, (rows, cols): (usize, usize)) -> Result<Matri
         return Err(format!("`points` must have {cols} entries"));
     }
     let at = points.into_iter().map(|p| index(p, rows, "points")).collect::<Result<Vec<_>, _>>()?;
-    Ok(Matrix::from_fn(rows, cols, |i, j| if at[j] == i { Q::one() } else { Q::zero() }))
+    Ok(Matrix::ones(rows, cols, |i, j| at[j] == i))
 }
 
 impl Reader {
@@ -138,7 +139,7 @@ impl Reader {
         if (op.rows, op.cols) != size {
             return Err(format!("an operator has the wrong size: {} x {}", op.rows, op.cols));
         }
-        if (0..op.cols).any(|j| !op.column(j).iter().sum::<Q>().is_one()) {
+        if (0..op.cols).any(|j| (0..op.rows).map(|i| &op.data[i * op.cols + j]).sum::<BigInt>() != op.den) {
             return Err("a column of an operator does not sum to 1".to_owned());
         }
         Ok(op)
@@ -155,10 +156,12 @@ impl Reader {
             return Err("`linear` and `shift` do not fit".to_owned());
         }
         let image = |i: usize, j: usize| if j == 0 { shift[i].clone() } else { &shift[i] + linear.at(i, j - 1) };
-        let op = Matrix::from_fn(d + 1, d + 1, |i, j| match i {
+        let entry = |(i, j): (usize, usize)| match i {
             0 => Q::one() - (0..d).map(|i| image(i, j)).sum::<Q>(),
             _ => image(i - 1, j),
-        });
+        };
+        let places = (0..=d).flat_map(|i| (0..=d).map(move |j| (i, j)));
+        let op = Matrix::new(d + 1, d + 1, &places.map(entry).collect::<Vec<_>>());
         Ok(Piece { target: 0, op, reversed: flag(map, "reversed")? })
     }
 
@@ -294,9 +297,7 @@ impl Reader {
         let dim = states[start].dim;
         let view = match get(case, "control") {
             Some(value) => self.matrix(value, "control")?.transpose(),
-            None if get(case, "map").is_some() => {
-                Matrix::from_fn(dim - 1, dim, |i, j| if i + 1 == j { Q::one() } else { Q::zero() })
-            }
+            None if get(case, "map").is_some() => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
         let counts = states.iter().all(|s| (1..=MAX_PIECES).contains(&s.pieces.len()));

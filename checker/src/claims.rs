@@ -4,12 +4,11 @@ use crate::case::Case;
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::number::whole;
 use crate::points::{Place, Point, joints};
 use crate::ring::Model;
 use crate::shape::{Address, End, Kind};
 use crate::spectrum::positive_definite;
-use crate::{Accepted, Rejected, Verdict, at, reject};
+use crate::{Accepted, Rejected, Verdict, at, need, reject};
 use num_traits::Signed;
 
 /// What a case asks.
@@ -232,7 +231,7 @@ impl Claims<'_> {
     /// All first-level joints of all reachable states are listed, and there is one.
     fn complete(&self, listed: &[(usize, usize, usize)], node: &Node<'_>) -> Result<(), Rejected> {
         for &e in &self.model.reachable {
-            for (left, right) in joints(self.model, e)? {
+            for (left, right) in joints(self.model, e) {
                 if !listed.contains(&(e, left, right)) {
                     let why = format!("the joint of the pieces {left} and {right} of state {e} is missing");
                     return reject("joints", &node.place, why);
@@ -254,26 +253,23 @@ impl Claims<'_> {
             }
         }
         let start = spaces.of(shape.start)?;
-        let seen = shape.view.times(&start.basis.transpose())?.rank()?;
-        if with_view && seen != start.visible.rows {
-            return reject("joints", "", "the map into the space where the shape is looked at is not injective");
-        }
-        Ok(())
+        let injective = !with_view || shape.view.times(&start.basis)?.rank()? == start.visible.rows;
+        need(injective, "joints", "the map into the space where the shape is looked at is not injective")
     }
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
     fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Result<(), Rejected> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         let mut listed = Vec::new();
-        let mut spans: Vec<Matrix> = (0..shape.states.len()).map(|_| Matrix::from_rows(0, &[])).collect();
+        let mut spans = vec![Matrix::empty(0); shape.states.len()];
         for &e in &self.model.reachable {
-            spans[e] = Matrix::from_rows(spaces.of(e)?.visible.rows, &[]);
+            spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
         }
         for item in items {
             let [state, point] = item.fields(["state", "point"])?;
             let e = state.index(shape.states.len())?;
             let space = at(&state.place, spaces.of(e))?;
-            let root = Root { state: e, view: space.visible.times(&space.reading())? };
+            let root = Root { state: e, view: space.visible.times(&space.reading)? };
             let point = Point::check(self.model, &root, &point)?;
             let Place::Joint { path, left, right } = &point.place else {
                 return reject("joints", &item.place, "a joint is needed here");
@@ -283,7 +279,7 @@ impl Claims<'_> {
             }
             listed.push((e, *left, *right));
             if let Some(vector) = point.common {
-                spans[e] = spans[e].stack(&Matrix::from_rows(vector.len(), &[vector])).echelon()?.0;
+                spans[e] = spans[e].stack(&vector.transpose()).echelon()?.0;
             }
         }
         self.complete(&listed, node)?;
@@ -316,7 +312,7 @@ impl Claims<'_> {
         }
         let mut products: Vec<Matrix> = (0..shape.states.len()).map(|_| Matrix::identity(0)).collect();
         for (item, &e) in items.iter().zip(&self.model.reachable) {
-            let n = spaces.of(e)?.basis.rows;
+            let n = spaces.of(e)?.basis.cols;
             if n < 2 {
                 return reject("similarities", &item.place, "the relevant space has fewer than 2 dimensions");
             }
@@ -328,19 +324,12 @@ impl Claims<'_> {
                 let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
                 let own = &products[piece.target];
                 let ratio = pulled.at(0, 0) / own.at(0, 0);
-                if !ratio.is_positive() || pulled != own.plus(&(&ratio - whole(1)), own) {
-                    return reject("similarities", &node.place, format!("a map of state {e} is no similarity"));
-                }
+                let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
+                node.need(similar, "similarities", &format!("a map of state {e} is no similarity"))?;
             }
         }
         let start = spaces.of(shape.start)?;
-        if shape.view.times(&start.basis.transpose())?.rank()? != start.basis.rows {
-            return reject(
-                "similarities",
-                &node.place,
-                "the map into the space where the shape is looked at is not injective",
-            );
-        }
-        Ok(())
+        let injective = shape.view.times(&start.basis)?.rank()? == start.basis.cols;
+        node.need(injective, "similarities", "the map into the space where the shape is looked at is not injective")
     }
 }

@@ -3,15 +3,14 @@
 
 use crate::germ::Root;
 use crate::json::Node;
-use crate::matrix::{Matrix, difference, dot};
-use crate::number::{Q, sign, whole};
+use crate::matrix::Matrix;
+use crate::number::{Q, whole};
 use crate::points::{Place, Point, joints};
-use crate::poly::{Poly, combine, weighted};
 use crate::ring::Model;
 use crate::shape::{End, Kind};
-use crate::spectrum::Top;
+use crate::spectrum::{Top, residual};
 use crate::{Rejected, Verdict, at, reject};
-use num_traits::{One, Signed, Zero};
+use num_traits::{Signed, Zero};
 
 /// Longest window, and most words of one window without a positive factor.
 const MAX_WINDOW: usize = 8;
@@ -55,7 +54,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Ans
     let first = at(&view.place, found.seen(&cones, &view))?;
     at(&slow.place, found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
     let exponent = at(&rate.place, found.rate(&rate))?;
-    let agree = !together.list()?.is_empty() || found.without_joints()?;
+    let agree = !together.list()?.is_empty() || model.reachable.iter().all(|&e| joints(model, e).is_empty());
     if agree {
         at(&together.place, regular_joints(model, points, &together))?;
     }
@@ -100,7 +99,7 @@ fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Resul
             let [state, point] = item.fields(["state", "point"])?;
             let e = state.index(model.shape.states.len())?;
             let space = at(&state.place, model.spaces.of(e))?;
-            let root = Root { state: e, view: space.visible.times(&space.reading())? };
+            let root = Root { state: e, view: space.visible.times(&space.reading)? };
             own = Point::check(model, &root, &point)?;
             if !matches!(&own.place, Place::Joint { path, .. } if path.is_empty()) {
                 return reject("every-point", &item.place, "a first-level joint is needed here");
@@ -116,7 +115,7 @@ fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Resul
         listed.push((e, *left, *right));
     }
     for &e in &model.reachable {
-        for (left, right) in joints(model, e)? {
+        for (left, right) in joints(model, e) {
             if !listed.contains(&(e, left, right)) {
                 let why = format!("the joint of the pieces {left} and {right} of state {e} is missing");
                 return reject("every-point", &node.place, why);
@@ -132,7 +131,7 @@ fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<(), Rejected>
     let Place::Joint { path, .. } = &point.place else { return reject("every-point", "", "a joint is needed here") };
     let (op, end) = shape.product(shape.start, path)?;
     let space = model.spaces.of(e)?;
-    let seen = shape.view.times(&op)?.times(&space.basis.transpose())?;
+    let seen = shape.view.times(&op)?.times(&space.basis)?;
     if end != e || seen.rank()? != space.visible.rows {
         return reject("every-point", "", "the joint of another state, or directions are lost where it is looked at");
     }
@@ -141,11 +140,8 @@ fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<(), Rejected>
 
 /// Reads a matrix of the given size, by rows.
 fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Result<Matrix, Rejected> {
-    let items = node.list()?;
-    if items.len() != rows {
-        return node.malformed(&format!("{rows} rows are needed here"));
-    }
-    Ok(Matrix::from_rows(cols, &items.iter().map(|r| r.vector(cols)).collect::<Result<Vec<_>, _>>()?))
+    let found = node.matrix(cols)?;
+    if found.rows == rows { Ok(found) } else { node.malformed(&format!("{rows} rows are needed here")) }
 }
 
 impl<'a> Cones<'a> {
@@ -156,7 +152,7 @@ impl<'a> Cones<'a> {
         if own.len() != model.reachable.len() || images.len() != own.len() {
             return reject("cone", &cones.place, "one cone for each reachable state is needed, breadth first");
         }
-        let mut rays: Vec<Matrix> = shape.states.iter().map(|s| Matrix::from_rows(s.dim, &[])).collect();
+        let mut rays: Vec<Matrix> = shape.states.iter().map(|s| Matrix::empty(s.dim)).collect();
         for (item, &e) in own.iter().zip(&model.reachable) {
             rays[e] = at(&item.place, Self::cone(model, e, item))?;
         }
@@ -168,14 +164,14 @@ impl<'a> Cones<'a> {
             }
             for (item, piece) in items.iter().zip(&shape.states[e].pieces) {
                 let b = matrix(item, rays[e].rows, rays[piece.target].rows)?;
-                let zero = (0..b.cols).any(|j| b.column(j).iter().all(Zero::is_zero));
-                if zero || b.entries().iter().any(Signed::is_negative) {
+                let zero = (0..b.cols).any(|j| b.columns(&[j]).is_zero());
+                if zero || b.data.iter().any(Signed::is_negative) {
                     return reject("cone", &item.place, "coefficients are not negative, and no column is 0");
                 }
-                let turned = if piece.reversed { -Q::one() } else { Q::one() };
+                let turned = whole(if piece.reversed { -1 } else { 1 });
                 let image = piece.op.times(&rays[piece.target].transpose())?;
                 let combined = rays[e].transpose().times(&b)?;
-                if image != combined.plus(&(turned - Q::one()), &combined) {
+                if image != combined.scaled(&turned) {
                     return reject("cone", &item.place, "the images of the rays are other vectors");
                 }
                 all[e].push(b);
@@ -187,27 +183,22 @@ impl<'a> Cones<'a> {
     fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Result<Matrix, Rejected> {
         let [rays, functional, chord] = node.fields(["rays", "functional", "chord"])?;
         let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
-        if state.kind != Kind::Edge || space.basis.rows == 0 {
+        if state.kind != Kind::Edge || space.basis.cols == 0 {
             return reject("cone", &node.place, "only curves that are more than a point have cones");
         }
         let rows = matrix(&rays, rays.list()?.len(), state.dim)?;
-        let coordinates = rows.times(&space.reading().transpose())?;
-        if coordinates.times(&space.basis)? != rows || rows.rank()? != space.basis.rows {
+        let coordinates = space.reading.times(&rows.transpose())?;
+        if space.basis.times(&coordinates)? != rows.transpose() || rows.rank()? != space.basis.cols {
             return reject("cone", &rays.place, "the rays do not span the relevant space");
         }
-        let f = functional.vector(state.dim)?;
-        for k in 0..rows.rows {
-            if !dot(&f, rows.row(k))?.is_positive() {
-                return reject("cone", &functional.place, format!("the functional is not positive on ray {k}"));
-            }
+        let values = rows.times(&Matrix::new(state.dim, 1, &functional.vector(state.dim)?))?;
+        if let Some(k) = values.data.iter().position(|x| !x.is_positive()) {
+            return reject("cone", &functional.place, format!("the functional is not positive on ray {k}"));
         }
-        let y = chord.vector(rows.rows)?;
-        let ends = [End::Finish, End::Start].map(|end| model.shape.end_point(e, end));
-        let [finish, start] = ends;
-        if y.iter().any(Signed::is_negative)
-            || y.iter().all(Zero::is_zero)
-            || rows.transpose().apply(&y)? != difference(&finish?, &start?)
-        {
+        let y = Matrix::new(rows.rows, 1, &chord.vector(rows.rows)?);
+        let end = |end: End| model.shape.end_point(e, end);
+        let difference = end(End::Finish)?.minus(&end(End::Start)?);
+        if y.is_zero() || y.data.iter().any(Signed::is_negative) || rows.transpose().times(&y)? != difference {
             return reject("cone", &chord.place, "the chord is no such combination of the rays");
         }
         Ok(rows)
@@ -220,22 +211,11 @@ impl<'a> Cones<'a> {
         }
         let start = self.model.shape.start;
         let images = self.model.shape.view.times(&self.rays[start].transpose())?;
-        let h = view.vector(images.rows)?;
-        for k in 0..images.cols {
-            if !dot(&h, &images.column(k))?.is_positive() {
-                return reject("cone", &cones.place, format!("the functional of the view is not positive on ray {k}"));
-            }
+        let values = Matrix::new(1, images.rows, &view.vector(images.rows)?).times(&images)?;
+        match values.data.iter().position(|x| !x.is_positive()) {
+            Some(k) => reject("cone", &cones.place, format!("the functional of the view is not positive on ray {k}")),
+            None => Ok(true),
         }
-        Ok(true)
-    }
-
-    fn without_joints(&self) -> Result<bool, Rejected> {
-        for &e in &self.model.reachable {
-            if !joints(self.model, e)?.is_empty() {
-                return Ok(false);
-            }
-        }
-        Ok(true)
     }
 
     /// All words of `length` letters whose factors have no positive product, by state and then by letters, with the state.
@@ -270,7 +250,7 @@ impl<'a> Cones<'a> {
                 None => step,
                 Some(p) => pattern(&step.times(&p)?),
             };
-            if next.entries().iter().all(Signed::is_positive) {
+            if next.data.iter().all(Signed::is_positive) {
                 return Ok(false);
             }
             product = Some(next);
@@ -339,9 +319,8 @@ impl<'a> Cones<'a> {
         }
         let model = self.model;
         let (product, _) = model.shape.product(e, word)?;
-        let plain = model.spaces.linear(&product, e, e)?;
         let turn = whole(i64::from(model.shape.orientation(e, word)));
-        let linear = plain.plus(&(turn - Q::one()), &plain);
+        let linear = model.spaces.linear(&product, e, e)?.scaled(&turn);
         let Top::Real { field, chains } = Top::read(&top, &linear)? else {
             return reject("slow", &top.place, "a real top is needed here");
         };
@@ -354,47 +333,35 @@ impl<'a> Cones<'a> {
             return reject("slow", &top.place, "the leading eigenvalue must be positive");
         }
         let row = field.vector(&functional, linear.rows)?;
-        let theta = field.reduce(vec![Q::zero(), whole(i64::from(chain.sign))])?;
-        for j in 0..linear.cols {
-            let rest = combine(&weighted(&linear.column(j), &row)?, &-Q::one(), &field.times(&theta, &row[j])?);
-            if !rest.is_empty() {
-                return reject("slow", &functional.place, "the row is no left eigenvector");
-            }
+        if !residual(&field, &linear.transpose(), chain.sign, &row)?.is_zero() {
+            return reject("slow", &functional.place, "the row is no left eigenvector");
         }
         for other in &chains {
             let pairing = field.dot(&row, &other.vectors[other.vectors.len() - 1])?;
-            if !std::ptr::eq(other, *longest.first().unwrap_or(&chain)) && !pairing.is_empty() {
+            if !std::ptr::eq(other, chain) && !pairing.is_zero() {
                 return reject("slow", &functional.place, "the row sees a shorter chain");
             }
         }
-        let pairing = field.enclose(&field.dot(&row, &chain.vectors[length - 1])?)?.sign();
+        let pairing = field.sign(&field.dot(&row, &chain.vectors[length - 1])?)?;
         if pairing == 0 {
             return reject("slow", &functional.place, "the row is not seen to be nonzero");
         }
-        let rays = self.rays[e].times(&model.spaces.of(e)?.reading().transpose())?;
+        let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
         for k in 0..rays.rows {
             let ray = rays.row(k);
-            let value = field.enclose(&weighted(ray, &row)?)?.sign();
-            if value > 0 {
+            if field.sign(&ray.times(&row)?)? > 0 {
                 continue;
             }
             // The others tend to `pairing · v_1`; this one must be a positive multiple of it.
-            let v = &chain.vectors[0];
-            let mut along = 0;
-            for i in 0..ray.len() {
-                for j in 0..i {
-                    if combine(&scaled(&v[j], &ray[i]), &-Q::one(), &scaled(&v[i], &ray[j])) != Poly::new() {
-                        return reject(
-                            "slow",
-                            &functional.place,
-                            format!("the leading coefficient of ray {k} is not positive"),
-                        );
-                    }
-                }
-                if along == 0 {
-                    along = field.enclose(&v[i])?.sign() * sign(&ray[i]);
-                }
+            let (v, ray) = (&chain.vectors[0], ray.entries());
+            let parallel = |i: usize| (0..i).all(|j| v.row(j).scaled(&ray[i]) == v.row(i).scaled(&ray[j]));
+            if !(0..ray.len()).all(parallel) {
+                let why = format!("the leading coefficient of ray {k} is not positive");
+                return reject("slow", &functional.place, why);
             }
+            let values = field.enclose(v)?;
+            let along = (0..ray.len()).map(|i| values.sign(i) * if ray[i].is_negative() { -1 } else { 1 });
+            let along = along.zip(&ray).find(|(s, x)| *s != 0 && !x.is_zero()).map_or(0, |(s, _)| s);
             if along != pairing {
                 return reject(
                     "slow",
@@ -429,7 +396,7 @@ impl<'a> Cones<'a> {
             layer = longer;
         }
         for (_, b) in &layer {
-            if length == 0 || b.entries().iter().any(|x| !x.is_positive()) || !within(b, &most) {
+            if length == 0 || b.data.iter().any(|x| !x.is_positive()) || !within(b, &most) {
                 return reject("rate", &bound.place, "a product is not positive, or has a larger cross-ratio");
             }
         }
@@ -437,13 +404,9 @@ impl<'a> Cones<'a> {
     }
 }
 
-fn scaled(p: &Poly, factor: &Q) -> Poly {
-    combine(&Poly::new(), factor, p)
-}
-
 /// 1 where an entry is positive, otherwise 0.
 fn pattern(m: &Matrix) -> Matrix {
-    Matrix::from_fn(m.rows, m.cols, |i, j| if m.at(i, j).is_positive() { Q::one() } else { Q::zero() })
+    Matrix::ones(m.rows, m.cols, |i, j| m.data[i * m.cols + j].is_positive())
 }
 
 /// Whether `b_ij b_kl <= D b_kj b_il` for all entries of a positive matrix.

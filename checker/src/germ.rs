@@ -1,11 +1,9 @@
 //! The germ of one branch `u w^ω`: its visible quotient `Y = V/N_G`, the map `L` on it, and its ring (theory §3, §9).
 
-use crate::matrix::{Matrix, difference};
-use crate::number::Q;
+use crate::matrix::Matrix;
 use crate::ring::Model;
 use crate::shape::{Address, Kind};
-use crate::{Rejected, reject};
-use num_traits::{One, Zero};
+use crate::{Rejected, need, reject};
 
 /// Where a piece of the ring lies with respect to the germ's point, in the order of the germ's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +23,8 @@ pub struct RingPiece {
     pub word: Vec<usize>,
     /// The state where it ends.
     pub end: usize,
+    /// Its operator.
+    pub op: Matrix,
     /// Its place.
     pub position: Position,
 }
@@ -46,7 +46,7 @@ pub struct Germ {
     /// The orientation of the cycle, `1` where the state is no curve.
     pub turn: i32,
     /// The fixed point `q` of the cycle.
-    pub fixed: Vec<Q>,
+    pub fixed: Matrix,
     /// Coordinates on `Y`: those of a point `x` are `chart (x − q)`.
     pub chart: Matrix,
     /// `L` on `Y`.
@@ -63,30 +63,17 @@ impl Germ {
         let shape = model.shape;
         let (prefix, state) = shape.product(root.state, &address.prefix)?;
         let (cycle, back) = shape.product(state, &address.cycle)?;
-        if back != state || address.cycle.is_empty() {
-            return reject("word", "", "the cycle does not return to its state");
-        }
+        need(back == state && !address.cycle.is_empty(), "word", "the cycle does not return to its state")?;
         let Some(fixed) = cycle.fixed_point()? else { return reject("fixed-point", "", "a fixed point is not unique") };
         let space = model.spaces.of(state)?;
-        let view_on_v = root.view.times(&prefix)?.times(&space.basis.transpose())?;
+        let view_on_v = root.view.times(&prefix)?.times(&space.basis)?;
         let linear_v = model.spaces.linear(&cycle, state, state)?;
-        // The smallest L-invariant space of rows that contains those of G; its kernel is N_G.
-        let (mut rows, mut pivots) = view_on_v.echelon()?;
-        loop {
-            let (grown, grown_pivots) = rows.stack(&rows.times(&linear_v)?).echelon()?;
-            if grown_pivots.len() == pivots.len() {
-                break;
-            }
-            (rows, pivots) = (grown, grown_pivots);
-        }
-        if pivots.is_empty() {
-            return reject("germ", "", "the germ is a single point");
-        }
-        let one = |i: usize, k: usize| if pivots[k] == i { Q::one() } else { Q::zero() };
-        let lift = Matrix::from_fn(linear_v.rows, pivots.len(), one);
-        let chart = rows.times(&space.reading())?;
-        let linear = rows.times(&linear_v)?.times(&lift)?;
-        let view = view_on_v.times(&lift)?;
+        // The kernel of these rows is N_G.
+        let (rows, pivots) = view_on_v.hull(&linear_v)?;
+        need(!pivots.is_empty(), "germ", "the germ is a single point")?;
+        let chart = rows.times(&space.reading)?;
+        let linear = rows.times(&linear_v.columns(&pivots))?;
+        let view = view_on_v.columns(&pivots);
         let ordered = shape.states[state].kind == Kind::Edge;
         let turn = if ordered { shape.orientation(state, &address.cycle) } else { 1 };
         let prefix_sign = shape.orientation(root.state, &address.prefix);
@@ -101,8 +88,8 @@ impl Germ {
     }
 
     /// The coordinates of a point of the attractor of the germ's state.
-    pub fn coordinates(&self, point: &[Q]) -> Result<Vec<Q>, Rejected> {
-        self.chart.apply(&difference(point, &self.fixed))
+    pub fn coordinates(&self, point: &Matrix) -> Result<Matrix, Rejected> {
+        self.chart.times(&point.minus(&self.fixed))
     }
 
     /// The standard ring of the cycle without repeated pieces of sets, copies of `q`, and pieces that collapse (Lemma 2).
@@ -127,17 +114,16 @@ impl Germ {
                     && ((cycled.target == piece.target && cycled.op == piece.op)
                         || level.contains(&(piece.target, op.clone())));
                 let space = model.spaces.of(piece.target)?;
-                let image = op.apply(&space.base)?;
-                let directions = op.times(&space.basis.transpose())?;
-                let is_fixed = model.spaces.is_point(piece)? && image == self.fixed;
+                let image = op.times(&space.base)?;
+                let is_fixed = model.spaces.is_point(at, letter) && image == self.fixed;
                 if repeated || is_fixed {
                     continue;
                 }
-                let offset = falls.apply(&difference(&image, &self.fixed))?;
-                let collapses = offset.iter().all(Zero::is_zero) && falls.times(&directions)?.is_zero();
+                let collapses = falls.times(&image.minus(&self.fixed))?.is_zero()
+                    && falls.times(&op)?.times(&space.basis)?.is_zero();
                 if !collapses {
                     let word = [&cycle[..i], &[letter]].concat();
-                    kept.push(RingPiece { word, end: piece.target, position });
+                    kept.push(RingPiece { word, end: piece.target, op: op.clone(), position });
                 }
                 level.push((piece.target, op));
             }

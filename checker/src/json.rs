@@ -1,5 +1,6 @@
 //! A strict JSON reader: no floats, no negative integers, no repeated keys, and the fields of every object in their order.
 
+use crate::matrix::Matrix;
 use crate::number::{Q, canonical};
 use crate::{Rejected, reject};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
@@ -76,6 +77,16 @@ impl<'a> Node<'a> {
         reject("format", &self.place, why)
     }
 
+    /// A rejection of this value unless a premise holds.
+    pub fn need(&self, holds: bool, rule: &str, why: &str) -> Result<(), Rejected> {
+        if holds { Ok(()) } else { reject(rule, &self.place, why) }
+    }
+
+    /// Whether this is `null`.
+    pub fn is_null(&self) -> bool {
+        matches!(self.value, Json::Null)
+    }
+
     /// The values of an object with exactly these fields in this order.
     pub fn fields<const K: usize>(&self, names: [&str; K]) -> Result<[Node<'a>; K], Rejected> {
         let Json::Object(fields) = self.value else { return self.malformed("an object is needed here") };
@@ -105,11 +116,6 @@ impl<'a> Node<'a> {
             },
             _ => self.malformed("an object is needed here"),
         }
-    }
-
-    /// Whether the value is null.
-    pub fn is_null(&self) -> bool {
-        matches!(self.value, Json::Null)
     }
 
     /// The elements of a list.
@@ -150,6 +156,12 @@ impl<'a> Node<'a> {
             return self.malformed(&format!("{count} numbers are needed here"));
         }
         items.iter().map(Node::rational).collect()
+    }
+
+    /// A matrix as a list of its rows, of which each has `cols` entries.
+    pub fn matrix(&self, cols: usize) -> Result<Matrix, Rejected> {
+        let rows = self.list()?.iter().map(|row| row.vector(cols)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Matrix::from_rows(cols, &rows))
     }
 
     /// A word: a list of at most 1000 letters below 64.

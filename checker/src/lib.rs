@@ -7,6 +7,7 @@ pub mod case;
 mod claims;
 mod everywhere;
 mod germ;
+mod jordan;
 pub mod json;
 pub mod matrix;
 pub mod number;
@@ -97,6 +98,11 @@ fn reject<T>(rule: &str, place: &str, why: impl Into<String>) -> Result<T, Rejec
     Err(Rejected { rule: rule.to_owned(), place: place.to_owned(), why: why.into(), unreadable: false })
 }
 
+/// A rejection without a place unless a premise holds.
+fn need(holds: bool, rule: &str, why: &str) -> Result<(), Rejected> {
+    if holds { Ok(()) } else { reject(rule, "", why) }
+}
+
 /// Gives a rejection that has no place yet one.
 fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
     result.map_err(|r| if r.place.is_empty() { Rejected { place: place.to_owned(), ..r } } else { r })
@@ -135,6 +141,7 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
             Ok(case) => claims::check(&case, &proof)?,
             Err(why) => return unreadable("case", why),
         },
+        "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };

@@ -1,58 +1,89 @@
-//! Exact matrices over the rational numbers.
+//! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
 
 use crate::Rejected;
-use crate::number::{Q, size, spend};
-use num_traits::{One, Zero};
+use crate::number::{Q, spend};
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
-/// A matrix, stored by rows.
-#[derive(Debug, Clone, PartialEq)]
+/// A matrix, stored by rows; a point is a matrix with one column.
+#[derive(Debug, Clone)]
 pub struct Matrix {
     /// Number of rows.
     pub rows: usize,
     /// Number of columns.
     pub cols: usize,
-    data: Vec<Q>,
+    /// The entries times the denominator.
+    pub data: Vec<BigInt>,
+    /// The denominator, positive.
+    pub den: BigInt,
+}
+
+impl PartialEq for Matrix {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |(a, b): (&BigInt, &BigInt)| a * &other.den == b * &self.den;
+        (self.rows, self.cols) == (other.rows, other.cols) && self.data.iter().zip(&other.data).all(same)
+    }
 }
 
 impl Matrix {
-    /// The matrix with entries `f(row, column)`.
-    pub fn from_fn(rows: usize, cols: usize, f: impl Fn(usize, usize) -> Q) -> Self {
-        Self { rows, cols, data: (0..rows * cols).map(|k| f(k / cols, k % cols)).collect() }
+    /// The matrix with the given entries, row after row.
+    pub fn new(rows: usize, cols: usize, entries: &[Q]) -> Self {
+        let den = entries.iter().fold(BigInt::one(), |l, x| lcm(&l, x.denom()));
+        Self { rows, cols, data: entries.iter().map(|x| x.numer() * (&den / x.denom())).collect(), den }
     }
 
     /// The matrix with the given rows, each of length `cols`.
     pub fn from_rows(cols: usize, rows: &[Vec<Q>]) -> Self {
-        Self::from_fn(rows.len(), cols, |i, j| rows[i][j].clone())
+        Self::new(rows.len(), cols, &rows.concat())
+    }
+
+    /// The matrix with 1 where `f(row, column)` holds and 0 elsewhere.
+    pub fn ones(rows: usize, cols: usize, f: impl Fn(usize, usize) -> bool) -> Self {
+        let entry = |k: usize| BigInt::from(u8::from(f(k / cols, k % cols)));
+        Self { rows, cols, data: (0..rows * cols).map(entry).collect(), den: BigInt::one() }
     }
 
     /// The identity.
     pub fn identity(n: usize) -> Self {
-        Self::from_fn(n, n, |i, j| if i == j { Q::one() } else { Q::zero() })
+        Self::ones(n, n, |i, j| i == j)
+    }
+
+    /// The matrix with no rows.
+    pub fn empty(cols: usize) -> Self {
+        Self::ones(0, cols, |_, _| false)
     }
 
     /// The entry in row `i` and column `j`.
-    pub fn at(&self, i: usize, j: usize) -> &Q {
-        &self.data[i * self.cols + j]
+    pub fn at(&self, i: usize, j: usize) -> Q {
+        Q::new(self.data[i * self.cols + j].clone(), self.den.clone())
     }
 
-    /// Row `i`.
-    pub fn row(&self, i: usize) -> &[Q] {
+    /// The integers of row `i`.
+    pub fn integers(&self, i: usize) -> &[BigInt] {
         &self.data[i * self.cols..(i + 1) * self.cols]
     }
 
-    /// Column `j`.
-    pub fn column(&self, j: usize) -> Vec<Q> {
-        (0..self.rows).map(|i| self.at(i, j).clone()).collect()
+    /// The matrix of one row.
+    pub fn row(&self, i: usize) -> Self {
+        Self { rows: 1, cols: self.cols, data: self.integers(i).to_vec(), den: self.den.clone() }
     }
 
-    /// All entries.
-    pub fn entries(&self) -> &[Q] {
-        &self.data
+    /// The matrix of these columns.
+    pub fn columns(&self, chosen: &[usize]) -> Self {
+        let entries = (0..self.rows).flat_map(|i| chosen.iter().map(move |&j| self.data[i * self.cols + j].clone()));
+        Self { rows: self.rows, cols: chosen.len(), data: entries.collect(), den: self.den.clone() }
+    }
+
+    /// All entries, row after row.
+    pub fn entries(&self) -> Vec<Q> {
+        self.data.iter().map(|x| Q::new(x.clone(), self.den.clone())).collect()
     }
 
     /// The transpose.
     pub fn transpose(&self) -> Self {
-        Self::from_fn(self.cols, self.rows, |i, j| self.at(j, i).clone())
+        let data = (0..self.data.len()).map(|k| self.data[k % self.rows * self.cols + k / self.rows].clone());
+        Self { rows: self.cols, cols: self.rows, data: data.collect(), den: self.den.clone() }
     }
 
     /// Whether all entries are 0.
@@ -60,53 +91,83 @@ impl Matrix {
         self.data.iter().all(Zero::is_zero)
     }
 
+    /// The largest size of the integers in bits.
+    pub fn bits(&self) -> u64 {
+        self.data.iter().chain([&self.den]).map(BigInt::bits).max().unwrap_or(0)
+    }
+
     /// The product.
     pub fn times(&self, other: &Self) -> Result<Self, Rejected> {
-        spend(self.rows * self.cols * other.cols, size(&self.data).max(size(&other.data)))?;
-        Ok(Self::from_fn(self.rows, other.cols, |i, j| {
-            let terms = (0..self.cols).filter(|&k| !self.at(i, k).is_zero() && !other.at(k, j).is_zero());
-            terms.fold(Q::zero(), |s, k| s + self.at(i, k) * other.at(k, j))
-        }))
+        spend(self.rows * self.cols * other.cols, self.bits().max(other.bits()))?;
+        let mut data = Vec::with_capacity(self.rows * other.cols);
+        for i in 0..self.rows {
+            let row = self.integers(i);
+            for j in 0..other.cols {
+                let mut sum = BigInt::zero();
+                for (a, b) in row.iter().zip(other.data.iter().skip(j).step_by(other.cols)) {
+                    if !a.is_zero() && !b.is_zero() {
+                        sum += a * b;
+                    }
+                }
+                data.push(sum);
+            }
+        }
+        Ok(Self { rows: self.rows, cols: other.cols, data, den: &self.den * &other.den })
     }
 
-    /// The matrix times a column.
-    pub fn apply(&self, v: &[Q]) -> Result<Vec<Q>, Rejected> {
-        (0..self.rows).map(|i| dot(self.row(i), v)).collect()
-    }
-
-    /// `self − factor · identity` and the like: the entrywise combination `self + factor · other`.
+    /// `self + factor · other`.
     pub fn plus(&self, factor: &Q, other: &Self) -> Self {
-        Self::from_fn(self.rows, self.cols, |i, j| self.at(i, j) + factor * other.at(i, j))
+        let own = &other.den * factor.denom();
+        let den = lcm(&own, &self.den);
+        let (a, b) = (&den / &self.den, &den / &own * factor.numer());
+        let data = self.data.iter().zip(&other.data).map(|(x, y)| x * &a + y * &b).collect();
+        Self { rows: self.rows, cols: self.cols, data, den }
+    }
+
+    /// `self − other`.
+    pub fn minus(&self, other: &Self) -> Self {
+        self.plus(&-Q::one(), other)
+    }
+
+    /// The multiple by a number.
+    pub fn scaled(&self, factor: &Q) -> Self {
+        let data = self.data.iter().map(|x| x * factor.numer()).collect();
+        Self { data, den: &self.den * factor.denom(), ..*self }
     }
 
     /// The rows of `self` followed by those of `below`.
     pub fn stack(&self, below: &Self) -> Self {
-        let data = self.data.iter().chain(&below.data).cloned().collect();
-        Self { rows: self.rows + below.rows, cols: self.cols, data }
+        let (a, b) = (&below.den, &self.den);
+        let data = self.data.iter().map(|x| x * a).chain(below.data.iter().map(|x| x * b)).collect();
+        Self { rows: self.rows + below.rows, cols: self.cols, data, den: a * b }
     }
 
     /// The nonzero rows of the reduced row echelon form, and the columns of their leading ones.
     pub fn echelon(&self) -> Result<(Self, Vec<usize>), Rejected> {
-        let mut rows: Vec<Vec<Q>> = (0..self.rows).map(|i| self.row(i).to_vec()).collect();
+        let mut rows: Vec<Vec<BigInt>> = (0..self.rows).map(|i| primitive(self.integers(i).to_vec())).collect();
         let mut pivots = Vec::new();
         for j in 0..self.cols {
             let top = pivots.len();
             let Some(found) = (top..rows.len()).find(|&i| !rows[i][j].is_zero()) else { continue };
             rows.swap(top, found);
-            let lead = rows[top][j].clone();
-            spend(rows.len() * self.cols, rows.iter().map(size).max().unwrap_or(0))?;
-            rows[top].iter_mut().for_each(|x| *x = &*x / &lead);
+            let bits = rows.iter().flatten().map(BigInt::bits).max().unwrap_or(0);
+            spend(rows.len() * self.cols, bits)?;
             let pivot = rows[top].clone();
             for (i, row) in rows.iter_mut().enumerate() {
-                let factor = row[j].clone();
-                if i != top && !factor.is_zero() {
-                    row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= &factor * p);
+                if i != top && !row[j].is_zero() {
+                    let factor = row[j].clone();
+                    row.iter_mut().zip(&pivot).for_each(|(x, p)| *x = &*x * &pivot[j] - &factor * p);
+                    *row = primitive(std::mem::take(row));
                 }
             }
             pivots.push(j);
         }
-        rows.truncate(pivots.len());
-        Ok((Self::from_rows(self.cols, &rows), pivots))
+        let den = pivots.iter().zip(&rows).fold(BigInt::one(), |l, (&j, row)| lcm(&l, &row[j].abs()));
+        let scaled = pivots.iter().zip(&rows).flat_map(|(&j, row)| {
+            let factor = &den / &row[j];
+            row.iter().map(move |x| x * &factor)
+        });
+        Ok((Self { rows: pivots.len(), cols: self.cols, data: scaled.collect(), den }, pivots))
     }
 
     /// The rank.
@@ -114,53 +175,105 @@ impl Matrix {
         Ok(self.echelon()?.1.len())
     }
 
+    /// The smallest row space, in echelon form, that holds these rows and is closed under multiplication by `matrix` from
+    /// the right.
+    pub fn hull(&self, matrix: &Self) -> Result<(Self, Vec<usize>), Rejected> {
+        let (mut rows, mut pivots) = self.echelon()?;
+        while let Some(grown) = rows.joined(&rows.times(matrix)?)? {
+            (rows, pivots) = grown;
+        }
+        Ok((rows, pivots))
+    }
+
+    /// The echelon form of these rows, which are in that form, and of others; `None` where the others are combinations.
+    pub fn joined(&self, others: &Self) -> Result<Option<(Self, Vec<usize>)>, Rejected> {
+        let leading = |i: usize| self.integers(i).iter().position(|x| !x.is_zero());
+        let pivots: Vec<usize> = (0..self.rows).filter_map(leading).collect();
+        if pivots.len() == self.cols || others.columns(&pivots).times(self)? == *others {
+            return Ok(None);
+        }
+        Ok(Some(self.stack(others).echelon()?))
+    }
+
     /// The power with a natural exponent.
     pub fn power(&self, exponent: usize) -> Result<Self, Rejected> {
         (0..exponent).try_fold(Self::identity(self.rows), |p, _| p.times(self))
     }
 
-    /// The vector with coordinate sum 1 that spans the kernel of `self − 1`, if the kernel is a line and there is one.
-    pub fn fixed_point(&self) -> Result<Option<Vec<Q>>, Rejected> {
+    /// The point with coordinate sum 1 that spans the kernel of `self − 1`, if the kernel is a line and there is one.
+    pub fn fixed_point(&self) -> Result<Option<Self>, Rejected> {
         let n = self.rows;
-        let (rows, pivots) = self.plus(&-Q::one(), &Self::identity(n)).echelon()?;
-        if pivots.len() + 1 != n {
+        let (rows, pivots) = self.minus(&Self::identity(n)).echelon()?;
+        let Some(free) = (0..n).find(|j| !pivots.contains(j)).filter(|_| pivots.len() + 1 == n) else {
             return Ok(None);
-        }
-        let Some(free) = (0..n).find(|j| !pivots.contains(j)) else { return Ok(None) };
-        let mut v = vec![Q::zero(); n];
-        v[free] = Q::one();
+        };
+        let mut v = vec![rows.den.clone(); n];
         for (i, &pivot) in pivots.iter().enumerate() {
-            v[pivot] = -rows.at(i, free).clone();
+            v[pivot] = -&rows.integers(i)[free];
         }
-        let sum: Q = v.iter().sum();
-        Ok(if sum.is_zero() { None } else { Some(v.into_iter().map(|x| x / &sum).collect()) })
+        let sum: BigInt = v.iter().sum();
+        let sign = sum.signum();
+        v.iter_mut().for_each(|x| *x *= &sign);
+        Ok(if sum.is_zero() { None } else { Some(Self { rows: n, cols: 1, data: v, den: sum.abs() }.reduced()) })
     }
 
-    /// The coefficients of the characteristic polynomial `det(x − self)`, lowest first (Faddeev and LeVerrier).
-    pub fn characteristic(&self) -> Result<Vec<Q>, Rejected> {
+    /// The same matrix over its least denominator.
+    fn reduced(mut self) -> Self {
+        let common = gcd(&content(&self.data), &self.den);
+        self.data.iter_mut().for_each(|x| *x /= &common);
+        Self { den: self.den / common, ..self }
+    }
+
+    /// The coefficients of the characteristic polynomial `det(x − self)` and of the polynomial matrix `adj(x − self)`, lowest
+    /// first (Faddeev and LeVerrier).
+    pub fn characteristic(&self) -> Result<(Vec<Q>, Vec<Self>), Rejected> {
         let n = self.rows;
-        let mut coefficients = vec![Q::zero(); n + 1];
-        coefficients[n] = Q::one();
+        let (mut coefficients, mut adjugate) = (vec![Q::one()], Vec::new());
         let mut m = Self::identity(n);
         for k in 1..=n {
             let product = self.times(&m)?;
-            let trace: Q = (0..n).map(|i| product.at(i, i).clone()).sum();
-            coefficients[n - k] = -trace / crate::number::whole(k as i64);
-            m = product.plus(&coefficients[n - k], &Self::identity(n));
+            adjugate.push(m);
+            let trace: BigInt = (0..n).map(|i| &product.data[i * n + i]).sum();
+            coefficients.push(Q::new(-trace, &product.den * k));
+            m = product;
+            // The trace is a multiple of k, so that the denominator stays that of the power.
+            let diagonal = coefficients[k].numer() * (&m.den / coefficients[k].denom());
+            (0..n).for_each(|i| m.data[i * n + i] += &diagonal);
         }
-        Ok(coefficients)
+        coefficients.reverse();
+        adjugate.reverse();
+        Ok((coefficients, adjugate))
     }
 }
 
-/// The scalar product of a row and a column.
-pub fn dot(row: &[Q], v: &[Q]) -> Result<Q, Rejected> {
-    spend(row.len(), size(row).max(size(v)))?;
-    Ok(row.iter().zip(v).filter(|(a, b)| !a.is_zero() && !b.is_zero()).fold(Q::zero(), |s, (a, b)| s + a * b))
+/// The greatest common divisor, not negative; much faster than that of the library where one of the numbers is short.
+fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
+    let (short, long) = if a.bits() < b.bits() { (a, b) } else { (b, a) };
+    match short.magnitude().to_u64() {
+        Some(0) => long.abs(),
+        Some(1) => BigInt::one(),
+        Some(word) => (long.magnitude() % word).to_u64().map_or_else(BigInt::one, |rest| word.gcd(&rest).into()),
+        None => a.gcd(b),
+    }
 }
 
-/// `a − b`.
-pub fn difference(a: &[Q], b: &[Q]) -> Vec<Q> {
-    a.iter().zip(b).map(|(x, y)| x - y).collect()
+/// The least common multiple of positive numbers.
+fn lcm(a: &BigInt, b: &BigInt) -> BigInt {
+    if a == b { a.clone() } else { a / gcd(a, b) * b }
+}
+
+/// The greatest common divisor of a list.
+fn content(numbers: &[BigInt]) -> BigInt {
+    numbers.iter().fold(BigInt::zero(), |g, x| if g.is_one() { g } else { gcd(&g, x) })
+}
+
+/// The numbers without their common divisor.
+pub fn primitive(mut numbers: Vec<BigInt>) -> Vec<BigInt> {
+    let common = content(&numbers);
+    if !common.is_zero() && !common.is_one() {
+        numbers.iter_mut().for_each(|x| *x /= &common);
+    }
+    numbers
 }
 
 #[cfg(test)]
@@ -169,30 +282,40 @@ mod tests {
     use crate::number::whole;
 
     fn matrix(rows: &[&[i64]]) -> Matrix {
-        Matrix::from_fn(rows.len(), rows[0].len(), |i, j| whole(rows[i][j]))
+        Matrix::from_rows(
+            rows[0].len(),
+            &rows.iter().map(|r| r.iter().map(|&x| whole(x)).collect()).collect::<Vec<_>>(),
+        )
     }
 
     #[test]
     fn characteristic_polynomials() {
         let m = matrix(&[&[1, 2, 3], &[4, 5, 6], &[7, 8, 10]]);
-        assert_eq!(m.characteristic().unwrap(), [3, -12, -16, 1].map(whole));
+        assert_eq!(m.characteristic().unwrap().0, [3, -12, -16, 1].map(whole));
+        let half = Q::new(1.into(), 2.into());
+        let (halved, adjugate) = m.scaled(&half).characteristic().unwrap();
+        assert_eq!(halved, [whole(3) / whole(8), whole(-3), whole(-8), whole(1)]);
+        // (x − A) adj(x − A) = χ(x): the coefficient of x^0.
+        assert_eq!(m.scaled(&-half).times(&adjugate[0]).unwrap(), Matrix::identity(3).scaled(&halved[0]));
         assert_eq!(m.rank().unwrap(), 3);
         assert_eq!(matrix(&[&[1, 2], &[2, 4]]).echelon().unwrap().0, matrix(&[&[1, 2]]));
+        let echelon = matrix(&[&[0, 2, 1], &[-3, 0, 5]]).echelon().unwrap();
+        assert_eq!(
+            echelon.0.entries(),
+            [3, 0, -5, 0, 3, 0]
+                .map(|x| whole(x) / whole(3))
+                .iter()
+                .enumerate()
+                .map(|(k, x)| if k == 5 { whole(1) / whole(2) } else { x.clone() })
+                .collect::<Vec<_>>()
+        );
+        assert_eq!(echelon.1, [0, 1]);
     }
 
     #[test]
     fn fixed_points() {
-        let half = Q::new(1.into(), 2.into());
-        let m = Matrix::from_fn(2, 2, |i, j| {
-            if (i, j) == (0, 1) {
-                Q::zero()
-            } else if (i, j) == (1, 1) {
-                Q::one()
-            } else {
-                half.clone()
-            }
-        });
-        assert_eq!(m.fixed_point().unwrap().unwrap(), [0, 1].map(whole));
+        let m = matrix(&[&[1, 0], &[1, 2]]).scaled(&Q::new(1.into(), 2.into()));
+        assert_eq!(m.fixed_point().unwrap().unwrap(), matrix(&[&[0], &[1]]));
         assert!(Matrix::identity(2).fixed_point().unwrap().is_none());
     }
 }

@@ -3,7 +3,7 @@
 use crate::Rejected;
 use num_bigint::BigInt;
 pub use num_rational::BigRational as Q;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Zero};
 use std::cell::Cell;
 
 /// Longest number in digits, exponents included.
@@ -32,19 +32,9 @@ pub fn bits(x: &Q) -> u64 {
     x.numer().bits() + x.denom().bits()
 }
 
-/// The largest size in a list.
-pub fn size<'a>(numbers: impl IntoIterator<Item = &'a Q>) -> u64 {
-    numbers.into_iter().map(bits).max().unwrap_or(0)
-}
-
 /// A small whole number.
 pub fn whole(k: i64) -> Q {
     Q::from_integer(BigInt::from(k))
-}
-
-/// The sign as `-1`, `0` or `1`.
-pub fn sign(x: &Q) -> i32 {
-    if x.is_positive() { 1 } else { -i32::from(x.is_negative()) }
 }
 
 /// Reads a rational number in canonical form: lowest terms, no superfluous sign, zero or denominator.

@@ -2,10 +2,10 @@
 
 use crate::germ::Root;
 use crate::json::Node;
-use crate::number::Q;
+use crate::matrix::Matrix;
 use crate::ring::Model;
 use crate::rules::{self, Found, Line};
-use crate::shape::{Address, End, Kind, Piece};
+use crate::shape::{Address, End, Kind};
 use crate::{Rejected, Verdict, at, reject};
 
 /// Where a point sits.
@@ -45,7 +45,7 @@ pub struct Point {
     /// Its kind, such as `cusp`.
     pub kind: &'static str,
     /// A rational vector of its tangent line, where the certificate gives one.
-    pub common: Option<Vec<Q>>,
+    pub common: Option<Matrix>,
 }
 
 impl Place {
@@ -87,7 +87,7 @@ impl Place {
             Self::Joint { path, left, right } => {
                 let state = model.shape.path(root.state, path).and_then(|p| p.last().copied());
                 let Some(state) = state else { return reject("joint", "", "a letter of the path does not exist") };
-                if !joints(model, state)?.contains(&(*left, *right)) {
+                if !joints(model, state).contains(&(*left, *right)) {
                     return reject("joint", "", "the pieces are no neighbours that are more than points");
                 }
                 let branch = |letter: usize, end: End| {
@@ -113,17 +113,14 @@ impl Place {
         if states.iter().chain(&cycle).any(|&e| shape.states[e].kind != Kind::Edge) {
             return Ok(Self::OfSet(address.clone()));
         }
-        let mut end = None;
-        for candidate in [End::Start, End::Finish] {
-            if end.is_none() && is_end(model, state, &address.cycle, candidate)? {
-                end = Some(candidate);
-            }
-        }
-        let Some(mut end) = end else { return Ok(Self::Inside(address.clone())) };
+        let mut ends = [End::Start, End::Finish].into_iter();
+        let Some(mut end) = ends.find(|&end| is_end(model, state, &address.cycle, end)) else {
+            return Ok(Self::Inside(address.clone()));
+        };
         for (k, &letter) in address.prefix.iter().enumerate().rev() {
             end = end.in_piece(&shape.states[states[k]].pieces[letter]);
             let meets = |(l, r): &(usize, usize)| if end == End::Start { *r == letter } else { *l == letter };
-            if let Some((left, right)) = joints(model, states[k])?.into_iter().find(meets) {
+            if let Some((left, right)) = joints(model, states[k]).into_iter().find(meets) {
                 return Ok(Self::Joint { path: address.prefix[..k].to_vec(), left, right });
             }
         }
@@ -132,19 +129,14 @@ impl Place {
 }
 
 /// The pairs of neighbouring pieces of a state that are more than points.
-pub fn joints(model: &Model<'_>, state: usize) -> Result<Vec<(usize, usize)>, Rejected> {
+pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
     let pieces = &model.shape.states[state].pieces;
-    let mut solid = Vec::new();
-    for (k, piece) in pieces.iter().enumerate() {
-        if !model.spaces.is_point(piece)? {
-            solid.push(k);
-        }
-    }
-    Ok(solid.windows(2).map(|w| (w[0], w[1])).collect())
+    let solid: Vec<usize> = (0..pieces.len()).filter(|&k| !model.spaces.is_point(state, k)).collect();
+    solid.windows(2).map(|w| (w[0], w[1])).collect()
 }
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Result<Address, Rejected> {
-    let skip = |p: &Piece| model.spaces.is_point(p).unwrap_or(true);
+    let skip = |e: usize, letter: usize| model.spaces.is_point(e, letter);
     match model.shape.end_address(state, end, &skip) {
         Some(address) => Ok(Address { prefix: [path, &address.prefix].concat(), ..address }),
         None => reject("end", "", "a curve all of whose pieces are points"),
@@ -152,20 +144,18 @@ fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Resu
 }
 
 /// Whether the fixed point of a cycle is this end of its cell: nothing but points lies on that side, for two turns.
-fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> Result<bool, Rejected> {
+fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> bool {
     let (mut at, mut side) = (state, end);
     for letter in cycle.iter().chain(cycle) {
         let pieces = &model.shape.states[at].pieces;
         let outside = if side == End::Start { 0..*letter } else { letter + 1..pieces.len() };
-        for i in outside {
-            if !model.spaces.is_point(&pieces[i])? {
-                return Ok(false);
-            }
+        if outside.into_iter().any(|i| !model.spaces.is_point(at, i)) {
+            return false;
         }
         side = side.in_piece(&pieces[*letter]);
         at = pieces[*letter].target;
     }
-    Ok(true)
+    true
 }
 
 impl Point {
@@ -177,7 +167,7 @@ impl Point {
         let addresses = at(&place_node.place, place.branches(model, root))?;
         let common = match common.value {
             crate::json::Json::Null => None,
-            _ => Some(common.vector(root.view.rows)?),
+            _ => Some(Matrix::new(root.view.rows, 1, &common.vector(root.view.rows)?)),
         };
         let items = branches.list()?;
         if items.len() != addresses.len() {
@@ -207,7 +197,7 @@ impl Point {
 fn conclude(
     place: Place,
     rule: &str,
-    common: Option<Vec<Q>>,
+    common: Option<Matrix>,
     found: &[(Side, Option<Found>)],
 ) -> Result<Point, Rejected> {
     let mut lines: Vec<(Side, &Line)> = Vec::new();

@@ -3,7 +3,7 @@
 use crate::case::matrix_list;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::number::{Q, bits, size, spend, whole};
+use crate::number::{Q, bits, spend, whole};
 use crate::{Accepted, Rejected, Verdict, at, reject};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -59,14 +59,15 @@ fn bounds(system: &System, node: &Node<'_>) -> Result<(String, String, Vec<Strin
         }
         // Nothing of the images of this block and those before lies after it.
         for ((from, to, _), m) in system.arrows.iter().zip(&conjugated) {
-            let below = (used[*from]..m.rows).any(|i| (start[*to]..used[*to]).any(|j| !m.at(i, j).is_zero()));
-            if below {
+            let entry = |i: usize, j: usize| &m.data[i * m.cols + j];
+            if (used[*from]..m.rows).any(|i| (start[*to]..used[*to]).any(|j| !entry(i, j).is_zero())) {
                 return reject("block", &item.place, "the matrices are not block upper triangular in these bases");
             }
         }
         let part = |(k, (from, to, _)): (usize, &(usize, usize, Matrix))| {
-            let cut = |i: usize, j: usize| conjugated[k].at(start[*from] + i, start[*to] + j).clone();
-            (*from, *to, Matrix::from_fn(dims[*from], dims[*to], cut))
+            let all = |start: usize, size: usize| (start..start + size).collect::<Vec<_>>();
+            let cols = conjugated[k].columns(&all(start[*to], dims[*to])).transpose();
+            (*from, *to, cols.columns(&all(start[*from], dims[*from])).transpose())
         };
         let arrows: Vec<_> = system.arrows.iter().enumerate().map(part).collect();
         lines.push(at(&norm.place, Block { dims, arrows }.check(&norm, &bound))?);
@@ -98,15 +99,11 @@ fn read_bases(system: &System, node: &Node<'_>) -> Result<Vec<(Matrix, Matrix)>,
             return item.malformed(&format!("{dim} vectors are needed here"));
         }
         let basis = Matrix::from_rows(dim, &vectors).transpose();
-        let one = Matrix::identity(dim);
-        let both =
-            Matrix::from_fn(dim, 2 * dim, |i, j| if j < dim { basis.at(i, j) } else { one.at(i, j - dim) }.clone());
-        let (solved, pivots) = both.echelon()?;
+        let (solved, pivots) = basis.transpose().stack(&Matrix::identity(dim)).transpose().echelon()?;
         if pivots != (0..dim).collect::<Vec<_>>() {
             return reject("block", &item.place, "the vectors are no basis");
         }
-        let inverse = Matrix::from_fn(dim, dim, |i, j| solved.at(i, dim + j).clone());
-        bases.push((basis, inverse));
+        bases.push((basis, solved.columns(&(dim..2 * dim).collect::<Vec<_>>())));
     }
     Ok(bases)
 }
@@ -132,7 +129,7 @@ fn below(system: &System, node: &Node<'_>) -> Result<Q, Rejected> {
     if end != system.arrows[*first].0 {
         return reject("word", &node.place, "the path is not closed");
     }
-    let chi = product.characteristic()?;
+    let chi = product.characteristic()?.0;
     let slope: Vec<Q> = chi.iter().enumerate().skip(1).map(|(k, c)| c * whole(k as i64)).collect();
     let (value, slope) = (square_at(&chi, &centre)?, square_at(&slope, &centre)?);
     let n = whole(product.rows as i64);
@@ -146,9 +143,14 @@ fn below(system: &System, node: &Node<'_>) -> Result<Q, Rejected> {
     Ok(bound)
 }
 
+/// The largest size of the numbers.
+fn largest<'a>(numbers: impl IntoIterator<Item = &'a Q>) -> u64 {
+    numbers.into_iter().map(bits).max().unwrap_or(0)
+}
+
 /// `|p(x + iy)|²`.
 fn square_at(p: &[Q], z: &[Q]) -> Result<Q, Rejected> {
-    spend(4 * p.len() * p.len().max(1), size(p) + size(z))?;
+    spend(4 * p.len() * p.len(), largest(p) + largest(z))?;
     let (a, b) =
         p.iter().rev().fold((Q::zero(), Q::zero()), |(a, b), c| (&a * &z[0] - &b * &z[1] + c, &a * &z[1] + &b * &z[0]));
     Ok(&a * &a + &b * &b)
@@ -232,7 +234,7 @@ impl Block {
         let (mut re, mut im) = x;
         for (k, a, b) in terms {
             let q = &points[*k];
-            spend(4 * re.len(), size(&q.re).max(size(&re)) + bits(a))?;
+            spend(4 * re.len(), largest(&q.re).max(largest(&re)) + bits(a))?;
             for i in 0..re.len() {
                 re[i] -= a * &q.re[i] - b * &q.im[i];
                 im[i] -= a * &q.im[i] + b * &q.re[i];
@@ -286,7 +288,8 @@ impl Block {
                 return reject("inclusion", &item.place, "the arrow does not end in the state of the point");
             }
             let terms = self.terms(&terms, complex, &read, *from)?;
-            let image = (matrix.apply(&read[k].re)?, matrix.apply(&read[k].im)?);
+            let image = |x: &[Q]| Ok(matrix.times(&Matrix::new(x.len(), 1, x))?.entries());
+            let image = (image(&read[k].re)?, image(&read[k].im)?);
             let (re, im) = Self::rest(image, &terms, &read)?;
             let mut total = Self::total(&terms)?;
             if kind == "monotone" {
@@ -312,8 +315,8 @@ impl Block {
     /// All matrices and points are nonnegative, and every coordinate of every state is positive at some point.
     fn positive(&self, points: &[Point], place: &str) -> Result<(), Rejected> {
         let reached = |s: usize, i: usize| points.iter().any(|p| p.state == s && p.re[i].is_positive());
-        let negative = points.iter().flat_map(|p| &p.re).chain(self.arrows.iter().flat_map(|a| a.2.entries()));
-        if negative.into_iter().any(Signed::is_negative)
+        if points.iter().flat_map(|p| &p.re).any(Signed::is_negative)
+            || self.arrows.iter().flat_map(|a| &a.2.data).any(Signed::is_negative)
             || !self.dims.iter().enumerate().all(|(s, &d)| (0..d).all(|i| reached(s, i)))
         {
             return reject("monotone", place, "something is negative, or a coordinate is nowhere positive");
@@ -366,9 +369,7 @@ impl Block {
         }
         for (from, to, m) in &self.arrows {
             let image = m.transpose().times(&read[*from])?.times(m)?;
-            // square P − Tᵗ P T
-            let zero = Matrix::from_fn(m.cols, m.cols, |_, _| Q::zero());
-            if !semidefinite(&zero.plus(&square, &read[*to]).plus(&-Q::one(), &image))? {
+            if !semidefinite(&read[*to].scaled(&square).minus(&image))? {
                 return reject("quadratic", &node.place, "a matrix expands the form");
             }
         }
@@ -453,9 +454,9 @@ impl Block {
 /// Whether a symmetric matrix is positive semidefinite, by elimination.
 fn semidefinite(difference: &Matrix) -> Result<bool, Rejected> {
     let n = difference.rows;
-    let mut a: Vec<Vec<Q>> = (0..n).map(|i| difference.row(i).to_vec()).collect();
+    let mut a: Vec<Vec<Q>> = (0..n).map(|i| difference.row(i).entries()).collect();
     for k in 0..n {
-        spend(n * n, size(a.iter().flatten()))?;
+        spend(n * n, largest(a.iter().flatten()))?;
         let pivot = a[k][k].clone();
         if pivot.is_negative() || (pivot.is_zero() && (k..n).any(|j| !a[k][j].is_zero())) {
             return Ok(false);

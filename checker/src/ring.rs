@@ -2,44 +2,13 @@
 
 use crate::germ::{Germ, Position};
 use crate::json::{Json, Node};
-use crate::matrix::{Matrix, difference, dot};
-use crate::number::{Q, spend, whole};
-use crate::poly::{Field, Interval, Poly};
+use crate::matrix::Matrix;
+use crate::number::{Q, bits, spend};
+use crate::poly::Field;
 use crate::shape::{Shape, Spaces};
-use crate::{Rejected, at, reject};
+use crate::{Rejected, at, need, reject};
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
-
-/// Integers over a common denominator.
-struct Scaled {
-    numerators: Vec<BigInt>,
-    denominator: BigInt,
-}
-
-impl Scaled {
-    fn new(numbers: &[Q]) -> Self {
-        let denominator = numbers.iter().fold(BigInt::one(), |l, x| l.lcm(x.denom()));
-        let numerators = numbers.iter().map(|x| x.numer() * (&denominator / x.denom())).collect();
-        Self { numerators, denominator }
-    }
-
-    /// The identity as rows over the denominator 1.
-    fn identity(n: usize) -> Vec<Self> {
-        let row = |i: usize| (0..n).map(|j| BigInt::from(u8::from(i == j))).collect();
-        (0..n).map(|i| Self { numerators: row(i), denominator: BigInt::one() }).collect()
-    }
-
-    /// The scalar product with a column of integers over a denominator.
-    fn at(&self, column: &[BigInt], denominator: &BigInt) -> Q {
-        let sum: BigInt = self.numerators.iter().zip(column).map(|(a, b)| a * b).sum();
-        Q::new(sum, &self.denominator * denominator)
-    }
-
-    fn bits(&self) -> u64 {
-        self.numerators.iter().map(BigInt::bits).max().unwrap_or(0)
-    }
-}
 
 /// A shape with all that holds for its states, once contraction is proved.
 pub struct Model<'a> {
@@ -50,39 +19,30 @@ pub struct Model<'a> {
     /// Their spaces.
     pub spaces: Spaces,
     radius: Vec<Q>,
-    hulls: Vec<Scaled>,
-    operators: Vec<Vec<Scaled>>,
-    bases: Vec<Scaled>,
+    /// The vertices of the hulls as columns; none where a state has no hull.
+    hulls: Vec<Matrix>,
 }
 
-/// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator, given by its rows, on zero-sum vectors.
-fn dobrushin(rows: &[Scaled]) -> Q {
-    let columns = rows.first().map_or(0, |r| r.numerators.len());
-    let distance =
-        |i: usize, j: usize| rows.iter().map(|r| (&r.numerators[i] - &r.numerators[j]).abs()).sum::<BigInt>();
-    let pairs = (0..columns).flat_map(|i| (0..i).map(move |j| (i, j)));
-    match (pairs.map(|(i, j)| distance(i, j)).max(), rows.first()) {
-        (Some(largest), Some(row)) => Q::new(largest, &row.denominator * 2),
-        _ => Q::zero(),
-    }
-}
-
-fn norm(v: &[Q]) -> Q {
-    v.iter().map(Signed::abs).sum()
+/// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator on zero-sum vectors.
+fn dobrushin(op: &Matrix) -> Q {
+    let entry = |i: usize, j: usize| &op.data[i * op.cols + j];
+    let distance = |i: usize, j: usize| (0..op.rows).map(|k| (entry(k, i) - entry(k, j)).abs()).sum::<BigInt>();
+    let pairs = (0..op.cols).flat_map(|i| (0..i).map(move |j| (i, j)));
+    Q::new(pairs.map(|(i, j)| distance(i, j)).max().unwrap_or_default(), &op.den * 2)
 }
 
 /// `max − min`.
-fn oscillation(row: &[Q]) -> Q {
+fn oscillation(row: &[BigInt]) -> BigInt {
     match (row.iter().max(), row.iter().min()) {
         (Some(hi), Some(lo)) => hi - lo,
-        _ => Q::zero(),
+        _ => BigInt::zero(),
     }
 }
 
-/// A row on the points of the germ's state that vanishes at its fixed point, and by how much it may be wrong on its attractor.
-pub struct Functional {
-    row: Scaled,
-    error: Q,
+/// Rows on the points of the germ's state that vanish at its fixed point, and by how much each may be wrong on its attractor.
+pub struct Functionals {
+    rows: Matrix,
+    errors: Vec<Q>,
 }
 
 /// A cell of a cover.
@@ -102,175 +62,118 @@ impl<'a> Model<'a> {
         let reachable = shape.reachable();
         let spaces = at(&node.place, Spaces::new(shape, &reachable))?;
         let items = node.list()?;
-        if items.len() != reachable.len() {
-            return reject("contraction", &node.place, "one entry for each reachable state is needed, breadth first");
-        }
-        let mut radius = vec![Q::zero(); shape.states.len()];
-        let mut codes = Vec::new();
-        for (item, &e) in items.iter().zip(&reachable) {
+        let one_each = "one entry for each reachable state is needed, breadth first";
+        node.need(items.len() == reachable.len(), "contraction", one_each)?;
+        let radius = vec![Q::zero(); shape.states.len()];
+        let hulls = shape.states.iter().map(|s| Matrix::empty(s.dim).transpose()).collect();
+        let mut model = Self { shape, reachable, spaces, radius, hulls };
+        let mut entries = Vec::new();
+        for (item, &e) in items.iter().zip(&model.reachable) {
             let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;
-            if state.index(shape.states.len())? != e {
-                return reject("contraction", &state.place, format!("state {e} is expected here"));
+            state.need(state.index(shape.states.len())? == e, "contraction", one_each)?;
+            code.need(matches!(code.value, Json::List(_)), "contraction", "the empty word does not contract")?;
+            model.radius[e] = bound.rational()?;
+            let hull = if let Json::Null = hull.value { None } else { Some(hull.fields(["points", "images"])?) };
+            if let Some([points, _]) = &hull {
+                model.hulls[e] = points.matrix(shape.states[e].dim)?.transpose();
             }
-            radius[e] = bound.rational()?;
-            if !matches!(code.value, Json::List(_)) {
-                return reject("contraction", &code.place, "the empty word does not contract");
-            }
-            codes.push((e, code, hull));
+            entries.push((e, code, hull));
         }
-        let per_state = |s: &crate::shape::State| s.pieces.iter().map(|p| Scaled::new(p.op.entries())).collect();
-        let operators = shape.states.iter().map(per_state).collect();
-        let base = |e: usize| Scaled::new(spaces.of(e).map_or(&[], |s| &s.base));
-        let bases = (0..shape.states.len()).map(base).collect();
-        let hulls = (0..shape.states.len()).map(|_| Scaled::new(&[])).collect();
-        let mut model = Self { shape, reachable, spaces, radius, hulls, operators, bases };
-        let mut vertices = vec![Vec::new(); shape.states.len()];
-        for (e, code, hull) in &codes {
-            at(&code.place, model.contracts(*e, *e, &Scaled::identity(shape.states[*e].dim), code.value))?;
-            if !matches!(hull.value, Json::Null) {
-                let [points, _] = hull.fields(["points", "images"])?;
-                for point in points.list()? {
-                    vertices[*e].push(point.vector(shape.states[*e].dim)?);
-                }
-                model.hulls[*e] = Scaled::new(&vertices[*e].concat());
+        for (e, code, hull) in entries {
+            at(&code.place, model.contracts(e, e, &Matrix::identity(shape.states[e].dim), code.value))?;
+            if let Some([_, images]) = hull {
+                at(&images.place, model.hull_maps_into(e, &images))?;
             }
-        }
-        for (e, _, hull) in codes.iter().filter(|(_, _, hull)| !matches!(hull.value, Json::Null)) {
-            at(&hull.place, model.hull_maps_into(*e, &vertices, hull))?;
         }
         Ok(model)
     }
 
     /// Rule `hull`: the image of each vertex of the target's hull under each piece is a convex combination of vertices, so
     /// that the hulls, mapped into themselves by a contracting system, hold the attractors.
-    fn hull_maps_into(&self, e: usize, vertices: &[Vec<Vec<Q>>], hull: &Node<'_>) -> Result<(), Rejected> {
-        let [_, images] = hull.fields(["points", "images"])?;
-        let (images, pieces) = (images.list()?, &self.shape.states[e].pieces);
-        if images.len() != pieces.len() || vertices[e].iter().any(|v| !v.iter().sum::<Q>().is_one()) {
-            return reject("hull", "", "one list of images for each piece, and points of coordinate sum 1, are needed");
-        }
-        for (piece, of_piece) in pieces.iter().zip(&images) {
-            let of_piece = of_piece.list()?;
-            if of_piece.len() != vertices[piece.target].len() || of_piece.is_empty() {
-                return reject("hull", "", "one image for each vertex of the target's hull is needed");
-            }
-            for (vertex, combination) in vertices[piece.target].iter().zip(&of_piece) {
-                let mut rest = piece.op.apply(vertex)?;
-                let mut total = Q::zero();
+    fn hull_maps_into(&self, e: usize, images: &Node<'_>) -> Result<(), Rejected> {
+        let (own, images, pieces) = (&self.hulls[e], images.list()?, &self.shape.states[e].pieces);
+        let sums = Matrix::ones(1, own.rows, |_, _| true).times(own)?;
+        let affine = sums == Matrix::ones(1, own.cols, |_, _| true);
+        need(affine && images.len() == pieces.len(), "hull", "images of each piece, and points of sum 1, are needed")?;
+        for (piece, list) in pieces.iter().zip(&images) {
+            let (target, list) = (&self.hulls[piece.target], list.list()?);
+            let all = list.len() == target.cols && !list.is_empty();
+            need(all, "hull", "one image for each vertex of the target's hull is needed")?;
+            let mut weights = vec![vec![Q::zero(); own.cols]; target.cols];
+            for (row, combination) in weights.iter_mut().zip(&list) {
                 for term in combination.list()? {
                     let [index, weight] = term.fields(["vertex", "weight"])?;
-                    let (k, weight) = (index.index(vertices[e].len())?, weight.rational()?);
-                    if !weight.is_positive() {
-                        return reject("hull", &term.place, "weights are positive");
-                    }
-                    spend(rest.len(), crate::number::size(&rest) + crate::number::bits(&weight))?;
-                    rest.iter_mut().zip(&vertices[e][k]).for_each(|(x, v)| *x -= &weight * v);
-                    total += weight;
+                    let (k, weight) = (index.index(own.cols)?, weight.rational()?);
+                    term.need(weight.is_positive(), "hull", "weights are positive")?;
+                    spend(1, bits(&row[k]) + bits(&weight))?;
+                    row[k] += weight;
                 }
-                if !total.is_one() || rest.iter().any(|x| !x.is_zero()) {
-                    return reject("hull", &combination.place, "the image is not this convex combination");
-                }
+                combination.need(row.iter().sum::<Q>().is_one(), "hull", "the weights do not add up to 1")?;
             }
+            let combined = own.times(&Matrix::from_rows(own.cols, &weights).transpose())?;
+            need(piece.op.times(target)? == combined, "hull", "an image is not this convex combination")?;
         }
         Ok(())
     }
 
-    /// Checks a tree below a word from `from` to `end`, given by the rows of its product (over one denominator).
-    fn contracts(&self, from: usize, end: usize, product: &[Scaled], tree: &Json) -> Result<(), Rejected> {
+    /// Checks a tree below a word from `from` to `end` with its product.
+    fn contracts(&self, from: usize, end: usize, product: &Matrix, tree: &Json) -> Result<(), Rejected> {
         match tree {
             Json::List(children) if children.len() == self.shape.states[end].pieces.len() => {
-                for (letter, child) in children.iter().enumerate() {
-                    let pushed =
-                        product.iter().map(|row| self.pushed(row, end, letter)).collect::<Result<Vec<_>, _>>()?;
-                    self.contracts(from, self.shape.states[end].pieces[letter].target, &pushed, child)?;
+                for (piece, child) in self.shape.states[end].pieces.iter().zip(children) {
+                    self.contracts(from, piece.target, &product.times(&piece.op)?, child)?;
                 }
                 Ok(())
             }
             Json::Text(leaf) if leaf == "." => {
-                let bits = product.iter().map(Scaled::bits).max().unwrap_or(0);
-                spend(product.len() * self.shape.states[end].dim * self.shape.states[end].dim, bits)?;
+                spend(product.rows * product.cols * product.cols, product.bits())?;
                 let tau = dobrushin(product);
-                let image: Vec<Q> = product
-                    .iter()
-                    .map(|row| row.at(&self.bases[end].numerators, &self.bases[end].denominator))
-                    .collect();
-                let shift = difference(&image, &self.spaces.of(from)?.base);
-                if tau >= Q::one() {
-                    return reject("contraction", "", "a word of the code does not contract");
-                }
-                if norm(&shift) + tau * &self.radius[end] > self.radius[from] {
-                    return reject("contraction", "", "the ball of this radius does not hold the image of a ball");
-                }
-                Ok(())
+                need(tau < Q::one(), "contraction", "a word of the code does not contract")?;
+                let shift = product.times(&self.spaces.of(end)?.base)?.minus(&self.spaces.of(from)?.base);
+                let norm = Q::new(shift.data.iter().map(Signed::abs).sum(), shift.den);
+                let holds = norm + tau * &self.radius[end] <= self.radius[from];
+                need(holds, "contraction", "the ball of this radius does not hold the image of a ball")
             }
             _ => reject("contraction", "", "a code is a tree with one child for each letter and \".\" at its leaves"),
         }
     }
 
-    /// A functional on the germ's quotient, given over a number field, as a row on points.
-    pub fn functional(&self, germ: &Germ, field: &Field, row: &[Poly]) -> Result<Functional, Rejected> {
-        let mut middle = Vec::new();
-        let mut error = Q::zero();
-        for (k, entry) in row.iter().enumerate() {
-            let values = field.enclose(entry)?;
-            middle.push((&values.lo + &values.hi) / whole(2));
+    /// Functionals on the germ's quotient, given over a number field, as rows on points.
+    pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Result<Functionals, Rejected> {
+        let (mut middles, mut errors) = (Matrix::empty(germ.dim()), Vec::new());
+        for row in rows {
+            let values = field.enclose(row)?;
+            middles = middles.stack(&values.lo.plus(&Q::one(), &values.hi).transpose());
             // |chart_k (x − q)| is at most osc(chart_k) times the radius, because both points lie in the ball.
-            error += (&values.hi - &values.lo) / whole(2) * oscillation(germ.chart.row(k)) * &self.radius[germ.state];
+            let spread = |k: usize| (&values.hi.data[k] - &values.lo.data[k]) * oscillation(germ.chart.integers(k));
+            let sum: BigInt = (0..germ.dim()).map(spread).sum();
+            errors.push(Q::new(sum, &values.lo.den * &germ.chart.den * 2) * &self.radius[germ.state]);
         }
-        self.row(germ, &middle, error)
+        self.rows(germ, &middles.scaled(&Q::new(1.into(), 2.into())), errors)
     }
 
-    /// A rational functional on the germ's quotient.
-    pub fn rational_functional(&self, germ: &Germ, row: &[Q]) -> Result<Functional, Rejected> {
-        self.row(germ, row, Q::zero())
+    /// Rational functionals on the germ's quotient, given as rows.
+    pub fn rows(&self, germ: &Germ, on_quotient: &Matrix, errors: Vec<Q>) -> Result<Functionals, Rejected> {
+        let rows = on_quotient.times(&germ.chart)?;
+        let at_fixed = rows.times(&germ.fixed)?;
+        Ok(Functionals { rows: rows.minus(&at_fixed.times(&Matrix::ones(1, rows.cols, |_, _| true))?), errors })
     }
 
-    fn row(&self, germ: &Germ, on_quotient: &[Q], error: Q) -> Result<Functional, Rejected> {
-        let row = Matrix::from_rows(on_quotient.len(), &[on_quotient.to_vec()]).times(&germ.chart)?;
-        let at_fixed = dot(row.row(0), &germ.fixed)?;
-        let row: Vec<Q> = row.row(0).iter().map(|x| x - &at_fixed).collect();
-        Ok(Functional { row: Scaled::new(&row), error })
-    }
-
-    fn pushed(&self, row: &Scaled, state: usize, letter: usize) -> Result<Scaled, Rejected> {
-        let (op, cols) = (&self.operators[state][letter], self.shape.states[state].pieces[letter].op.cols);
-        spend(row.numerators.len() * cols, row.bits().max(op.bits()))?;
-        let entry = |j: usize| row.numerators.iter().enumerate().map(|(i, x)| x * &op.numerators[i * cols + j]).sum();
-        Ok(Scaled { numerators: (0..cols).map(entry).collect(), denominator: &row.denominator * &op.denominator })
-    }
-
-    /// A row moved into the cell of a word, and the state where the word ends.
-    fn moved(&self, from: usize, row: &Functional, word: &[usize]) -> Result<(Functional, usize), Rejected> {
-        let mut state = from;
-        let mut moved = Scaled { numerators: row.row.numerators.clone(), denominator: row.row.denominator.clone() };
-        for &letter in word {
-            moved = self.pushed(&moved, state, letter)?;
-            state = self.shape.states[state].pieces[letter].target;
-        }
-        Ok((Functional { row: moved, error: row.error.clone() }, state))
-    }
-
-    fn enclose(&self, row: &Scaled, error: &Q, state: usize) -> Result<Interval, Rejected> {
-        let base = &self.bases[state];
-        spend(4 * row.numerators.len(), row.bits().max(base.bits()))?;
-        let centre = row.at(&base.numerators, &base.denominator);
-        let spread = match (row.numerators.iter().max(), row.numerators.iter().min()) {
-            (Some(hi), Some(lo)) => Q::new(hi - lo, &row.denominator * 2) * &self.radius[state] + error,
-            _ => error.clone(),
-        };
-        let mut bound = Interval { lo: &centre - &spread, hi: centre + spread };
+    /// Whether a functional, given by its row on the points of a state, keeps a sign on the attractor of the state.
+    fn keeps(&self, rows: &Matrix, k: usize, error: &Q, state: usize, sign: i32) -> Result<bool, Rejected> {
+        let (row, base, radius) = (rows.integers(k), &self.spaces.of(state)?.base, &self.radius[state]);
         let hull = &self.hulls[state];
-        let mut values: Vec<BigInt> = Vec::new();
-        for vertex in hull.numerators.chunks(row.numerators.len().max(1)) {
-            spend(row.numerators.len(), row.bits().max(hull.bits()))?;
-            values.push(row.numerators.iter().zip(vertex).map(|(a, b)| a * b).sum());
-        }
-        if let (Some(lo), Some(hi)) = (values.iter().min(), values.iter().max()) {
-            let value = |x: &BigInt| Q::new(x.clone(), &row.denominator * &hull.denominator);
-            bound.lo = bound.lo.max(value(lo) - error);
-            bound.hi = bound.hi.min(value(hi) + error);
-        }
-        Ok(bound)
+        spend(row.len() * (2 + hull.cols), rows.bits().max(base.bits()).max(hull.bits()) + bits(radius) + bits(error))?;
+        let product = |v: &Matrix, j: usize| -> BigInt {
+            row.iter().enumerate().map(|(i, x)| x * &v.data[i * v.cols + j]).sum::<BigInt>() * sign
+        };
+        // Both bounds are compared with 0 after multiplication by 2, the denominators and the sign.
+        let margin = &rows.den * error.numer();
+        let (r, s, t) = (radius.numer(), radius.denom(), error.denom());
+        let spread = (oscillation(row) * r * t + &margin * s * 2) * &base.den;
+        let by_ball = product(base, 0) * s * t * 2 > spread;
+        let beyond = |j: usize| product(hull, j) * t > &margin * &hull.den;
+        Ok(by_ball || (hull.cols > 0 && (0..hull.cols).all(beyond)))
     }
 
     /// Rule `cover`: every piece of the ring that is seen is cut into cells on each of which one of the functionals has one
@@ -279,65 +182,52 @@ impl<'a> Model<'a> {
     pub fn cover(
         &self,
         germ: &Germ,
-        functionals: &[Functional],
+        functionals: &Functionals,
         part: Option<Position>,
         node: &Node<'_>,
     ) -> Result<Vec<Cell>, Rejected> {
         let items = node.list()?;
         let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
-        if items.len() != pieces.len() {
-            return reject("cover", &node.place, format!("{} pieces of the ring are seen here", pieces.len()));
-        }
+        let all = items.len() == pieces.len();
+        node.need(all, "cover", &format!("{} pieces of the ring are seen here", pieces.len()))?;
         let mut cells = Vec::new();
         for (item, piece) in items.iter().zip(pieces) {
             let [word, tree] = item.fields(["piece", "cells"])?;
-            if word.word()? != piece.word {
-                return reject(
-                    "cover",
-                    &word.place,
-                    format!("the piece {:?} of the ring is expected here", piece.word),
-                );
-            }
-            let rows = functionals.iter().map(|f| Ok(self.moved(germ.state, f, &piece.word)?.0));
-            let rows = rows.collect::<Result<Vec<_>, Rejected>>()?;
-            at(&tree.place, self.covers(&rows, piece.end, piece.position, tree.value, &mut cells))?;
+            let same = word.word()? == piece.word;
+            word.need(same, "cover", &format!("the piece {:?} of the ring is expected here", piece.word))?;
+            let moved = functionals.rows.times(&piece.op)?;
+            let covered = self.covers(&moved, &functionals.errors, piece.end, tree.value, &mut |functional, sign| {
+                cells.push(Cell { position: piece.position, functional, sign });
+            });
+            at(&tree.place, covered)?;
         }
         Ok(cells)
     }
 
     fn covers(
         &self,
-        rows: &[Functional],
+        rows: &Matrix,
+        errors: &[Q],
         state: usize,
-        position: Position,
         tree: &Json,
-        cells: &mut Vec<Cell>,
+        found: &mut dyn FnMut(usize, i32),
     ) -> Result<(), Rejected> {
         match tree {
             Json::List(children) if children.len() == self.shape.states[state].pieces.len() => {
-                for (letter, child) in children.iter().enumerate() {
-                    let target = self.shape.states[state].pieces[letter].target;
-                    let push = |f: &Functional| {
-                        Ok(Functional { row: self.pushed(&f.row, state, letter)?, error: f.error.clone() })
-                    };
-                    let pushed = rows.iter().map(push).collect::<Result<Vec<_>, Rejected>>()?;
-                    self.covers(&pushed, target, position, child, cells)?;
+                for (piece, child) in self.shape.states[state].pieces.iter().zip(children) {
+                    self.covers(&rows.times(&piece.op)?, errors, piece.target, child, found)?;
                 }
                 Ok(())
             }
             Json::Text(leaf) => {
-                for (k, f) in rows.iter().enumerate() {
-                    for (wanted, name) in [(1, "+"), (-1, "-")] {
-                        if *leaf == format!("{name}{k}") {
-                            if self.enclose(&f.row, &f.error, state)?.sign() != wanted {
-                                return reject("cover", "", "a functional does not keep the sign of its cell");
-                            }
-                            cells.push(Cell { position, functional: k, sign: wanted });
-                            return Ok(());
-                        }
-                    }
-                }
-                reject("cover", "", "a leaf is a sign and the index of a functional, such as \"+0\"")
+                let named = (0..rows.rows).flat_map(|k| [(k, 1, format!("+{k}")), (k, -1, format!("-{k}"))]);
+                let Some((k, sign, _)) = named.into_iter().find(|(_, _, name)| name == leaf) else {
+                    return reject("cover", "", "a leaf is a sign and the index of a functional, such as \"+0\"");
+                };
+                let keeps = self.keeps(rows, k, &errors[k], state, sign)?;
+                need(keeps, "cover", "a functional does not keep the sign of its cell")?;
+                found(k, sign);
+                Ok(())
             }
             _ => reject("cover", "", "cells form a tree with one child for each letter"),
         }

@@ -1,8 +1,8 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
-use crate::matrix::{Matrix, difference};
-use crate::number::{Q, spend};
-use crate::{MAX_LETTERS, Rejected, reject};
+use crate::matrix::Matrix;
+use crate::number::spend;
+use crate::{MAX_LETTERS, Rejected, need, reject};
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -177,20 +177,22 @@ impl Shape {
     }
 
     /// The point with an address whose cycle returns to its state.
-    pub fn point(&self, from: usize, address: &Address) -> Result<Vec<Q>, Rejected> {
+    pub fn point(&self, from: usize, address: &Address) -> Result<Matrix, Rejected> {
         let (prefix, state) = self.product(from, &address.prefix)?;
         let (cycle, back) = self.product(state, &address.cycle)?;
-        if back != state || address.cycle.is_empty() {
-            return reject("word", "", "the cycle of an address does not return to its state");
-        }
+        need(
+            back == state && !address.cycle.is_empty(),
+            "word",
+            "the cycle of an address does not return to its state",
+        )?;
         match cycle.fixed_point()? {
-            Some(fixed) => prefix.apply(&fixed),
+            Some(fixed) => prefix.times(&fixed),
             None => reject("fixed-point", "", "a fixed point is not unique"),
         }
     }
 
     /// The address of an end of the curve of a state, through its outermost pieces for which `skip` is false.
-    pub fn end_address(&self, state: usize, end: End, skip: &dyn Fn(&Piece) -> bool) -> Option<Address> {
+    pub fn end_address(&self, state: usize, end: End, skip: &dyn Fn(usize, usize) -> bool) -> Option<Address> {
         let mut seen: Vec<(usize, End)> = Vec::new();
         let mut letters: Vec<usize> = Vec::new();
         let (mut at, mut side) = (state, end);
@@ -202,8 +204,8 @@ impl Shape {
             let pieces = &self.states[at].pieces;
             let mut letters_in_order = 0..pieces.len();
             let letter = match side {
-                End::Start => letters_in_order.find(|&i| !skip(&pieces[i]))?,
-                End::Finish => letters_in_order.rfind(|&i| !skip(&pieces[i]))?,
+                End::Start => letters_in_order.find(|&i| !skip(at, i))?,
+                End::Finish => letters_in_order.rfind(|&i| !skip(at, i))?,
             };
             letters.push(letter);
             side = side.in_piece(&pieces[letter]);
@@ -212,8 +214,8 @@ impl Shape {
     }
 
     /// An end point of the curve of a state.
-    pub fn end_point(&self, state: usize, end: End) -> Result<Vec<Q>, Rejected> {
-        match self.end_address(state, end, &|_| false) {
+    pub fn end_point(&self, state: usize, end: End) -> Result<Matrix, Rejected> {
+        match self.end_address(state, end, &|_, _| false) {
             Some(address) => self.point(state, &address),
             None => reject("curve", "", "a state without pieces"),
         }
@@ -225,17 +227,13 @@ impl Shape {
         for &e in reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
             let pieces = &self.states[e].pieces;
             for (j, pair) in pieces.windows(2).enumerate() {
-                let ends = pair[0].op.apply(&self.end_point(pair[0].target, End::Finish.in_piece(&pair[0]))?)?;
-                let begins = pair[1].op.apply(&self.end_point(pair[1].target, End::Start.in_piece(&pair[1]))?)?;
-                if ends != begins {
-                    return reject("curve", "", format!("pieces {j} and {} of state {e} do not meet", j + 1));
-                }
+                let end = |p: &Piece, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
+                let meet = end(&pair[0], End::Finish)? == end(&pair[1], End::Start)?;
+                need(meet, "curve", &format!("pieces {j} and {} of state {e} do not meet", j + 1))?;
                 let (a, b) = (self.inner(&pair[0], End::Finish), self.inner(&pair[1], End::Start));
-                if let (Some((v, a)), Some((w, b))) = (a, b)
-                    && v == w
-                    && pair[0].op.times(a)? != pair[1].op.times(b)?
-                {
-                    return reject("curve", "", format!("the identity of adjacency fails in state {e}"));
+                if let (Some((v, a)), Some((w, b))) = (a, b) {
+                    let holds = v != w || pair[0].op.times(a)? == pair[1].op.times(b)?;
+                    need(holds, "curve", &format!("the identity of adjacency fails in state {e}"))?;
                 }
             }
             let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { continue };
@@ -244,9 +242,8 @@ impl Shape {
             {
                 let (Some((v, outer)), Some((w, inner))) = (outer, self.inner(piece, end)) else { continue };
                 let vertex = &self.states[*v].pieces[0];
-                if vertex.target == *w && outer.times(&vertex.op)? != piece.op.times(inner)? {
-                    return reject("curve", "", format!("the identity of incidence fails in state {e}"));
-                }
+                let holds = vertex.target != *w || outer.times(&vertex.op)? == piece.op.times(inner)?;
+                need(holds, "curve", &format!("the identity of incidence fails in state {e}"))?;
             }
         }
         Ok(())
@@ -262,31 +259,27 @@ impl Shape {
 #[derive(Debug, Clone)]
 pub struct Space {
     /// The point of the address that reads letter 0 for ever.
-    pub base: Vec<Q>,
-    /// A basis of `V_e` as rows, in reduced echelon form.
+    pub base: Matrix,
+    /// A basis of `V_e` as columns; its transpose is in reduced echelon form.
     pub basis: Matrix,
-    /// The columns of the leading ones of the basis: reading them gives coordinates in `V_e`.
-    pub pivots: Vec<usize>,
+    /// The matrix that reads the coordinates of a vector of `V_e` in this basis.
+    pub reading: Matrix,
     /// Rows on coordinates of `V_e`, in reduced echelon form: coordinates of the visible quotient `W_e`.
     pub visible: Matrix,
+    /// The columns of their leading ones.
+    pub leading: Vec<usize>,
 }
 
-impl Space {
-    /// The matrix that reads the coordinates of a vector of `V_e`.
-    pub fn reading(&self) -> Matrix {
-        use num_traits::{One, Zero};
-        let one = |i: usize, j: usize| if self.pivots[i] == j { Q::one() } else { Q::zero() };
-        Matrix::from_fn(self.pivots.len(), self.basis.cols, one)
-    }
+/// The spaces of all reachable states.
+pub struct Spaces {
+    all: Vec<Option<Space>>,
+    points: Vec<Vec<bool>>,
 }
-
-/// The spaces of all reachable states; the others keep empty ones.
-pub struct Spaces(Vec<Option<Space>>);
 
 impl Spaces {
     /// The space of a reachable state.
     pub fn of(&self, state: usize) -> Result<&Space, Rejected> {
-        match self.0.get(state) {
+        match self.all.get(state) {
             Some(Some(space)) => Ok(space),
             _ => reject("word", "", "a state that cannot be reached"),
         }
@@ -294,51 +287,57 @@ impl Spaces {
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
     pub fn new(shape: &Shape, reachable: &[usize]) -> Result<Self, Rejected> {
-        let mut base = vec![Vec::new(); shape.states.len()];
+        let none = |e: usize| Matrix::empty(shape.states[e].dim);
+        let mut base: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
         for &e in reachable {
             let zero = Address { prefix: Vec::new(), cycle: vec![0] };
             let Some(address) = zero.normalise(shape, e) else { return reject("word", "", "a state without pieces") };
             base[e] = shape.point(e, &address)?;
         }
-        let none = |e: usize| Matrix::from_rows(shape.states[e].dim, &[]);
         let mut spans: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
         for &e in reachable {
-            let offset = |p: &Piece| Ok(difference(&p.op.apply(&base[p.target])?, &base[e]));
-            let rows: Vec<Vec<Q>> = shape.states[e].pieces.iter().map(offset).collect::<Result<_, _>>()?;
-            spans[e] = Matrix::from_rows(shape.states[e].dim, &rows).echelon()?.0;
+            for piece in &shape.states[e].pieces {
+                let offset = piece.op.times(&base[piece.target])?.minus(&base[e]);
+                spans[e] = spans[e].stack(&offset.transpose());
+            }
+            spans[e] = spans[e].echelon()?.0;
         }
         close(shape, reachable, &mut spans, |from, p| (p.target, from), |span, p| span.times(&p.op.transpose()))?;
         let mut rows: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
         rows[shape.start] = shape.view.echelon()?.0;
         close(shape, reachable, &mut rows, |from, p| (from, p.target), |row, p| row.times(&p.op))?;
-        let mut spaces = vec![None; shape.states.len()];
+        let mut spaces = Self { all: vec![None; shape.states.len()], points: vec![Vec::new(); shape.states.len()] };
         for &e in reachable {
             let (basis, pivots) = spans[e].echelon()?;
-            let visible = rows[e].times(&basis.transpose())?.echelon()?.0;
-            spaces[e] = Some(Space { base: base[e].clone(), basis, pivots, visible });
+            let (basis, reading) = (basis.transpose(), Matrix::ones(pivots.len(), basis.cols, |i, j| pivots[i] == j));
+            let (visible, leading) = rows[e].times(&basis)?.echelon()?;
+            spaces.all[e] = Some(Space { base: base[e].clone(), basis, reading, visible, leading });
         }
-        Ok(Self(spaces))
+        for &e in reachable {
+            let is_point = |p: &Piece| Ok(p.op.times(&spaces.of(p.target)?.basis)?.is_zero());
+            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Result<_, _>>()?;
+        }
+        Ok(spaces)
     }
 
     /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
     pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Result<Matrix, Rejected> {
-        self.of(to)?.reading().times(&op.times(&self.of(from)?.basis.transpose())?)
+        self.of(to)?.reading.times(&op.times(&self.of(from)?.basis)?)
     }
 
-    /// Whether a piece is a single point.
-    pub fn is_point(&self, piece: &Piece) -> Result<bool, Rejected> {
-        Ok(piece.op.times(&self.of(piece.target)?.basis.transpose())?.is_zero())
+    /// Whether a piece of a reachable state is a single point.
+    pub fn is_point(&self, state: usize, letter: usize) -> bool {
+        self.points[state].get(letter).is_none_or(|p| *p)
     }
 
     /// The map between visible quotients that a piece of a state induces.
     pub fn on_visible(&self, state: usize, piece: &Piece) -> Result<Matrix, Rejected> {
-        let onto = self.of(state)?.visible.times(&self.linear(&piece.op, state, piece.target)?)?;
+        let (own, target) = (self.of(state)?, self.of(piece.target)?);
+        let onto = own.visible.times(&self.linear(&piece.op, state, piece.target)?)?;
         // Rows of `onto` are combinations of the echelon rows of the target; the leading columns give the coefficients.
-        let (_, pivots) = self.of(piece.target)?.visible.echelon()?;
-        let on_quotient = Matrix::from_fn(onto.rows, pivots.len(), |i, k| onto.at(i, pivots[k]).clone());
-        if on_quotient.times(&self.of(piece.target)?.visible)? != onto {
-            return reject("visible", "", "an operator does not act on the visible quotients");
-        }
+        let on_quotient = onto.columns(&target.leading);
+        let acts = on_quotient.times(&target.visible)? == onto;
+        need(acts, "visible", "an operator does not act on the visible quotients")?;
         Ok(on_quotient)
     }
 }
@@ -357,9 +356,9 @@ pub fn close(
             for piece in &shape.states[e].pieces {
                 spend(1, 0)?;
                 let (from, to) = ends(e, piece);
-                let joined = family[to].stack(&images(&family[from], piece)?).echelon()?.0;
-                grown |= joined.rows > family[to].rows;
-                family[to] = joined;
+                if let Some((joined, _)) = family[to].joined(&images(&family[from], piece)?)? {
+                    (family[to], grown) = (joined, true);
+                }
             }
         }
         if !grown {

@@ -213,7 +213,7 @@ fn tampered_certificates_are_rejected_or_harmless() {
 #[test]
 fn forged_certificates_are_rejected() {
     let forged = stored("fail");
-    assert!(forged.len() >= 10, "only {} forgeries", forged.len());
+    assert!(forged.len() >= 80, "only {} forgeries", forged.len());
     for (path, case, text) in forged {
         let rejected = secant_check::check(&case, &text).expect_err(&path.display().to_string());
         let wanted = path.file_stem().unwrap().to_string_lossy().into_owned();

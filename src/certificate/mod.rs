@@ -8,6 +8,7 @@ mod everywhere;
 mod hull;
 mod joint;
 mod radius;
+mod spectrum;
 mod top;
 mod tree;
 
@@ -19,6 +20,8 @@ use crate::shape::{Address, CellKind, Contraction};
 use crate::theorem::{Certified, Claim, PointReport, Role, Statement, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
+
+pub use spectrum::{Operator, spectra};
 
 /// A certificate in the format of `docs/certificate.md`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -154,6 +157,18 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
     } else {
         Err(Doubt::Differs(accepted.verdict.word()))
     }
+}
+
+/// Has a certificate checked by `secant-check` against the text of what it is about.
+///
+/// # Errors
+/// [`Doubt`] where the checker does not accept it.
+///
+/// # Cost
+/// That of [`secant_check::check`].
+pub fn checked(source: &str, certificate: Certificate) -> Result<Certificate, Doubt> {
+    secant_check::check(source, &certificate.text())?;
+    Ok(certificate)
 }
 
 fn number(x: &Rational) -> Value {

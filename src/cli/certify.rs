@@ -48,13 +48,13 @@ pub fn run(args: &CertifyArgs) -> u8 {
         if let (Some(Err(unsupported)), false) = (&evidence, args.quiet) {
             note_unconfirmed(unsupported);
         }
-        Ok((case, found))
+        Ok((case, found, evidence))
     });
     match done {
-        Ok((case, found)) => {
+        Ok((case, found, evidence)) => {
             if !args.quiet {
                 note_dangling(&case);
-                print(&printed(&case, &found, args));
+                print(&printed(&case, &found, evidence.as_ref(), args));
             }
             exit_code(found.verdict)
         }
@@ -257,11 +257,26 @@ fn undrawn(case: &Case) -> Problem {
         .with_help("no point of the shape can be computed, because contraction is not decided")
 }
 
-fn printed(case: &Case, found: &Certified, args: &CertifyArgs) -> String {
+fn printed(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &CertifyArgs) -> String {
     if args.json || args.jsonl {
-        return json_text(&json::report(case, found), args.json);
+        return json_text(&check_json(json::report(case, found), evidence), args.json);
     }
     text::render(&summary::summary(case, found, args.verbose), stdout_colour())
+}
+
+/// What [`check_json`] says where there is no evidence.
+pub const NOT_ASKED: &str = "the checker was not asked";
+
+/// A report with what the checker said of the certificate.
+#[must_use]
+pub fn check_json(mut report: serde_json::Value, evidence: Option<&Evidence>) -> serde_json::Value {
+    let why = match evidence {
+        Some(Ok(_)) => None,
+        Some(Err(unsupported)) => Some(unsupported.to_string()),
+        None => Some(NOT_ASKED.to_owned()),
+    };
+    report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});
+    report
 }
 
 /// A value as JSON text, indented or in one line.

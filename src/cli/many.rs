@@ -1,6 +1,6 @@
 //! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
-use super::certify::{Evidence, exit_code, json_text, one};
+use super::certify::{Evidence, NOT_ASKED, check_json, exit_code, json_text, one};
 use super::output::{complain, print, stdout_colour};
 use super::progress::Progress;
 use super::resume::Store;
@@ -18,9 +18,40 @@ struct Done {
     name: String,
     verdict: Verdict,
     kinds: String,
+    /// What the checker said of the certificate.
+    checked: Checked,
     json: Value,
     /// Whether the result was kept from an earlier run.
     kept: bool,
+}
+
+/// Whether the checker proved a verdict again.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Checked {
+    Yes,
+    NoRule,
+    NotAsked,
+}
+
+impl Checked {
+    /// As [`check_json`] says it; `None` where a report does not say it.
+    fn of(report: &Value) -> Option<Self> {
+        let said = &report["certificate"];
+        Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
+            (true, None) => Self::Yes,
+            (false, Some(NOT_ASKED)) => Self::NotAsked,
+            (false, Some(_)) => Self::NoRule,
+            _ => return None,
+        })
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::NoRule => "no rule",
+            Self::NotAsked => "–",
+        }
+    }
 }
 
 type Outcome = Result<Done, Problem>;
@@ -70,11 +101,13 @@ fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
         return Ok(done);
     }
     let (case, found, evidence) = one(path, args)?;
+    let json = check_json(json::report(&case, &found), evidence.as_ref());
     let done = Done {
         name: case.name.clone(),
         verdict: found.verdict,
         kinds: kinds(&found).join(", "),
-        json: json::report(&case, &found),
+        checked: Checked::of(&json).unwrap_or(Checked::NotAsked),
+        json,
         kept: false,
     };
     if let Some(store) = store {
@@ -93,7 +126,8 @@ fn kept(json: Value) -> Option<Done> {
     });
     let points: Vec<String> = points.collect::<Option<_>>()?;
     let kinds = counted(points.iter().map(String::as_str)).join(", ");
-    Some(Done { name: json["case"].as_str()?.to_owned(), verdict, kinds, json, kept: true })
+    let (name, checked) = (json["case"].as_str()?.to_owned(), Checked::of(&json)?);
+    Some(Done { name, verdict, kinds, checked, json, kept: true })
 }
 
 fn verdict_of(word: &str) -> Option<Verdict> {
@@ -109,17 +143,18 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
     let row = |(name, outcome): (&String, &Outcome)| -> Vec<Line> {
         match outcome {
             Ok(done) => {
-                vec![words(done.name.clone()), vec![phrases::mark(done.verdict)], words(done.kinds.clone())]
+                let mark = vec![phrases::mark(done.verdict)];
+                vec![words(done.name.clone()), mark, words(done.checked.word()), words(done.kinds.clone())]
             }
             Err(problem) => {
                 let mark = vec![Inline::Mark(Tone::Bad, "refused".to_owned())];
-                vec![words(stem(name)), mark, words(problem.message().to_owned())]
+                vec![words(stem(name)), mark, words("–"), words(problem.message().to_owned())]
             }
         }
     };
     let table = Table {
         caption: Line::new(),
-        header: vec![words("Case"), words("Verdict"), words("Points")],
+        header: vec![words("Case"), words("Verdict"), words("Checked"), words("Points")],
         rows: names.iter().zip(outcomes).map(row).collect(),
     };
     let count =
@@ -132,6 +167,12 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         count(UNDETERMINED),
         count(BAD_INPUT)
     );
+    let unchecked = |d: &&Done| d.verdict != Verdict::Undetermined && d.checked != Checked::Yes;
+    let unchecked = outcomes.iter().flatten().filter(unchecked).count();
+    if unchecked > 0 {
+        let cases = phrases::count(unchecked, "case");
+        total.push_str(&format!(" {cases} decided but not proved again by the checker."));
+    }
     let kept = outcomes.iter().flatten().filter(|d| d.kept).count();
     if kept > 0 {
         total.push_str(&format!(" {kept} kept from an earlier run."));

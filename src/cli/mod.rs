@@ -166,6 +166,9 @@ struct SpectrumArgs {
     /// Take the transpose.
     #[arg(long)]
     transpose: bool,
+    /// Write a certificate that secant-check proves again (docs/certificate.md), of a case or a plain matrix.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["approx", "transpose"])]
+    certificate: Option<PathBuf>,
     /// Only compute in floating point: labelled approximate (exit code 3).
     #[arg(long, conflicts_with_all = ["json", "latex"])]
     approx: bool,

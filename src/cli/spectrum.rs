@@ -1,46 +1,32 @@
 //! `secant spectrum`: eigenvalues, multiplicities, Jordan blocks, chains and modulus classes of a matrix or of a case.
 
-use super::output::{complain, print};
+use super::output::{complain, print, write_file};
 use super::progress::Waiting;
 use super::{BAD_INPUT, PROVED, SpectrumArgs, UNDETERMINED};
 use crate::algebraic::field::FieldMatrix;
-use crate::approx::approximate_spectrum;
+use crate::approx::{ApproxSpectrum, approximate_spectrum};
 use crate::case::{Case, FieldCase, matrix_file};
+use crate::certificate::{self, Doubt, Operator};
 use crate::diagnostic::Problem;
 use crate::jordan::{BUDGET, FieldSpectrum, Spectrum, estimated_field_work, estimated_work};
 use crate::linalg::Matrix;
 use crate::report::{field_spectrum, spectrum as report};
 use std::path::Path;
 
-/// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
-pub fn run(args: &SpectrumArgs) -> u8 {
-    match matrices(&args.file) {
-        Ok(found) => {
-            let parts: Result<Vec<String>, Problem> = found.iter().map(|(name, m)| rendered(args, name, m)).collect();
-            match parts {
-                Ok(parts) => {
-                    print(&parts.join("\n"));
-                    if args.approx { UNDETERMINED } else { PROVED }
-                }
-                Err(problem) => refuse(&problem),
-            }
-        }
-        Err(problem) => refuse(&problem),
-    }
-}
-
-fn refuse(problem: &Problem) -> u8 {
-    complain(problem);
-    BAD_INPUT
+/// What a file gives: named matrices, of a case each with its state and piece, and the text and name for a certificate.
+struct Input {
+    matrices: Vec<(String, Entries, Option<(usize, usize)>)>,
+    /// The text that the checker reads, and the name that it finds there; none where it reads no such file.
+    about: Option<(String, String)>,
 }
 
 /// A matrix over the rationals or over a larger field.
-enum Input {
+enum Entries {
     Rational(Matrix),
     Field(FieldMatrix),
 }
 
-impl From<FieldMatrix> for Input {
+impl From<FieldMatrix> for Entries {
     fn from(matrix: FieldMatrix) -> Self {
         match matrix.rational() {
             Some(rational) => Self::Rational(rational),
@@ -49,19 +35,45 @@ impl From<FieldMatrix> for Input {
     }
 }
 
-/// The operators of a case over a number field.
-fn field_operators(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
-    let case = FieldCase::read(path)?;
-    let mut found = Vec::new();
-    for (index, (name, pieces)) in case.states.into_iter().enumerate() {
-        for (letter, (_, op)) in pieces.into_iter().enumerate().filter(|(_, (target, _))| *target == index) {
-            found.push((format!("operator {letter} of state {name}"), Input::from(op)));
+/// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
+pub fn run(args: &SpectrumArgs) -> u8 {
+    match matrices(&args.file).and_then(|input| rendered(args, &input)) {
+        Ok(text) => {
+            print(&text);
+            if args.approx { UNDETERMINED } else { PROVED }
+        }
+        Err(problem) => {
+            complain(&problem);
+            BAD_INPUT
         }
     }
-    Ok(found)
 }
 
-fn matrices(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
+fn rendered(args: &SpectrumArgs, input: &Input) -> Result<String, Problem> {
+    let waiting = Waiting::with("computing the spectrum …", false);
+    let found: Result<Vec<Found>, Problem> = input.matrices.iter().map(|(n, m, _)| find(args, n, m)).collect();
+    waiting.finish();
+    let found = found?;
+    if let Some(path) = args.certificate.as_deref() {
+        write_certificate(path, input, &found)?;
+    }
+    let parts: Vec<String> = found.iter().zip(&input.matrices).map(|(f, (name, ..))| f.render(args, name)).collect();
+    Ok(parts.join("\n"))
+}
+
+/// The operators of a case over a number field.
+fn field_operators(path: &Path) -> Result<Input, Problem> {
+    let case = FieldCase::read(path)?;
+    let mut matrices = Vec::new();
+    for (index, (name, pieces)) in case.states.into_iter().enumerate() {
+        for (letter, (_, op)) in pieces.into_iter().enumerate().filter(|(_, (target, _))| *target == index) {
+            matrices.push((format!("operator {letter} of state {name}"), op.into(), Some((index, letter))));
+        }
+    }
+    Ok(Input { matrices, about: None })
+}
+
+fn matrices(path: &Path) -> Result<Input, Problem> {
     if path.extension().is_some_and(|e| e == "toml") {
         let case = match Case::read(path) {
             Err(p) if matches!(p.id(), "secant::case::irrational-entry" | "secant::case::expression") => {
@@ -69,13 +81,14 @@ fn matrices(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
             }
             other => other?,
         };
-        let mut found = Vec::new();
+        let mut matrices = Vec::new();
         for (index, state) in case.shape.states.iter().enumerate() {
             for (letter, piece) in state.pieces.iter().enumerate().filter(|(_, p)| p.target == index) {
-                found.push((format!("operator {letter} of state {}", state.name), Input::Rational(piece.op.clone())));
+                let name = format!("operator {letter} of state {}", state.name);
+                matrices.push((name, Entries::Rational(piece.op.clone()), Some((index, letter))));
             }
         }
-        return Ok(found);
+        return Ok(Input { matrices, about: Some((case.checked_text().to_string(), case.name)) });
     }
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| {
@@ -86,17 +99,8 @@ fn matrices(path: &Path) -> Result<Vec<(String, Input)>, Problem> {
     if file.decimals > 0 {
         eprintln!("note: {} decimals were read as the exact fractions that they write", file.decimals);
     }
-    Ok(vec![(name, file.matrix.into())])
-}
-
-fn rendered(args: &SpectrumArgs, name: &str, input: &Input) -> Result<String, Problem> {
-    let waiting = Waiting::with("computing the spectrum …", false);
-    let text = match input {
-        Input::Rational(matrix) => render(args, name, matrix),
-        Input::Field(matrix) => render_field(args, name, matrix),
-    };
-    waiting.finish();
-    text
+    let about = (file.format == matrix_file::Format::Plain).then(|| (text, "matrix".to_owned()));
+    Ok(Input { matrices: vec![(name, file.matrix.into(), None)], about })
 }
 
 fn over_budget(name: &str, size: usize) -> Problem {
@@ -104,34 +108,20 @@ fn over_budget(name: &str, size: usize) -> Problem {
     Problem::new("secant::limit", message).with_help("use --approx for a labelled approximation")
 }
 
-fn render_field(args: &SpectrumArgs, name: &str, matrix: &FieldMatrix) -> Result<String, Problem> {
-    let matrix = if args.transpose { matrix.transpose() } else { matrix.clone() };
-    if args.approx {
-        let field = matrix.field();
-        let nearest = |i, j| field.enclosure(&matrix[(i, j)], 80).mid();
-        let rounded = Matrix::from_fn(matrix.rows(), matrix.cols(), nearest);
-        return approximate(&rounded);
-    }
-    if estimated_field_work(&matrix) > BUDGET {
-        return Err(over_budget(name, matrix.rows()));
-    }
-    let spectrum = FieldSpectrum::of(&matrix);
-    Ok(if args.json {
-        format!("{:#}\n", field_spectrum::json(&spectrum))
-    } else if args.latex {
-        field_spectrum::latex(&spectrum)
-    } else {
-        format!("{name}\n{}", field_spectrum::text(&spectrum))
-    })
+enum Found {
+    Exact(Box<Spectrum>),
+    Field(Box<FieldSpectrum>),
+    Approximate(ApproxSpectrum),
 }
 
-fn approximate(matrix: &Matrix) -> Result<String, Problem> {
-    approximate_spectrum(matrix).map(|s| report::approximate_text(&s)).map_err(|error| {
-        Problem::new("secant::approx", error.to_string()).with_help("leave out --approx for the exact spectrum")
-    })
+fn find(args: &SpectrumArgs, name: &str, entries: &Entries) -> Result<Found, Problem> {
+    match entries {
+        Entries::Rational(matrix) => find_rational(args, name, matrix),
+        Entries::Field(matrix) => find_field(args, name, matrix),
+    }
 }
 
-fn render(args: &SpectrumArgs, name: &str, matrix: &Matrix) -> Result<String, Problem> {
+fn find_rational(args: &SpectrumArgs, name: &str, matrix: &Matrix) -> Result<Found, Problem> {
     let matrix = if args.transpose { matrix.transpose() } else { matrix.clone() };
     if args.approx {
         return approximate(&matrix);
@@ -139,12 +129,65 @@ fn render(args: &SpectrumArgs, name: &str, matrix: &Matrix) -> Result<String, Pr
     if estimated_work(&matrix) > BUDGET {
         return Err(over_budget(name, matrix.rows()));
     }
-    let spectrum = Spectrum::of(&matrix);
-    Ok(if args.json {
-        format!("{:#}\n", report::json(&spectrum))
-    } else if args.latex {
-        report::latex(&spectrum)
-    } else {
-        format!("{name}\n{}", report::text(&spectrum))
+    Ok(Found::Exact(Box::new(Spectrum::of(&matrix))))
+}
+
+fn find_field(args: &SpectrumArgs, name: &str, matrix: &FieldMatrix) -> Result<Found, Problem> {
+    let matrix = if args.transpose { matrix.transpose() } else { matrix.clone() };
+    if args.approx {
+        let field = matrix.field();
+        let nearest = |i, j| field.enclosure(&matrix[(i, j)], 80).mid();
+        return approximate(&Matrix::from_fn(matrix.rows(), matrix.cols(), nearest));
+    }
+    if estimated_field_work(&matrix) > BUDGET {
+        return Err(over_budget(name, matrix.rows()));
+    }
+    Ok(Found::Field(Box::new(FieldSpectrum::of(&matrix))))
+}
+
+fn approximate(matrix: &Matrix) -> Result<Found, Problem> {
+    approximate_spectrum(matrix).map(Found::Approximate).map_err(|error| {
+        Problem::new("secant::approx", error.to_string()).with_help("leave out --approx for the exact spectrum")
     })
+}
+
+impl Found {
+    fn render(&self, args: &SpectrumArgs, name: &str) -> String {
+        match self {
+            Self::Approximate(spectrum) => report::approximate_text(spectrum),
+            Self::Exact(spectrum) if args.json => format!("{:#}\n", report::json(spectrum)),
+            Self::Exact(spectrum) if args.latex => report::latex(spectrum),
+            Self::Exact(spectrum) => format!("{name}\n{}", report::text(spectrum)),
+            Self::Field(spectrum) if args.json => format!("{:#}\n", field_spectrum::json(spectrum)),
+            Self::Field(spectrum) if args.latex => field_spectrum::latex(spectrum),
+            Self::Field(spectrum) => format!("{name}\n{}", field_spectrum::text(spectrum)),
+        }
+    }
+}
+
+/// Writes the certificate after the checker has accepted it.
+fn write_certificate(path: &Path, input: &Input, found: &[Found]) -> Result<(), Problem> {
+    let none = |message: &str, help: &str| Problem::new("secant::certificate::none", message).with_help(help);
+    let mut operators = Vec::new();
+    for (spectrum, (.., place)) in found.iter().zip(&input.matrices) {
+        match spectrum {
+            Found::Exact(spectrum) => operators.push(Operator { place: *place, spectrum }),
+            Found::Field(_) => {
+                let message = "the format has no certificates of spectra over number fields";
+                return Err(none(message, "leave out --certificate; nothing was written"));
+            }
+            Found::Approximate(_) => {
+                return Err(none("an approximation has no certificate", "leave out --approx; nothing was written"));
+            }
+        }
+    }
+    let Some((text, name)) = &input.about else {
+        let message = "certificates are about plain matrices and rational cases only";
+        return Err(none(message, "write the matrix as plain text: n, then n rows of n numbers"));
+    };
+    let written = certificate::spectra(name, &operators).map_err(Doubt::from);
+    let accepted = written.and_then(|c| certificate::checked(text, c));
+    let accepted =
+        accepted.map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; nothing was written"))?;
+    write_file(path, &accepted.text())
 }
