@@ -129,6 +129,25 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
     svg
 }
 
+/// A small picture without words: the borders of the patches, and one smaller copy.
+#[must_use]
+pub fn thumbnail(panel: &Panel<'_>, label: &str) -> String {
+    let all = lines(panel);
+    let scale = 48.0 / extent(&all);
+    let mut path = String::new();
+    for (_, line) in all.iter().filter(|(copy, _)| *copy < 2) {
+        for (k, p) in line.iter().step_by(STEPS / 4).enumerate() {
+            let letter = if k == 0 { 'M' } else { 'L' };
+            let _ = write!(path, "{letter}{:.1} {:.1}", 50.0 + p.0 * scale, 50.0 - p.1 * scale);
+        }
+    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 100\" role=\"img\" aria-label=\"{}\"><path class=\"sc-v\" \
+         d=\"{path}\"/></svg>",
+        crate::report::html::escaped(label)
+    )
+}
+
 /// One panel as a TikZ picture.
 #[must_use]
 pub fn tikz(panel: &Panel<'_>) -> String {
