@@ -2,7 +2,7 @@
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, code, words};
 use super::math::Math;
-use super::words::{mark, tone};
+use super::words::mark;
 use crate::arith::Rational;
 use crate::case::VertexCase;
 use crate::picture::characteristic::{Panel, sheet, tikz};
@@ -256,8 +256,8 @@ fn witness(case: &VertexCase, f: &AtValence) -> Option<Line> {
 
 fn evidence(f: &AtValence) -> Vec<(String, Line)> {
     let mut facts = vec![("C¹".to_owned(), vec![mark(f.smooth)]), ("tangent plane".to_owned(), vec![mark(f.plane)])];
-    if let Some(text) = equation(f) {
-        facts.push(("equation of the eigenvalue".to_owned(), code(format!("{text} = 0, c = cos(2πk/n)"))));
+    if let Some(text) = exact(f) {
+        facts.push(("equation of the eigenvalue".to_owned(), code(text)));
     }
     if let Some(p) = &f.minimal {
         facts.push(("minimal polynomial".to_owned(), code(p.primitive_display("x"))));
@@ -270,8 +270,12 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
             "one strict sign of all Bernstein coefficients on {} pieces, halved {} times at most",
             signs.pieces, signs.depth
         );
-        let text = if signs.strict().is_some() { text } else { "the signs differ or are open".to_owned() };
-        facts.push(("Jacobian determinant".to_owned(), vec![Inline::Mark(tone(f.smooth), text)]));
+        let (tone, text) = match (signs.strict(), signs.changes()) {
+            (Some(_), _) => (Tone::Good, text),
+            (None, true) => (Tone::Bad, "it takes both signs".to_owned()),
+            (None, false) => (Tone::Open, "its sign is not decided".to_owned()),
+        };
+        facts.push(("Jacobian determinant".to_owned(), vec![Inline::Mark(tone, text)]));
     }
     if let Some((a, b)) = &f.half_plane {
         facts.push((
