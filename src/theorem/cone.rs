@@ -3,10 +3,11 @@
 use super::cone_search::{BUDGET, Frame, propose, propose_closed};
 use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
-use crate::arith::{Interval, Rational};
+use crate::arith::{Integer, Interval, Rational};
 use crate::jordan::Spectrum;
 use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
+use malachite_base::num::arithmetic::traits::Floor;
 
 /// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -118,6 +119,18 @@ pub fn common_cone(shape: &Shape, spaces: &Spaces) -> Option<ConeAnswer> {
 fn closed_cone(shape: &Shape, spaces: &Spaces, frame: &Frame) -> Option<CommonCone> {
     proved_cone(shape, spaces, frame, &propose_closed(frame)?, MAX_WINDOW)
 }
+
+/// The rays with entries rounded to a few binary places.
+fn coarse(rays: &[Vec<Vec<Rational>>]) -> Vec<Vec<Vec<Rational>>> {
+    let rounded = |x: &Rational| {
+        let twice: Rational = x * Rational::from(1u32 << (PLACES + 1));
+        Rational::from((twice.floor() + Integer::from(1)) >> 1u64) / Rational::from(1u32 << PLACES)
+    };
+    rays.iter().map(|c| c.iter().map(|r| r.iter().map(rounded).collect()).collect()).collect()
+}
+
+/// Binary places of the rays that are tried first.
+const PLACES: u32 = 9;
 
 fn proved_cone(
     shape: &Shape,
@@ -329,7 +342,7 @@ impl CommonCone {
         let states = shape.reachable().len();
         let rays = self.cones.iter().map(|c| c.rays.cols()).max().unwrap_or(1);
         let mut best: Option<(Rational, ConeRate)> = None;
-        for length in 1..=8 {
+        for length in 1..=MAX_RATE_LENGTH {
             let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
             if words.is_none_or(|w| w > MAX_RATE_WORDS || w * rays.pow(3) > MAX_RATE_WORK) {
                 break;
@@ -349,7 +362,9 @@ impl CommonCone {
 /// How many products are formed to find how fast cones shrink.
 const MAX_RATE_WORDS: usize = 300;
 /// How many multiplications of numbers these may cost.
-const MAX_RATE_WORK: usize = 200_000;
+const MAX_RATE_WORK: usize = 30_000;
+/// Longer words improve the bound slowly and cost much, here and in the checker.
+const MAX_RATE_LENGTH: u32 = 3;
 
 /// The largest number of pieces of a state.
 #[must_use]
