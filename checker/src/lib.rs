@@ -14,6 +14,7 @@ pub mod number;
 mod points;
 pub mod poly;
 mod radius;
+mod rate;
 mod ring;
 mod rules;
 pub mod shape;

@@ -1,15 +1,13 @@
 //! `secant gallery`: all cases on one page, with a report for each.
 
-use super::many::kinds;
+use super::cards::{Entry, OPEN, REFUSED, Report, entry, is_selected};
 use super::output::{complain, print, write_file};
 use super::progress::Progress;
 use super::{BAD_INPUT, GalleryArgs, PROVED, REFUTED};
-use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::report::html::escaped;
-use crate::report::{figures, html, proof, words};
-use crate::theorem::surface::certify_complex;
-use crate::theorem::{Certified, Verdict};
+use crate::report::words;
+use crate::theorem::Verdict;
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
@@ -21,30 +19,8 @@ const MORE_STYLE: &str = "main { max-width: 72rem; }
 .cards h3 { margin: .4rem 0 .2rem; font-size: 1rem; overflow-wrap: anywhere; }
 .cards p { margin: .2rem 0; font-size: .88rem; line-height: 1.4; }
 .sc-c, .sc-s { fill: none; stroke: var(--link); stroke-width: 4; stroke-linejoin: round; stroke-linecap: round; }
+.sc-v { fill: none; stroke: var(--link); stroke-width: .7; stroke-linejoin: round; }
 ";
-
-/// Cases whose reports are written without `--all`: one of each kind.
-const SELECTED: [&str; 10] = [
-    "classical/levy",
-    "classical/takagi",
-    "control/bezier-cusp",
-    "counterexamples/null-witness",
-    "counterexamples/own-end-point",
-    "fif/integral",
-    "irrational/regular-sqrt-2",
-    "junction/m1-5-jordan-3",
-    "thesis/half-tangent",
-    "two-parameter/corner-34-100",
-];
-
-/// One entry of the page.
-struct Entry {
-    family: String,
-    stem: String,
-    card: String,
-    verdict: &'static str,
-    report: Option<String>,
-}
 
 /// Writes the page and the reports, or checks the page.
 pub fn run(args: &GalleryArgs) -> u8 {
@@ -117,8 +93,7 @@ fn case_files(root: &Path) -> Result<Vec<PathBuf>, Problem> {
         }
         for file in std::fs::read_dir(&family).map_err(problem)? {
             let file = file.map_err(problem)?.path();
-            // Cases about the vertices of a mesh have tables of their own, not one shape to draw.
-            if file.extension().is_some_and(|e| e == "toml") && !super::vertex::is_about_vertices(&file) {
+            if file.extension().is_some_and(|e| e == "toml") {
                 files.push(file);
             }
         }
@@ -127,81 +102,22 @@ fn case_files(root: &Path) -> Result<Vec<PathBuf>, Problem> {
     Ok(files)
 }
 
-/// Whether the report of a case is linked, and written now.
-#[derive(Clone, Copy)]
-struct Report {
-    linked: bool,
-    written: bool,
-}
-
-/// The family and the name of a case file.
-fn names(path: &Path) -> (String, String) {
-    let part = |p: Option<&std::ffi::OsStr>| p.map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    (part(path.parent().and_then(Path::file_name)), part(path.file_stem()))
-}
-
-fn is_selected(path: &Path) -> bool {
-    let (family, stem) = names(path);
-    SELECTED.contains(&format!("{family}/{stem}").as_str())
-}
-
-fn entry(path: &Path, wanted: Report) -> Entry {
-    let (family, stem) = names(path);
-    let done = Case::read(path).and_then(|case| {
-        let found =
-            certify_complex(&case.complex(), &case.examine).map_err(|e| super::certify::model_problem(&case, &e))?;
-        Ok((case, found))
-    });
-    let (card, verdict, report) = match &done {
-        Ok((case, found)) => {
-            let report = wanted.written.then(|| html::render(&proof::document(case, found)));
-            (card(&family, &stem, case, found, wanted.linked), found.verdict.word(), report)
-        }
-        Err(problem) => (refused_card(&stem, problem), "refused", None),
-    };
-    Entry { family, stem, card, verdict, report }
-}
-
-fn card(family: &str, stem: &str, case: &Case, found: &Certified, linked: bool) -> String {
-    let picture = figures::attractor(case, found).map(|p| p.thumbnail).unwrap_or_default();
-    let class = match found.verdict {
-        Verdict::Proved => "good",
-        Verdict::Refuted => "bad",
-        Verdict::Undetermined => "open",
-    };
-    let name = escaped(stem);
-    let name = if linked { format!("<a href=\"{}/{name}.html\">{name}</a>", escaped(family)) } else { name };
-    format!(
-        "<li>{picture}<h3>{name}</h3>\n<p>{}</p>\n<p><strong class=\"{class}\">{}</strong>: {}</p></li>\n",
-        escaped(&case.title),
-        found.verdict.word(),
-        escaped(&kinds(found).join(", "))
-    )
-}
-
-fn refused_card(stem: &str, problem: &Problem) -> String {
-    format!(
-        "<li><h3>{}</h3>\n<p><strong class=\"neutral\">refused</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
-        escaped(stem),
-        escaped(problem.message()),
-        escaped(problem.id())
-    )
-}
-
 fn page(entries: &[Entry]) -> String {
     let number = |verdict: &str| entries.iter().filter(|e| e.verdict == verdict).count();
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <title>secant: gallery of cases</title>\n<style>\n{STYLE}{MORE_STYLE}</style>\n</head>\n<body>\n<main>\n\
-         <h1>Gallery of cases</h1>\n<p>{}: {} proved, {} refuted, {} undetermined, {} refused. The pictures show the shapes in the plane of \
-         their control points, or projected from barycentric coordinates. Names that are links lead to proofs; <code>secant gallery --all</code> writes \
-         those of all cases beside this page.</p>\n",
+         <h1>Gallery of cases</h1>\n<p>{}: {} proved, {} refuted, {} undetermined; {} with open entries, which are solved for; {} that \
+         must be refused, with the reason. Pictures show the shapes in the plane of their control points, or projected from barycentric \
+         coordinates; of schemes at extraordinary vertices, the characteristic map. Names that are links lead to proofs; \
+         <code>secant gallery --all</code> writes those of all cases beside this page.</p>\n",
         words::count(entries.len(), "case"),
-        number("proved"),
-        number("refuted"),
-        number("undetermined"),
-        number("refused")
+        number(Verdict::Proved.word()),
+        number(Verdict::Refuted.word()),
+        number(Verdict::Undetermined.word()),
+        number(OPEN),
+        number(REFUSED)
     );
     let mut family = "";
     for entry in entries {

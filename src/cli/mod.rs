@@ -1,6 +1,7 @@
 //! The command line: arguments, one file for each command, exit codes.
 
 mod approximate;
+mod cards;
 mod certify;
 mod expand;
 mod explain;
@@ -94,7 +95,7 @@ enum Command {
         /// Its name; NAME.toml is written to the current directory.
         name: String,
     },
-    /// Certify all cases of a directory and write a page of pictures and verdicts, with a report for each.
+    /// Certify all cases of a directory and write a page of pictures and verdicts, with reports of a selection or of all.
     Gallery(GalleryArgs),
     /// Print the completions for a shell.
     Completions {

@@ -134,7 +134,8 @@ fn refuse_settings(args: &SolveArgs) -> Result<(), Problem> {
     }
 }
 
-fn refused(case: &Case, error: &UnknownError) -> Problem {
+/// Why the entries cannot be solved for, with the place in the file.
+pub fn refused(case: &Case, error: &UnknownError) -> Problem {
     let (code, help) = match error {
         UnknownError::Complex(ComplexError::Fails(_)) => {
             ("secant::shape::identity", "the operators that are given contradict each other")

@@ -40,14 +40,8 @@ fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
         .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
     }
     let case = VertexCase::read(path)?;
-    let (found, every) = match valences(&case, args)? {
-        Valences::List(list) => (examine(&case, &list, args.quiet)?, None),
-        Valences::All => {
-            let every = all_at_once(&case, args.quiet)?;
-            let rest: Vec<usize> = (3..every.from).collect();
-            (examine(&case, &rest, args.quiet)?, Some(every))
-        }
-    };
+    let asked = valences(&case, args)?;
+    let (found, every) = at(&case, &asked, args.quiet)?;
     let every = every.as_ref();
     let reported = args.report.as_deref().map(|path| {
         let document = report::document(&case, &found, every, true);
@@ -74,6 +68,21 @@ fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
         print(&shown);
     }
     Ok(exit_code(report::overall(&found, every)))
+}
+
+/// What is found at the valences that were asked for; for all of them, the common proof and the small ones it leaves out.
+///
+/// # Errors
+/// A [`Problem`] where the scheme has no such vertex, or no common proof is known.
+pub fn at(case: &VertexCase, asked: &Valences, quiet: bool) -> Result<(Vec<AtValence>, Option<Every>), Problem> {
+    match asked {
+        Valences::List(list) => Ok((examine(case, list, quiet)?, None)),
+        Valences::All => {
+            let every = all_at_once(case, quiet)?;
+            let rest: Vec<usize> = (3..every.from).collect();
+            Ok((examine(case, &rest, quiet)?, Some(every)))
+        }
+    }
 }
 
 /// The proof for all valences from some valence on.

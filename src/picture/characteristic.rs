@@ -101,10 +101,12 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
     let rows = panels.len().div_ceil(columns).max(1);
     let (width, height) = (columns as f64 * SIDE, rows as f64 * (SIDE + FOOT));
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\">\n<title>{}</title>\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         style=\"max-width:{}px\">\n<title>{}</title>\n\
          <style>path{{fill:none;stroke-linejoin:round}}.c0{{stroke:#1f5fbf;stroke-width:1}}.c1{{stroke:#1a8a4a;stroke-width:.8}}\
          .c2{{stroke:#8a8f98;stroke-width:.6}}text{{font:12px sans-serif;fill:#3c4048;text-anchor:middle}}\
          @media (prefers-color-scheme:dark){{.c0{{stroke:#7fb0ff}}.c1{{stroke:#5fd08f}}text{{fill:#d4d8de}}}}</style>\n",
+        1.5 * width,
         crate::report::html::escaped(title)
     );
     for (index, panel) in panels.iter().enumerate() {
@@ -127,6 +129,25 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
     }
     svg.push_str("</svg>\n");
     svg
+}
+
+/// A small picture without words: the borders of the patches, and one smaller copy.
+#[must_use]
+pub fn thumbnail(panel: &Panel<'_>, label: &str) -> String {
+    let all = lines(panel);
+    let scale = 48.0 / extent(&all);
+    let mut path = String::new();
+    for (_, line) in all.iter().filter(|(copy, _)| *copy < 2) {
+        for (k, p) in line.iter().step_by(STEPS / 4).enumerate() {
+            let letter = if k == 0 { 'M' } else { 'L' };
+            let _ = write!(path, "{letter}{:.1} {:.1}", 50.0 + p.0 * scale, 50.0 - p.1 * scale);
+        }
+    }
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 100\" role=\"img\" aria-label=\"{}\"><path class=\"sc-v\" \
+         d=\"{path}\"/></svg>",
+        crate::report::html::escaped(label)
+    )
 }
 
 /// One panel as a TikZ picture.

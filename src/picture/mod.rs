@@ -82,13 +82,17 @@ pub struct Picture {
 pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> {
     let projection = Projection::of(shape);
     let canvas = draw(shape, &projection, title, marks)?;
-    let what = if shape.states[shape.start].kind == CellKind::Edge { "curve" } else { "set" };
+    let what = match shape.states[shape.start].kind {
+        CellKind::Edge => "curve",
+        CellKind::Face => "surface",
+        CellKind::Vertex | CellKind::Set => "set",
+    };
     let drawn = match marks.len() {
         0 => String::new(),
         1 => " One examined point is marked.".to_owned(),
         n => format!(" {n} examined points are marked."),
     };
-    let framed = projection.polygon().len() >= 2;
+    let framed = polygon(shape, &projection).len() >= 2;
     let with = if framed { " with its control polygon" } else { "" };
     let seen = match (framed, marks.iter().any(|m| !m.rays.is_empty())) {
         (true, true) => ", its control polygon and the limit rays found",
@@ -117,10 +121,15 @@ pub fn attractor_png(shape: &Shape, marks: &[Mark]) -> Option<Vec<u8>> {
     png::render(canvas.elements(), width, height)
 }
 
+/// The control polygon; the control points of a surface have no such order.
+fn polygon(shape: &Shape, projection: &Projection) -> Vec<[f64; 2]> {
+    if shape.states[shape.start].kind == CellKind::Face { Vec::new() } else { projection.polygon() }
+}
+
 fn draw(shape: &Shape, projection: &Projection, title: &str, marks: &[Mark]) -> Option<Canvas> {
     let tracer = Tracer::new(shape)?;
     let points = tracer.points(projection);
-    let polygon = projection.polygon();
+    let polygon = polygon(shape, projection);
     let spots: Vec<[f64; 2]> = marks.iter().map(|m| projection.point(&m.at)).collect();
     let all: Vec<[f64; 2]> = points.iter().chain(&polygon).chain(&spots).copied().collect();
     if points.is_empty() || !all.iter().flatten().all(|x| x.is_finite()) {

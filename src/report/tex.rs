@@ -21,7 +21,12 @@ pub fn math_tex(math: &Math) -> String {
         Math::Word(word) if matches!(word.as_str(), "dim" | "ln" | "max" | "min" | "ker" | "det") => {
             format!("\\{word} ")
         }
-        Math::Word(word) => format!("\\operatorname{{{}}}", word.chars().map(plain).collect::<String>()),
+        Math::Word(word) => {
+            // Names of states are words too, and may hold any character.
+            let letter = |c: char| if c.is_ascii_alphanumeric() { None } else { latex(c) };
+            let word: String = word.chars().map(|c| letter(c).map_or_else(|| plain(c), spaced)).collect();
+            format!("\\operatorname{{{word}}}")
+        }
         Math::Row(parts) => join(parts.iter().map(math_tex)),
         Math::Script { base, sub, sup } => {
             let base = match base.as_ref() {
@@ -76,5 +81,6 @@ mod tests {
         assert_eq!(math_tex(&Math::of("λx∈ρ_{i+1}")), "\\lambda x \\in \\rho_{i+1}");
         assert_eq!(math_tex(&Math::number(&ratio(-3, 4))), "-\\frac{3}{4}");
         assert_eq!(math_tex(&Math::of("\\dim D^*")), "\\dim D^{*}");
+        assert_eq!(math_tex(&Math::Word("u⊗w_1".to_owned())), "\\operatorname{u\\otimes w\\_1}");
     }
 }

@@ -105,6 +105,34 @@ pub const THEOREMS: &[Theorem] = &[
         reference: "docs/theory.md §6.",
     },
     Theorem {
+        id: "corollary-image",
+        name: "Corollary on the image",
+        body: "Let $G$ carry the branch to the point. If $\\dim G U=\\dim G V$, then the tangent subspace of the germ is $G U=G V$, with no ring \
+               condition and isolated or not.",
+        proof: "All secants at the point lie in $G V$, and $G U$ is contained in the tangent subspace.",
+        reference: "docs/theory.md §5.",
+    },
+    Theorem {
+        id: "both-bounds",
+        name: "Upper and lower bound together",
+        body: "Let the branch be isolated, $0∉π_i(X)$, and let $C$ be spanned by images under $G$ of vectors of $D^*$. If \
+               $\\dim C=\\dim(E_1⊕…⊕E_i)$, then the tangent subspace of the germ is $C$.",
+        proof: "$D^*⊂E_1⊕…⊕E_i$ by Theorem 1, so $C⊂G(E_1⊕…⊕E_i)$, with equality by the dimension; hence $G$ is injective there, and \
+                $G D^*⊃C$.",
+        reference: "docs/theory.md §5.",
+    },
+    Theorem {
+        id: "section-6-surface",
+        name: "Criterion of §6 on a connected part",
+        body: "Let $E_1$ be exactly one real Jordan block of length 2, $0∉π_1(X)$, and let a path-connected part of the ring carry \
+               points with $c_2>0$ and points with $c_2<0$. Then $D^*=E_1$. If $E_1$ is two such blocks of one eigenvalue, and the image of a closed path in a \
+               disc of the ring under the pair $c_2$ winds around 0, then $\\dim D^*≥3$.",
+        proof: "On a path from negative to positive values some zero of $c_2$ is approached by points with $λ c_1 c_2<0$; there \
+                $L^m x$, with $m$ nearest to $-λ c_1/c_2$, tends to the direction of the second vector of the chain. For two blocks, $c_2+λ c_1/m$ winds around 0 for \
+                large $m$ as well, so it has a zero in the disc, where $L^m x$ has the same property.",
+        reference: "docs/theory.md §6.",
+    },
+    Theorem {
         id: "rays",
         name: "Rule for rays",
         body: "Let $D^*$ be the line of $v$ at an isolated branch, so that $L^m x$ is $λ^m c(x) v$ up to a positive factor and smaller terms, with \
@@ -209,6 +237,63 @@ pub const THEOREMS: &[Theorem] = &[
                 coordinate sum 1 and $D^*_a$ the sum 0.",
         reference: "docs/theory.md §9.",
     },
+    Theorem {
+        id: "lemma-3",
+        name: "Lemma 3 (winding)",
+        body: "Let $Ψ$ be the characteristic map of frequency $k$, $0<k<n/2$, at a vertex of valence $n$, so that $Ψ$ turned by one sector is $ω Ψ$, \
+               $ω=e^{2πik/n}$. If a functional is positive on the image of one sector, then $0∉Ψ(K)$, and the outer boundary of the ring winds \
+               $k$ times around 0.",
+        proof: "The images of the sectors are turned copies. Along one sector the image of the boundary leads from $P$ to $ω P$ in an open \
+                half-plane, so its argument changes by less than $π$, hence by $2πk/n$; there are $n$ sectors.",
+        reference: "docs/theory.md §10.1.",
+    },
+    Theorem {
+        id: "theorem-7",
+        name: "Theorem 7 (C¹ at an extraordinary vertex)",
+        body: "Let $λ≠0$ be real, alone in the largest modulus below 1 with Jordan blocks as long as its longest, and let it have exactly one of \
+               them in each of the Fourier blocks 1 and $n-1$, $n≥3$. If the Jacobian determinant of the characteristic map $Ψ$ has one strict sign on the \
+               ring $K$, and a functional is positive on the image of a sector, then for almost all control points the surface is a C¹ \
+               manifold at the vertex, and $Ψ$ is injective. (The scheme is symmetric, with spline rings that are C¹.)",
+        proof: "In ring $m$ the surface is $p+C(m,ℓ) λ^{m-ℓ}(AΨ+o(1))$ with $A$ injective and $o(1)$ in C¹, so the normals converge. The \
+                projection to the limit plane is a local homeomorphism of the late rings that avoids $p$, and proper, hence a covering of a punctured disc; its degree is \
+                the winding number of a boundary, 1 by Lemma 3. So the surface is a graph over its tangent plane.",
+        reference: "docs/theory.md §10.1; U. Reif, CAGD 12 (1995), for one simple pair; J. Peters, U. Reif, Subdivision Surfaces (2008), chapters 4 and 5.",
+    },
+    Theorem {
+        id: "theorem-8",
+        name: "Theorem 8 (not C¹ at an extraordinary vertex)",
+        body: "Let $U$ be the span of the eigenvectors that end the longest chains of the largest modulus below 1. For almost all control points the surface is not a C¹ manifold at \
+               the vertex if (a) the leading eigenvalue of Theorem 7 is in the blocks $k$ and $n-k$ with $2≤k<n/2$ instead, and it is semisimple or \
+               $0∉Ψ(K)$; or (b) $\\dim U=2$, semisimple, with both eigenvectors in the blocks 0 and $n/2$ and the same eigenvalue; or (c) the Jacobian determinant of $Ψ$ \
+               takes both signs; or (d) $\\dim U≥3$; or (e) $\\dim U=1$ and the function of the eigenvector has no zero on $K$, or \
+               only, for an eigenvalue of block 0, none on a closed path around the vertex.",
+        proof: "(d) and the first part of (e): $U⊂D^*$, and one line is too little. In the others the limit directions of a C¹ \
+                surface span its tangent plane, onto which late rings would project as a homeomorphism: their boundary would wind $±1$ times around the vertex and not \
+                as $Ψ$ does, (a), (b); the local degree would be the same everywhere, (c); and a path would not stay on one side, (e).",
+        reference: "docs/theory.md §10.1; U. Reif, CAGD 12 (1995); D. Zorin, Constructive Approximation 16 (2000).",
+    },
+    Theorem {
+        id: "theorem-9",
+        name: "Theorem 9 (all valences at once)",
+        body: "For Catmull–Clark, Loop, Doo–Sabin and Doo–Sabin with the weights of Catmull and Clark the surface is C¹ in the sense of \
+               Theorem 7 at every valence $n≥3$; for Loop with Warren's weights and the midedge scheme at every $n≥4$, and at $n=3$ by Theorem 7.",
+        proof: "The entries of the Fourier blocks depend on $n$ through $t=2\\cos(2π/n)$ only. All other eigenvalues are smaller on the whole \
+                interval of $t$; the Bernstein coefficients of the Jacobian determinant and of the functional are rational functions of one parameter, of one strict \
+                sign on the whole interval by their own Bernstein coefficients. `secant certify CASE --valence all` computes all of these signs.",
+        reference: "docs/theory.md §10.2.",
+    },
+    Theorem {
+        id: "radius",
+        name: "Exponents from the joint spectral radius",
+        body: "Let every state have $N$ pieces and $a≤r≤b<1$ for the joint spectral radius $r$ of the operators on $V$. Then the Hölder \
+               exponent of the curve in the uniform parameter, where it is at most 1, lies in $[-\\log_N b, -\\log_N a]$. If no piece is \
+               reversed, $F_e⊂V_e$ have codimension 1, $T_i F_δ⊂F_e$ and $N T_i c_δ-c_e∈F_e$ for the chords $c$, and the radius on $F$ is less than \
+               $N^{-1-α}$, $0<α≤1$, then the curve is $C^{1,α}$ in the uniform parameter if and only if the two derivatives agree at every \
+               first-level joint of every reachable state.",
+        proof: "Cells of level $m$ have diameters of the order of the norms of products of $m$ operators. With the radius on $F$ the \
+                difference quotients over cells converge uniformly, with Hölder exponent $α$ on addresses; at joints the limits of the two addresses must agree.",
+        reference: "docs/theory.md §11; I. Daubechies, J. Lagarias, SIAM J. Math. Anal. 23 (1992).",
+    },
 ];
 
 /// The statement with an id, or the one nearest to what was typed.
@@ -216,9 +301,10 @@ pub const THEOREMS: &[Theorem] = &[
 /// # Errors
 /// The ids, where none fits.
 pub fn find(text: &str) -> Result<&'static Theorem, Vec<&'static str>> {
-    let wanted: String =
-        text.trim().to_lowercase().chars().map(|c| if c.is_alphanumeric() || c == '′' { c } else { '-' }).collect();
-    let wanted = wanted.replace("5′", "5-projected").replace("5'", "5-projected");
+    let names = [("5″", "5-surface"), ("5''", "5-surface"), ("5′", "5-projected"), ("5'", "5-projected")];
+    let slow = [("6′", "6-slow"), ("6'", "6-slow")];
+    let plain = names.iter().chain(&slow).fold(text.trim().to_lowercase(), |t, (a, b)| t.replace(a, b));
+    let wanted: String = plain.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
     let found = THEOREMS.iter().find(|t| t.id == wanted || t.id.strip_prefix("theorem-") == Some(wanted.as_str()));
     found.ok_or_else(|| THEOREMS.iter().map(|t| t.id).collect())
 }
@@ -256,6 +342,9 @@ mod tests {
         assert_eq!(find("Theorem 2").unwrap().id, "theorem-2");
         assert_eq!(find("2").unwrap().id, "theorem-2");
         assert_eq!(find("5′").unwrap().id, "theorem-5-projected");
+        assert_eq!(find("Theorem 5″").unwrap().id, "theorem-5-surface");
+        assert_eq!(find("theorem 6'").unwrap().id, "theorem-6-slow");
+        assert_eq!(find("8").unwrap().id, "theorem-8");
         assert_eq!(of(Statement::Joint).id, "joint");
         assert!(find("theorem-99").is_err());
     }

@@ -2,7 +2,7 @@
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, code, words};
 use super::math::Math;
-use super::words::{mark, tone};
+use super::words::mark;
 use crate::arith::Rational;
 use crate::case::VertexCase;
 use crate::picture::characteristic::{Panel, sheet, tikz};
@@ -66,14 +66,39 @@ fn yes_no(value: Option<bool>) -> Line {
     }
 }
 
-/// The exact eigenvalue: the number, a short minimal polynomial, or its equation over Q(c).
-fn exact(found: &AtValence) -> Line {
-    let Some(top) = &found.top else { return words("–") };
-    match (&top.rational, &found.minimal) {
-        (Some(q), _) => vec![Inline::Math(Math::number(q))],
-        (None, Some(p)) if p.degree() == Some(2) => code(p.primitive_display("x")),
-        _ => code(equation(found).unwrap_or_default()),
+/// The eigenvalue in a table: the number, or ten decimals.
+fn shown(found: &AtValence) -> Line {
+    match found.top.as_ref().map(|top| &top.rational) {
+        None => words("–"),
+        Some(Some(q)) => vec![Inline::Math(Math::number(q))],
+        Some(None) => words(digits(found)),
     }
+}
+
+/// What an irrational eigenvalue is exactly: the root of an equation, whose coefficients may be in Q(c).
+fn exact(found: &AtValence) -> Option<String> {
+    found.top.as_ref().filter(|top| top.rational.is_none())?;
+    let text = equation(found)?;
+    let frequency = found.frequency.map_or_else(|| "k".to_owned(), |k| k.to_string());
+    let k = if frequency == "1" { String::new() } else { frequency };
+    Some(if text.contains('c') { format!("{text} = 0, c = cos(2{k}π/n)") } else { format!("{text} = 0") })
+}
+
+/// The equations of the eigenvalues, those of several valences together.
+fn equations(found: &[AtValence]) -> Vec<Line> {
+    let mut grouped: Vec<(String, Vec<usize>)> = Vec::new();
+    for (text, f) in found.iter().filter_map(|f| Some((exact(f)?, f))) {
+        match grouped.iter_mut().find(|(t, _)| *t == text) {
+            Some((_, list)) => list.push(f.valence),
+            None => grouped.push((text, vec![f.valence])),
+        }
+    }
+    let item = |(text, list): &(String, Vec<usize>)| {
+        let mut line = words(format!("λ at {} is the root with these decimals of ", ranges(list)));
+        line.extend(code(text.clone()));
+        line
+    };
+    grouped.iter().map(item).collect()
 }
 
 fn digits(found: &AtValence) -> String {
@@ -120,13 +145,11 @@ pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
 /// The table by valence, with reasons below it and, in full, the evidence and a picture of each.
 #[must_use]
 pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, full: bool) -> Document {
-    let header =
-        ["valence", "λ", "decimals", "blocks", "regular", "injective", "tangent plane", "C¹"].map(words).to_vec();
+    let header = ["valence", "λ", "blocks", "regular", "injective", "tangent plane", "C¹"].map(words).to_vec();
     let row = |f: &AtValence| {
         vec![
             words(f.valence.to_string()),
-            exact(f),
-            words(digits(f)),
+            shown(f),
             words(frequencies(f)),
             yes_no(f.regular()),
             yes_no(f.injective()),
@@ -145,6 +168,10 @@ pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, f
             Some((_, _, list)) => list.push(f.valence),
             None => grouped.push((f.reason.clone(), f.smooth, vec![f.valence])),
         }
+    }
+    let equations = equations(found);
+    if !equations.is_empty() {
+        blocks.push(Block::List(equations));
     }
     let reasons = grouped.iter().map(|(reason, verdict, list)| {
         let mut line = vec![mark(*verdict)];
@@ -229,8 +256,8 @@ fn witness(case: &VertexCase, f: &AtValence) -> Option<Line> {
 
 fn evidence(f: &AtValence) -> Vec<(String, Line)> {
     let mut facts = vec![("C¹".to_owned(), vec![mark(f.smooth)]), ("tangent plane".to_owned(), vec![mark(f.plane)])];
-    if let Some(text) = equation(f) {
-        facts.push(("equation of the eigenvalue".to_owned(), code(format!("{text} = 0, c = cos(2πk/n)"))));
+    if let Some(text) = exact(f) {
+        facts.push(("equation of the eigenvalue".to_owned(), code(text)));
     }
     if let Some(p) = &f.minimal {
         facts.push(("minimal polynomial".to_owned(), code(p.primitive_display("x"))));
@@ -243,8 +270,12 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
             "one strict sign of all Bernstein coefficients on {} pieces, halved {} times at most",
             signs.pieces, signs.depth
         );
-        let text = if signs.strict().is_some() { text } else { "the signs differ or are open".to_owned() };
-        facts.push(("Jacobian determinant".to_owned(), vec![Inline::Mark(tone(f.smooth), text)]));
+        let (tone, text) = match (signs.strict(), signs.changes()) {
+            (Some(_), _) => (Tone::Good, text),
+            (None, true) => (Tone::Bad, "it takes both signs".to_owned()),
+            (None, false) => (Tone::Open, "its sign is not decided".to_owned()),
+        };
+        facts.push(("Jacobian determinant".to_owned(), vec![Inline::Mark(tone, text)]));
     }
     if let Some((a, b)) = &f.half_plane {
         facts.push((

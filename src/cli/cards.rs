@@ -1,0 +1,170 @@
+//! The cards of the gallery: a shape with its verdict, a scheme at extraordinary vertices, a case with open entries, a
+//! case that is refused.
+
+use super::many::kinds;
+use crate::case::{Case, Valences, VertexCase};
+use crate::diagnostic::Problem;
+use crate::picture::characteristic::thumbnail;
+use crate::report::html::escaped;
+use crate::report::vertex::{overall, panel, ranges};
+use crate::report::{figures, html, proof, words};
+use crate::shape::Solution;
+use crate::theorem::Verdict;
+use crate::theorem::surface::certify_complex;
+use crate::vertex::AtValence;
+use std::path::Path;
+
+/// How cases with open entries are counted.
+pub const OPEN: &str = "open entries";
+/// How cases that are refused are counted.
+pub const REFUSED: &str = "refused";
+
+/// Cases whose reports are written without `--all`: one of each kind.
+const SELECTED: [&str; 13] = [
+    "classical/levy",
+    "classical/takagi",
+    "control/bezier-cusp",
+    "counterexamples/null-witness",
+    "counterexamples/own-end-point",
+    "fif/integral",
+    "irrational/regular-sqrt-2",
+    "junction/m1-5-jordan-3",
+    "surfaces/bicubic-space",
+    "surfaces/doo-sabin-frequency-2",
+    "surfaces/spiral",
+    "thesis/half-tangent",
+    "two-parameter/corner-34-100",
+];
+
+/// Whether the report of a case is linked, and written now.
+#[derive(Clone, Copy)]
+pub struct Report {
+    /// Whether the name of the case leads to it.
+    pub linked: bool,
+    /// Whether it is wanted now.
+    pub written: bool,
+}
+
+/// The family and the name of a case file.
+fn names(path: &Path) -> (String, String) {
+    let part = |p: Option<&std::ffi::OsStr>| p.map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    (part(path.parent().and_then(Path::file_name)), part(path.file_stem()))
+}
+
+/// Whether the report of a case is written without `--all`.
+pub fn is_selected(path: &Path) -> bool {
+    let (family, stem) = names(path);
+    SELECTED.contains(&format!("{family}/{stem}").as_str())
+}
+
+/// One entry of the page.
+pub struct Entry {
+    /// The directory of the case.
+    pub family: String,
+    /// The name of its file.
+    pub stem: String,
+    /// What stands on the page.
+    pub card: String,
+    /// The word by which it is counted.
+    pub verdict: &'static str,
+    /// The report, where it is wanted.
+    pub report: Option<String>,
+}
+
+/// Certifies or solves a case and writes its card.
+pub fn entry(path: &Path, wanted: Report) -> Entry {
+    let (family, stem) = names(path);
+    let name = if wanted.linked {
+        format!("<a href=\"{}/{stem}.html\">{stem}</a>", escaped(&family), stem = escaped(&stem))
+    } else {
+        escaped(&stem)
+    };
+    let made = if super::vertex::is_about_vertices(path) {
+        vertex(path, &name, wanted)
+    } else {
+        Case::read_open(path).and_then(|case| {
+            if case.unknown.is_empty() { shape(&case, &name, wanted) } else { open(&case, &escaped(&stem)) }
+        })
+    };
+    let (card, verdict, report) = made.unwrap_or_else(|problem| (refused(&escaped(&stem), &problem), REFUSED, None));
+    Entry { family, stem, card, verdict, report }
+}
+
+type Made = (String, &'static str, Option<String>);
+
+fn tone(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Proved => "good",
+        Verdict::Refuted => "bad",
+        Verdict::Undetermined => "open",
+    }
+}
+
+fn marked(verdict: Verdict) -> String {
+    format!("<strong class=\"{}\">{}</strong>", tone(verdict), verdict.word())
+}
+
+fn shape(case: &Case, name: &str, wanted: Report) -> Result<Made, Problem> {
+    let found = certify_complex(&case.complex(), &case.examine).map_err(|e| super::certify::model_problem(case, &e))?;
+    let report = wanted.written.then(|| html::render(&proof::document(case, &found)));
+    let picture = figures::attractor(case, &found).map(|p| p.thumbnail).unwrap_or_default();
+    let what = format!("{}: {}", marked(found.verdict), escaped(&kinds(&found).join(", ")));
+    Ok((card(&picture, name, &case.title, &what), found.verdict.word(), report))
+}
+
+/// A case about the vertices of a mesh: its verdicts by valence, and the characteristic map where one is refuted, or else of
+/// the first valence that is not regular.
+fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
+    let case = VertexCase::read(path)?;
+    let asked = case.valences.clone().unwrap_or(Valences::List((3..=12).collect()));
+    let (found, every) = super::vertex::at(&case, &asked, true)?;
+    let report =
+        wanted.written.then(|| html::render(&crate::report::vertex::document(&case, &found, every.as_ref(), true)));
+    let verdict = overall(&found, every.as_ref());
+    let mut parts: Vec<String> =
+        every.iter().filter(|e| e.proved()).map(|e| format!("proved at every valence from {} on", e.from)).collect();
+    for kind in [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined] {
+        let list: Vec<usize> = found.iter().filter(|f| f.smooth == kind).map(|f| f.valence).collect();
+        if !list.is_empty() {
+            parts.push(format!("{} at {}", marked(kind), ranges(&list)));
+        }
+    }
+    let shown = found.iter().filter(|f| panel(f).is_some());
+    let rank = |f: &&AtValence| (f.smooth != Verdict::Refuted, f.valence < 5, f.valence);
+    let picture = shown.min_by_key(rank).and_then(|f| Some((panel(f)?, f.valence)));
+    let picture = picture.map(|(panel, n)| thumbnail(&panel, &format!("The characteristic map at valence {n}")));
+    let what = format!("C¹: {}", parts.join("; "));
+    Ok((card(&picture.unwrap_or_default(), name, &case.title, &what), verdict.word(), report))
+}
+
+/// A case with unknown entries: what its identities force.
+fn open(case: &Case, name: &str) -> Result<Made, Problem> {
+    let unknowns = case.unknowns().map_err(|e| super::solve::refused(case, &e))?;
+    let solution = unknowns.solve().map_err(|e| super::solve::refused(case, &e))?;
+    let what = match solution {
+        Solution::None(_) => "no solution".to_owned(),
+        Solution::One(_) => "exactly one solution".to_owned(),
+        Solution::Family(family) => {
+            format!("a family with {}", words::count(family.parameters.len(), "free parameter"))
+        }
+    };
+    let count = if unknowns.count() == 1 {
+        "1 unknown entry".to_owned()
+    } else {
+        format!("{} unknown entries", unknowns.count())
+    };
+    let what = format!("<strong class=\"neutral\">{count}</strong>: {what} (<code>secant solve</code>)");
+    Ok((card("", name, &case.title, &what), OPEN, None))
+}
+
+fn card(picture: &str, name: &str, title: &str, what: &str) -> String {
+    format!("<li>{picture}<h3>{name}</h3>\n<p>{}</p>\n<p>{what}</p></li>\n", escaped(title))
+}
+
+fn refused(name: &str, problem: &Problem) -> String {
+    format!(
+        "<li><h3>{name}</h3>\n<p><strong class=\"neutral\">refused</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
+        escaped(problem.message()),
+        escaped(problem.id())
+    )
+}
