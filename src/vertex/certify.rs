@@ -145,9 +145,10 @@ struct Judge<'a> {
 impl Judge<'_> {
     fn judge(&mut self) {
         let n = self.vertex.valence;
-        let Interval { lo, hi } = &self.top.enclosure;
-        if !(*lo > -1 && *hi < 1) {
-            self.no_limit(*lo >= 1 || *hi <= -1);
+        let known = self.top.rational.clone().map(Interval::point);
+        let Interval { lo, hi } = known.unwrap_or_else(|| self.top.enclosure.clone());
+        if !(lo > -1 && hi < 1) {
+            self.no_limit(lo >= 1 || hi <= -1);
             return;
         }
         let (length, dimension) = self.top.longest(n);
