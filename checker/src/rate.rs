@@ -74,7 +74,8 @@ mod tests {
     use super::*;
 
     fn matrix(entries: [[i64; 2]; 2], over: i64) -> Matrix {
-        Matrix::from_fn(2, 2, |i, j| Q::new(entries[i][j].into(), over.into()))
+        let q = |x: &i64| Q::new((*x).into(), over.into());
+        Matrix::new(2, 2, &entries.iter().flatten().map(q).collect::<Vec<_>>())
     }
 
     #[test]

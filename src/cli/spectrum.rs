@@ -189,5 +189,5 @@ fn write_certificate(path: &Path, input: &Input, found: &[Found]) -> Result<(), 
     let accepted = written.and_then(|c| certificate::checked(text, c));
     let accepted =
         accepted.map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; nothing was written"))?;
-    write_file(path, &accepted.text())
+    write_file(path, accepted.text())
 }

@@ -111,20 +111,33 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
             }
         }
     }
-    let result = attempt_without_restart(&system, &parts, &found, options)?;
-    Ok(JointRadius { flag: steps, ..result })
+    Ok(JointRadius { flag: steps, ..without_restart(&system, &parts, &found) })
 }
 
 type Restart = (usize, Vec<usize>);
 
-fn attempt_without_restart(
-    system: &System,
-    parts: &[Block],
-    found: &[Vec<Candidate>],
-    options: &Options,
-) -> Result<JointRadius, SystemError> {
-    let small = Options { longest: options.longest, vertices: 0 };
-    attempt(system, parts, found, &small).or(Err(SystemError::Empty))
+/// An answer from the words found so far and norms only, which never asks for a new start.
+fn without_restart(system: &System, parts: &[Block], found: &[Vec<Candidate>]) -> JointRadius {
+    let Some(best) = best_word(parts, found) else { return vanishing(parts.is_empty()) };
+    let by_norms = |block: &Block| {
+        let mut proof =
+            BlockProof { block: block.clone(), roots: Vec::new(), bound: None, attains: false, proof: None };
+        by_tree(&mut proof, best.0.float);
+        proof
+    };
+    conclude(system, &best, parts.iter().map(by_norms).collect())
+}
+
+/// The answer where no word has a positive value.
+fn vanishing(exact: bool) -> JointRadius {
+    JointRadius {
+        lower: None,
+        upper: exact.then(|| Rational::from(0)),
+        exact,
+        growth: Growth::Unknown,
+        blocks: Vec::new(),
+        flag: Vec::new(),
+    }
 }
 
 fn attempt(
@@ -133,18 +146,7 @@ fn attempt(
     found: &[Vec<Candidate>],
     options: &Options,
 ) -> Result<JointRadius, Restart> {
-    let Some(best) = best_word(parts, found) else {
-        let exact = parts.is_empty();
-        let upper = exact.then(|| Rational::from(0));
-        return Ok(JointRadius {
-            lower: None,
-            upper,
-            exact,
-            growth: Growth::Unknown,
-            blocks: Vec::new(),
-            flag: Vec::new(),
-        });
-    };
+    let Some(best) = best_word(parts, found) else { return Ok(vanishing(parts.is_empty())) };
     let mut proofs = Vec::new();
     for (k, block) in parts.iter().enumerate() {
         proofs.push(prove(block, &found[k], &best, options).map_err(|path| (k, path))?);

@@ -102,8 +102,12 @@ pub fn common_cone(shape: &Shape, spaces: &Spaces) -> Option<ConeAnswer> {
     let frame = frame(shape, spaces)?;
     let attempts = if frame.dims.iter().any(|d| *d > 5) { 3 } else { 8 };
     for attempt in 0..attempts {
-        if let Some(cone) = propose(&frame, attempt).and_then(|rays| proved_cone(shape, spaces, &frame, &rays, 1)) {
-            return Some(ConeAnswer::Proved(cone));
+        if let Some(rays) = propose(&frame, attempt) {
+            // Short numbers make short proofs; the margin of the proposal often allows them.
+            let short = proved_cone(shape, spaces, &frame, &coarse(&rays), 1);
+            if let Some(cone) = short.or_else(|| proved_cone(shape, spaces, &frame, &rays, 1)) {
+                return Some(ConeAnswer::Proved(cone));
+            }
         }
         if attempt == 1
             && let Some(obstacle) = obstacle(&frame)
