@@ -233,3 +233,55 @@ impl<'a> Model<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::whole;
+    use crate::poly::Interval;
+    use crate::shape::{Kind, Piece, State};
+
+    fn row(entries: &[i64]) -> Matrix {
+        Matrix::new(1, entries.len(), &entries.iter().map(|&x| whole(x)).collect::<Vec<_>>())
+    }
+
+    /// A segment with middle `(1/2, 1/2)`: one piece, half as long.
+    fn segment() -> Shape {
+        let op = row(&[3, 1]).stack(&row(&[1, 3])).scaled(&(whole(1) / whole(4)));
+        let pieces = vec![Piece { target: 0, op, reversed: false }];
+        let states = vec![State { kind: Kind::Set, dim: 2, pieces, left: None, right: None }];
+        Shape { states, start: 0, view: Matrix::identity(2) }
+    }
+
+    fn model(shape: &Shape, radius: i64, hull: Matrix) -> Model<'_> {
+        let spaces = Spaces::new(shape, &[0]).unwrap();
+        Model { shape, reachable: vec![0], spaces, radius: vec![whole(radius)], hulls: vec![hull] }
+    }
+
+    #[test]
+    fn bounds_over_a_ball_are_sharp() {
+        let shape = segment();
+        let ball = model(&shape, 1, Matrix::empty(2).transpose());
+        let keeps = |x: &[i64], error: Q| ball.keeps(&row(x), 0, &error, 0, 1).unwrap();
+        // On the segment between the unit vectors a row is as small as its smaller entry.
+        assert!(keeps(&[1000, 1], Q::zero()) && !keeps(&[1000, 0], Q::zero()) && !keeps(&[1000, -1], Q::zero()));
+        assert!(keeps(&[1000, 1], whole(999) / whole(1000)) && !keeps(&[1000, 1], whole(1)));
+        let hull = model(&shape, 100, Matrix::identity(2));
+        let keeps = |x: &[i64], error: Q| hull.keeps(&row(x), 0, &error, 0, 1).unwrap();
+        assert!(keeps(&[3, 1], whole(999) / whole(1000)) && !keeps(&[3, 1], whole(1)) && !keeps(&[3, 0], Q::zero()));
+    }
+
+    #[test]
+    fn errors_of_functionals_allow_for_the_whole_ball() {
+        let (shape, one) = (segment(), Matrix::identity(1));
+        let ball = model(&shape, 3, Matrix::empty(2).transpose());
+        let fixed = ball.spaces.of(0).unwrap().base.clone();
+        let (chart, linear, view) = (row(&[1, -1]), one.clone(), one);
+        let germ = Germ { state: 0, prefix_sign: 1, turn: 1, fixed, chart, linear, view, ring: Vec::new() };
+        // The root of 2 lies within 1/2 of 3/2; two points of the ball differ by at most 6, their chart by 6.
+        let by_root = Field::companion(&[-2, 0, 1].map(whole));
+        let root = Field { interval: Interval { lo: whole(1), hi: whole(2) }, by_root };
+        let found = ball.functionals(&germ, &root, &[&row(&[0, 1])]).unwrap();
+        assert_eq!(found.errors, [whole(3)]);
+    }
+}

@@ -282,7 +282,7 @@ impl FieldBuilder {
     /// `cos(2π turns)`.
     ///
     /// # Errors
-    /// [`FieldError::Degree`] for denominators over [`MAX_ANGLE`] or fields that become too large.
+    /// [`FieldError::Degree`] for denominators over `MAX_ANGLE` or fields that become too large.
     pub fn cos(&mut self, turns: &Rational) -> Result<Number, FieldError> {
         let too_large = || FieldError::Degree(MAX_ANGLE);
         let n = usize::try_from(turns.denominator_ref()).ok().filter(|n| *n <= MAX_ANGLE).ok_or_else(too_large)?;
