@@ -80,33 +80,23 @@ fn note_dangling(case: &Case) {
 /// Says so where a decided verdict has no certificate that could be checked.
 fn note_unconfirmed(unsupported: &Unsupported) {
     let message = format!("the verdict was not proved again: {unsupported}");
-    complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 10"));
+    complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 11"));
 }
 
 /// The certificate that the checker accepted, or why the format has none.
 pub type Evidence = Result<Certificate, Unsupported>;
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
-    if args.cases.len() > 1
-        && (args.report.is_some()
-            || args.svg.is_some()
-            || args.png.is_some()
-            || args.certificate.is_some()
-            || args.json)
-    {
+    let files = [&args.report, &args.svg, &args.png, &args.certificate];
+    let of_one_case = args.json || files.iter().any(|f| f.is_some());
+    if args.cases.len() > 1 && of_one_case {
         return Err(Problem::new(
             "secant::usage",
             "--json, --report, --svg, --png and --certificate are for a single case",
         )
         .with_help("use --jsonl for many cases, and write the reports one by one"));
     }
-    if args.resume.is_some()
-        && (args.report.is_some()
-            || args.svg.is_some()
-            || args.png.is_some()
-            || args.certificate.is_some()
-            || args.json)
-    {
+    if args.resume.is_some() && of_one_case {
         return Err(Problem::new(
             "secant::usage",
             "--json, --report, --svg, --png and --certificate do not go with --resume",

@@ -19,6 +19,22 @@ pub(super) enum Centre {
     Face(usize, usize),
 }
 
+impl Centre {
+    /// The first point of the sector that the centre is seen from, and its neighbour in direction `+u`; `None` for an edge.
+    pub fn start(self, mesh: &Mesh) -> Option<(usize, usize)> {
+        match self {
+            Self::Vertex(v, ahead) => Some((v, ahead)),
+            // From a corner of the central face the next one lies in direction `−u`.
+            Self::Face(f, v) => {
+                let face = mesh.faces.get(f)?;
+                let at = face.iter().position(|x| *x == v)?;
+                Some((v, *mesh.star(v, Some(face[(at + 1) % face.len()]))?.get(2)?))
+            }
+            Self::Edge(..) | Self::Across(..) => None,
+        }
+    }
+}
+
 /// The points around a centre, in order.
 pub(super) struct Walk {
     /// The points.
@@ -37,6 +53,16 @@ pub enum Sector {
     Quads,
     /// Triangles.
     Triangles,
+}
+
+impl Sector {
+    /// How many neighbours on, anticlockwise, the way lies straight ahead, and to the left towards the next spoke.
+    pub(super) fn turns(self) -> (usize, usize) {
+        match self {
+            Self::Quads => (2, 1),
+            Self::Triangles => (3, 2),
+        }
+    }
 }
 
 /// An oriented mesh with boundary: faces list their vertices anticlockwise.

@@ -251,20 +251,8 @@ impl<'a> Builder<'a> {
 
     /// The point at a place of the first sector, and its neighbour in direction `+u`.
     fn locate(&self, mesh: &Mesh, centre: Centre, (i, j): Place) -> Option<(usize, usize)> {
-        let (mut v, mut ahead) = match centre {
-            Centre::Vertex(v, ahead) => (v, ahead),
-            // From a face of the central polygon the next one lies in direction `−u`.
-            Centre::Face(f, v) => {
-                let face = mesh.faces.get(f)?;
-                let at = face.iter().position(|x| *x == v)?;
-                (v, *mesh.star(v, Some(face[(at + 1) % face.len()]))?.get(2)?)
-            }
-            Centre::Edge(..) | Centre::Across(..) => return None,
-        };
-        let (straight, left) = match self.sector {
-            Sector::Quads => (2, 1),
-            Sector::Triangles => (3, 2),
-        };
+        let (mut v, mut ahead) = centre.start(mesh)?;
+        let (straight, left) = self.sector.turns();
         for _ in 0..i {
             let next = ahead;
             ahead = *mesh.star(next, Some(v))?.get(straight)?;

@@ -126,20 +126,8 @@ fn views(mesh: &Mesh, centre: Centre) -> Option<Vec<Centre>> {
 
 /// The point at a place of the sector that a centre is seen from.
 fn locate(mesh: &Mesh, centre: Centre, sector: Sector, (i, j): Place) -> Option<usize> {
-    let (mut v, mut ahead) = match centre {
-        Centre::Vertex(v, ahead) => (v, ahead),
-        // From a corner of the central face the next one lies in direction `−u`.
-        Centre::Face(f, v) => {
-            let face = mesh.faces.get(f)?;
-            let at = face.iter().position(|x| *x == v)?;
-            (v, *mesh.star(v, Some(face[(at + 1) % face.len()]))?.get(2)?)
-        }
-        Centre::Edge(..) | Centre::Across(..) => return None,
-    };
-    let (straight, left) = match sector {
-        Sector::Quads => (2, 1),
-        Sector::Triangles => (3, 2),
-    };
+    let (mut v, mut ahead) = centre.start(mesh)?;
+    let (straight, left) = sector.turns();
     for k in 0..i {
         let next = ahead;
         if k + 1 < i || j > 0 {

@@ -32,7 +32,7 @@ pub struct Context<'a> {
 }
 
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
-pub(super) struct Quotient {
+struct Quotient {
     /// `Y <- V`, reduced echelon form.
     pub chart: Matrix,
     /// `V <- Y`, a right inverse.
@@ -55,26 +55,50 @@ impl Quotient {
     }
 }
 
+/// What every branch of a curve, a set or a surface starts from: the fixed point of its cycle, and `L` on the visible quotient.
+pub(super) struct Local {
+    pub state: usize,
+    pub cycle_operator: Matrix,
+    pub fixed: Vec<Rational>,
+    pub transport: Matrix,
+    pub relevant: usize,
+    pub chart: Matrix,
+    pub linear: Matrix,
+    pub view: Matrix,
+    pub spectrum: Spectrum,
+    pub ring: Vec<RingPiece>,
+}
+
+impl Local {
+    /// `None` where the fixed point of the cycle is not unique.
+    pub fn new(cx: &Context, address: &Address) -> Option<Self> {
+        let (prefix, state) = cx.shape.product(cx.root, &address.prefix);
+        let (cycle_operator, _) = cx.shape.product(state, &address.cycle);
+        let fixed = crate::shape::fixed_point(&cycle_operator)?;
+        let transport = &cx.view * &prefix;
+        let space = cx.spaces.of(state);
+        let on_v = &transport * &space.basis;
+        let linear_v = cx.spaces.linear(&cycle_operator, state, state);
+        let quotient = Quotient::new(&on_v, &linear_v);
+        let linear = &(&quotient.chart * &linear_v) * &quotient.lift;
+        let view = &on_v * &quotient.lift;
+        let chart = &quotient.chart * &space.coordinates;
+        let spectrum = Spectrum::of(&linear);
+        let mut ring = standard_ring(cx.shape, cx.spaces, state, &address.cycle, &fixed);
+        mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
+        let relevant = space.basis.cols();
+        Some(Self { state, cycle_operator, fixed, transport, relevant, chart, linear, view, spectrum, ring })
+    }
+}
+
 /// Examines the branch `address` from the root state; `side` says which part of the curve it describes there.
 ///
 /// Returns `None` where the fixed point of the cycle is not unique.
 #[must_use]
 pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchReport> {
     let shape = cx.shape;
-    let (prefix, state) = shape.product(cx.root, &address.prefix);
-    let (cycle_operator, _) = shape.product(state, &address.cycle);
-    let fixed = crate::shape::fixed_point(&cycle_operator)?;
-    let transport = &cx.view * &prefix;
-    let space = cx.spaces.of(state);
-    let on_v = &transport * &space.basis;
-    let linear_v = cx.spaces.linear(&cycle_operator, state, state);
-    let quotient = Quotient::new(&on_v, &linear_v);
-    let linear = &(&quotient.chart * &linear_v) * &quotient.lift;
-    let view = &on_v * &quotient.lift;
-    let chart = &quotient.chart * &space.coordinates;
-    let spectrum = Spectrum::of(&linear);
-    let mut ring = standard_ring(shape, cx.spaces, state, &address.cycle, &fixed);
-    mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
+    let Local { state, cycle_operator, fixed, transport, relevant, chart, linear, view, spectrum, ring } =
+        Local::new(cx, address)?;
     let sign_along = |from: usize, word: &[usize]| -> i32 {
         let states = shape.path(from, word);
         word.iter().zip(&states).map(|(&i, &e)| if shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
@@ -88,7 +112,7 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         cycle_operator,
         fixed,
         transport,
-        relevant: space.basis.cols(),
+        relevant,
         chart,
         linear,
         view,
@@ -102,13 +126,7 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
 }
 
 /// Marks the pieces that fall into `q` as a whole (Lemma 2).
-pub(super) fn mark_collapsing(
-    cx: &Context,
-    chart: &Matrix,
-    linear: &Matrix,
-    fixed: &[Rational],
-    ring: &mut [RingPiece],
-) {
+fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
     let falls = &power(linear, linear.rows()) * chart;
     for piece in ring {
         let space = cx.spaces.of(piece.end);

@@ -108,18 +108,9 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     let balls = Balls::new(shape, &spaces, proof);
     let hulls = std::cell::OnceCell::new();
     let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
-    let mut found = Certified {
-        claims: Vec::new(),
-        verdict: Verdict::Undetermined,
-        contraction: contraction.clone(),
-        states: shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect(),
-        points: Vec::new(),
-        dense: None,
-        polygons: None,
-        similarities: similarity::similarities(&cx),
-        everywhere: None,
-        surface: None,
-    };
+    let mut found = Certified::nothing(&contraction);
+    found.states = shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect();
+    found.similarities = similarity::similarities(&cx);
     let mut asked = Vec::new();
     for address in addresses {
         asked.push(address.normalise(shape, shape.start)?);
@@ -209,18 +200,7 @@ fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Cer
         reason: Some(reason),
         asked: None,
     };
-    Certified {
-        claims: vec![claim],
-        verdict: Verdict::Undetermined,
-        contraction: contraction.clone(),
-        states: Vec::new(),
-        points: Vec::new(),
-        dense: None,
-        polygons: None,
-        similarities: None,
-        everywhere: None,
-        surface: None,
-    }
+    Certified { claims: vec![claim], ..Certified::nothing(contraction) }
 }
 
 fn state_report(cx: &Context, state: usize) -> StateReport {

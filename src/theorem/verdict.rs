@@ -369,3 +369,21 @@ pub struct Certified {
     /// What is found of a surface; the points are then listed there.
     pub surface: Option<super::surface::Surface>,
 }
+
+impl Certified {
+    /// Nothing examined and nothing claimed yet.
+    pub(super) fn nothing(contraction: &Contraction) -> Self {
+        Self {
+            claims: Vec::new(),
+            verdict: Verdict::Undetermined,
+            contraction: contraction.clone(),
+            states: Vec::new(),
+            points: Vec::new(),
+            dense: None,
+            polygons: None,
+            similarities: None,
+            everywhere: None,
+            surface: None,
+        }
+    }
+}

@@ -10,8 +10,8 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex};
-use crate::theorem::branch::{Context, MAX_ROWS, Quotient, isolation_functionals, krylov, mark_collapsing, restrict};
-use crate::theorem::ring::{Functional, Part, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
+use crate::theorem::branch::{Context, Local, MAX_ROWS, isolation_functionals, krylov, restrict};
+use crate::theorem::ring::{Functional, Part, Ring, RingAnswer, RingPiece, RingProof, Witness};
 use crate::theorem::{Dimension, Statement};
 
 /// Products of a row and an operator for the first try of a ring condition.
@@ -39,28 +39,15 @@ pub struct Setting<'a> {
 ///
 /// Returns `None` where the fixed point of the cycle is not unique.
 pub fn examine(setting: &Setting, address: &Address) -> Option<SurfaceBranch> {
-    let cx = &setting.cx;
-    let (prefix, state) = cx.shape.product(cx.root, &address.prefix);
-    let (cycle_operator, _) = cx.shape.product(state, &address.cycle);
-    let fixed = crate::shape::fixed_point(&cycle_operator)?;
-    let transport = &cx.view * &prefix;
-    let space = cx.spaces.of(state);
-    let on_v = &transport * &space.basis;
-    let linear_v = cx.spaces.linear(&cycle_operator, state, state);
-    let quotient = Quotient::new(&on_v, &linear_v);
-    let linear = &(&quotient.chart * &linear_v) * &quotient.lift;
-    let view = &on_v * &quotient.lift;
-    let chart = &quotient.chart * &space.coordinates;
-    let spectrum = Spectrum::of(&linear);
-    let mut ring = standard_ring(cx.shape, cx.spaces, state, &address.cycle, &fixed);
-    mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
+    let Local { state, cycle_operator, fixed, transport, relevant, chart, linear, view, spectrum, ring } =
+        Local::new(&setting.cx, address)?;
     let mut branch = SurfaceBranch {
         address: address.clone(),
         state,
         cycle_operator,
         fixed,
         transport,
-        relevant: space.basis.cols(),
+        relevant,
         chart,
         linear,
         view,

@@ -2,11 +2,11 @@
 
 use super::branch::Setting;
 use super::place::Chart;
+use super::tensor::Product;
 use super::verdict::{Surface, SurfaceDense, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::shape::Shape;
 use crate::theorem::{Claim, Context, Statement, Verdict};
 
 /// Largest dimension of the space of bivectors in which density is decided.
@@ -22,7 +22,7 @@ const EVERYWHERE: &str = "; every cell contains such a vertex, so that they are 
 pub fn claim(
     setting: &Setting,
     chart: &Chart,
-    product: Option<&(Shape, Shape)>,
+    product: Option<&Product>,
     surface: &mut Surface,
     claims: &mut Vec<Claim>,
 ) {
@@ -55,7 +55,7 @@ pub fn claim(
     claims.push(claim);
 }
 
-fn evidence(setting: &Setting, chart: &Chart, product: Option<&(Shape, Shape)>) -> Option<SurfaceDense> {
+fn evidence(setting: &Setting, chart: &Chart, product: Option<&Product>) -> Option<SurfaceDense> {
     let cx = &setting.cx;
     let mut dense =
         SurfaceDense { injective: Vec::new(), view_injective: false, vertices: Vec::new(), everywhere: false };
@@ -72,12 +72,7 @@ fn evidence(setting: &Setting, chart: &Chart, product: Option<&(Shape, Shape)>) 
 }
 
 /// A vertex inside a face in its visible quotient: the first that is proved, or the first.
-fn vertex_inside(
-    setting: &Setting,
-    chart: &Chart,
-    product: Option<&(Shape, Shape)>,
-    state: usize,
-) -> Option<SurfacePoint> {
+fn vertex_inside(setting: &Setting, chart: &Chart, product: Option<&Product>, state: usize) -> Option<SurfacePoint> {
     let space = setting.cx.spaces.of(state);
     let cx = Context { root: state, view: &space.visible * &space.coordinates, ..setting.cx };
     let own = Setting { cx, ..*setting };
@@ -86,8 +81,8 @@ fn vertex_inside(
         let addresses = chart.addresses(state, &param)?;
         let mut point = super::conclude(&own, chart.spot(state, &param), Some(param), &addresses)?;
         // The product of two curves has one state, so that its theorem applies in the quotient as well.
-        if let Some((first, second)) = product.filter(|_| point.verdict != Verdict::Proved) {
-            super::tensor::add(&mut point, first, second, &own);
+        if let Some(product) = product.filter(|_| point.verdict != Verdict::Proved) {
+            super::tensor::add(&mut point, product, &own);
         }
         if point.verdict == Verdict::Proved {
             return Some(point);

@@ -19,7 +19,7 @@ use super::{
     Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, contracting, expands, state_report,
     without_contraction,
 };
-use crate::shape::{Address, Balls, CellKind, Complex, Shape, Spaces, contraction};
+use crate::shape::{Address, Balls, CellKind, Complex, Spaces, contraction};
 use branch::{Setting, examine};
 use place::Chart;
 
@@ -55,18 +55,8 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     for address in addresses {
         asked.push(address.normalise(shape, shape.start)?);
     }
-    let mut found = Certified {
-        claims: Vec::new(),
-        verdict: Verdict::Undetermined,
-        contraction: contraction.clone(),
-        states: shape.reachable().into_iter().map(|e| state_report(&setting.cx, e)).collect(),
-        points: Vec::new(),
-        dense: None,
-        polygons: None,
-        similarities: None,
-        everywhere: None,
-        surface: None,
-    };
+    let mut found = Certified::nothing(&contraction);
+    found.states = shape.reachable().into_iter().map(|e| state_report(&setting.cx, e)).collect();
     let mut surface = Surface {
         points: Vec::new(),
         dense: None,
@@ -87,7 +77,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
 /// The claims on a patch with parameters: the vertices of the first level, the dense set, and the addresses.
 fn parametrised(setting: &Setting, chart: &Chart, asked: &[Address], surface: &mut Surface, claims: &mut Vec<Claim>) {
     let start = setting.cx.root;
-    let product = factors(setting.complex);
+    let product = tensor::Product::of(setting.complex);
     let mut vertices = Vec::new();
     for param in chart.nodes(start, 1) {
         vertices.extend(add_point(setting, chart, &param, None, product.as_ref(), surface));
@@ -112,7 +102,7 @@ fn add_point(
     chart: &Chart,
     param: &Param,
     asked: Option<&Address>,
-    product: Option<&(Shape, Shape)>,
+    product: Option<&tensor::Product>,
     surface: &mut Surface,
 ) -> Option<usize> {
     if let Some(known) = surface.points.iter().position(|p| p.parameter.as_ref() == Some(param)) {
@@ -130,8 +120,8 @@ fn add_point(
         (None, Some(address)) => conclude(setting, Spot::Branch, Some(param.clone()), std::slice::from_ref(address))?,
         (None, None) => return None,
     };
-    if let Some((first, second)) = product {
-        tensor::add(&mut point, first, second, setting);
+    if let Some(product) = product {
+        tensor::add(&mut point, product, setting);
     }
     surface.points.push(point);
     Some(surface.points.len() - 1)

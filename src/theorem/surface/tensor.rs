@@ -6,8 +6,66 @@ use super::verdict::{ProductEvidence, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::shape::{Address, CellKind, Complex, Layout, Shape};
-use crate::theorem::{Dimension, Direction, PointReport, Statement, Verdict, certify};
+use crate::shape::{Address, Balls, CellKind, Complex, Layout, Shape, Spaces, contraction};
+use crate::theorem::{Context, Dimension, Direction, PointReport, Statement, Verdict, contracting, expands, point};
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
+
+/// A curve ready for examining points, with those examined so far.
+struct Factor {
+    shape: Shape,
+    spaces: Spaces,
+    balls: Balls,
+    hulls: OnceCell<Option<Balls>>,
+    known: RefCell<BTreeMap<Address, Option<PointReport>>>,
+}
+
+impl Factor {
+    /// `None` where the curve is none, is a point in some state, or is not known to contract.
+    fn new(shape: &Shape) -> Option<Self> {
+        shape.check().ok()?;
+        let found = contraction(shape, expands);
+        let proof = contracting(shape, &found).ok()??;
+        shape.check_curves().ok()?;
+        let spaces = Spaces::new(shape)?;
+        let moves = shape.reachable().into_iter().all(|e| spaces.of(e).basis.cols() > 0);
+        let balls = Balls::new(shape, &spaces, proof);
+        moves.then(|| Self { shape: shape.clone(), spaces, balls, hulls: OnceCell::new(), known: RefCell::default() })
+    }
+
+    fn point(&self, address: &Address) -> Option<PointReport> {
+        let address = address.normalise(&self.shape, self.shape.start).ok()?;
+        if let Some(known) = self.known.borrow().get(&address) {
+            return known.clone();
+        }
+        let (shape, root) = (&self.shape, self.shape.start);
+        let Self { spaces, balls, hulls, .. } = self;
+        let cx = Context { shape, spaces, balls, hulls, root, view: shape.view() };
+        let found = point::address_spec(&cx, &address).and_then(|spec| point::examine_point(&cx, &spec));
+        self.known.borrow_mut().insert(address, found.clone());
+        found
+    }
+}
+
+/// The two curves of a product.
+pub struct Product {
+    first: Factor,
+    second: Factor,
+}
+
+impl Product {
+    /// The curves that a patch is the product of, where they can be examined.
+    pub fn of(complex: &Complex) -> Option<Self> {
+        let (first, second) = factors(complex)?;
+        Some(Self { first: Factor::new(&first)?, second: Factor::new(&second)? })
+    }
+
+    /// The theorem at the point with an address; `view` is the matrix of the control points (or the identity).
+    fn point(&self, address: &Address, view: &Matrix) -> Option<ProductEvidence> {
+        let (s, t) = parts(address, self.first.shape.states[self.first.shape.start].pieces.len());
+        Some(conclude(self.first.point(&s)?, self.second.point(&t)?, view))
+    }
+}
 
 /// The two curves of a patch that is a tensor product of two curves of one state each, `p(u, v) = a(u) ⊗ b(v)`.
 ///
@@ -70,15 +128,10 @@ fn parts(address: &Address, columns: usize) -> (Address, Address) {
 /// Returns `None` where a curve is not certified: it does not contract, is a point, or the address is not decided.
 #[must_use]
 pub fn product_point(first: &Shape, second: &Shape, address: &Address, view: &Matrix) -> Option<ProductEvidence> {
-    let columns = first.states[first.start].pieces.len();
-    let (s, t) = parts(address, columns);
-    let point = |curve: &Shape, at: &Address| -> Option<PointReport> {
-        let found = certify(curve, std::slice::from_ref(at)).ok()?;
-        let moves = found.states.iter().all(|s| s.relevant > 0);
-        let index = found.claims.iter().find_map(|c| c.asked.as_ref().map(|(_, k)| *k))?;
-        moves.then(|| found.points[index].clone())
-    };
-    let (a, b) = (point(first, &s)?, point(second, &t)?);
+    Product { first: Factor::new(first)?, second: Factor::new(second)? }.point(address, view)
+}
+
+fn conclude(a: PointReport, b: PointReport, view: &Matrix) -> ProductEvidence {
     let mut evidence = ProductEvidence { verdict: Verdict::Undetermined, tangent: None, first: a, second: b };
     let (a, b) = (&evidence.first, &evidence.second);
     if let (Some(x), Some(y)) = (&a.tangent, &b.tangent) {
@@ -96,13 +149,13 @@ pub fn product_point(first: &Shape, second: &Shape, address: &Address, view: &Ma
     } else if (a.verdict == Verdict::Refuted || b.verdict == Verdict::Refuted) && view.rank() == view.cols() {
         evidence.verdict = Verdict::Refuted;
     }
-    Some(evidence)
+    evidence
 }
 
 /// Adds the theorem on tensor products to a point; it decides where the general one does not, and must agree where it does.
-pub fn add(point: &mut SurfacePoint, first: &Shape, second: &Shape, setting: &Setting) {
+pub fn add(point: &mut SurfacePoint, product: &Product, setting: &Setting) {
     let Some(address) = point.branches.first().map(|b| b.address.clone()) else { return };
-    let Some(evidence) = product_point(first, second, &address, &setting.cx.view) else { return };
+    let Some(evidence) = product.point(&address, &setting.cx.view) else { return };
     let decided = |v: Verdict| v != Verdict::Undetermined;
     let agree = match (&point.tangent, &evidence.tangent) {
         (Some(a), Some(b)) => a.same(b) != Some(false),
