@@ -114,7 +114,11 @@ impl<'a> Model<'a> {
                 let shift = hull.minus(&base.times(&ones)?);
                 let column = |j: usize| (0..hull.rows).map(|i| shift.data[i * hull.cols + j].abs()).sum::<BigInt>();
                 let largest = Q::new((0..hull.cols).map(column).max().unwrap_or_default(), shift.den.clone());
-                points.need(largest <= self.radius[e], "contraction", "the ball of this radius does not hold the points")?;
+                points.need(
+                    largest <= self.radius[e],
+                    "contraction",
+                    "the ball of this radius does not hold the points",
+                )?;
             }
         }
         Ok(())

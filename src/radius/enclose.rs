@@ -14,6 +14,8 @@ const ROOMS: [f64; 4] = [0.25, 1.0, 4.0, 24.0];
 /// Rounds in which the attractor is approached, and directions in which its extreme points are kept.
 const ROUNDS: usize = 200;
 const DIRECTIONS: usize = 24;
+/// Binary places of the centres.
+const CENTRE_BITS: u64 = 8;
 
 /// Polytopes that all pieces shrink, where `value < 1` is about the joint spectral radius of the linear parts of the operators;
 /// `None` where none with few points was found.
@@ -44,13 +46,18 @@ struct Search<'a> {
     clouds: Vec<Vec<Vec<f64>>>,
     /// The share `m` of the centre in all images.
     share: f64,
-    /// Binary places of points.
-    bits: u64,
+}
+
+/// Points along the axes on both sides of the centre of a state lie this far from it, a power of 2.
+struct Scale {
+    steps: Vec<f64>,
+    /// Binary places of points and of weights.
+    points: u64,
+    weights: u64,
 }
 
 impl<'a> Search<'a> {
     fn new(shape: &'a Shape, share: f64) -> Self {
-        let bits = 14 + to_bits(share);
         let reachable = shape.reachable();
         let mut maps = Vec::new();
         for &from in &reachable {
@@ -63,7 +70,7 @@ impl<'a> Search<'a> {
         for _ in 0..2 * ROUNDS {
             floats = (0..floats.len()).map(|e| average(&maps, &floats, e)).collect();
         }
-        let centres: Vec<Vec<Rational>> = floats.iter().map(|p| affine(p, bits)).collect();
+        let centres: Vec<Vec<Rational>> = floats.iter().map(|p| affine(p, CENTRE_BITS)).collect();
         let floats: Vec<Vec<f64>> = centres.iter().map(|c| c.iter().map(to_f64).collect()).collect();
         let mut clouds: Vec<Vec<Vec<f64>>> = floats.iter().map(|c| vec![c.clone()]).collect();
         for _ in 0..ROUNDS {
@@ -73,25 +80,34 @@ impl<'a> Search<'a> {
             };
             clouds = (0..clouds.len()).map(images).collect();
         }
-        Self { shape, reachable, maps, centres, floats, clouds, share, bits }
+        Self { shape, reachable, maps, centres, floats, clouds, share }
     }
 
     fn attempt(&self, room: f64) -> Option<Polytopes> {
-        let steps: Vec<f64> = (0..self.clouds.len()).map(|e| self.step(e, room)).collect();
-        let mut points: Vec<Vec<Vec<f64>>> = (0..self.clouds.len()).map(|e| self.seeds(e, room, steps[e])).collect();
+        let scale = self.scale(room);
+        let mut points: Vec<Vec<Vec<f64>>> =
+            (0..self.clouds.len()).map(|e| self.seeds(e, room, scale.steps[e])).collect();
         self.grow(&mut points)?;
         for &e in &self.reachable {
             prune(&mut points[e], 2 * (self.shape.states[e].dim - 1));
         }
-        let exact = |e: usize| self.exact(e, steps[e], &points[e]);
+        let exact = |e: usize| self.exact(e, &scale, &points[e]);
         let vertices: Vec<Vec<Vec<Rational>>> = (0..points.len()).map(exact).collect();
         let mut weights = vec![Vec::new(); points.len()];
         for map in &self.maps {
             let op = &self.shape.states[map.from].pieces[map.letter].op;
-            let images = vertices[map.to].iter().map(|v| self.weights(map.from, steps[map.from], &vertices, &op.apply(v)));
+            let images = vertices[map.to].iter().map(|v| self.weights(map.from, &scale, &vertices, &op.apply(v)));
             weights[map.from].push(images.collect::<Option<Vec<_>>>()?);
         }
         Polytopes::checked(self.shape, vertices, weights)
+    }
+
+    /// What is lost by rounding is made up along the axes from half of the share of the centre.
+    fn scale(&self, room: f64) -> Scale {
+        let steps: Vec<f64> = (0..self.clouds.len()).map(|e| self.step(e, room)).collect();
+        let share = to_bits(self.share);
+        let smallest = self.reachable.iter().map(|e| to_bits(steps[*e])).max().unwrap_or(0);
+        Scale { steps, points: share + smallest + 6, weights: share + 12 }
     }
 
     /// How far the points along the axes lie from the centre: a power of 2.
@@ -144,13 +160,13 @@ impl<'a> Search<'a> {
     }
 
     /// The points as rationals of sum 1; those along the axes exactly on both sides of the centre.
-    fn exact(&self, e: usize, step: f64, points: &[Vec<f64>]) -> Vec<Vec<Rational>> {
+    fn exact(&self, e: usize, scale: &Scale, points: &[Vec<f64>]) -> Vec<Vec<Rational>> {
         let centre = &self.centres[e];
-        let step = exact_power(step);
+        let step = exact_power(scale.steps[e]);
         let along = 2 * (centre.len().saturating_sub(1));
         let point = |(k, p): (usize, &Vec<f64>)| {
             if k >= along {
-                return if along == 0 { centre.clone() } else { affine(p, self.bits) };
+                return if along == 0 { centre.clone() } else { affine(p, scale.points) };
             }
             let mut point = centre.clone();
             let moved = if k % 2 == 0 { step.clone() } else { -step.clone() };
@@ -162,7 +178,7 @@ impl<'a> Search<'a> {
     }
 
     /// Weights that combine `x` exactly, with a share of the centre in the form of the first two points.
-    fn weights(&self, e: usize, step: f64, vertices: &[Vec<Vec<Rational>>], x: &[Rational]) -> Option<Weights> {
+    fn weights(&self, e: usize, scale: &Scale, vertices: &[Vec<Vec<Rational>>], x: &[Rational]) -> Option<Weights> {
         let own = &vertices[e];
         let (one, two) = (Rational::from(1), Rational::from(2));
         if own.len() == 1 {
@@ -175,7 +191,7 @@ impl<'a> Search<'a> {
         let rays: Vec<&[f64]> = floats.iter().map(Vec::as_slice).collect();
         let mut weights = vec![Rational::from(0); own.len()];
         for (k, w) in cone_combination(&rays, &y)? {
-            weights[k] = grid_of(w * (1.0 - share), self.bits + 14);
+            weights[k] = grid_of(w * (1.0 - share), scale.weights);
         }
         let sum = weights.iter().fold(Rational::from(0), |s, w| s + w);
         let mut centre = &one - sum;
@@ -185,7 +201,7 @@ impl<'a> Search<'a> {
             rest.iter_mut().zip(v).for_each(|(r, a)| *r -= w * a);
         }
         // What rounding leaves is made up along the axes, at the cost of the centre.
-        let step = exact_power(step);
+        let step = exact_power(scale.steps[e]);
         for (axis, r) in rest.iter().enumerate().skip(1) {
             let w = abs(r) / &step;
             centre -= &w;
@@ -198,9 +214,9 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Binary places at which a number below 1 is seen.
+/// Binary places at which a number is seen.
 fn to_bits(x: f64) -> u64 {
-    (2..40).find(|k| x * f64::from(*k).exp2() > 1.0).map_or(40, |k: i32| u64::from(k.unsigned_abs()))
+    (0..40_u8).find(|k| x * f64::from(*k).exp2() > 1.0).map_or(40, u64::from)
 }
 
 /// A power of 2 exactly.

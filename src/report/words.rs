@@ -359,7 +359,10 @@ pub fn contraction(c: &Contraction) -> Line {
             )
         }
         Contraction::Polytopes(proof) => line(
-            &format!("proved by polytopes with {} vertices: every piece shrinks differences by the factor $≤@$", proof.count()),
+            &format!(
+                "proved by polytopes with {} vertices: every piece shrinks differences by the factor $≤@$",
+                proof.count()
+            ),
             [short_bound(&proof.constant)],
         ),
         Contraction::Refuted { word, .. } => {

@@ -87,3 +87,29 @@ fn common(list: &[Weights], count: usize) -> Rational {
     let least = list.iter().map(column).reduce(|a, b| a.into_iter().zip(b).map(|(x, y)| x.min(y)).collect());
     least.unwrap_or_default().into_iter().fold(Rational::from(0), |s, x| s + x)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+    use crate::shape::CellKind;
+
+    /// A map of the line about the middle of a segment, with slope `s`, and the ends of the segment as polytope.
+    fn of(s: Rational) -> Option<Polytopes> {
+        let one = Rational::from(1);
+        let (near, far) = ((&one + &s) / Rational::from(2), (&one - &s) / Rational::from(2));
+        let op = Matrix::from_rows(2, vec![vec![near.clone(), far.clone()], vec![far.clone(), near.clone()]]);
+        let shape = Shape::single(CellKind::Set, vec![op]);
+        let ends = vec![vec![one.clone(), Rational::from(0)], vec![Rational::from(0), one.clone()]];
+        let list =
+            |a: &Rational, b: &Rational| [(0, a.clone()), (1, b.clone())].into_iter().filter(|t| t.1 != 0).collect();
+        Polytopes::checked(&shape, vec![ends], vec![vec![vec![list(&near, &far), list(&far, &near)]]])
+    }
+
+    #[test]
+    fn a_share_in_common_is_needed() {
+        assert_eq!(of(ratio(3, 4)).map(|p| p.constant), Some(ratio(3, 4)));
+        assert_eq!(of(ratio(-3, 4)).map(|p| p.constant), Some(ratio(3, 4)));
+        assert!(of(ratio(1, 1)).is_none() && of(ratio(-1, 1)).is_none() && of(ratio(5, 4)).is_none());
+    }
+}

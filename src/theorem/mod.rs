@@ -33,8 +33,8 @@ use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::radius::{NormContraction, Options, contraction_by_norms, polytopes};
 use crate::shape::{
-    Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, Shape, ShapeError,
-    Spaces, contraction,
+    Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, Shape, ShapeError, Spaces,
+    contraction,
 };
 use thiserror::Error;
 
@@ -157,6 +157,9 @@ pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
 /// Largest number of coordinates of a state for which norms other than those of words are tried.
 const MAX_NORM_DIMENSION: usize = 12;
 
+/// The same where words contract, but slowly.
+const MAX_SLOW_DIMENSION: usize = 5;
+
 /// Constants of words above this one make balls so large that polytopes are tried.
 fn slow_words() -> Rational {
     Rational::from(31) / Rational::from(32)
@@ -170,14 +173,14 @@ fn decide_contraction(shape: &Shape) -> Result<(Contraction, Option<Rational>), 
         Err(ModelError::Expands { state, index, word: word.to_vec() })
     };
     let found = contraction(shape, expands);
-    let small = shape.reachable().into_iter().all(|e| shape.states[e].dim <= MAX_NORM_DIMENSION);
+    let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).max().unwrap_or(0);
     match &found {
         Contraction::Refuted { state, word } => return expanding(*state, word),
         // Words that hardly contract give balls far too large.
-        Contraction::Proved(proof) if small && proof.constant > slow_words() => {
+        Contraction::Proved(proof) if largest <= MAX_SLOW_DIMENSION && proof.constant > slow_words() => {
             return Ok((polytopes(shape).map_or(found, Contraction::Polytopes), None));
         }
-        Contraction::Undetermined { .. } if small => {}
+        Contraction::Undetermined { .. } if largest <= MAX_NORM_DIMENSION => {}
         _ => return Ok((found, None)),
     }
     match contraction_by_norms(shape, &Options::default()) {
