@@ -137,19 +137,22 @@ impl<'a> Model<'a> {
             need(all, "hull", "one image for each vertex of the target's hull is needed")?;
             let mut weights = vec![vec![Q::zero(); own.cols]; target.cols];
             for (row, combination) in weights.iter_mut().zip(&list) {
+                let mut next = 0;
                 for term in combination.list()? {
                     let [index, weight] = term.fields(["vertex", "weight"])?;
                     let (k, weight) = (index.index(own.cols)?, weight.rational()?);
-                    term.need(weight.is_positive(), "hull", "weights are positive")?;
-                    spend(1, bits(&row[k]) + bits(&weight))?;
-                    row[k] += weight;
+                    term.need(k >= next && weight.is_positive(), "hull", "vertices ascend, weights are positive")?;
+                    (row[k], next) = (weight, k + 1);
                 }
-                combination.need(row.iter().sum::<Q>().is_one(), "hull", "the weights do not add up to 1")?;
             }
             let common = |k: usize| weights.iter().all(|w| w[k].is_positive());
             let shrinks = !shrinking || (0..own.cols).any(common);
             need(shrinks, "contraction", "the images under a piece have no vertex in common")?;
-            let combined = own.times(&Matrix::from_rows(own.cols, &weights).transpose())?;
+            let weights = Matrix::from_rows(own.cols, &weights).transpose();
+            let sums = Matrix::ones(1, own.cols, |_, _| true).times(&weights)?;
+            let one = sums == Matrix::ones(1, target.cols, |_, _| true);
+            need(one, "hull", "the weights do not add up to 1")?;
+            let combined = own.times(&weights)?;
             need(piece.op.times(target)? == combined, "hull", "an image is not this convex combination")?;
         }
         Ok(())
@@ -165,7 +168,8 @@ impl<'a> Model<'a> {
                 Ok(())
             }
             Json::Text(leaf) if leaf == "." => {
-                spend(product.rows * product.cols * product.cols, product.bits())?;
+                let radii = bits(&self.radius[end]) + bits(&self.radius[from]);
+                spend(product.rows * product.cols * product.cols + 64, product.bits() + radii)?;
                 let tau = dobrushin(product);
                 need(tau < Q::one(), "contraction", "a word of the code does not contract")?;
                 let shift = product.times(&self.spaces.of(end)?.base)?.minus(&self.spaces.of(from)?.base);
