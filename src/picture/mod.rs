@@ -4,6 +4,7 @@
 pub mod characteristic;
 mod chart;
 mod diagram;
+mod frame;
 mod germ;
 mod invariant;
 mod plot;
@@ -144,7 +145,10 @@ fn draw(shape: &Shape, projection: &Projection, title: &str, marks: &[Mark]) -> 
     }
     for (mark, at) in marks.iter().zip(&spots) {
         let rays: Vec<[f64; 2]> = mark.rays.iter().map(|r| projection.direction(r)).collect();
-        canvas.mark(mark.style, *at, &rays, &mark.label);
+        canvas.mark(mark.style, *at, &rays);
+    }
+    for (mark, at) in marks.iter().zip(&spots) {
+        canvas.label(*at, &mark.label);
     }
     Some(canvas)
 }

@@ -7,6 +7,7 @@ use super::words::{addresses, count, listed, point_name};
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Rational, to_f64};
 use crate::case::Case;
+use crate::jordan::Spectrum;
 use crate::picture::{self, Arrow, CellBox, Dot, Drawing, Mark, MarkStyle, Picture};
 use crate::shape::{CellKind, Shape, word_text};
 use crate::theorem::{
@@ -73,8 +74,7 @@ const MAX_LABELS: usize = 8;
 
 /// The eigenvalues of a cycle in the complex plane.
 #[must_use]
-pub fn spectrum(branch: &BranchReport) -> Block {
-    let spectrum = &branch.spectrum;
+pub fn spectrum(spectrum: &Spectrum) -> Block {
     let members: Vec<_> =
         spectrum.classes.iter().enumerate().flat_map(|(k, c)| c.members.iter().map(move |m| (k, *m))).collect();
     let mut dots = Vec::new();
