@@ -4,6 +4,7 @@
 pub mod characteristic;
 mod chart;
 mod diagram;
+mod field;
 mod frame;
 mod germ;
 mod invariant;
@@ -16,6 +17,7 @@ mod trace;
 
 pub use chart::{CellBox, Turning, functional, turning as turning_chart};
 pub use diagram::{Arrow, Dot, Drawing, automaton, spectrum};
+pub use field::{ConeField, cone_field};
 pub use germ::{profile, turning, zoom};
 pub use invariant::polytope;
 pub use plot::Plot;

@@ -108,6 +108,29 @@ impl Canvas {
         self.elements.push(Element::Cloud { class: "sc-s", points: self.placed(points) });
     }
 
+    /// A polygon with its inside.
+    pub fn filled(&mut self, class: &'static str, corners: &[[f64; 2]]) {
+        let mut points = self.placed(corners);
+        points.extend(points.first().copied());
+        self.elements.push(Element::Path { class, points });
+    }
+
+    /// A sector between two angles, of a radius in pixels.
+    pub fn fan(&mut self, class: &'static str, at: [f64; 2], angles: (f64, f64), radius: f64) {
+        let at = self.place(at);
+        let arc = (0..=12).map(|k| angles.0 + (angles.1 - angles.0) * f64::from(k) / 12.0);
+        let mut points = vec![at];
+        points.extend(arc.map(|a| [at[0] + radius * a.cos(), at[1] - radius * a.sin()]));
+        points.push(at);
+        self.elements.push(Element::Path { class, points });
+    }
+
+    /// A small point.
+    pub fn dot(&mut self, at: [f64; 2]) {
+        let at = self.place(at);
+        self.elements.push(Element::Disc { class: "sc-k", at, radius: 2.5 });
+    }
+
     /// A point with its rays, each as an arrow of fixed length.
     pub fn mark(&mut self, style: MarkStyle, at: [f64; 2], rays: &[[f64; 2]]) {
         let class = match style {

@@ -98,6 +98,24 @@ pub fn spectrum(spectrum: &Spectrum) -> Block {
     figure(picture::spectrum(&dots, "Eigenvalues"), alt, words(text))
 }
 
+/// The cones of Theorem 6 along the curve; `None` where there are none, or they are not seen in the plane of the drawing.
+#[must_use]
+pub fn cones(case: &Case, found: &Certified) -> Option<Block> {
+    let every = found.everywhere.as_ref()?;
+    let title = format!("{}: cones", case.title);
+    let field = picture::cone_field(&case.shape, every.cone.as_ref()?, &title)?;
+    let alt = format!(
+        "The curve with {}; at the start of each of them a fan, the cone that holds its forward secants, and nested parallelograms around the cells.",
+        count(field.cells, "cell")
+    );
+    let text = format!(
+        "The cones along the curve, down to its cells of {}. The fan at the start of a cell $u$ is the cone $ε_u T_u C$ of its forward secants. Every cell \
+         lies in the parallelogram in which this cone meets the reversed one at its end; cells of all levels down to the last are drawn.",
+        count(field.level, "letter")
+    );
+    Some(figure(field.drawing, alt, line(&text, [])))
+}
+
 /// The interval of parameters of a cell of an edge state.
 #[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 fn parameters(shape: &Shape, state: usize, word: &[usize]) -> (f64, f64) {

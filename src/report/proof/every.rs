@@ -9,6 +9,7 @@ use super::{Quoted, matrix};
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::{Matrix, dot};
+use crate::report::figures;
 use crate::shape::word_text;
 use crate::theorem::Certified;
 use crate::theorem::cone::CommonCone;
@@ -45,13 +46,14 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
         blocks.push(Block::Formula(Math::matrix(&o.product)));
     }
     blocks.push(Block::Facts(every::facts(case, found, result)));
+    blocks.extend(figures::cones(case, found));
     blocks
 }
 
 /// Most rays that are printed.
 const MAX_RAYS: usize = 12;
 /// Wider matrices of coefficients are not printed: about so many characters fit a line.
-const MAX_WIDTH: usize = 72;
+const MAX_WIDTH: usize = 54;
 
 fn cones(case: &Case, found: &Certified, cone: &CommonCone) -> Vec<Block> {
     let mut blocks = Vec::new();

@@ -21,7 +21,7 @@ use super::theorems::{self, Theorem};
 use super::words::mark;
 use crate::case::Case;
 use crate::linalg::Matrix;
-use crate::shape::Spaces;
+use crate::shape::{CellKind, Spaces};
 use crate::theorem::{BranchReport, Certified, Verdict};
 
 /// Matrices with more rows or columns than this are folded.
@@ -32,10 +32,11 @@ const LARGE: usize = 8;
 pub fn document(case: &Case, found: &Certified) -> Document {
     let mut blocks = opening(case, found);
     let mut seen = Quoted::default();
+    let start = case.shape.states[case.shape.start].kind;
     blocks.extend(scheme::section(case, found, &mut seen));
     let cycles = cycles::distinct(found);
     if let Some(spaces) = Spaces::new(&case.shape).filter(|_| !found.points.is_empty()) {
-        blocks.extend(definitions(false));
+        blocks.extend(definitions(start));
         blocks.push(Block::heading(2, "The cycles"));
         for (k, branch) in cycles.iter().enumerate() {
             blocks.extend(cycles::section(case, &spaces, branch, k, &mut seen));
@@ -43,7 +44,7 @@ pub fn document(case: &Case, found: &Certified) -> Document {
         blocks.extend(points::section(case, found, &cycles, &mut seen));
     }
     if let Some(surface) = &found.surface {
-        blocks.extend(definitions(true));
+        blocks.extend(definitions(start));
         blocks.extend(surface::section(case, surface, &mut seen));
     }
     blocks.extend(dense::section(case, found, &mut seen));
@@ -84,8 +85,8 @@ impl Quoted {
 }
 
 /// The words that the statements use.
-fn definitions(of_surface: bool) -> Vec<Block> {
-    let (dimension, branches) = if of_surface {
+fn definitions(start: CellKind) -> Vec<Block> {
+    let (dimension, branches) = if start == CellKind::Face {
         (
             "There is a **tangent plane** if and only if $\\dim D^*=2$.",
             "Every point examined has one **branch** for each cell that contains it: an address $u w^ω$ with a prefix $u$ and a cycle $w$.",
@@ -115,10 +116,15 @@ fn definitions(of_surface: bool) -> Vec<Block> {
         "A branch is **isolated** if no point of $X$ lies in the generalised kernel of $L$. The **hull** of a vector is the smallest $L$-invariant \
          subspace that contains it.",
     ];
-    if !of_surface {
+    if start != CellKind::Face {
         items.push(
             "The **angular deviation** after $m$ turns is the largest angle between the tangent line and a secant from $p$ to a point of the branch behind \
-             $m$ turns of its cycle. The **local Hölder exponent** $h=\\ln ρ_1/\\ln s$ is that of the branch at $p$ in the uniform parameter, in which the \
+             $m$ turns of its cycle.",
+        );
+    }
+    if start == CellKind::Edge {
+        items.push(
+            "The **local Hölder exponent** $h=\\ln ρ_1/\\ln s$ is that of the branch at $p$ in the uniform parameter, in which the \
              pieces of a cell take equal parts of its interval; one turn of the cycle shrinks the parameter by $s$.",
         );
     }

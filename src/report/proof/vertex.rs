@@ -18,8 +18,11 @@ pub fn vertex_document(case: &VertexCase, found: &[AtValence], every: Option<&Ev
     let mut blocks = statement(case, found, every);
     blocks.extend(scheme(case));
     blocks.extend(definitions());
-    blocks.push(Block::heading(2, "The statements"));
-    blocks.extend(cited(found, every).into_iter().filter_map(|id| seen.once_id(id)));
+    let quotes: Vec<Block> = cited(found, every).into_iter().filter_map(|id| seen.once_id(id)).collect();
+    if !quotes.is_empty() {
+        blocks.push(Block::heading(2, "The statements"));
+        blocks.extend(quotes);
+    }
     blocks.push(Block::heading(2, "Summary"));
     blocks.extend(summary_by_valence(case, found, every));
     blocks.extend(evidence_by_valence(case, found));
