@@ -4,7 +4,7 @@
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::number::{Q, whole};
+use crate::number::whole;
 use crate::points::{Place, Point, joints};
 use crate::rate::Bounds;
 use crate::ring::Model;
@@ -42,6 +42,8 @@ struct Cones<'a> {
 pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Answer, Rejected> {
     let [_, _, cones, maps, view, window, slow, rate, together, witness] =
         node.fields(["question", "verdict", "cones", "maps", "view", "window", "slow", "rate", "joints", "witness"])?;
+    let start = &model.shape.states[model.shape.start];
+    node.need(start.kind == Kind::Edge, "every-point", "only of a curve it is asked whether it is G¹")?;
     let witness = refuting(points, &witness)?;
     let named = |verdict, claim: &str| Ok(Answer { verdict, witness, claim: claim.to_owned() });
     if cones.list()?.is_empty() {
@@ -334,7 +336,7 @@ impl<'a> Cones<'a> {
             return reject("slow", &top.place, "the leading eigenvalue must be positive");
         }
         let row = field.vector(&functional, linear.rows)?;
-        if !residual(&field, &linear.transpose(), chain.sign, &row)?.is_zero() {
+        if !residual(&field.by_root, &linear.transpose(), chain.sign, &row)?.is_zero() {
             return reject("slow", &functional.place, "the row is no left eigenvector");
         }
         for other in &chains {
@@ -381,74 +383,29 @@ impl<'a> Cones<'a> {
         }
         let [length, bound] = node.fields(["length", "cross_ratio"])?;
         let (length, most) = (length.index(MAX_RATE.0 + 1)?, bound.rational()?);
-        let shape = self.model.shape;
-        let says = format!(" (cones shrink by (√D − 1)/(√D + 1) with every {length} letters, D = {most})");
-        if self.rounded_rate(length, &most)? {
-            return Ok(says);
-        }
-        let identity = |e: usize| (e, Matrix::identity(self.rays[e].rows));
-        let mut layer: Vec<(usize, Matrix)> = self.model.reachable.iter().map(|&e| identity(e)).collect();
+        bound.need(most >= whole(1), "rate", "no cross-ratio is smaller than 1 together with its inverse")?;
+        let rounded: Vec<Vec<Bounds>> = self.maps.iter().map(|maps| maps.iter().map(Bounds::of).collect()).collect();
+        let identity = |&e: &usize| (e, Bounds::of(&Matrix::identity(self.rays[e].rows)));
+        let mut layer: Vec<(usize, Bounds)> = self.model.reachable.iter().map(identity).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (e, product) in &layer {
-                for (piece, b) in shape.states[*e].pieces.iter().zip(&self.maps[*e]) {
+                for (piece, b) in self.model.shape.states[*e].pieces.iter().zip(&rounded[*e]) {
                     longer.push((piece.target, product.times(b)?));
                 }
             }
-            if longer.len() > MAX_RATE.1 {
-                return reject("limit", "", "too many products");
-            }
-            layer = longer;
-        }
-        for (_, b) in &layer {
-            if length == 0 || b.data.iter().any(|x| !x.is_positive()) || !within(b, &most) {
-                return reject("rate", &bound.place, "a product is not positive, or has a larger cross-ratio");
-            }
-        }
-        Ok(says)
-    }
-
-    /// Whether rounded products show that the cross-ratios of `length` letters are at most `most`: faster than exact ones.
-    fn rounded_rate(&self, length: usize, most: &Q) -> Result<bool, Rejected> {
-        let shape = self.model.shape;
-        let mut layer: Vec<(usize, Option<Bounds>)> = self.model.reachable.iter().map(|&e| (e, None)).collect();
-        for _ in 0..length {
-            let mut longer = Vec::new();
-            for (e, product) in &layer {
-                for (piece, b) in shape.states[*e].pieces.iter().zip(&self.maps[*e]) {
-                    let Some(b) = Bounds::of(b) else { return Ok(false) };
-                    let next = product.as_ref().map_or_else(|| Ok(b.clone()), |p| p.times(&b))?;
-                    longer.push((piece.target, Some(next)));
-                }
-            }
-            if longer.len() > MAX_RATE.1 {
-                return Ok(false);
-            }
+            bound.need(longer.len() <= MAX_RATE.1, "limit", "too many products")?;
             layer = longer;
         }
         for (_, product) in &layer {
-            if !product.as_ref().map_or(Ok(false), |b| b.within(most))? {
-                return Ok(false);
-            }
+            let within = length > 0 && product.within(&most)?;
+            bound.need(within, "rate", "a product is not seen to be positive, or to have so small a cross-ratio")?;
         }
-        Ok(length > 0)
+        Ok(format!(" (cones shrink by (√D − 1)/(√D + 1) with every {length} letters, D = {most})"))
     }
 }
 
 /// 1 where an entry is positive, otherwise 0.
 fn pattern(m: &Matrix) -> Matrix {
     Matrix::ones(m.rows, m.cols, |i, j| m.data[i * m.cols + j].is_positive())
-}
-
-/// Whether `b_ij b_kl <= D b_kj b_il` for all entries of a positive matrix.
-fn within(b: &Matrix, bound: &Q) -> bool {
-    (0..b.cols).all(|j| {
-        (0..j).all(|l| {
-            let ratios: Vec<Q> = (0..b.rows).map(|i| b.at(i, j) / b.at(i, l)).collect();
-            match (ratios.iter().max(), ratios.iter().min()) {
-                (Some(hi), Some(lo)) => *hi <= bound * lo,
-                _ => true,
-            }
-        })
-    })
 }

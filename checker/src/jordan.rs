@@ -3,8 +3,9 @@
 use crate::case;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::number::{Q, decimal_fraction, spend, whole};
-use crate::poly::{Field, Interval, complex_values};
+use crate::number::{Q, bits, decimal_fraction, spend};
+use crate::poly::{Field, has_root_near};
+use crate::spectrum::chain;
 use crate::{Accepted, Rejected, Verdict, at, need, reject};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -15,27 +16,32 @@ const MAX_SIZE: usize = 256;
 /// The modulus of a determinant lies below this.
 const MAX_MODULUS: usize = 1 << 31;
 
-/// A disc with one root; where its centre is not real, it stands for its mirror image too.
+/// A disc with one root of a factor; where its centre is not real, it stands for its mirror image too.
 struct Disc {
-    factor: Rc<Vec<Q>>,
-    centre: (Q, Q),
-    error: Q,
+    factor: Rc<Matrix>,
+    x: BigInt,
+    y: BigInt,
+    error: BigInt,
+}
+
+/// The discs of a matrix; all numbers are over one denominator.
+struct Discs {
+    list: Vec<Disc>,
+    den: BigInt,
+    bits: u64,
 }
 
 impl Disc {
-    fn is_real(&self) -> bool {
-        self.centre.1.is_zero()
+    fn modulus_squared(&self) -> BigInt {
+        &self.x * &self.x + &self.y * &self.y
     }
 
-    fn modulus_squared(&self) -> Q {
-        &self.centre.0 * &self.centre.0 + &self.centre.1 * &self.centre.1
-    }
-
-    /// Whether the disc, moved by at most `slack`, misses another one and its mirror image.
-    fn misses(&self, other: &Self, slack: &Q) -> bool {
-        let (x, far) = (&self.centre.0 - &other.centre.0, &self.error + &other.error + slack);
-        [-Q::one(), Q::one()].iter().all(|s| {
-            let y = &self.centre.1 + s * &other.centre.1;
+    /// Whether the disc, moved by at most a fraction `slack.0 / slack.1`, misses another one and its mirror image.
+    fn misses(&self, other: &Self, slack: &(BigInt, BigInt)) -> bool {
+        let far = (&self.error + &other.error) * &slack.1 + &slack.0;
+        let x = (&self.x - &other.x) * &slack.1;
+        [&self.y - &other.y, &self.y + &other.y].into_iter().all(|y| {
+            let y = y * &slack.1;
             &x * &x + &y * &y > &far * &far
         })
     }
@@ -73,11 +79,8 @@ pub fn check(source: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
             name = case.name;
         }
     }
-    spectra.need(
-        items.len() == operators.len() && !items.is_empty(),
-        "spectrum",
-        "one item for each operator is needed",
-    )?;
+    let all = items.len() == operators.len() && !items.is_empty();
+    spectra.need(all, "spectrum", "one item for each operator is needed")?;
     let mut claims = Vec::new();
     for (item, (of, matrix, place)) in items.iter().zip(&operators) {
         let [operator, factors, modulus, classes] = item.fields(["operator", "factors", "modulus", "classes"])?;
@@ -97,77 +100,60 @@ pub fn check(source: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
 }
 
 /// Rules `roots` and `chains`: discs that hold one root each of the factors, and a Jordan basis over `Q[x]/(factor)`.
-fn roots_and_chains(
-    matrix: &Matrix,
-    node: &Node<'_>,
-    modulus: &Node<'_>,
-) -> Result<(Vec<Disc>, Vec<String>), Rejected> {
-    let (mut discs, mut basis, mut lines): (Vec<Disc>, _, _) = (Vec::new(), Matrix::empty(matrix.rows), Vec::new());
+fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Result<(Discs, Vec<String>), Rejected> {
+    let (mut numbers, mut factors, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+    let mut basis = Matrix::empty(matrix.rows);
     for item in node.list()? {
         let [polynomial, roots, chains] = item.fields(["polynomial", "roots", "chains"])?;
         let p = polynomial.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
         let monic = (2..=matrix.rows + 1).contains(&p.len()) && p[p.len() - 1].is_one();
         polynomial.need(monic, "roots", "a monic polynomial of degree at least 1 is needed")?;
-        let (before, p) = (discs.len(), Rc::new(p));
+        let factor = Rc::new(Matrix::new(1, p.len(), &p));
+        let mut counted = 0;
         for root in roots.list()? {
-            discs.push(disc(&p, &root)?);
+            let [centre, error] = root.fields(["centre", "error"])?;
+            let (c, e) = (centre.vector(2)?, error.rational()?);
+            let placed = !e.is_negative() && (c[1].is_zero() || c[1] > e);
+            root.need(placed, "roots", "a disc is centred on the real axis or lies above it")?;
+            root.need(has_root_near(&factor, &c, &e)?, "roots", "no root is seen to lie in this disc")?;
+            counted += if c[1].is_zero() { 1 } else { 2 };
+            numbers.extend(c.into_iter().chain([e]));
+            factors.push(Rc::clone(&factor));
         }
-        let counted: usize = discs[before..].iter().map(|d| if d.is_real() { 1 } else { 2 }).sum();
         roots.need(counted == p.len() - 1, "roots", "the discs must be as many as the degree")?;
         let by_root = Field::companion(&p);
         let mut blocks: Vec<usize> = Vec::new();
-        for chain in chains.list()? {
-            let mut vectors: Vec<Matrix> = Vec::new();
-            for item in chain.list()? {
-                let v = Field::coordinates(p.len() - 1, &item, matrix.rows)?;
-                let rest = matrix.times(&v)?.minus(&v.times(&by_root)?);
-                let continues = vectors.last().map_or(rest.is_zero(), |before| rest == *before);
-                item.need(continues, "chains", "the vector does not continue the Jordan chain")?;
-                basis = basis.stack(&v.transpose());
-                vectors.push(v);
-            }
+        for item in chains.list()? {
+            let vectors = chain(&item, matrix, &by_root, 1, "chains")?;
+            basis = vectors.iter().fold(basis, |all, v| all.stack(&v.transpose()));
             blocks.push(vectors.len());
         }
-        let descend = blocks.windows(2).all(|w| w[0] >= w[1]) && blocks.last().is_some_and(|b| *b > 0);
-        chains.need(descend, "chains", "chains are not empty, and the longest come first")?;
+        let descend = !blocks.is_empty() && blocks.windows(2).all(|w| w[0] >= w[1]);
+        chains.need(descend, "chains", "there are chains, and the longest come first")?;
         lines.push(format!("each root of {} has Jordan blocks of the sizes {blocks:?}", text(&p)));
     }
-    for (k, a) in discs.iter().enumerate() {
-        spend(discs.len(), discs.iter().map(|d| crate::number::bits(&d.centre.0)).max().unwrap_or(0))?;
-        need(discs[..k].iter().all(|b| a.misses(b, &Q::zero())), "roots", "two discs meet")?;
+    let all = Matrix::new(factors.len(), 3, &numbers);
+    let disc = |(k, factor): (usize, Rc<Matrix>)| {
+        let [x, y, error] = [0, 1, 2].map(|j| all.integers(k)[j].clone());
+        Disc { factor, x, y, error }
+    };
+    let list: Vec<Disc> = factors.into_iter().enumerate().map(disc).collect();
+    let discs = Discs { list, bits: all.bits(), den: all.den };
+    for (k, a) in discs.list.iter().enumerate() {
+        spend(8 * k, discs.bits)?;
+        let apart = discs.list[..k].iter().all(|b| a.misses(b, &(BigInt::zero(), BigInt::one())));
+        need(apart, "roots", "two discs meet")?;
     }
-    let square = basis.rows == matrix.rows;
-    node.need(
-        square,
-        "chains",
-        &format!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows),
-    )?;
-    modulus.need(
-        invertible(&basis, modulus)?,
-        "chains",
-        "the vectors are not seen to be independent for this modulus",
-    )?;
+    let why = format!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows);
+    node.need(basis.rows == matrix.rows, "chains", &why)?;
+    let independent = invertible(&basis, modulus)?;
+    modulus.need(independent, "chains", "the vectors are not seen to be independent for this modulus")?;
     Ok((discs, lines))
 }
 
 fn text(p: &[Q]) -> String {
     let terms = p.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()).map(|(k, c)| format!("({c}) x^{k}"));
     terms.collect::<Vec<_>>().join(" + ")
-}
-
-/// A disc that holds a root: `p` of degree `n` has one within `n |p(c)/p'(c)|` of `c`.
-fn disc(p: &Rc<Vec<Q>>, node: &Node<'_>) -> Result<Disc, Rejected> {
-    let [centre, error] = node.fields(["centre", "error"])?;
-    let (c, e) = (centre.vector(2)?, error.rational()?);
-    let placed = !e.is_negative() && (c[1].is_zero() || c[1] > e);
-    node.need(placed, "roots", "a disc is centred on the real axis or lies above it")?;
-    let derivative: Vec<Q> = p.iter().enumerate().skip(1).map(|(k, a)| a * whole(k as i64)).collect();
-    let point = (Interval::point(&c[0]), Interval::point(&c[1]));
-    let square = |p: &[Q]| complex_values(p, &point).map(|(re, im)| &re.lo * &re.lo + &im.lo * &im.lo);
-    let (n, slope) = (whole(p.len() as i64 - 1), square(&derivative)?);
-    let near = !slope.is_zero() && &n * &n * square(p)? <= &e * &e * slope;
-    node.need(near, "roots", "no root is seen to lie in this disc")?;
-    Ok(Disc { factor: Rc::clone(p), centre: (c[0].clone(), c[1].clone()), error: e })
 }
 
 /// Whether the determinant is a unit modulo a number: elimination finds invertible pivots. The number need not be prime.
@@ -202,66 +188,88 @@ fn inverse(a: u64, p: u64) -> Option<u64> {
 }
 
 /// Rule `moduli`: classes of equal modulus, the largest first, with radii that separate them.
-fn moduli(discs: &[Disc], node: &Node<'_>) -> Result<String, Rejected> {
-    let (mut listed, mut sizes) = (vec![false; discs.len()], Vec::new());
+fn moduli(discs: &Discs, node: &Node<'_>) -> Result<String, Rejected> {
+    let (mut listed, mut sizes) = (vec![false; discs.list.len()], Vec::new());
     let mut above: Option<Q> = None;
     let items = node.list()?;
     for (k, item) in items.iter().enumerate() {
         let [members, square, below] = item.fields(["members", "square", "below"])?;
-        let chosen = members.list()?.iter().map(|m| m.index(discs.len())).collect::<Result<Vec<_>, _>>()?;
+        let chosen = members.list()?.iter().map(|m| m.index(listed.len())).collect::<Result<Vec<_>, _>>()?;
         members.need(!chosen.is_empty(), "moduli", "a class is not empty")?;
         for &m in &chosen {
             members.need(!std::mem::replace(&mut listed[m], true), "moduli", "a root stands in two classes")?;
         }
         let below = if k + 1 == items.len() && below.is_null() { None } else { Some(below.rational()?) };
-        for disc in chosen.iter().map(|&m| &discs[m]) {
-            let (r, e) = (disc.modulus_squared(), &disc.error);
-            let inside = above.as_ref().is_none_or(|a| a > e && r < (a - e) * (a - e));
-            let outside = below.as_ref().is_none_or(|b| !b.is_negative() && r > (b + e) * (b + e));
+        for &m in &chosen {
+            let inside = above.as_ref().map_or(Ok(true), |a| discs.beyond(m, a, -1))?;
+            let outside = below.as_ref().map_or(Ok(true), |b| discs.beyond(m, b, 1))?;
             item.need(inside && outside, "moduli", "the radii do not separate the classes")?;
         }
         let equal = if square.is_null() {
-            chosen[1..].iter().all(|&m| opposite(discs, chosen[0], m))
+            chosen[1..].iter().map(|&m| discs.opposite(chosen[0], m)).collect::<Result<Vec<_>, _>>()?
         } else {
             let s = square.rational()?;
-            chosen.iter().all(|&m| inverted(discs, m, &s))
+            chosen.iter().map(|&m| discs.inverted(m, &s)).collect::<Result<Vec<_>, _>>()?
         };
-        item.need(equal, "moduli", "the roots of a class are not seen to have one modulus")?;
-        sizes.push(chosen.iter().map(|&m| if discs[m].is_real() { 1 } else { 2 }).sum::<usize>());
+        item.need(equal.iter().all(|e| *e), "moduli", "the roots of a class are not seen to have one modulus")?;
+        sizes.push(chosen.iter().map(|&m| if discs.list[m].y.is_zero() { 1 } else { 2 }).sum::<usize>());
         above = below;
     }
     node.need(listed.iter().all(|l| *l), "moduli", "a root stands in no class")?;
     Ok(format!("different eigenvalues by modulus, the largest first: {sizes:?}"))
 }
 
-/// Whether the root of disc `b` is minus that of disc `a`, or minus its mirror image: the factor of `b` is `±p(−x)`, and of
-/// its discs only `b` meets the reflected disc.
-fn opposite(discs: &[Disc], a: usize, b: usize) -> bool {
-    let (p, q) = (&discs[a].factor, &discs[b].factor);
-    let sign = |k: usize| if (p.len() - 1 - k).is_multiple_of(2) { Q::one() } else { -Q::one() };
-    let reflected = p.len() == q.len() && (0..p.len()).all(|k| q[k] == &p[k] * sign(k));
-    let (x, y) = &discs[a].centre;
-    let mirror = Disc { factor: Rc::clone(q), centre: (-x, y.clone()), error: discs[a].error.clone() };
-    reflected && others(discs, b).all(|d| mirror.misses(d, &Q::zero()))
-}
-
-/// The other discs of the same factor.
-fn others(discs: &[Disc], m: usize) -> impl Iterator<Item = &Disc> {
-    let same = move |(k, d): &(usize, &Disc)| *k != m && Rc::ptr_eq(&d.factor, &discs[m].factor);
-    discs.iter().enumerate().filter(same).map(|(_, d)| d)
-}
-
-/// Whether the root `λ` of disc `m` has `|λ|² = s`: the roots of its factor are closed under `λ -> s/λ`, and `s/conj(λ)`, which
-/// is the multiple `s/|λ|²` of `λ`, is nearer to `λ` than the other roots.
-fn inverted(discs: &[Disc], m: usize, s: &Q) -> bool {
-    let (p, disc) = (&discs[m].factor, &discs[m]);
-    let d = p.len() - 1;
-    let closed = s.is_positive() && (0..=d).all(|j| &p[d - j] * num_traits::pow(s.clone(), d - j) == &p[0] * &p[j]);
-    let (x, y, e) = (disc.centre.0.abs(), disc.centre.1.abs(), &disc.error);
-    let least = (if x > y { x.clone() } else { y.clone() }) - e;
-    if !closed || !least.is_positive() {
-        return false;
+impl Discs {
+    /// Whether the modulus of the root of disc `m` lies above the radius (`side = 1`) or below it (`side = -1`).
+    fn beyond(&self, m: usize, radius: &Q, side: i64) -> Result<bool, Rejected> {
+        spend(16, self.bits + bits(radius))?;
+        let disc = &self.list[m];
+        let (r, e) = (radius.numer() * &self.den, &disc.error * radius.denom());
+        let (modulus, r) = (disc.modulus_squared() * radius.denom() * radius.denom(), r + e * side);
+        let positive = !radius.is_negative() && !r.is_negative();
+        Ok(positive && if side > 0 { modulus > &r * &r } else { modulus < &r * &r })
     }
-    let moved = ((s - disc.modulus_squared()).abs() + (x + y) * e * whole(2) + e * e) / least;
-    others(discs, m).all(|d| disc.misses(d, &moved))
+
+    /// Whether the root of disc `b` is minus that of disc `a`, or minus its mirror image: the factor of `b` is `±p(−x)`, and
+    /// of its discs only `b` meets the reflected disc.
+    fn opposite(&self, a: usize, b: usize) -> Result<bool, Rejected> {
+        let (p, q) = (&self.list[a].factor, &self.list[b].factor);
+        let sign = |k: usize| if (p.cols - 1 - k).is_multiple_of(2) { 1 } else { -1 };
+        let reflected = p.cols == q.cols && (0..p.cols).all(|k| &q.data[k] * &p.den == &p.data[k] * &q.den * sign(k));
+        let Disc { x, y, error, .. } = &self.list[a];
+        let mirror = Disc { factor: Rc::clone(q), x: -x, y: y.clone(), error: error.clone() };
+        Ok(reflected && self.others_miss(&mirror, b, &(BigInt::zero(), BigInt::one()))?)
+    }
+
+    /// Whether the other discs of the factor of disc `m` miss a disc that may move by at most `slack`.
+    fn others_miss(&self, disc: &Disc, m: usize, slack: &(BigInt, BigInt)) -> Result<bool, Rejected> {
+        spend(8 * self.list.len(), self.bits + slack.0.bits().max(slack.1.bits()))?;
+        let mut all =
+            self.list.iter().enumerate().filter(|(k, d)| *k != m && Rc::ptr_eq(&d.factor, &self.list[m].factor));
+        Ok(all.all(|(_, d)| disc.misses(d, slack)))
+    }
+
+    /// Whether the root `λ` of disc `m` has `|λ|² = s`: the roots of its factor are closed under `λ -> s/λ`, and `s/conj(λ)`,
+    /// which is the multiple `s/|λ|²` of `λ`, is nearer to `λ` than the other roots.
+    fn inverted(&self, m: usize, s: &Q) -> Result<bool, Rejected> {
+        let disc = &self.list[m];
+        let (p, d) = (&disc.factor, disc.factor.cols - 1);
+        spend(4 * p.cols, p.bits() + bits(s) * d as u64)?;
+        // a_(d-j) s^(d-j) = a_0 a_j for all j.
+        let (mut n, mut q, mut closed) = (BigInt::one(), BigInt::one(), s.is_positive());
+        for k in 0..=d {
+            closed &= &p.data[k] * &n * &p.den == &p.data[0] * &p.data[d - k] * &q;
+            n *= s.numer();
+            q *= s.denom();
+        }
+        let (x, y, e) = (disc.x.abs(), disc.y.abs(), &disc.error);
+        let least = x.clone().max(y.clone()) - e;
+        if !closed || !least.is_positive() {
+            return Ok(false);
+        }
+        // | s - |c|^2 | + 2 (|x| + |y|) e + e^2 over the least modulus.
+        let apart = s.numer() * &self.den * &self.den - disc.modulus_squared() * s.denom();
+        let moved = apart.abs() + ((x + y) * e * 2 + e * e) * s.denom();
+        self.others_miss(disc, m, &(moved, least * s.denom()))
+    }
 }

@@ -146,6 +146,7 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
         "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };
+    number::spend(0, 0)?;
     if name.text()? != found.case {
         return reject("case", &name.place, format!("the case is `{}`", found.case));
     }

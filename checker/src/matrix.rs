@@ -1,10 +1,9 @@
 //! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
 
 use crate::Rejected;
-use crate::number::{Q, spend};
+use crate::number::{Q, charge, gcd, lcm, ratio, spend};
 use num_bigint::BigInt;
-use num_integer::Integer;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// A matrix, stored by rows; a point is a matrix with one column.
 #[derive(Debug, Clone)]
@@ -29,7 +28,8 @@ impl PartialEq for Matrix {
 impl Matrix {
     /// The matrix with the given entries, row after row.
     pub fn new(rows: usize, cols: usize, entries: &[Q]) -> Self {
-        let den = entries.iter().fold(BigInt::one(), |l, x| lcm(&l, x.denom()));
+        let den = entries.iter().fold(BigInt::one(), |l, x| if charge(1, l.bits()) { lcm(&l, x.denom()) } else { l });
+        charge(entries.len(), den.bits());
         Self { rows, cols, data: entries.iter().map(|x| x.numer() * (&den / x.denom())).collect(), den }
     }
 
@@ -56,7 +56,7 @@ impl Matrix {
 
     /// The entry in row `i` and column `j`.
     pub fn at(&self, i: usize, j: usize) -> Q {
-        Q::new(self.data[i * self.cols + j].clone(), self.den.clone())
+        ratio(self.data[i * self.cols + j].clone(), self.den.clone())
     }
 
     /// The integers of row `i`.
@@ -77,7 +77,7 @@ impl Matrix {
 
     /// All entries, row after row.
     pub fn entries(&self) -> Vec<Q> {
-        self.data.iter().map(|x| Q::new(x.clone(), self.den.clone())).collect()
+        self.data.iter().map(|x| ratio(x.clone(), self.den.clone())).collect()
     }
 
     /// The transpose.
@@ -119,6 +119,7 @@ impl Matrix {
     pub fn plus(&self, factor: &Q, other: &Self) -> Self {
         let own = &other.den * factor.denom();
         let den = lcm(&own, &self.den);
+        charge(self.data.len(), den.bits());
         let (a, b) = (&den / &self.den, &den / &own * factor.numer());
         let data = self.data.iter().zip(&other.data).map(|(x, y)| x * &a + y * &b).collect();
         Self { rows: self.rows, cols: self.cols, data, den }
@@ -137,9 +138,10 @@ impl Matrix {
 
     /// The rows of `self` followed by those of `below`.
     pub fn stack(&self, below: &Self) -> Self {
-        let (a, b) = (&below.den, &self.den);
-        let data = self.data.iter().map(|x| x * a).chain(below.data.iter().map(|x| x * b)).collect();
-        Self { rows: self.rows + below.rows, cols: self.cols, data, den: a * b }
+        let den = lcm(&self.den, &below.den);
+        let (a, b) = (&den / &self.den, &den / &below.den);
+        let data = self.data.iter().map(|x| x * &a).chain(below.data.iter().map(|x| x * &b)).collect();
+        Self { rows: self.rows + below.rows, cols: self.cols, data, den }
     }
 
     /// The nonzero rows of the reduced row echelon form, and the columns of their leading ones.
@@ -224,9 +226,9 @@ impl Matrix {
         Self { den: self.den / common, ..self }
     }
 
-    /// The coefficients of the characteristic polynomial `det(x − self)` and of the polynomial matrix `adj(x − self)`, lowest
-    /// first (Faddeev and LeVerrier).
-    pub fn characteristic(&self) -> Result<(Vec<Q>, Vec<Self>), Rejected> {
+    /// The coefficients of the characteristic polynomial `det(x − self)` (a row) and of the polynomial matrix `adj(x − self)`,
+    /// lowest first (Faddeev and LeVerrier).
+    pub fn characteristic(&self) -> Result<(Self, Vec<Self>), Rejected> {
         let n = self.rows;
         let (mut coefficients, mut adjugate) = (vec![Q::one()], Vec::new());
         let mut m = Self::identity(n);
@@ -234,7 +236,7 @@ impl Matrix {
             let product = self.times(&m)?;
             adjugate.push(m);
             let trace: BigInt = (0..n).map(|i| &product.data[i * n + i]).sum();
-            coefficients.push(Q::new(-trace, &product.den * k));
+            coefficients.push(ratio(-trace, &product.den * k));
             m = product;
             // The trace is a multiple of k, so that the denominator stays that of the power.
             let diagonal = coefficients[k].numer() * (&m.den / coefficients[k].denom());
@@ -242,24 +244,8 @@ impl Matrix {
         }
         coefficients.reverse();
         adjugate.reverse();
-        Ok((coefficients, adjugate))
+        Ok((Self::new(1, n + 1, &coefficients), adjugate))
     }
-}
-
-/// The greatest common divisor, not negative; much faster than that of the library where one of the numbers is short.
-fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
-    let (short, long) = if a.bits() < b.bits() { (a, b) } else { (b, a) };
-    match short.magnitude().to_u64() {
-        Some(0) => long.abs(),
-        Some(1) => BigInt::one(),
-        Some(word) => (long.magnitude() % word).to_u64().map_or_else(BigInt::one, |rest| word.gcd(&rest).into()),
-        None => a.gcd(b),
-    }
-}
-
-/// The least common multiple of positive numbers.
-fn lcm(a: &BigInt, b: &BigInt) -> BigInt {
-    if a == b { a.clone() } else { a / gcd(a, b) * b }
 }
 
 /// The greatest common divisor of a list.
@@ -291,12 +277,12 @@ mod tests {
     #[test]
     fn characteristic_polynomials() {
         let m = matrix(&[&[1, 2, 3], &[4, 5, 6], &[7, 8, 10]]);
-        assert_eq!(m.characteristic().unwrap().0, [3, -12, -16, 1].map(whole));
+        assert_eq!(m.characteristic().unwrap().0, matrix(&[&[3, -12, -16, 1]]));
         let half = Q::new(1.into(), 2.into());
         let (halved, adjugate) = m.scaled(&half).characteristic().unwrap();
-        assert_eq!(halved, [whole(3) / whole(8), whole(-3), whole(-8), whole(1)]);
+        assert_eq!(halved.scaled(&whole(8)), matrix(&[&[3, -24, -64, 8]]));
         // (x − A) adj(x − A) = χ(x): the coefficient of x^0.
-        assert_eq!(m.scaled(&-half).times(&adjugate[0]).unwrap(), Matrix::identity(3).scaled(&halved[0]));
+        assert_eq!(m.scaled(&-half).times(&adjugate[0]).unwrap(), Matrix::identity(3).scaled(&halved.at(0, 0)));
         assert_eq!(m.rank().unwrap(), 3);
         assert_eq!(matrix(&[&[1, 2], &[2, 4]]).echelon().unwrap().0, matrix(&[&[1, 2]]));
         let echelon = matrix(&[&[0, 2, 1], &[-3, 0, 5]]).echelon().unwrap();

@@ -118,7 +118,17 @@ impl Place {
             return Ok(Self::Inside(address.clone()));
         };
         for (k, &letter) in address.prefix.iter().enumerate().rev() {
-            end = end.in_piece(&shape.states[states[k]].pieces[letter]);
+            let pieces = &shape.states[states[k]].pieces;
+            end = end.in_piece(&pieces[letter]);
+            let solid = |mut letters: std::ops::Range<usize>| letters.any(|i| !model.spaces.is_point(states[k], i));
+            if model.spaces.is_point(states[k], letter) {
+                // All of the piece is one point: an end of the state, or between two pieces, where no branch shows it.
+                end = match (solid(0..letter), solid(letter + 1..pieces.len())) {
+                    (false, true) => End::Start,
+                    (true, false) => End::Finish,
+                    _ => return Ok(Self::Inside(address.clone())),
+                };
+            }
             let meets = |(l, r): &(usize, usize)| if end == End::Start { *r == letter } else { *l == letter };
             if let Some((left, right)) = joints(model, states[k]).into_iter().find(meets) {
                 return Ok(Self::Joint { path: address.prefix[..k].to_vec(), left, right });

@@ -29,35 +29,16 @@ impl Interval {
     pub fn sign(&self) -> i32 {
         if self.lo.is_positive() { 1 } else { -i32::from(self.hi.is_negative()) }
     }
-
-    /// An interval with all sums.
-    pub fn plus(&self, other: &Self) -> Self {
-        Self { lo: &self.lo + &other.lo, hi: &self.hi + &other.hi }
-    }
-
-    /// An interval with all differences.
-    pub fn minus(&self, other: &Self) -> Self {
-        Self { lo: &self.lo - &other.hi, hi: &self.hi - &other.lo }
-    }
-
-    /// An interval with all products.
-    pub fn times(&self, other: &Self) -> Self {
-        let (lo, hi) = products(&[self.lo.clone(), self.hi.clone()], &[other.lo.clone(), other.hi.clone()]);
-        Self { lo, hi }
-    }
 }
 
 /// The least and the greatest product.
-fn products<T: Ord + Clone>(a: &[T], b: &[T]) -> (T, T)
-where
-    for<'a> &'a T: std::ops::Mul<Output = T>,
-{
+fn products(a: &[BigInt; 2], b: &[BigInt; 2]) -> [BigInt; 2] {
     let first = &a[0] * &b[0];
     if a[0] == a[1] && b[0] == b[1] {
-        return (first.clone(), first);
+        return [first.clone(), first];
     }
     let ends = [&a[0] * &b[1], &a[1] * &b[0], &a[1] * &b[1]];
-    ends.into_iter().fold((first.clone(), first), |(lo, hi), x| (lo.min(x.clone()), hi.max(x)))
+    ends.into_iter().fold([first.clone(), first], |[lo, hi], x| [lo.min(x.clone()), hi.max(x)])
 }
 
 /// Enclosures of real numbers: the lower and the upper ends (columns over one denominator).
@@ -73,14 +54,6 @@ impl Enclosed {
     /// A column of rational numbers.
     pub fn exact(column: Matrix) -> Self {
         Self { lo: column.clone(), hi: column }
-    }
-
-    /// A column of intervals.
-    pub fn of(intervals: &[Interval]) -> Self {
-        let ends: Vec<Q> =
-            intervals.iter().map(|x| x.lo.clone()).chain(intervals.iter().map(|x| x.hi.clone())).collect();
-        let both = Matrix::new(2, intervals.len(), &ends);
-        Self { lo: both.row(0).transpose(), hi: both.row(1).transpose() }
     }
 
     /// The sign of an entry, 0 where it is not seen or 0.
@@ -99,30 +72,48 @@ impl Enclosed {
         let product = |i: usize, j: usize| products(&ends(self, i), &ends(other, j));
         let minor = |i: usize, j: usize| {
             let (a, b) = (product(i, j), product(j, i));
-            a.0 > b.1 || a.1 < b.0
+            a[0] > b[1] || a[1] < b[0]
         };
         (0..self.lo.rows).any(|i| (0..i).any(|j| minor(i, j)))
     }
 }
 
-/// Enclosures of the values on an interval of the polynomials whose coefficients, lowest first, are the rows of a matrix
-/// (Horner's scheme, in integers).
-fn values(rows: &Matrix, x: &Interval) -> Result<Enclosed, Rejected> {
-    let ends = Matrix::new(1, 2, &[x.lo.clone(), x.hi.clone()]);
-    spend(4 * rows.data.len() * rows.cols * rows.cols, rows.bits() + ends.bits())?;
-    let zero = || vec![BigInt::zero(); rows.rows];
-    let (mut lo, mut hi, mut scale) = (zero(), zero(), BigInt::one());
+/// Enclosures of the values on a rectangle (its real and its imaginary side) of the polynomials whose coefficients, lowest
+/// first, are the rows of a matrix: real and imaginary parts over one denominator (Horner's scheme, in integers).
+pub fn values(rows: &Matrix, x: &Interval, y: &Interval) -> Result<[Enclosed; 2], Rejected> {
+    let ends = Matrix::new(2, 2, &[x.lo.clone(), x.hi.clone(), y.lo.clone(), y.hi.clone()]);
+    spend(8 * rows.data.len() * rows.cols * rows.cols, rows.bits() + ends.bits())?;
+    let side = |k: usize| [ends.data[2 * k].clone(), ends.data[2 * k + 1].clone()];
+    let (x, y) = (side(0), side(1));
+    let mut sums = vec![[[BigInt::zero(), BigInt::zero()], [BigInt::zero(), BigInt::zero()]]; rows.rows];
+    let mut scale = BigInt::one();
     for k in (0..rows.cols).rev() {
         scale *= &ends.den;
-        for i in 0..rows.rows {
+        for (i, [re, im]) in sums.iter_mut().enumerate() {
             let c = &rows.integers(i)[k] * &scale;
-            let (a, b) = products(&[std::mem::take(&mut lo[i]), std::mem::take(&mut hi[i])], &ends.data);
-            (lo[i], hi[i]) = (a + &c, b + c);
+            let ([a, b], [d, e]) = (products(re, &x), products(im, &y));
+            let ([f, g], [h, j]) = (products(re, &y), products(im, &x));
+            (*re, *im) = ([a - e + &c, b - d + c], [f + h, g + j]);
         }
     }
     scale *= &rows.den;
-    let column = |data| Matrix { rows: rows.rows, cols: 1, data, den: scale.clone() };
-    Ok(Enclosed { lo: column(lo), hi: column(hi) })
+    let column = |part: usize, end: usize| {
+        let data = sums.iter().map(|s| s[part][end].clone()).collect();
+        Matrix { rows: rows.rows, cols: 1, data, den: scale.clone() }
+    };
+    Ok([0, 1].map(|part| Enclosed { lo: column(part, 0), hi: column(part, 1) }))
+}
+
+/// Whether a polynomial of degree `n` (a row) is seen to have a root within `error` of a point `z` of the plane: some root is
+/// nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`.
+pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Result<bool, Rejected> {
+    let slope = p.data.iter().enumerate().skip(1).map(|(k, c)| c * k).chain([BigInt::zero()]).collect();
+    let both = p.stack(&Matrix { data: slope, ..p.clone() });
+    let [re, im] = values(&both, &Interval::point(&z[0]), &Interval::point(&z[1]))?;
+    let square = |k: usize| &re.lo.data[k] * &re.lo.data[k] + &im.lo.data[k] * &im.lo.data[k];
+    let (far, degree) = (error.numer(), error.denom() * (p.cols - 1));
+    // Where the derivative is 0, this says that z is a root.
+    Ok(square(0) * &degree * &degree <= square(1) * far * far)
 }
 
 /// `Q[x]/(m)` with a real root `θ` of `m`: the only one in an interval. A vector over it is a matrix with one row of
@@ -154,12 +145,12 @@ impl Field {
             return Ok(Self::rational(&ends[0]));
         }
         let row = Matrix::new(1, d + 1, &m);
-        let value = |x: &Q| values(&row, &Interval::point(x)).map(|v| v.sign(0));
+        let value = |x: &Q| Self::real(&row, &Interval::point(x)).map(|v| v.sign(0));
         let changes = ends[0] < ends[1] && value(&ends[0])? * value(&ends[1])? < 0;
         interval.need(changes, "field", "the polynomial does not change sign on the interval")?;
         let place = Interval { lo: ends[0].clone(), hi: ends[1].clone() };
         let slope = row.data.iter().enumerate().skip(1).map(|(k, c)| c * k).collect();
-        let monotone = values(&Matrix { cols: d, data: slope, ..row }, &place)?.is_nonzero();
+        let monotone = Self::real(&Matrix { cols: d, data: slope, ..row }, &place)?.is_nonzero();
         interval.need(monotone, "field", "the interval is too wide to hold one root only")?;
         Ok(Self { interval: place, by_root: Self::companion(&m) })
     }
@@ -220,7 +211,13 @@ impl Field {
 
     /// Enclosures of the entries of a vector at `θ`.
     pub fn enclose(&self, vector: &Matrix) -> Result<Enclosed, Rejected> {
-        values(vector, &self.interval)
+        Self::real(vector, &self.interval)
+    }
+
+    /// Enclosures of real values.
+    fn real(rows: &Matrix, x: &Interval) -> Result<Enclosed, Rejected> {
+        let [re, _] = values(rows, x, &Interval::point(&Q::zero()))?;
+        Ok(re)
     }
 
     /// The sign of an element at `θ`, 0 where it is not seen.
@@ -245,23 +242,6 @@ pub fn roots_in_disc(p: &[BigInt]) -> Result<Option<usize>, Rejected> {
     // A constant factor moves no root.
     let next = primitive((0..n).map(|k| low * &p[k] - high * &p[n - k]).collect());
     Ok(roots_in_disc(&next)?.map(|inside| if grows { inside } else { n - inside }))
-}
-
-/// A complex number known up to intervals: real and imaginary part.
-pub type Complex = (Interval, Interval);
-
-/// An enclosure of `Σ_k c_k z^k`.
-pub fn complex_values(p: &[Q], z: &Complex) -> Result<Complex, Rejected> {
-    let bits = |numbers: &[Q]| numbers.iter().map(crate::number::bits).max().unwrap_or(0);
-    spend(
-        8 * p.len() * p.len(),
-        bits(p) + [&z.0, &z.1].iter().map(|i| bits(&[i.lo.clone(), i.hi.clone()])).max().unwrap_or(0),
-    )?;
-    let zero = Interval::point(&Q::zero());
-    Ok(p.iter().rev().fold((zero.clone(), zero), |(re, im), c| {
-        let new_re = re.times(&z.0).minus(&im.times(&z.1)).plus(&Interval::point(c));
-        (new_re, re.times(&z.1).plus(&im.times(&z.0)))
-    }))
 }
 
 #[cfg(test)]
@@ -300,8 +280,22 @@ mod tests {
     fn horner_encloses() {
         let x = Interval { lo: Q::new((-1).into(), 2.into()), hi: whole(2) };
         let p = [1, -3, 2].map(|c| whole(c) / whole(5));
-        let value = values(&Matrix::new(1, 3, &p), &x).unwrap();
+        let value = Field::real(&Matrix::new(1, 3, &p), &x).unwrap();
         // ((2 x − 3) x + 1) / 5: 2 x − 3 is in [−4, 1], times x in [−8, 2].
         assert_eq!((value.lo.at(0, 0), value.hi.at(0, 0)), (whole(-7) / whole(5), whole(3) / whole(5)));
+        // (x + iy)² + i-free terms: x² − y² + 1 and 2xy on [−1/2, 2] × [1, 3].
+        let square = Matrix::new(1, 3, &[whole(1), whole(0), whole(1)]);
+        let [re, im] = values(&square, &x, &Interval { lo: whole(1), hi: whole(3) }).unwrap();
+        assert_eq!([re.lo.at(0, 0), re.hi.at(0, 0)], [whole(-9), whole(4)]);
+        assert_eq!([im.lo.at(0, 0), im.hi.at(0, 0)], [whole(-3), whole(12)]);
+    }
+
+    #[test]
+    fn a_root_is_near() {
+        // x² + 1 at (1 + i)/2·…: n |p/p'| at 0.9 i is 2 · 0.19 / 1.8 < 1/4.
+        let (p, z) = (Matrix::new(1, 3, &[whole(1), whole(0), whole(1)]), [whole(0), whole(9) / whole(10)]);
+        assert!(has_root_near(&p, &z, &(whole(1) / whole(4))).unwrap());
+        assert!(!has_root_near(&p, &z, &(whole(1) / whole(5))).unwrap());
+        assert!(!has_root_near(&p, &[whole(0), whole(0)], &whole(100)).unwrap());
     }
 }

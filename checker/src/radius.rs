@@ -3,7 +3,8 @@
 use crate::case::matrix_list;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::number::{Q, bits, spend, whole};
+use crate::number::{Q, bits, spend};
+use crate::poly::has_root_near;
 use crate::{Accepted, Rejected, Verdict, at, reject};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -129,11 +130,7 @@ fn below(system: &System, node: &Node<'_>) -> Result<Q, Rejected> {
     if end != system.arrows[*first].0 {
         return reject("word", &node.place, "the path is not closed");
     }
-    let chi = product.characteristic()?.0;
-    let slope: Vec<Q> = chi.iter().enumerate().skip(1).map(|(k, c)| c * whole(k as i64)).collect();
-    let (value, slope) = (square_at(&chi, &centre)?, square_at(&slope, &centre)?);
-    let n = whole(product.rows as i64);
-    if !value.is_zero() && (slope.is_zero() || &n * &n * value > &e * &e * slope) {
+    if !has_root_near(&product.characteristic()?.0, &centre, &e)? {
         return reject("word", &error.place, "no eigenvalue is seen in this disc");
     }
     let reach = power(&bound, word.len())? + &e;
@@ -146,14 +143,6 @@ fn below(system: &System, node: &Node<'_>) -> Result<Q, Rejected> {
 /// The largest size of the numbers.
 fn largest<'a>(numbers: impl IntoIterator<Item = &'a Q>) -> u64 {
     numbers.into_iter().map(bits).max().unwrap_or(0)
-}
-
-/// `|p(x + iy)|²`.
-fn square_at(p: &[Q], z: &[Q]) -> Result<Q, Rejected> {
-    spend(4 * p.len() * p.len(), largest(p) + largest(z))?;
-    let (a, b) =
-        p.iter().rev().fold((Q::zero(), Q::zero()), |(a, b), c| (&a * &z[0] - &b * &z[1] + c, &a * &z[1] + &b * &z[0]));
-    Ok(&a * &a + &b * &b)
 }
 
 fn power(x: &Q, exponent: usize) -> Result<Q, Rejected> {
@@ -390,7 +379,10 @@ impl Block {
             }
             weights[s] = Some(w);
             for word in list.list()? {
-                words[s].push(word.list()?.iter().map(|n| n.index(self.arrows.len())).collect::<Result<_, _>>()?);
+                let letters = word.list()?;
+                // The empty word has norm 1 whatever the matrices are: it would be a code that proves every bound.
+                word.need((1..=crate::MAX_LETTERS).contains(&letters.len()), "tree", "words have 1 to 1000 letters")?;
+                words[s].push(letters.iter().map(|n| n.index(self.arrows.len())).collect::<Result<_, _>>()?);
             }
             words[s].sort();
         }

@@ -57,7 +57,8 @@ pub struct Cell {
 
 impl<'a> Model<'a> {
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
-    /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor.
+    /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
+    /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Result<Self, Rejected> {
         let reachable = shape.reachable();
         let spaces = at(&node.place, Spaces::new(shape, &reachable))?;
@@ -71,26 +72,61 @@ impl<'a> Model<'a> {
         for (item, &e) in items.iter().zip(&model.reachable) {
             let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;
             state.need(state.index(shape.states.len())? == e, "contraction", one_each)?;
-            code.need(matches!(code.value, Json::List(_)), "contraction", "the empty word does not contract")?;
+            code.need(!matches!(code.value, Json::Text(_)), "contraction", "the empty word does not contract")?;
             model.radius[e] = bound.rational()?;
-            let hull = if let Json::Null = hull.value { None } else { Some(hull.fields(["points", "images"])?) };
-            if let Some([points, _]) = &hull {
-                model.hulls[e] = points.matrix(shape.states[e].dim)?.transpose();
-            }
             entries.push((e, code, hull));
         }
-        for (e, code, hull) in entries {
-            at(&code.place, model.contracts(e, e, &Matrix::identity(shape.states[e].dim), code.value))?;
-            if let Some([_, images]) = hull {
-                at(&images.place, model.hull_maps_into(e, &images))?;
+        let by_polytopes = entries.iter().all(|(_, code, _)| matches!(code.value, Json::Object(_)));
+        if by_polytopes {
+            model.polytopes(entries.iter().map(|(e, code, _)| (*e, code)), true)?;
+        } else {
+            for (e, code, _) in &entries {
+                at(&code.place, model.contracts(*e, *e, &Matrix::identity(shape.states[*e].dim), code.value))?;
             }
+        }
+        if !entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Null)) {
+            model.polytopes(entries.iter().map(|(e, _, hull)| (*e, hull)), false)?;
         }
         Ok(model)
     }
 
+    /// Reads the hulls of all states, and the images of their vertices. With `shrinking` they prove contraction (Lemma 1′): the
+    /// vertices of each state span its space, all images under a piece have a vertex of positive weight in common, and the
+    /// vertices lie in the ball of the state.
+    fn polytopes<'n>(
+        &mut self,
+        hulls: impl Iterator<Item = (usize, &'n Node<'n>)>,
+        shrinking: bool,
+    ) -> Result<(), Rejected> {
+        let mut entries = Vec::new();
+        for (e, hull) in hulls {
+            let [points, images] = hull.fields(["points", "images"])?;
+            self.hulls[e] = points.matrix(self.shape.states[e].dim)?.transpose();
+            entries.push((e, points, images));
+        }
+        for (e, points, images) in entries {
+            at(&images.place, self.hull_maps_into(e, &images, shrinking))?;
+            if shrinking {
+                let spans = self.hulls[e].rank()? == self.shape.states[e].dim;
+                points.need(spans, "contraction", "the points do not span the space of the state")?;
+                let (hull, base) = (&self.hulls[e], &self.spaces.of(e)?.base);
+                let ones = Matrix::ones(1, hull.cols, |_, _| true);
+                let shift = hull.minus(&base.times(&ones)?);
+                let column = |j: usize| (0..hull.rows).map(|i| shift.data[i * hull.cols + j].abs()).sum::<BigInt>();
+                let largest = Q::new((0..hull.cols).map(column).max().unwrap_or_default(), shift.den.clone());
+                points.need(
+                    largest <= self.radius[e],
+                    "contraction",
+                    "the ball of this radius does not hold the points",
+                )?;
+            }
+        }
+        Ok(())
+    }
+
     /// Rule `hull`: the image of each vertex of the target's hull under each piece is a convex combination of vertices, so
     /// that the hulls, mapped into themselves by a contracting system, hold the attractors.
-    fn hull_maps_into(&self, e: usize, images: &Node<'_>) -> Result<(), Rejected> {
+    fn hull_maps_into(&self, e: usize, images: &Node<'_>, shrinking: bool) -> Result<(), Rejected> {
         let (own, images, pieces) = (&self.hulls[e], images.list()?, &self.shape.states[e].pieces);
         let sums = Matrix::ones(1, own.rows, |_, _| true).times(own)?;
         let affine = sums == Matrix::ones(1, own.cols, |_, _| true);
@@ -101,16 +137,22 @@ impl<'a> Model<'a> {
             need(all, "hull", "one image for each vertex of the target's hull is needed")?;
             let mut weights = vec![vec![Q::zero(); own.cols]; target.cols];
             for (row, combination) in weights.iter_mut().zip(&list) {
+                let mut next = 0;
                 for term in combination.list()? {
                     let [index, weight] = term.fields(["vertex", "weight"])?;
                     let (k, weight) = (index.index(own.cols)?, weight.rational()?);
-                    term.need(weight.is_positive(), "hull", "weights are positive")?;
-                    spend(1, bits(&row[k]) + bits(&weight))?;
-                    row[k] += weight;
+                    term.need(k >= next && weight.is_positive(), "hull", "vertices ascend, weights are positive")?;
+                    (row[k], next) = (weight, k + 1);
                 }
-                combination.need(row.iter().sum::<Q>().is_one(), "hull", "the weights do not add up to 1")?;
             }
-            let combined = own.times(&Matrix::from_rows(own.cols, &weights).transpose())?;
+            let common = |k: usize| weights.iter().all(|w| w[k].is_positive());
+            let shrinks = !shrinking || (0..own.cols).any(common);
+            need(shrinks, "contraction", "the images under a piece have no vertex in common")?;
+            let weights = Matrix::from_rows(own.cols, &weights).transpose();
+            let sums = Matrix::ones(1, own.cols, |_, _| true).times(&weights)?;
+            let one = sums == Matrix::ones(1, target.cols, |_, _| true);
+            need(one, "hull", "the weights do not add up to 1")?;
+            let combined = own.times(&weights)?;
             need(piece.op.times(target)? == combined, "hull", "an image is not this convex combination")?;
         }
         Ok(())
@@ -126,7 +168,8 @@ impl<'a> Model<'a> {
                 Ok(())
             }
             Json::Text(leaf) if leaf == "." => {
-                spend(product.rows * product.cols * product.cols, product.bits())?;
+                let radii = bits(&self.radius[end]) + bits(&self.radius[from]);
+                spend(product.rows * product.cols * product.cols + 64, product.bits() + radii)?;
                 let tau = dobrushin(product);
                 need(tau < Q::one(), "contraction", "a word of the code does not contract")?;
                 let shift = product.times(&self.spaces.of(end)?.base)?.minus(&self.spaces.of(from)?.base);

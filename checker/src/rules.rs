@@ -87,7 +87,7 @@ impl Leading {
 
     /// `g L − λ g` for a row over the field.
     fn residual(&self, linear: &Matrix, row: &Matrix) -> Result<Matrix, Rejected> {
-        residual(&self.field, &linear.transpose(), self.chain().sign, row)
+        residual(&self.field.by_root, &linear.transpose(), self.chain().sign, row)
     }
 
     /// The value of a row at the last vector of a chain.

@@ -1,7 +1,7 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
 use crate::matrix::Matrix;
-use crate::number::spend;
+use crate::number::{charge, spend};
 use crate::{MAX_LETTERS, Rejected, need, reject};
 
 /// What a state stands for.
@@ -91,7 +91,7 @@ impl Address {
     pub fn normalise(&self, shape: &Shape, start: usize) -> Option<Self> {
         // After the prefix and one round of the cycle per state, the pairs repeat.
         let length = self.prefix.len() + self.cycle.len() * (shape.states.len() + 1);
-        if length > 10 * MAX_LETTERS {
+        if length > 10 * MAX_LETTERS || !charge(10 * length, 0) {
             return None;
         }
         let mut pairs = Vec::new();

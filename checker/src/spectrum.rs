@@ -2,10 +2,11 @@
 
 use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
-use crate::number::{Q, whole};
-use crate::poly::{Complex, Enclosed, Field, Interval, complex_values, roots_in_disc};
+use crate::number::{Q, bits, spend, whole};
+use crate::poly::{Enclosed, Field, Interval, has_root_near, roots_in_disc, values};
 use crate::{Rejected, reject};
-use num_traits::{One, Signed, Zero};
+use num_bigint::BigInt;
+use num_traits::{Signed, pow};
 
 /// A Jordan chain `v_1, v_2, …` with `(L − sθ) v_1 = 0` and `(L − sθ) v_{j+1} = v_j`.
 pub struct Chain {
@@ -26,8 +27,8 @@ pub enum Top {
     },
     /// Simple complex conjugate eigenvalues.
     Pair {
-        /// A box that holds one of them.
-        value: Complex,
+        /// A square that holds one of them: its real and its imaginary side.
+        value: [Interval; 2],
         /// The coefficients of `adj(x − L)`: its nonzero columns are eigenvectors where `x` is a simple eigenvalue.
         adjugate: Vec<Matrix>,
     },
@@ -36,24 +37,41 @@ pub enum Top {
 }
 
 /// The radius, and how many roots of the characteristic polynomial have a larger modulus; none has this one.
-fn outside(chi: &[Q], radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
-    let r = radius.rational()?;
+fn outside(chi: &Matrix, radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
+    let (r, n) = (radius.rational()?, chi.cols - 1);
     radius.need(r.is_positive(), "disc", "the radius must be positive")?;
-    let mut power = Q::one();
-    let mut scaled = Vec::new();
-    for c in chi {
-        scaled.push(c * &power);
-        power *= &r;
-    }
-    match roots_in_disc(&primitive(Matrix::new(1, chi.len(), &scaled).data))? {
-        Some(inside) => Ok((r, chi.len() - 1 - inside)),
+    spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
+    // Multiples of a_k r^k: a_k p^k q^(n - k).
+    let scaled = |(k, a): (usize, &BigInt)| a * pow(r.numer().clone(), k) * pow(r.denom().clone(), n - k);
+    match roots_in_disc(&primitive(chi.data.iter().enumerate().map(scaled).collect()))? {
+        Some(inside) => Ok((r, n - inside)),
         None => reject("disc", &radius.place, "the recursion of Schur and Cohn is not regular for this radius"),
     }
 }
 
-/// `M v − s θ v` for a vector over the field.
-pub fn residual(field: &Field, matrix: &Matrix, sign: i32, v: &Matrix) -> Result<Matrix, Rejected> {
-    Ok(matrix.times(v)?.plus(&whole(-i64::from(sign)), &v.times(&field.by_root)?))
+/// `M v − s θ v` for a vector over `Q[x]/(m)`, given by the matrix that multiplies by the root of `m`.
+pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Result<Matrix, Rejected> {
+    Ok(matrix.times(v)?.plus(&whole(-i64::from(sign)), &v.times(by_root)?))
+}
+
+/// Reads the vectors of a Jordan chain of the eigenvalue `s θ`.
+pub fn chain(
+    list: &Node<'_>,
+    matrix: &Matrix,
+    by_root: &Matrix,
+    sign: i32,
+    rule: &str,
+) -> Result<Vec<Matrix>, Rejected> {
+    let mut vectors: Vec<Matrix> = Vec::new();
+    for item in list.list()? {
+        let v = Field::coordinates(by_root.rows, &item, matrix.rows)?;
+        let residual = residual(by_root, matrix, sign, &v)?;
+        let continues = vectors.last().map_or(residual.is_zero(), |before| residual == *before);
+        item.need(continues, rule, "the vector does not continue the Jordan chain")?;
+        vectors.push(v);
+    }
+    list.need(!vectors.is_empty(), rule, "a chain is not empty")?;
+    Ok(vectors)
 }
 
 impl Top {
@@ -75,7 +93,16 @@ impl Top {
         let field = Field::read(&polynomial, &interval)?;
         let beyond = field.interval.lo > r || field.interval.hi < -&r;
         interval.need(beyond, "top-real", "the eigenvalue must lie outside the disc")?;
-        let chains = list.list()?.iter().map(|c| Self::chain(c, linear, &field)).collect::<Result<Vec<_>, _>>()?;
+        let mut chains = Vec::new();
+        for item in list.list()? {
+            let [sign, vectors] = item.fields(["sign", "vectors"])?;
+            let sign = match sign.text()? {
+                "+" => 1,
+                "-" => -1,
+                _ => return sign.malformed("a sign is \"+\" or \"-\""),
+            };
+            chains.push(Chain { sign, vectors: chain(&vectors, linear, &field.by_root, sign, "top-real")? });
+        }
         let all = chains.iter().map(|c| c.vectors.len()).sum::<usize>() == count;
         list.need(all, "top-real", &format!("{count} eigenvalues lie outside the disc"))?;
         for s in [1, -1] {
@@ -91,25 +118,6 @@ impl Top {
         Ok(Self::Real { field, chains })
     }
 
-    fn chain(node: &Node<'_>, linear: &Matrix, field: &Field) -> Result<Chain, Rejected> {
-        let [sign, list] = node.fields(["sign", "vectors"])?;
-        let sign = match sign.text()? {
-            "+" => 1,
-            "-" => -1,
-            _ => return sign.malformed("a sign is \"+\" or \"-\""),
-        };
-        let mut vectors: Vec<Matrix> = Vec::new();
-        for item in list.list()? {
-            let v = field.vector(&item, linear.rows)?;
-            let residual = residual(field, linear, sign, &v)?;
-            let continues = vectors.last().map_or(residual.is_zero(), |before| residual == *before);
-            item.need(continues, "top-real", "the vector does not continue the Jordan chain")?;
-            vectors.push(v);
-        }
-        list.need(!vectors.is_empty(), "format", "a chain is not empty")?;
-        Ok(Chain { sign, vectors })
-    }
-
     fn pair(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
         let [_, radius, centre, error] = node.fields(["top", "radius", "centre", "error"])?;
         let (chi, adjugate) = linear.characteristic()?;
@@ -118,15 +126,10 @@ impl Top {
         let (x, y, far) = (&c[0], &c[1], &r + &e);
         let fits = count == 2 && e.is_positive() && *y > e && x * x + y * y > &far * &far;
         node.need(fits, "top-pair", "two eigenvalues outside the disc and off the real axis are needed")?;
-        // A polynomial p of degree n has a root within n |p(c)/p'(c)| of c.
-        let derivative: Vec<Q> = chi.iter().enumerate().skip(1).map(|(k, a)| a * whole(k as i64)).collect();
-        let at = (Interval::point(x), Interval::point(y));
-        let square = |p: &[Q]| complex_values(p, &at).map(|(re, im)| &re.lo * &re.lo + &im.lo * &im.lo);
-        let (n, slope) = (whole(linear.rows as i64), square(&derivative)?);
-        let near = !slope.is_zero() && &n * &n * square(&chi)? <= &e * &e * slope;
+        let near = has_root_near(&chi, &c, &e)?;
         error.need(near, "top-pair", "no eigenvalue is seen to lie within this distance of the centre")?;
         let around = |v: &Q| Interval { lo: v - &e, hi: v + &e };
-        Ok(Self::Pair { value: (around(x), around(y)), adjugate })
+        Ok(Self::Pair { value: [around(x), around(y)], adjugate })
     }
 
     fn conformal(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
@@ -158,10 +161,9 @@ impl Top {
                 let seen = adjugate.iter().map(|m| view.times(m)).collect::<Result<Vec<_>, _>>()?;
                 let mut spanning = Vec::new();
                 for j in 0..view.cols {
-                    let entry = |i: usize| complex_values(&seen.iter().map(|m| m.at(i, j)).collect::<Vec<_>>(), value);
-                    let column = (0..view.rows).map(entry).collect::<Result<Vec<_>, _>>()?;
-                    let (re, im): (Vec<_>, Vec<_>) = column.into_iter().unzip();
-                    spanning.extend([Enclosed::of(&re), Enclosed::of(&im)]);
+                    let column = |m: &Matrix| m.columns(&[j]).transpose();
+                    let entries = seen.iter().fold(Matrix::empty(view.rows), |all, m| all.stack(&column(m)));
+                    spanning.extend(values(&entries.transpose(), &value[0], &value[1])?);
                 }
                 Ok(spanning)
             }

@@ -41,8 +41,12 @@ fn the_python_script_agrees() {
         let output = python.arg("-B").arg(&script).arg(path.with_extension("toml")).arg(path).output();
         output.map(|o| (o.status.code(), String::from_utf8_lossy(&o.stdout).into_owned()))
     };
+    let name = |p: &PathBuf| p.file_name().unwrap().to_string_lossy().into_owned();
     for (kind, wanted) in [("pass", 0), ("fail", 1)] {
-        for path in certs(kind) {
+        // The script knows no norms for joint spectral radii.
+        for path in
+            certs(kind).into_iter().filter(|p| !["jsr-", "every-", "spectrum-"].iter().any(|n| name(p).starts_with(n)))
+        {
             match run(&path) {
                 Err(error) => return println!("python3 is not available: {error}"),
                 Ok((found, text)) => assert_eq!(found, Some(wanted), "{}: {text}", path.display()),

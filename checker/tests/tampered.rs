@@ -30,7 +30,7 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-const WORDS: [&str; 34] = [
+const WORDS: [&str; 41] = [
     "proved",
     "refuted",
     "undetermined",
@@ -63,6 +63,13 @@ const WORDS: [&str; 34] = [
     "joints",
     "address",
     "any point",
+    "every point",
+    "zero",
+    "symmetric",
+    "monotone",
+    "balanced",
+    "quadratic",
+    "tree",
     "5",
     "5'",
 ];
@@ -152,14 +159,46 @@ fn lists(items: &[Value]) -> Vec<Value> {
     new
 }
 
-/// Whether two accepted certificates state the same; the order in which they list the points does not matter.
-fn same(a: &secant_check::Accepted, b: &secant_check::Accepted) -> bool {
+/// Whether a certificate states the same as another one: the order in which points are listed does not matter, and a bound may
+/// be further from the truth, which lies within the bounds of the original.
+fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bool {
     let sorted = |x: &secant_check::Accepted| {
         let mut points = x.points.clone();
         points.sort();
-        (x.case.clone(), x.verdict, x.claims.clone(), points)
+        points
     };
-    sorted(a) == sorted(b)
+    let head =
+        (&found.case, found.verdict, found.claims.len()) == (&original.case, original.verdict, original.claims.len());
+    let mut claims = found.claims.iter().zip(&original.claims);
+    match radius(&original.claims[0]) {
+        Some((low, high)) => head && radius(&found.claims[0]).is_some_and(|(l, h)| l <= high && low <= h),
+        None => head && sorted(found) == sorted(original) && claims.all(|(a, b)| a == b || weaker_rate(a, b)),
+    }
+}
+
+fn number(text: &str) -> secant_check::number::Q {
+    secant_check::number::canonical(text).unwrap()
+}
+
+/// The bounds of a joint spectral radius that a claim states.
+fn radius(claim: &str) -> Option<(secant_check::number::Q, secant_check::number::Q)> {
+    let bounds = claim.strip_prefix("proved: the joint spectral radius is ")?;
+    let (low, high) = match bounds.strip_prefix("at least ") {
+        Some(both) => both.split_once(" and at most ")?,
+        None => (bounds, bounds),
+    };
+    Some((number(low), number(high)))
+}
+
+/// Whether a claim is the same but for a cross-ratio that is no smaller (the original is rounded up a little).
+fn weaker_rate(found: &str, original: &str) -> bool {
+    let split = |claim: &str| {
+        let (text, ratio) = claim.strip_suffix(')')?.rsplit_once("D = ")?;
+        Some((text.to_owned(), number(ratio)))
+    };
+    let (Some((text, ratio)), Some((other, least))) = (split(found), split(original)) else { return false };
+    let room = secant_check::number::whole(1) + number("1/1073741824");
+    text == other && ratio * room >= least
 }
 
 /// Tries every mutant of the stored certificates, or every `step`-th.

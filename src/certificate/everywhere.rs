@@ -3,6 +3,7 @@
 use super::branch::point;
 use super::top::{elements, top};
 use super::{Unsupported, number, numbers};
+use crate::arith::{Integer, Interval, Rational};
 use crate::linalg::Matrix;
 use crate::shape::Shape;
 use crate::theorem::cone::CommonCone;
@@ -74,10 +75,16 @@ fn with_cone(
         "view": seen.map(numbers),
         "window": cone.window,
         "slow": slow,
-        "rate": cone.rate.as_ref().map(|r| json!({"length": r.length, "cross_ratio": number(&r.cross_ratio)})),
+        "rate": cone.rate.as_ref().map(|r| json!({"length": r.length, "cross_ratio": number(&above(&r.cross_ratio))})),
         "joints": joints,
         "witness": witness,
     }))
+}
+
+/// A number slightly above, with room for rounded products.
+fn above(x: &Rational) -> Rational {
+    let more = x + x / Rational::from(Integer::from(1) << 40_u64);
+    Interval::point(more).outward(64).hi
 }
 
 fn slow_cycle(s: &SlowCycle) -> Result<Value, Unsupported> {

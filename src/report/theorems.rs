@@ -33,6 +33,17 @@ pub const THEOREMS: &[Theorem] = &[
         reference: "docs/theory.md §1 (Dobrushin's coefficient).",
     },
     Theorem {
+        id: "lemma-1-prime",
+        name: "Lemma 1′ (contraction by polytopes)",
+        body: "Let every state $e$ have finitely many points of coordinate sum 1 that affinely span its space, with the convex hull \
+               $H_e$, and let every piece map them as $T_i h=m c+(1-m) h'$, $h'∈H_e$, with a number $0<m≤1$ and a point $c∈H_e$ that \
+               depend on the piece only. Then the system contracts and $A_e⊂H_e$.",
+        proof: "Then $T_i$ maps $H_δ-H_δ$ into $(1-m)(H_e-H_e)$. These are unit balls of norms on the vectors of sum 0, in which every \
+                operator has a norm of at most the largest $1-m<1$. So the system contracts, and as the compact sets $H_e$ are mapped \
+                into one another, they hold the attractors.",
+        reference: "docs/theory.md §1.",
+    },
+    Theorem {
         id: "lemma-2",
         name: "Lemma 2 (collapsing pieces)",
         body: "Suppose $L$ is not nilpotent, and let $C⊂K$ be a cell of the ring with $L^{\\dim V}(C-q)=0$. Then the germ does not \
@@ -250,6 +261,19 @@ pub const THEOREMS: &[Theorem] = &[
                $k$ times around 0.",
         proof: "The images of the sectors are turned copies. Along one sector the image of the boundary leads from $P$ to $ω P$ in an open \
                 half-plane, so its argument changes by less than $π$, hence by $2πk/n$; there are $n$ sectors.",
+        reference: "docs/theory.md §10.1.",
+    },
+    Theorem {
+        id: "lemma-4",
+        name: "Lemma 4 (limits of schemes that are no splines)",
+        body: "Let a rule on a regular lattice make it $N$ times finer with each step, keep linear functions, and be symmetric under half a turn. Let $Ω$ be \
+               the points that determine a cell and its parts, $T_s$ the map of nets on $Ω$ to the part $s$, which lies upside down if $σ_s=-1$, $F p$ the slopes of \
+               the linear fit of a net $p$ at the corners, and $D(p)$ the largest absolute second difference of $p$ in $Ω$. If for some $k$ the number \
+               $R=\\max |ℓ N^k T_w|$ over words $w$ of length $k$ and second differences $ℓ$ is below 1, then the limit $f$ of $p$ is C¹, and on the whole cell its \
+               gradient differs from $F p$ by at most $e_1 D(p)$ with $e_1=\\max |σ_w N^k F T_w-F|/(1-R)$; the values differ in the same way from those of the fit, by at \
+               most $e_0 D(p)$.",
+        proof: "$D(N^{mk} T_w p)≤R^m D(p)$ for words of length $mk$, so the slopes of the fits converge uniformly, to the gradient of $f$. The best constant $e_1$ \
+                satisfies $e_1≤e_1 R+\\max |σ_w N^k F T_w-F|$, since the gradient on the part $w$ is $σ_w N^k$ times that of the limit of $T_w p$.",
         reference: "docs/theory.md §10.1.",
     },
     Theorem {

@@ -123,6 +123,7 @@ fn cited(found: &[AtValence], every: Option<&Every>) -> Vec<&'static str> {
         ("theorem-3", says("(Theorem 3)")),
         ("corollary", says("corollary")),
         ("lemma-3", planes || every.is_some()),
+        ("lemma-4", says("(Lemma 4)") || found.iter().any(|f| !f.polynomial && f.jacobian.is_some())),
         ("theorem-7", says("(Theorem 7)") || every.is_some()),
         ("theorem-8", says("(Theorem 8)")),
         ("theorem-9", every.is_some_and(Every::proved)),

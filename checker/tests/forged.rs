@@ -1,0 +1,422 @@
+//! Certificates changed by hand to prove false statements, and texts that look like numbers: each is refused, by the rule that
+//! should find it.
+
+use serde_json::{Value, json};
+use std::path::Path;
+
+fn stored(name: &str) -> (String, String) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/certs/pass");
+    let read = |end: &str| std::fs::read_to_string(root.join(format!("{name}.{end}"))).unwrap();
+    (read("toml"), read("json"))
+}
+
+/// The rule that refuses a stored certificate after some of its values, named by pointers below `proof`, were replaced.
+fn rule(name: &str, changes: &[(&str, Value)]) -> String {
+    let (case, text) = stored(name);
+    let mut forged: Value = serde_json::from_str(&text).unwrap();
+    for (pointer, value) in changes {
+        let pointer = pointer.strip_prefix('^').map_or_else(|| format!("/proof{pointer}"), str::to_owned);
+        *forged.pointer_mut(&pointer).unwrap_or_else(|| panic!("{name}: {pointer}")) = value.clone();
+    }
+    match secant_check::check(&case, &forged.to_string()) {
+        Ok(accepted) => panic!("{name} with {changes:?} is accepted: {accepted:?}"),
+        Err(rejected) => rejected.rule,
+    }
+}
+
+fn all(name: &str, forgeries: &[(&str, &[(&str, Value)])]) {
+    let (case, text) = stored(name);
+    secant_check::check(&case, &text).unwrap_or_else(|r| panic!("{name}: {r}"));
+    for (wanted, changes) in forgeries {
+        assert_eq!(rule(name, changes), *wanted, "{name} with {changes:?}");
+    }
+}
+
+const BLOCK: &str = "/blocks/0/norm";
+
+fn of_block(rest: &str) -> String {
+    format!("{BLOCK}{rest}")
+}
+
+#[test]
+fn codes_of_words_for_a_joint_spectral_radius() {
+    let words = |w: Value| (format!("{BLOCK}/codes/0/words"), w);
+    let code = |w: Value, bound: &str| {
+        let (pointer, w) = words(w);
+        rule("jsr-tree", &[(&pointer, w), ("/blocks/0/bound", json!(bound)), ("/upper", json!(bound))])
+    };
+    // The empty word has norm 1 = bound^0 whatever the matrices are.
+    assert_eq!(code(json!([[]]), "0"), "tree");
+    assert_eq!(code(json!([[], [0], [1]]), "7/10"), "tree");
+    assert_eq!(code(json!([[0], [1]]), "7/10"), "tree");
+    assert_eq!(code(json!([[0]]), "3/4"), "tree");
+    assert_eq!(code(json!([[0], [1], [1]]), "3/4"), "tree");
+    assert_eq!(code(json!([[0], [1], [1, 0]]), "3/4"), "tree");
+    assert_eq!(code(json!([]), "3/4"), "tree");
+    assert_eq!(code(json!([vec![0; 100_000]]), "3/4"), "tree");
+    let weights = of_block("/codes/0/weights");
+    let norm = "/blocks/0/norm";
+    let forgeries: &[(&str, &[(&str, Value)])] = &[
+        ("tree", &[(&weights, json!(["1", "0"]))]),
+        ("tree", &[(&weights, json!(["-1", "1"]))]),
+        ("tree", &[("/blocks/0/bound", json!("2/3")), ("/upper", json!("2/3"))]),
+        ("block", &[("/upper", json!("2/3"))]),
+        ("block", &[("/blocks/0/bound", json!("-7/10"))]),
+        ("zero", &[(norm, json!({"norm": "zero"}))]),
+        ("block", &[("/blocks", json!([]))]),
+        ("block", &[("/blocks/0/dims", json!([1]))]),
+        ("block", &[("/bases/0", json!([["1", "0"], ["2", "0"]]))]),
+    ];
+    all("jsr-tree", forgeries);
+}
+
+#[test]
+fn norms_for_a_joint_spectral_radius() {
+    let (inclusions, axes, points) = (of_block("/inclusions"), of_block("/axes"), of_block("/points"));
+    let one = json!([{"state": 0, "coordinates": ["1", "1"]}]);
+    all(
+        "jsr-symmetric",
+        &[
+            ("inclusion", &[(&inclusions, json!([]))]),
+            ("interior", &[(&axes, json!([]))]),
+            ("interior", &[(&of_block("/axes/0/units"), json!([[], []]))]),
+            ("format", &[(&points, one)]),
+            ("monotone", &[(&of_block("/norm"), json!("monotone"))]),
+            ("format", &[(&of_block("/norm"), json!("quadratic"))]),
+            ("word", &[("/lower/error", json!("-1"))]),
+            ("word", &[("/lower/error", json!("0"))]),
+            ("word", &[("/lower/bound", json!("2"))]),
+            ("word", &[("/lower/word", json!([]))]),
+            ("word", &[("/lower/word", json!([1]))]),
+        ],
+    );
+    // Images out of other points, and a bound below the modulus of a complex coefficient.
+    let low = json!("1");
+    all(
+        "jsr-balanced",
+        &[
+            ("inclusion", &[("/upper", low.clone()), ("/blocks/0/bound", low)]),
+            ("inclusion", &[(&of_block("/inclusions/0/terms"), json!([[1, "0", "1"]]))]),
+            ("inclusion", &[(&of_block("/inclusions/1/point"), json!(0))]),
+            ("interior", &[(&of_block("/axes/0/units/0"), json!([[0, "1", "0"]]))]),
+        ],
+    );
+    let form = of_block("/forms/0/form");
+    all(
+        "jsr-quadratic",
+        &[
+            ("gram", &[(&form, json!([["1", "2"], ["2", "1"]]))]),
+            ("gram", &[(&form, json!([["1", "1/2"], ["1/4", "1"]]))]),
+            ("quadratic", &[(&form, json!([["1", "0"], ["0", "1"]]))]),
+            ("quadratic", &[(&of_block("/square"), json!("1"))]),
+            ("quadratic", &[(&of_block("/square"), json!("4"))]),
+            ("quadratic", &[(&of_block("/forms"), json!([]))]),
+        ],
+    );
+    all(
+        "jsr-triangular",
+        &[
+            ("block", &[("/bases/0", json!([["0", "1"], ["1", "0"]]))]),
+            ("inclusion", &[("/blocks/1/norm/inclusions", json!([]))]),
+            ("monotone", &[("/blocks/0/norm/points/0/coordinates", json!(["0"]))]),
+            ("monotone", &[("/blocks/0/norm/points/0/coordinates", json!(["-1"]))]),
+            ("inclusion", &[("/blocks/0/norm/inclusions/0/terms", json!([[0, "1/4"]]))]),
+        ],
+    );
+    all(
+        "jsr-automaton",
+        &[
+            ("word", &[("/lower/word", json!([0, 2]))]),
+            ("word", &[("/lower/word", json!([1]))]),
+            ("format", &[("/lower/word", json!([3]))]),
+            ("inclusion", &[(&of_block("/inclusions/0/arrow"), json!(1))]),
+        ],
+    );
+}
+
+#[test]
+fn cones_without_a_part_of_their_four_parts() {
+    let every = "/answers/2";
+    let of = |rest: &str| format!("{every}{rest}");
+    let (functional, chord, rays) = (of("/cones/0/functional"), of("/cones/0/chord"), of("/cones/0/rays"));
+    let (maps, view, slow, window) = (of("/maps"), of("/view"), of("/slow"), of("/window"));
+    let (joints, witness, verdict) = (of("/joints"), of("/witness"), of("/verdict"));
+    let opposite = json!([["-1", "1", "0"], ["1", "-1", "0"]]);
+    let negated = json!([["-1"], []]);
+    let regular = json!([{"state": 0, "listed": 0}]);
+    all(
+        "every-boundary",
+        &[
+            ("cone", &[(&functional, json!(["0", "0", "0"]))]),
+            ("cone", &[(&functional, json!(["1", "0", "-1"]))]),
+            ("cone", &[(&rays, opposite)]),
+            ("cone", &[(&rays, json!([["-1", "1", "0"], ["-2", "2", "0"]]))]),
+            ("cone", &[(&rays, json!([["1", "0", "0"], ["0", "1", "0"]]))]),
+            ("cone", &[(&chord, json!(["0", "0"]))]),
+            ("cone", &[(&chord, json!(["4/3", "-1/3"]))]),
+            ("every-point", &[(&of("/cones"), json!([])), (&maps, json!([]))]),
+            ("cone", &[(&of("/maps/0/0"), json!([["2/5", "2/5"], ["0", "2/5"]]))]),
+            ("cone", &[(&of("/maps/0/0"), json!([["0", "2/5"], ["0", "1/5"]]))]),
+            ("format", &[(&maps, json!([[]]))]),
+            ("cone", &[(&view, json!(["0", "0", "0"]))]),
+            ("answers", &[(&view, Value::Null)]),
+            ("slow", &[(&window, json!(0))]),
+            ("slow", &[(&slow, json!([]))]),
+            ("slow", &[(&of("/slow/0/word"), json!([1]))]),
+            ("slow", &[(&of("/slow/1/functional"), negated.clone()), (&of("/slow/1/word"), json!([0]))]),
+            ("slow", &[(&of("/slow/0/functional"), json!([[], []]))]),
+            ("slow", &[(&of("/slow/0/functional"), json!([["3"], ["2"]]))]),
+            ("top-real", &[(&of("/slow/1/top/chains/0/vectors"), json!([[[], ["1"]]]))]),
+            ("answers", &[(&joints, json!([]))]),
+            ("every-point", &[(&joints, regular)]),
+            ("every-point", &[(&witness, json!([2])), (&verdict, json!("refuted"))]),
+            ("rate", &[(&of("/rate"), json!({"length": 1, "cross_ratio": "100"}))]),
+            ("rate", &[(&of("/rate"), json!({"length": 0, "cross_ratio": "100"}))]),
+        ],
+    );
+    let corner = json!([{"state": 0, "listed": 2}]);
+    all(
+        "every-corner",
+        &[
+            ("every-point", &[(&joints, corner), (&witness, json!([])), (&verdict, json!("proved"))]),
+            ("answers", &[(&witness, json!([])), (&verdict, json!("proved"))]),
+            ("every-point", &[(&witness, json!([0]))]),
+            ("rate", &[(&of("/rate/cross_ratio"), json!("1"))]),
+            ("rate", &[(&of("/rate/cross_ratio"), json!("1/2"))]),
+        ],
+    );
+    all(
+        "every-three-states",
+        &[
+            ("every-point", &[(&of("/joints/1"), json!({"state": 0, "listed": 2}))]),
+            ("every-point", &[(&of("/joints/1/state"), json!(2))]),
+            ("contraction", &[("/contraction/2", json!({"state": 1, "radius": "9", "code": ["."], "hull": null}))]),
+            ("joints", &[("/answers/1/points", json!([2]))]),
+        ],
+    );
+}
+
+#[test]
+fn spectra_with_a_root_too_few() {
+    let item = |rest: &str| format!("/spectra/0{rest}");
+    let (classes, roots) = (item("/classes"), item("/factors/1/roots"));
+    let one = |members: Value| json!([{"members": members, "square": null, "below": null}]);
+    all(
+        "spectrum-opposite-pair",
+        &[
+            ("moduli", &[(&item("/classes/1/members"), json!([1]))]),
+            ("moduli", &[(&classes, one(json!([0, 1, 2])))]),
+            ("moduli", &[(&item("/classes/0/below"), json!("1/4"))]),
+            ("moduli", &[(&item("/classes/1/square"), json!("1/2"))]),
+            ("moduli", &[(&item("/classes/1/members"), json!([1, 2, 2]))]),
+            ("format", &[(&item("/classes/1/members"), json!([1, 2, 3]))]),
+            ("roots", &[(&roots, json!([]))]),
+            ("roots", &[(&roots, json!([{"centre": ["-1/2", "0"], "error": "0"}]))]),
+            ("roots", &[(&roots, json!([{"centre": ["1/2", "0"], "error": "1"}]))]),
+            ("roots", &[(&item("/factors/1/polynomial"), json!(["1/4", "-1", "1"]))]),
+            ("chains", &[(&item("/factors/1/chains/0/0"), json!([[], [], []]))]),
+            ("chains", &[(&item("/factors/1/chains"), json!([]))]),
+            ("chains", &[(&item("/modulus"), json!(1))]),
+            ("format", &[(&item("/modulus"), json!(2_147_483_648_u64))]),
+            ("spectrum", &[(&item("/operator/piece"), json!(1))]),
+            ("spectrum", &[("/spectra", json!([]))]),
+        ],
+    );
+    let eigenvector = stored("spectrum-jordan-3").1.parse::<Value>().unwrap();
+    let eigenvector = eigenvector.pointer("/proof/spectra/0/factors/1/chains/0/0").unwrap();
+    let thrice = json!([[eigenvector], [eigenvector], [eigenvector]]);
+    assert_eq!(rule("spectrum-jordan-3", &[(&item("/factors/1/chains"), thrice)]), "chains");
+    assert_eq!(rule("spectrum-jordan-3", &[(&item("/factors/1/chains"), json!([[eigenvector]]))]), "chains");
+    // A pair of modulus 1 together with 1, said to be of modulus 2 or not said to be equal at all.
+    all(
+        "spectrum-plain",
+        &[
+            ("moduli", &[(&item("/classes/0/square"), json!("2"))]),
+            ("moduli", &[(&item("/classes/0/square"), Value::Null)]),
+            ("moduli", &[(&item("/classes/0/square"), json!("-1"))]),
+        ],
+    );
+}
+
+#[test]
+fn points_answers_and_contraction() {
+    all(
+        "trisection",
+        &[
+            ("line", &[("/points/0/common", json!(["1", "0", "-1"]))]),
+            ("line", &[("/points/2/common", json!(["1", "-1", "0"]))]),
+            ("format", &[("/points/0/common", json!(["1", "-1"]))]),
+            ("point", &[("/points/2/kind", json!("cusp"))]),
+            ("line", &[("/points/2/place/path", json!([0]))]),
+            ("joints", &[("/answers/1/points", json!([]))]),
+            ("joint", &[("/points/2/place/right", json!(2))]),
+            ("contraction", &[("/contraction/0/code", json!(["."]))]),
+            ("contraction", &[("/contraction", json!([]))]),
+            ("contraction", &[("/contraction/0/code", json!(".")), ("/contraction/0/radius", json!("1000"))]),
+            ("contraction", &[("/contraction/0/radius", json!("1"))]),
+            ("cover", &[("/points/0/branches/0/cover/0/cells", json!([["-0", "-0"], []]))]),
+            ("cover", &[("/points/0/branches/0/cover/0/cells", json!([["-0", "-0"], "-0", "-0"]))]),
+            ("format", &[("/points/0/branches/0/rule", json!("theorem-7"))]),
+            ("answers", &[("/answers/0/points", json!([0, 2]))]),
+            ("answers", &[("/answers/0/points", json!([1, 0]))]),
+            (
+                "points",
+                &[
+                    ("/answers/0/points", json!([0])),
+                    ("/answers/0/verdict", json!("undetermined")),
+                    ("^/verdict", json!("undetermined")),
+                ],
+            ),
+        ],
+    );
+}
+
+/// An address through a piece that is a point lies between the two neighbours of that piece: it is no end of the curve.
+#[test]
+fn an_address_through_a_point_is_not_an_end() {
+    let case = "name = \"mid\"\n\
+        [[map]]\nlinear = [[\"1/2\", 0], [\"1/2\", \"1/2\"]]\nshift = [0, 0]\n\
+        [[map]]\nlinear = [[0, 0], [0, 0]]\nshift = [\"1/2\", \"1/2\"]\n\
+        [[map]]\nlinear = [[\"1/2\", 0], [\"-1/2\", \"1/2\"]]\nshift = [\"1/2\", \"1/2\"]\n\
+        [[examine]]\naddress = \"1(0)\"\n";
+    let end = json!({"place": {"at": "left end"}, "verdict": "proved", "kind": "half-tangent", "rule": "line",
+        "common": ["0", "-1"], "branches": [{"rule": "theorem-3",
+        "top": {"top": "real", "radius": "1/4", "polynomial": ["-1/2", "1"], "interval": ["1/2", "1/2"],
+            "chains": [{"sign": "+", "vectors": [[["1"], []], [[], ["-2"]]]}]},
+        "functional": [[], ["1"]],
+        "cover": [{"piece": [1], "cells": "+0"}, {"piece": [2], "cells": [["+0", "+0", "+0"], "+0", "+0"]}]}]});
+    let code = json!([[[".", ".", "."], ".", "."], ".", [".", ".", [".", ".", "."]]]);
+    let certificate = |verdict: &str, of: Value| {
+        json!({"format": "secant certificate", "version": 1, "kind": "certify", "case": "mid", "verdict": "undetermined",
+            "proof": {"contraction": [{"state": 0, "radius": "5", "code": code, "hull": null}], "points": [end],
+            "answers": [{"question": "ends", "verdict": "undetermined", "points": [0]},
+                {"question": "joints", "verdict": "undetermined", "theorem": "none", "points": [], "upstairs": []},
+                {"question": "address", "address": {"prefix": [1], "cycle": [0]}, "verdict": verdict, "points": of}]}})
+        .to_string()
+    };
+    secant_check::check(case, &certificate("undetermined", json!([]))).unwrap();
+    assert_eq!(secant_check::check(case, &certificate("proved", json!([0]))).unwrap_err().rule, "answers");
+}
+
+/// Texts that are nearly numbers, and numbers that are nearly texts.
+#[test]
+fn one_way_to_write_a_number() {
+    let near = [
+        "",
+        " ",
+        "-0",
+        "+3",
+        "03",
+        "3.0",
+        "3e0",
+        "3/1",
+        "6/2",
+        "-6/-2",
+        "3/-1",
+        "0/3",
+        "3/0",
+        "\u{663}",
+        "\u{ff13}",
+        "³",
+        "0x3",
+        "3_0",
+        "NaN",
+        "inf",
+        "-inf",
+        "3 ",
+        " 3",
+        "3\n",
+        "--3",
+        "3/",
+        "/3",
+        "1e400",
+        "1e-400",
+        "0b11",
+        "3\u{0}",
+        "1/\u{663}",
+    ];
+    for text in near {
+        let found = rule("trisection", &[("/contraction/0/radius", json!(text))]);
+        assert_eq!(found, "format", "{text:?}");
+    }
+    assert_eq!(rule("trisection", &[("/contraction/0/radius", json!("9".repeat(10_001)))]), "format");
+    let (case, text) = stored("trisection");
+    let raw = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}");
+        secant_check::check(&case, &text.replacen(from, to, 1)).expect_err(to).rule
+    };
+    for number in
+        ["1.0", "1e0", "-1", "-0", "01", "+1", "18446744073709551616", "1E400", "NaN", "Infinity", "0x1", "true"]
+    {
+        assert!(
+            matches!(raw("\"version\": 1", &format!("\"version\": {number}")).as_str(), "json" | "format"),
+            "{number}"
+        );
+    }
+    assert_eq!(raw("\"version\": 1", "\"version\": 2"), "format");
+    assert_eq!(raw("\"version\": 1", "\"version\": \"1\""), "format");
+    // A key twice, also where it is written in another way; the same for a key deep inside.
+    assert_eq!(raw("\"verdict\": \"proved\"", "\"verdict\": \"refuted\", \"verdict\": \"proved\""), "json");
+    assert_eq!(raw("\"verdict\": \"proved\"", "\"verd\\u0069ct\": \"refuted\", \"verdict\": \"proved\""), "json");
+    assert_eq!(raw("\"kind\":\"half-tangent\"", "\"kind\":\"half-tangent\",\"kind\":\"cusp\""), "json");
+    assert_eq!(raw("\"kind\": \"certify\"", "\"kind\": \"certify \""), "format");
+    assert_eq!(raw("secant certificate", "Secant certificate"), "format");
+    assert_eq!(raw("\"case\": \"trisection\"", "\"case\": \"tris\u{435}ction\""), "case");
+    assert_eq!(secant_check::check(&case, &format!("{text} {text}")).unwrap_err().rule, "json");
+    assert_eq!(secant_check::check(&case, &format!("\u{feff}{text}")).unwrap_err().rule, "json");
+}
+
+/// The certificate of a case proves nothing about a case that differs in one number, orientation, or word.
+#[test]
+fn the_case_itself_is_read() {
+    let (case, text) = stored("every-three-states");
+    for (from, to) in [
+        ("\"1/4\", \"3/4\", \"3/4\"", "\"1/4\", \"1/2\", \"3/4\""),
+        ("\"7/10\"", "\"71/100\""),
+        ("to = \"b\"", "to = \"c\""),
+        ("to = \"b\"", "to = \"b\"\nreversed = true"),
+        ("start = \"a\"", "start = \"b\""),
+        ("convention = \"columns\"", "convention = \"rows\""),
+        ("dimension = 3", "dimension = 4"),
+        ("name = \"three-states\"", "name = \"three-states \""),
+        ("name = \"three-states\"", "name = \"three-states\"\nname = \"three-states\""),
+        ("start = \"a\"", "start = \"a\"\ncontrol = [[0, 0], [1, 0], [0, 0]]"),
+        ("start = \"a\"", "start = \"a\"\nkind = \"surface\""),
+        ("start = \"a\"", "start = \"a\"\nscheme = \"chaikin\""),
+    ] {
+        let changed = case.replacen(from, to, 1);
+        assert_ne!(changed, case, "{from}");
+        let found = secant_check::check(&changed, &text);
+        assert!(found.is_err(), "{to}: {found:?}");
+    }
+}
+
+/// Long numbers in every place where arithmetic is done with them end in a refusal, not in a long wait.
+#[test]
+fn long_numbers_do_not_run_away() {
+    // A power of 2 over an odd number.
+    let power = secant_check::number::whole(2).pow(13_000).to_string();
+    let long = |k: usize| format!("{power}/{}7", "3".repeat(4_001 + k));
+    let begin = std::time::Instant::now();
+    for (name, pointer) in [
+        ("trisection", "/contraction/0/radius"),
+        ("levy", "/points/0/branches/0/top/radius"),
+        ("levy", "/points/0/branches/0/top/centre/0"),
+        ("levy", "/answers/2/products/0/0/0"),
+        ("koch-2", "/points/0/branches/0/top/polynomial/0"),
+        ("koch-2", "/points/0/branches/0/top/interval/0"),
+        ("spectrum-plain", "/spectra/0/classes/0/square"),
+        ("spectrum-plain", "/spectra/0/factors/0/roots/0/centre/0"),
+        ("every-boundary", "/answers/2/maps/0/0/0/0"),
+        ("every-corner", "/answers/2/rate/cross_ratio"),
+    ] {
+        let (case, text) = stored(name);
+        let mut forged: Value = serde_json::from_str(&text).unwrap();
+        *forged.pointer_mut(&format!("/proof{pointer}")).unwrap() = json!(long(1));
+        let _ = secant_check::check(&case, &forged.to_string());
+    }
+    // A polynomial and a scalar product with many different long denominators.
+    let many: Vec<Value> = (0..40).map(|k| json!(long(k))).chain([json!("1")]).collect();
+    assert_eq!(rule("koch-2", &[("/points/0/branches/0/top/polynomial", json!(many))]), "limit");
+    assert!(begin.elapsed().as_secs() < 60, "{:?}", begin.elapsed());
+}
