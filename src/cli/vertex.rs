@@ -7,6 +7,7 @@ use super::{BAD_INPUT, CertifyArgs};
 use crate::case::{Valences, VertexCase};
 use crate::diagnostic::Problem;
 use crate::picture::characteristic::sheet;
+use crate::report::proof::vertex_document;
 use crate::report::{html, latex, markdown, text, vertex as report};
 use crate::scheme::SchemeError;
 use crate::vertex::{AtValence, Every, at_valence, every};
@@ -44,7 +45,7 @@ fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
     let (found, every) = at(&case, &asked, args.quiet)?;
     let every = every.as_ref();
     let reported = args.report.as_deref().map(|path| {
-        let document = report::document(&case, &found, every, true);
+        let document = vertex_document(&case, &found, every);
         let written = match extension(path).as_str() {
             "md" => markdown::render(&document),
             "tex" => latex::render(&document),

@@ -102,12 +102,10 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
     let (width, height) = (columns as f64 * SIDE, rows as f64 * (SIDE + FOOT));
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-         style=\"max-width:{}px\">\n<title>{}</title>\n\
-         <style>path{{fill:none;stroke-linejoin:round}}.c0{{stroke:#1f5fbf;stroke-width:1}}.c1{{stroke:#1a8a4a;stroke-width:.8}}\
-         .c2{{stroke:#8a8f98;stroke-width:.6}}text{{font:12px sans-serif;fill:#3c4048;text-anchor:middle}}\
-         @media (prefers-color-scheme:dark){{.c0{{stroke:#7fb0ff}}.c1{{stroke:#5fd08f}}text{{fill:#d4d8de}}}}</style>\n",
+         style=\"max-width:{}px\">\n<title>{}</title>\n<style>{}</style>\n",
         1.5 * width,
-        crate::report::html::escaped(title)
+        crate::report::html::escaped(title),
+        super::style()
     );
     for (index, panel) in panels.iter().enumerate() {
         let all = lines(panel);
@@ -122,10 +120,14 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
                     let _ = write!(path, "{letter}{:.1} {:.1}", cx + p.0 * scale, cy - p.1 * scale);
                 }
             }
-            let _ = writeln!(svg, "<path class=\"c{copy}\" d=\"{path}\"/>");
+            let _ = writeln!(svg, "<path class=\"sc-m sc-m{copy}\" d=\"{path}\"/>");
         }
         let foot = cy + SIDE / 2.0 + 14.0;
-        let _ = writeln!(svg, "<text x=\"{cx}\" y=\"{foot}\">valence {}</text>", panel.valence);
+        let _ = writeln!(
+            svg,
+            "<text class=\"sc-t\" text-anchor=\"middle\" x=\"{cx}\" y=\"{foot}\">valence {}</text>",
+            panel.valence
+        );
     }
     svg.push_str("</svg>\n");
     svg
