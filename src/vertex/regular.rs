@@ -20,10 +20,10 @@ pub type Place = (i64, i64);
 const RINGS: usize = 6;
 /// Points of a cell at most.
 const MAX_POINTS: usize = 64;
-/// Words examined at most for the bounds of one scheme.
-const MAX_WORDS: usize = 1100;
-/// Words are long enough where all shrink differences to this part.
-const ENOUGH: (i64, i64) = (1, 4);
+/// Words examined at most for the bounds of one scheme, and where they hardly shrink differences.
+const MAX_WORDS: [usize; 2] = [1100, 4500];
+/// Words are long enough where all shrink differences to the first part, and still too short where not to the second.
+const ENOUGH: [(i64, i64); 2] = [(1, 4), (1, 2)];
 /// Binary places of the generalised inverse.
 const PLACES: u64 = 40;
 /// Entries of products of steps stay below this power of 2.
@@ -412,7 +412,8 @@ impl<'a> Bounds<'a> {
         let mut words = vec![start];
         let (mut unit, mut size) = (1_i128, 1_i128);
         let mut best = None;
-        while words.len() * r.parts.len() <= MAX_WORDS {
+        let mut most = MAX_WORDS[1];
+        while words.len() * r.parts.len() <= most {
             let longer: Option<Vec<Vec<Word>>> = words.iter().map(|w| self.longer(w)).collect();
             words = longer?.into_iter().flatten().collect();
             // Products are too large by the factor `unit`, and by N^length beside; the latter belongs to slopes.
@@ -456,9 +457,10 @@ impl<'a> Bounds<'a> {
                 let value = part(&value, value_scale * size) / rest(&shrink / Rational::from(Integer::from(size)));
                 best = Some((round_up(&slope)?, round_up(&value)?));
             }
-            if shrink <= ratio(ENOUGH.0, ENOUGH.1) {
+            if shrink <= ratio(ENOUGH[0].0, ENOUGH[0].1) {
                 break;
             }
+            most = if shrink <= ratio(ENOUGH[1].0, ENOUGH[1].1) { MAX_WORDS[0] } else { MAX_WORDS[1] };
         }
         best
     }
