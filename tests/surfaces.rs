@@ -4,10 +4,8 @@
 use secant::arith::{Rational, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::scheme::{Mask, bspline, tensor};
-use secant::shape::{Address, Boundary, CellKind, Complex, Piece, Shape, State};
-use secant::theorem::surface::{
-    Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point,
-};
+use secant::shape::{Address, CellKind, Complex, Shape};
+use secant::theorem::surface::{Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point};
 use secant::theorem::{Certified, Statement, Verdict};
 
 /// A reproducible source of small numbers.

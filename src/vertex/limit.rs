@@ -20,8 +20,8 @@ use std::sync::Arc;
 const RADIUS: i64 = 3;
 /// Rings of points beyond the ring of cells.
 const REACH: i64 = 3;
-/// Binary places of the largest value.
-const BITS: u64 = 58;
+/// Binary places of the largest value: with bounds below `2^10` (see [`Regular`]) no product below leaves 128 bits.
+const BITS: u64 = 48;
 /// Cells examined at most for one sign.
 const BUDGET: usize = 40_000;
 /// How often a cell is divided at most.

@@ -28,6 +28,10 @@ const ENOUGH: [(i64, i64); 2] = [(1, 4), (1, 2)];
 const PLACES: u64 = 40;
 /// Entries of products of steps stay below this power of 2.
 const MAX_BITS: u32 = 70;
+/// Weights and their denominator stay below this power of 2.
+const WEIGHT_BITS: u32 = 60;
+/// Bounds of this size and more are of no use.
+const USELESS: i128 = 1 << (BOUND_PLACES + 10);
 /// Binary places of the bounds.
 pub const BOUND_PLACES: u64 = 20;
 
@@ -99,7 +103,11 @@ impl Regular {
             for point in &points {
                 let mut row = Vec::new();
                 for (q, w) in sources(&mask, factor, place(part, *point)) {
-                    row.push((*index.get(&q)?, i128::try_from(&scaled(w)?).ok()?));
+                    let weight = i128::try_from(&scaled(w)?).ok()?;
+                    if weight.unsigned_abs() >> WEIGHT_BITS != 0 {
+                        return None;
+                    }
+                    row.push((*index.get(&q)?, weight));
                 }
                 rows.push(row);
             }
@@ -108,7 +116,7 @@ impl Regular {
         let sum = |row: &Vec<(usize, i128)>| row.iter().map(|(_, w)| w.abs()).sum::<i128>();
         let growth = steps.iter().flatten().map(sum).max()?;
         let differences = differences(triangles, &index);
-        let denominator = i128::try_from(&denominator).ok()?;
+        let denominator = i128::try_from(&denominator).ok().filter(|d| d >> WEIGHT_BITS == 0)?;
         let mut regular = Self {
             triangles,
             factor,
@@ -455,7 +463,8 @@ impl<'a> Bounds<'a> {
                 let rest = |s: Rational| ratio(1, 1) - s;
                 let slope = part(&slope, slope_scale) / rest(shrink.clone());
                 let value = part(&value, value_scale * size) / rest(&shrink / Rational::from(Integer::from(size)));
-                best = Some((round_up(&slope)?, round_up(&value)?));
+                let bounds = (round_up(&slope)?, round_up(&value)?);
+                best = Some(bounds).filter(|(slope, value)| *slope.max(value) < USELESS);
             }
             if shrink <= ratio(ENOUGH[0].0, ENOUGH[0].1) {
                 break;
@@ -474,6 +483,7 @@ fn round_up(x: &Rational) -> Option<i128> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arith::parse_rational;
     use crate::vertex::limit::ring_cells;
 
     fn butterfly(w: Rational) -> MeshRule {
@@ -504,7 +514,8 @@ mod tests {
             assert!(r.slope_bound < slope << BOUND_PLACES && r.value_bound < r.slope_bound, "{rule:?}: {r:?}");
         }
         // No bounds where the scheme is not C¹ (tension 0 is piecewise linear), or only hardly.
-        for w in [ratio(0, 1), ratio(1, 2), ratio(-1, 16)] {
+        let long = parse_rational(&format!("1/{}", "7".repeat(60))).unwrap();
+        for w in [ratio(0, 1), ratio(1, 2), ratio(-1, 16), Rational::from(1_u64 << 62), long] {
             assert!(Regular::of(&butterfly(w)).is_none());
         }
     }
