@@ -301,17 +301,8 @@ impl Branch<'_> {
 }
 
 impl Line {
-    /// Whether a rational vector (a column) lies on the line: `1` and `-1` for its two rays.
-    pub fn along(&self, common: &Matrix) -> Result<Option<i32>, Rejected> {
-        self.parallel(&self.field.embedded(common), &Enclosed::exact(common.clone()))
-    }
-
-    /// The same for another line over the same field.
-    pub fn agrees(&self, other: &Self) -> Result<Option<i32>, Rejected> {
-        if self.field == other.field { self.parallel(&other.vector, &other.values) } else { Ok(None) }
-    }
-
-    fn parallel(&self, w: &Matrix, values: &Enclosed) -> Result<Option<i32>, Rejected> {
+    /// Whether a vector over the field of the line lies on it: `1` and `-1` for its two rays.
+    pub fn along(&self, w: &Matrix) -> Result<Option<i32>, Rejected> {
         for i in 0..w.rows {
             for j in 0..i {
                 let product = |i, j| self.field.dot(&self.vector.row(i), &w.row(j));
@@ -320,6 +311,7 @@ impl Line {
                 }
             }
         }
+        let values = self.field.enclose(w)?;
         let relations = (0..w.rows).map(|k| self.values.sign(k) * values.sign(k));
         Ok(relations.into_iter().find(|r| *r != 0))
     }
