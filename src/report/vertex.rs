@@ -79,9 +79,8 @@ fn shown(found: &AtValence) -> Line {
 fn exact(found: &AtValence) -> Option<String> {
     found.top.as_ref().filter(|top| top.rational.is_none())?;
     let text = equation(found)?;
-    let frequency = found.frequency.map_or_else(|| "k".to_owned(), |k| k.to_string());
-    let k = if frequency == "1" { String::new() } else { frequency };
-    Some(if text.contains('c') { format!("{text} = 0, c = cos(2{k}π/n)") } else { format!("{text} = 0") })
+    let angle = found.frequency.map_or_else(|| "2kπ/n".to_owned(), |k| format!("{}π/n", 2 * k));
+    Some(if text.contains('c') { format!("{text} = 0, c = cos({angle})") } else { format!("{text} = 0") })
 }
 
 /// The equations of the eigenvalues, those of several valences together.
@@ -266,10 +265,9 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
         facts.push(("all others below".to_owned(), words(format!("{:.10}", crate::arith::to_f64(&top.others)))));
     }
     if let Some(signs) = &f.jacobian {
-        let text = format!(
-            "one strict sign of all Bernstein coefficients on {} pieces, halved {} times at most",
-            signs.pieces, signs.depth
-        );
+        let of =
+            if f.polynomial { "of all Bernstein coefficients on" } else { "of its enclosure (Lemma 4) on each of" };
+        let text = format!("one strict sign {of} {} pieces, divided {} times at most", signs.pieces, signs.depth);
         let (tone, text) = match (signs.strict(), signs.changes()) {
             (Some(_), _) => (Tone::Good, text),
             (None, true) => (Tone::Bad, "it takes both signs".to_owned()),

@@ -1,12 +1,12 @@
 //! The verdict at one valence: is the surface C¹ at the vertex for almost all control points, and has it a tangent plane?
 
 use super::block::{Block, Vertex};
-use super::butterfly::sign_on_path;
 use super::cosine::{gcd, minimal_polynomial};
 use super::field::{Enclosures, Field, Fixed};
+use super::limit::{self, Ring};
 use super::net::{Net, Signs};
 use super::ring::{self, Values, jacobian, patches};
-use super::top::{Top, TopError, leading_values, top};
+use super::top::{Top, TopError, leading_value, leading_values, top};
 use super::turning::{Rotation, Turning};
 use crate::arith::{Interval, Rational, to_f64};
 use crate::poly::{Poly, factor};
@@ -37,6 +37,8 @@ pub struct AtValence {
     pub frequency: Option<usize>,
     /// The signs of the Jacobian determinant on the patches of one sector.
     pub jacobian: Option<Signs>,
+    /// Whether the ring consists of polynomial patches; otherwise signs come from enclosures of the limit (Lemma 4).
+    pub polynomial: bool,
     /// How often the boundary of the ring winds around 0, where the ring avoids 0.
     pub winding: Option<usize>,
     /// The functional that is positive on the sector, in the coordinates of `x + y ω`.
@@ -57,6 +59,7 @@ impl AtValence {
             minimal: None,
             frequency: None,
             jacobian: None,
+            polynomial: true,
             winding: None,
             half_plane: None,
             reason: String::new(),
@@ -91,6 +94,9 @@ impl AtValence {
     /// The place of a witness in the lattice of sector 0.
     #[must_use]
     pub fn lattice(&self, rule: &MeshRule, at: &(usize, (Rational, Rational))) -> Option<(Rational, Rational)> {
+        if ring::spline(rule).is_none() {
+            return limit::lattice_point(rule, at.0, &at.1);
+        }
         ring::lattice_point(rule, at.0, &at.1)
     }
 }
@@ -112,6 +118,7 @@ impl AtValence {
 /// For a few dozen valences a few milliseconds each, apart from the minimal polynomial of the eigenvalue.
 pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
+    found.polynomial = ring::spline(rule).is_some();
     let vertex = Vertex::new(rule, valence, ring::RINGS)?;
     let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
         Ok(blocks) => blocks,
@@ -183,10 +190,7 @@ impl Judge<'_> {
 
     /// An eigenvalue beside the simple 1 that is not smaller: the theorems ask for rings that shrink to a point.
     fn no_limit(&mut self, certain: bool) {
-        // Different nets must give different rings: so for splines, and where the surface meets all points of the nets.
-        let distinct = ring::spline(&self.vertex.rule).is_some()
-            || matches!(self.vertex.rule, MeshRule::Butterfly { modified: false, .. });
-        if certain && distinct {
+        if certain {
             self.refute(
                 "an eigenvalue beside the simple 1 has modulus 1 or more: for almost all control points the rings do not \
                  shrink to a point (theory §10.1)"
@@ -206,11 +210,6 @@ impl Judge<'_> {
         } else {
             "one simple eigenvalue".to_owned()
         };
-        let rational = self.top.rational.as_ref().filter(|_| k == 0);
-        if rational.and_then(|value| sign_on_path(self.vertex, value, BITS[0])).is_some() {
-            self.one_sided(&what);
-            return;
-        }
         let Some((signs, boundary)) = self.signs_of_function(k) else {
             self.found.reason = format!(
                 "{what} in block {k} leads; whether its function has a zero on the ring is not known for this scheme"
@@ -238,8 +237,19 @@ impl Judge<'_> {
         self.found.plane = Verdict::Undetermined;
     }
 
-    /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary.
+    /// The ring of the leading eigenvector of block `k` for a scheme that is no spline.
+    fn ring(&self, k: usize, bits: u64) -> Option<Ring> {
+        let (field, values) = self.values(k, bits)?;
+        Ring::new(self.vertex, &field, &values, &leading_value(self.vertex, self.blocks, self.top, k, bits)?)
+    }
+
+    /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary or its innermost cells.
     fn signs_of_function(&self, k: usize) -> Option<(Signs, Signs)> {
+        if ring::spline(&self.vertex.rule).is_none() {
+            let ring = self.ring(k, BITS[0])?;
+            let functional = (1, if k == 0 { 1 } else { -1 });
+            return Some((ring.functional(functional, false), ring.functional(functional, true)));
+        }
         let (field, values) = self.values(k, BITS[0])?;
         // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
         let scalar = |p: &Turning<Fixed>| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) };
@@ -293,7 +303,7 @@ impl Judge<'_> {
         if !known && self.found.jacobian.is_none() {
             self.found.reason = format!(
                 "the leading eigenvectors live in block 1{with_blocks}; the ring of this scheme is not polynomial, and no \
-                 enclosures of its derivatives are computed"
+                 bounds of its derivatives were found (Lemma 4)"
             );
             return;
         }
@@ -317,6 +327,9 @@ impl Judge<'_> {
 
     /// Examines the characteristic map; whether nothing was left open.
     fn characteristic(&mut self, k: usize, bits: u64) -> bool {
+        if ring::spline(&self.vertex.rule).is_none() {
+            return self.enclosed(k, bits);
+        }
         let Some((field, values)) = self.values(k, bits) else { return false };
         let Some(patches) = patches(self.vertex, &field, &values) else { return false };
         let mut signs = Signs::default();
@@ -326,7 +339,25 @@ impl Judge<'_> {
         let functional = half_plane(&field, &patches);
         self.found.winding = functional.is_some().then_some(k);
         self.found.half_plane = functional;
-        self.found.outline = outline(&field, &patches);
+        let point = |p: &Turning<Fixed>| (field.to_f64(&p.x), field.to_f64(&p.y));
+        self.found.outline = outline(&field, &patches.iter().map(|p| p.map(point)).collect::<Vec<_>>());
+        self.known(signs)
+    }
+
+    /// The same for a scheme that is no spline, from enclosures.
+    fn enclosed(&mut self, k: usize, bits: u64) -> bool {
+        let Some(ring) = self.ring(k, bits) else { return false };
+        let field = Enclosures::of_angle(k, self.vertex.valence, bits);
+        let (functional, unit) = ring.towards(field.to_f64(&field.twice_cosine()));
+        self.found.half_plane = (ring.functional(functional, false).strict() == Some(1)).then(|| {
+            (Rational::from(functional.0) / Rational::from(unit), Rational::from(functional.1) / Rational::from(unit))
+        });
+        self.found.winding = self.found.half_plane.is_some().then_some(k);
+        self.found.outline = outline(&field, &ring.corners());
+        self.known(ring.jacobian())
+    }
+
+    fn known(&mut self, signs: Signs) -> bool {
         let decided = signs.strict().is_some() || signs.changes();
         self.found.jacobian = Some(signs);
         decided && self.found.winding.is_some()
@@ -358,15 +389,12 @@ fn half_plane(field: &Enclosures, patches: &[Net<Turning<Fixed>>]) -> Option<(Ra
     (signs.strict() == Some(1)).then_some(g)
 }
 
+/// Points `x + y ω` in the true plane.
 #[allow(clippy::float_arithmetic, reason = "pictures only")]
-fn outline(field: &Enclosures, patches: &[Net<Turning<Fixed>>]) -> Vec<Net<(f64, f64)>> {
+fn outline(field: &Enclosures, patches: &[Net<(f64, f64)>]) -> Vec<Net<(f64, f64)>> {
     let cosine = field.to_f64(&field.twice_cosine()) / 2.0;
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
-    let point = |p: &Turning<Fixed>| {
-        let (x, y) = (field.to_f64(&p.x), field.to_f64(&p.y));
-        (x + y * cosine, y * sine)
-    };
-    patches.iter().map(|p| p.map(point)).collect()
+    patches.iter().map(|p| p.map(|(x, y)| (x + y * cosine, y * sine))).collect()
 }
 
 /// The minimal polynomial of the leading eigenvalue, where its equation is linear in `t` and of moderate degree.

@@ -2,12 +2,13 @@
 //! is C¹ (docs/theory.md §10).
 
 pub mod block;
-mod butterfly;
 mod certify;
 pub mod cosine;
 mod every;
 pub mod field;
+pub mod limit;
 pub mod net;
+pub mod regular;
 pub mod ring;
 pub mod solve;
 pub mod top;

@@ -37,11 +37,12 @@ pub enum Spline {
 #[must_use]
 pub fn spline(rule: &MeshRule) -> Option<Spline> {
     match rule {
-        MeshRule::CatmullClark(_) => Some(Spline::Bicubic),
+        // Of the mixed rule only quadrangles are around a vertex here.
+        MeshRule::CatmullClark(_) | MeshRule::QuadTriangle => Some(Spline::Bicubic),
         MeshRule::DooSabin(DualWeights::Midedge) => Some(Spline::Quadratic),
         MeshRule::DooSabin(_) => Some(Spline::Biquadratic),
         MeshRule::Loop(_) => Some(Spline::Quartic),
-        MeshRule::Sqrt3(_) | MeshRule::Butterfly { .. } | MeshRule::FourEight | MeshRule::QuadTriangle => None,
+        MeshRule::Sqrt3(_) | MeshRule::Butterfly { .. } | MeshRule::FourEight => None,
     }
 }
 
@@ -261,6 +262,7 @@ mod tests {
     fn regular_vertices_give_the_identity() {
         let rules = [
             (MeshRule::CatmullClark(None), 4, 0),
+            (MeshRule::QuadTriangle, 4, 0),
             (MeshRule::DooSabin(DualWeights::CatmullClark), 4, 1),
             (MeshRule::DooSabin(DualWeights::Midedge), 4, 1),
             (MeshRule::Loop(LoopWeights::Warren), 6, 0),

@@ -236,7 +236,9 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     let rational =
         rational_root(vertex, block, &own.poly, first.re).filter(|q| enclosure.lo <= *q && *q <= enclosure.hi);
     let place = (own.block, Some(own.part));
-    Some(Top { rational, enclosure, poly: own.poly.clone(), members, others, place })
+    let modulus = minimal_polynomial(vertex.valence / gcd(block.angle, vertex.valence));
+    let poly = own.poly.iter().map(|c| c.div_rem(&modulus).1).collect();
+    Some(Top { rational, enclosure, poly, members, others, place })
 }
 
 /// The root near a float, enclosed by Newton's method on intervals: where the step maps an interval into itself it holds
@@ -417,6 +419,20 @@ fn enclose(field: &NumberField, enclosures: &Enclosures, x: &Elem) -> Fixed {
     enclosures.interval(&x.enclosure(&field.root, enclosures.bits).0)
 }
 
+/// The leading eigenvalue in a frequency; `None` where it is not the one of the block, or enclosures are too wide.
+#[must_use]
+pub fn leading_value(vertex: &Vertex, blocks: &[Block], top: &Top, frequency: usize, bits: u64) -> Option<Fixed> {
+    let block = blocks.iter().find(|b| b.frequency == frequency)?;
+    let enclosures = field_of(vertex, block, bits);
+    if top.place.1.is_some() && blocks[top.place.0].frequency != frequency {
+        return None;
+    }
+    match &top.rational {
+        Some(q) => Some(enclosures.rational(q)),
+        None => newton(&enclosures, &coefficients(&enclosures, &top.poly), &top.enclosure.mid()),
+    }
+}
+
 /// The eigenvector of the leading member of a frequency: of a simple eigenvalue its own, of a longer Jordan block the one
 /// that ends its chain. `None` where the block has several, or where enclosures are too wide.
 #[must_use]
@@ -429,16 +445,8 @@ pub fn leading_values(
 ) -> Option<Values<Fixed>> {
     let block = blocks.iter().find(|b| b.frequency == frequency)?;
     let enclosures = field_of(vertex, block, bits);
-    if let (b, Some(part)) = top.place {
-        if blocks[b].frequency != frequency {
-            return None;
-        }
-        let poly = coefficients(&enclosures, &top.poly);
-        let near = top.enclosure.mid();
-        let value = match &top.rational {
-            Some(q) => enclosures.rational(q),
-            None => newton(&enclosures, &poly, &near)?,
-        };
+    if let (_, Some(part)) = top.place {
+        let value = leading_value(vertex, blocks, top, frequency, bits)?;
         return eigenvector(&enclosures, block, part, &value);
     }
     let field = number_field(vertex, block);
@@ -447,7 +455,7 @@ pub fn leading_values(
 }
 
 /// Exact values as enclosures.
-pub(super) fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
+fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
     let one = |v: &Turning<Elem>| Turning { x: enclose(field, enclosures, &v.x), y: enclose(field, enclosures, &v.y) };
     Values { centre: one(&exact.centre), orbits: exact.orbits.iter().map(one).collect() }
 }

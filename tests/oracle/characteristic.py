@@ -17,6 +17,11 @@ LEVELS = 4
 class Primal:
     """Places (i, j), i > 0 and j >= 0, and the centre."""
 
+    factor, levels, rings = 2, LEVELS, 3
+
+    def grow(self, size):
+        return 2 * size - 1
+
     def __init__(self, w, triangles):
         self.w, self.triangles = w, triangles
 
@@ -78,10 +83,124 @@ class Loop(Primal):
         return (10 * g(a, b) + ring) / 16
 
 
+class Smooth(Primal):
+    """Schemes that are no splines: more rings, and `grow` tells how many a step leaves."""
+
+    rings = 6
+
+    def canonical(self, i, j):
+        turn = 0
+        while not (i > 0 and j >= 0):
+            if (i, j) == (0, 0):
+                return 0, 0, 0
+            if i == 0 and j > 0:
+                i, j, turn = j, 0, turn + 1
+            elif j < 0 <= i:
+                i, j, turn = (-j, i + j, turn - 1) if self.triangles else (-j, i, turn - 1)
+            else:
+                i, j, turn = (i + j, -i, turn + 1) if self.triangles else (j, -i, turn + 1)
+        return i, j, turn
+
+    def get(self, net, i, j):
+        i, j, turn = self.canonical(i, j)
+        return 0 if (i, j) == (0, 0) else net[i, j] * self.w**turn
+
+
+AROUND = [(1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1)]
+
+
+class Butterfly(Smooth):
+    def __init__(self, n, k=1, modified=False, tension=1 / 16):
+        super().__init__(cmath.exp(2j * math.pi * k / n), True)
+        self.modified = modified and n != 6
+        self.tension = tension
+
+    def grow(self, size):
+        return 2 * size - 3
+
+    def new(self, net, i, j):
+        if self.modified and (i, j) == (1, 0):
+            return net[1, 0] / 2
+        a = (i // 2, j // 2)
+        if i % 2 == 0 and j % 2 == 0:
+            return self.get(net, *a)
+        # The direction of the edge: (1,0), (0,1), or (-1,1) from the point to the right.
+        d = 0 if j % 2 == 0 else 1 if i % 2 == 0 else 2
+        if d == 2:
+            a = (a[0] + 1, a[1])
+        at = lambda *moves: self.get(net, a[0] + sum(AROUND[m % 6][0] for m in moves), a[1] + sum(AROUND[m % 6][1] for m in moves))
+        w = self.tension
+        near = at() + at(d)
+        side = at(d + 1) + at(d - 1)
+        far = at(d + 2) + at(d, d + 1) + at(d - 2) + at(d, d - 1)
+        return near / 2 + 2 * w * side - w * far
+
+
+class Sqrt3(Smooth):
+    """Two steps; places are those after both, in which old points have coordinates that are multiples of 3."""
+
+    factor, levels = 3, 3
+
+    def __init__(self, n, k=1):
+        super().__init__(cmath.exp(2j * math.pi * k / n), True)
+
+    def grow(self, size):
+        return 3 * size - 6
+
+    def between(self, net, i, j):
+        i, j, turn = self.canonical(i, j)
+        if (i, j) == (0, 0):
+            return 0
+        g = lambda a, b: self.get(net, a // 3, b // 3)
+        if i % 3 == 0 and j % 3 == 0:
+            value = 2 / 3 * g(i, j) + sum(g(i + 3 * a, j + 3 * b) for a, b in AROUND) / 18
+        else:
+            corner = (i - i % 3, j - j % 3)
+            own = [(3, 0), (0, 3), (0, 0)] if i % 3 == 1 else [(3, 0), (0, 3), (3, 3)]
+            value = sum(g(corner[0] + a, corner[1] + b) for a, b in own) / 3
+        return value * self.w**turn
+
+    def new(self, net, i, j):
+        g = lambda a, b: self.between(net, a, b)
+        if (i - j) % 3 == 0:
+            return 2 / 3 * g(i, j) + sum(g(i + a, j + b) for a, b in [(1, 1), (-1, 2), (-2, 1), (-1, -1), (1, -2), (2, -1)]) / 18
+        near = [(i + a, j + b) for a, b in AROUND if (i + a - j - b) % 3 == 0]
+        return sum(g(*p) for p in near) / 3
+
+
+class FourEight(Smooth):
+    """Two steps; after the first, points have coordinates of even sum."""
+
+    def __init__(self, n, k=1):
+        super().__init__(cmath.exp(2j * math.pi * k / n), False)
+
+    def grow(self, size):
+        return 2 * size - 3
+
+    def between(self, net, i, j):
+        i, j, turn = self.canonical(i, j)
+        if (i, j) == (0, 0):
+            return 0
+        g = lambda a, b: self.get(net, a // 2, b // 2)
+        if i % 2 == 0:
+            value = g(i, j) / 2 + (g(i + 2, j) + g(i - 2, j) + g(i, j + 2) + g(i, j - 2)) / 8
+        else:
+            value = (g(i + 1, j + 1) + g(i - 1, j + 1) + g(i + 1, j - 1) + g(i - 1, j - 1)) / 4
+        return value * self.w**turn
+
+    def new(self, net, i, j):
+        g = lambda a, b: self.between(net, a, b)
+        if (i + j) % 2 == 0:
+            return g(i, j) / 2 + (g(i + 1, j + 1) + g(i - 1, j + 1) + g(i + 1, j - 1) + g(i - 1, j - 1)) / 8
+        return (g(i + 1, j) + g(i - 1, j) + g(i, j + 1) + g(i, j - 1)) / 4
+
+
 class Dual:
     """Cells [i, i+1] x [j, j+1], i, j >= 0; `central` is the transform of the weights in the central face."""
 
     triangles = False
+    factor, levels, rings = 2, LEVELS, 3
+    grow = Primal.grow
 
     def __init__(self, n, central, weights, k=1):
         self.w = cmath.exp(2j * math.pi * k / n)
@@ -133,14 +252,23 @@ SCHEMES = {
     "doo-sabin-catmull-clark": lambda n: Dual(n, catmull_clark, QUAD),
     "doo-sabin-frequency": lambda n: Dual(n, frequency2, QUAD, 2),
     "midedge": lambda n: Dual(n, midedge, (1 / 2, 1 / 4, 0, 1 / 4)),
+    "butterfly": lambda n: Butterfly(n, 1 if n < 8 else 2 if n < 14 else 3),
+    "butterfly-modified": lambda n: Butterfly(n, modified=True),
+    "sqrt3": Sqrt3,
+    "four-eight": FourEight,
 }
 
 
+FROM_3 = [*range(3, 13), 20, 31]
+VALENCES = {name: FROM_3 for name in SCHEMES if name not in ("doo-sabin-frequency", "midedge", "butterfly")}
+VALENCES["butterfly"] = [*range(4, 17)]
+
+
 def eigenvector(scheme):
-    net = {p: complex(p[0] + 0.5) + complex(p[1]) * scheme.w for p in scheme.places(3)}
+    net = {p: complex(p[0] + 0.5) + complex(p[1]) * scheme.w for p in scheme.places(scheme.rings)}
     value = 0
     for _ in range(400):
-        fresh = {p: scheme.new(net, *p) for p in scheme.places(3)}
+        fresh = {p: scheme.new(net, *p) for p in scheme.places(scheme.rings)}
         place = (0, 0) if (0, 0) in net else (1, 0)
         value = fresh[place] / net[place]
         net = {p: v / fresh[place] for p, v in fresh.items()}
@@ -149,11 +277,12 @@ def eigenvector(scheme):
 
 def sample(scheme):
     value, net = eigenvector(scheme)
-    size = 3
-    for _ in range(LEVELS):
-        size = 2 * size - 1
+    size = scheme.rings
+    for _ in range(scheme.levels):
+        size = scheme.grow(size)
         net = {p: scheme.new(net, *p) for p in scheme.places(size)}
-    low, high = 2**LEVELS, 2 ** (LEVELS + 1)
+    low = scheme.factor**scheme.levels
+    high = scheme.factor * low
     dets, boundary = [], []
     for i, j in scheme.places(high):
         radius = i + j if scheme.triangles else max(i, j)
@@ -176,9 +305,16 @@ def sample(scheme):
 def main():
     print("# scheme valence eigenvalue min-Jacobian max-Jacobian winding")
     for name, make in SCHEMES.items():
-        for n in [*range(3 if name in ("catmull-clark", "loop", "doo-sabin", "doo-sabin-catmull-clark") else 5, 13), 20, 31]:
+        for n in VALENCES.get(name, [*range(5, 13), 20, 31]):
             value, low, high, angle = sample(make(n))
             print(name, n, f"{value:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
+    print("# weights with a given transform in the central face, and the butterfly scheme with tension 1/20: not read by the tests")
+    for n, value in [(3, 0.8), (3, 0.9), (4, 0.9), (4, 0.95)]:
+        found, low, high, angle = sample(Dual(n, lambda n, k: value, QUAD))
+        print("# doo-sabin", n, f"{found:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
+    for n in range(3, 10):
+        found, low, high, angle = sample(Butterfly(n, modified=True, tension=1 / 20))
+        print("# butterfly-tension", n, f"{found:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
 
 
 main()

@@ -1,0 +1,289 @@
+//! The ring of a scheme that is no spline: enclosures of the limit and its derivatives on cells that are divided until
+//! signs are certain (docs/theory.md, Lemma 4).
+//!
+//! The ring of a sector are the cells at distances `r` to `N r` from the centre; their points lie at distance 1 and more,
+//! where the mesh is regular.
+
+use super::block::Vertex;
+use super::field::{Enclosures, Field, Fixed};
+use super::net::{Net, Signs, Spot};
+use super::regular::{BOUND_PLACES, Cell, Place, Regular, place};
+use super::ring::{Control, Values};
+use super::turning::{Rotation, Turning};
+use crate::arith::{Integer, Rational, ratio};
+use crate::scheme::{MeshRule, Sector};
+use malachite_base::num::logic::traits::SignificantBits;
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+/// The inner radius of the ring.
+const RADIUS: i64 = 3;
+/// Rings of points beyond the ring of cells.
+const REACH: i64 = 3;
+/// Binary places of the largest value.
+const BITS: u64 = 58;
+/// Cells examined at most for one sign.
+const BUDGET: usize = 40_000;
+/// How often a cell is divided at most.
+const DEPTH: usize = 12;
+
+/// A cell of the ring or a part of one, with enclosures of its points: middles in one unit, and one error.
+#[derive(Debug, Clone)]
+struct Piece {
+    /// The number of the cell of the ring.
+    cell: usize,
+    /// Where the piece lies in the cell, in its lattice refined `level` times.
+    at: Cell,
+    level: usize,
+    x: Vec<i128>,
+    y: Vec<i128>,
+    error: i128,
+}
+
+/// The ring of sector 0.
+#[derive(Debug)]
+pub struct Ring {
+    regular: Arc<Regular>,
+    pieces: Vec<Piece>,
+}
+
+/// The cells of the ring of a sector.
+pub(super) fn ring_cells(triangles: bool, factor: i64) -> Vec<Cell> {
+    let outer = factor * RADIUS;
+    let mut all = Vec::new();
+    for i in 0..outer {
+        for j in 0..outer {
+            if triangles {
+                if i + j >= RADIUS && i + j < outer {
+                    all.push(((i, j), 1));
+                }
+                if i + j + 1 >= RADIUS && i + j + 2 <= outer {
+                    all.push(((i + 1, j + 1), -1));
+                }
+            } else if i.max(j) >= RADIUS {
+                all.push(((i, j), 1));
+            }
+        }
+    }
+    all
+}
+
+/// Where a spot of a cell of the ring lies in the lattice of the sector; `None` for rules without such a ring.
+#[must_use]
+pub fn lattice_point(rule: &MeshRule, cell: usize, spot: &Spot) -> Option<(Rational, Rational)> {
+    let regular = Regular::of(rule)?;
+    let (corner, sign) = *ring_cells(regular.triangles, regular.factor).get(cell)?;
+    let along = |c: i64, x: &Rational| ratio(c, 1) + ratio(sign, 1) * x;
+    Some((along(corner.0, &spot.0), along(corner.1, &spot.1)))
+}
+
+/// The values of an eigenvector farther out: a point beyond the known ones follows from them by its stencil, divided by the
+/// eigenvalue.
+fn continued(
+    wide: &Vertex,
+    core: &Vertex,
+    field: &Enclosures,
+    values: &Values<Fixed>,
+    eigenvalue: &Fixed,
+) -> Option<Values<Fixed>> {
+    let rotation = Rotation(field);
+    let inverse = rotation.plain(field.inv(eigenvalue)?);
+    let mut known: Vec<Option<Turning<Fixed>>> =
+        wide.stencils.places.iter().map(|p| Some(values.orbits[core.orbit(*p)?].clone())).collect();
+    let mut order: Vec<usize> = (0..known.len()).filter(|i| known[*i].is_none()).collect();
+    order.sort_by_key(|i| {
+        let (a, b) = wide.stencils.places[*i];
+        if wide.stencils.sector == Sector::Triangles { a + b } else { a.max(b) }
+    });
+    for orbit in order {
+        let mut sum = rotation.scale(&values.centre, &wide.stencils.from_centre[orbit]);
+        for (old, shift, weight) in &wide.stencils.rows[orbit] {
+            let turned = rotation.turn(known[*old].as_ref()?, *shift);
+            sum = rotation.add(&sum, &rotation.scale(&turned, weight));
+        }
+        known[orbit] = Some(rotation.mul(&sum, &inverse));
+    }
+    Some(Values { centre: values.centre.clone(), orbits: known.into_iter().collect::<Option<_>>()? })
+}
+
+fn floor(x: &Integer, shift: u64) -> Option<i128> {
+    i128::try_from(&(x >> shift)).ok()
+}
+
+impl Ring {
+    /// The ring of an eigenvector, given near the centre. `None` for schemes whose regular rule has no bounds, or where the
+    /// points given do not determine those farther out.
+    ///
+    /// # Cost
+    /// Stencils of a wider neighbourhood; see [`Regular::of`].
+    #[must_use]
+    pub fn new(vertex: &Vertex, field: &Enclosures, values: &Values<Fixed>, eigenvalue: &Fixed) -> Option<Self> {
+        let regular = Regular::of(&vertex.rule)?;
+        let rings = usize::try_from(regular.factor * RADIUS + REACH).ok()?;
+        let wide = Vertex::new(&vertex.rule, vertex.valence, rings).ok()?;
+        let far = continued(&wide, vertex, field, values, eigenvalue)?;
+        let control = Control { vertex: &wide, field, values: &far };
+        let mut nets = Vec::new();
+        for cell in ring_cells(regular.triangles, regular.factor) {
+            let at = |p: &Place| {
+                let (i, j) = place(&cell, *p);
+                control.at(i, j)
+            };
+            nets.push(regular.points.iter().map(at).collect::<Option<Vec<_>>>()?);
+        }
+        let size = |v: &Fixed| v.lo.significant_bits().max(v.hi.significant_bits());
+        let largest = nets.iter().flatten().map(|p| size(&p.x).max(size(&p.y))).max()?;
+        let shift = largest.saturating_sub(BITS);
+        let mut pieces = Vec::new();
+        for (cell, net) in nets.iter().enumerate() {
+            let (mut x, mut y, mut error) = (Vec::new(), Vec::new(), 0);
+            for p in net {
+                for (v, list) in [(&p.x, &mut x), (&p.y, &mut y)] {
+                    let (lo, hi) = (floor(&v.lo, shift)?, floor(&v.hi, shift)? + 1);
+                    let middle = lo + (hi - lo) / 2;
+                    list.push(middle);
+                    error = error.max(hi - lo);
+                }
+            }
+            pieces.push(Piece { cell, at: ((0, 0), 1), level: 0, x, y, error });
+        }
+        Some(Self { regular, pieces })
+    }
+
+    /// The parts of a piece after a step.
+    fn divided(&self, piece: &Piece) -> Vec<Piece> {
+        let r = &self.regular;
+        let step = |rows: &Vec<Vec<(usize, i128)>>, old: &[i128]| -> Vec<i128> {
+            let one =
+                |row: &Vec<(usize, i128)>| row.iter().map(|(i, w)| old[*i] * w).sum::<i128>().div_euclid(r.denominator);
+            rows.iter().map(one).collect()
+        };
+        // Rounding down adds less than one unit.
+        let error = (piece.error * r.growth).div_euclid(r.denominator) + 2;
+        let (corner, sign) = piece.at;
+        let part = |(part, rows): (&Cell, &Vec<Vec<(usize, i128)>>)| Piece {
+            cell: piece.cell,
+            at: (place(&((r.factor * corner.0, r.factor * corner.1), sign), part.0), sign * part.1),
+            level: piece.level + 1,
+            x: step(rows, &piece.x),
+            y: step(rows, &piece.y),
+            error,
+        };
+        r.parts.iter().zip(&r.steps).map(part).collect()
+    }
+
+    /// The sign of something on a choice of cells, which are divided where it is not certain; breadth first, until both signs
+    /// were met.
+    fn explore(&self, first: Vec<Piece>, sign: impl Fn(&Piece) -> Option<i32>) -> Signs {
+        let mut signs = Signs::default();
+        let mut queue: VecDeque<Piece> = first.into();
+        let mut examined = 0;
+        while let Some(piece) = queue.pop_front() {
+            if signs.changes() {
+                break;
+            }
+            examined += 1;
+            signs.depth = signs.depth.max(piece.level);
+            let mark = match sign(&piece) {
+                Some(s) if s > 0 => &mut signs.positive,
+                Some(_) => &mut signs.negative,
+                None if piece.level < DEPTH && examined + queue.len() < BUDGET => {
+                    queue.extend(self.divided(&piece));
+                    continue;
+                }
+                None => &mut signs.open,
+            };
+            mark.get_or_insert_with(|| (piece.cell, self.spot(&piece)));
+            signs.pieces += 1;
+        }
+        signs
+    }
+
+    /// The first corner of a piece in the variables of its cell.
+    fn spot(&self, piece: &Piece) -> Spot {
+        let size = (0..piece.level).fold(1, |s, _| s * self.regular.factor);
+        (ratio(piece.at.0.0, size), ratio(piece.at.0.1, size))
+    }
+
+    fn slack(bound: i128, roughness: i128, scale: i128) -> i128 {
+        ((bound * roughness * scale) >> BOUND_PLACES) + 1
+    }
+
+    /// The sign of the Jacobian determinant in the coordinates `x + y ω`.
+    #[must_use]
+    pub fn jacobian(&self) -> Signs {
+        let r = &self.regular;
+        let (scale, _) = r.scales();
+        self.explore(self.pieces.clone(), |piece| {
+            let enclosed = |values: &[i128]| {
+                let roughness = r.roughness(values) + 4 * piece.error;
+                (r.slopes(values), Self::slack(r.slope_bound, roughness, scale) + 4 * piece.error)
+            };
+            let ([xu, xv], ex) = enclosed(&piece.x);
+            let ([yu, yv], ey) = enclosed(&piece.y);
+            let middle = xu * yv - xv * yu;
+            let off = (xu.abs() + xv.abs()) * ey + (yu.abs() + yv.abs()) * ex + 2 * ex * ey;
+            (middle.abs() > off).then_some(if middle > 0 { 1 } else { -1 })
+        })
+    }
+
+    /// The sign of `a x + b y`, on the whole ring or on its innermost cells, which hold a closed path around the centre.
+    #[must_use]
+    pub fn functional(&self, (a, b): (i128, i128), innermost: bool) -> Signs {
+        let r = &self.regular;
+        let (_, scale) = r.scales();
+        let cells = ring_cells(r.triangles, r.factor);
+        let near = |p: &&Piece| {
+            let ((i, j), sign) = cells[p.cell];
+            let distance = |(i, j): Place| if r.triangles { i + j } else { i.max(j) };
+            distance((i, j)).min(distance((i + sign, j))).min(distance((i, j + sign))) == RADIUS
+        };
+        let chosen = self.pieces.iter().filter(|p| !innermost || near(p)).cloned().collect();
+        self.explore(chosen, |piece| {
+            let values: Vec<i128> = piece.x.iter().zip(&piece.y).map(|(x, y)| a * x + b * y).collect();
+            let error = piece.error * (a.abs() + b.abs());
+            let roughness = r.roughness(&values) + 4 * error;
+            // The fit at a corner has coefficients of sum 3 at most.
+            let off = Self::slack(r.value_bound, roughness, scale) + 3 * scale * error;
+            let fit = r.fit(&values);
+            if fit.iter().all(|v| *v > off) {
+                Some(1)
+            } else if fit.iter().all(|v| *v < -off) {
+                Some(-1)
+            } else {
+                None
+            }
+        })
+    }
+
+    /// A functional `(a, b)/unit` that may be positive on the sector, where `2 cos θ` is given: the scalar product with the
+    /// sum of the corners of all cells in the metric of the true plane, as short integers.
+    #[must_use]
+    #[allow(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "a proposal, proved by `functional`")]
+    pub fn towards(&self, twice_cosine: f64) -> ((i128, i128), i128) {
+        const UNIT: f64 = 4096.0;
+        let fit = |v: &[i128]| self.regular.fit(v).iter().sum::<i128>() as f64;
+        let (x, y) = self.pieces.iter().fold((0.0, 0.0), |(x, y), p| (x + fit(&p.x), y + fit(&p.y)));
+        let half = twice_cosine / 2.0;
+        let (a, b) = (x + half * y, y + half * x);
+        let scale = UNIT / a.abs().max(b.abs()).max(1.0);
+        (((a * scale) as i128, (b * scale) as i128), UNIT as i128)
+    }
+
+    /// The corners of the cells after one step, as floats `x, y` in the coordinates `x + y ω`, in a unit of its own.
+    #[must_use]
+    #[allow(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "pictures only")]
+    pub fn corners(&self) -> Vec<Net<(f64, f64)>> {
+        let unit = 2_f64.powi(-(BITS as i32)) / self.regular.scales().1 as f64;
+        let net = |piece: &Piece| {
+            let (x, y) = (self.regular.fit(&piece.x), self.regular.fit(&piece.y));
+            let p: Vec<(f64, f64)> = x.iter().zip(&y).map(|(x, y)| (*x as f64 * unit, *y as f64 * unit)).collect();
+            if self.regular.triangles {
+                Net { triangle: true, rows: vec![vec![p[0], p[1]], vec![p[2]]] }
+            } else {
+                Net { triangle: false, rows: vec![vec![p[0], p[1]], vec![p[2], p[3]]] }
+            }
+        };
+        self.pieces.iter().flat_map(|p| self.divided(p)).map(|p| net(&p)).collect()
+    }
+}

@@ -1,0 +1,621 @@
+//! Schemes that are no splines on a regular mesh: how far a limit and its derivatives can be from the control points of a
+//! cell (docs/theory.md, Lemma 4).
+//!
+//! A cell is a triangle or a square of the lattice; its points are those that decide the surface above it. One step (or
+//! the two steps of a turning scheme) divides the cell in `N²`, each with points that follow from the old ones by `T_s`.
+
+use crate::arith::{Integer, Natural, Rational, ratio};
+use crate::linalg::Matrix;
+use crate::scheme::{MeshRule, SectorStencils, sector_stencils};
+use malachite_base::num::arithmetic::traits::{Abs, Ceiling, Lcm};
+use malachite_base::num::conversion::traits::RoundingFrom;
+use malachite_base::rounding_modes::RoundingMode;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Arc, Mutex};
+
+/// A place in the lattice.
+pub type Place = (i64, i64);
+
+/// Rings of the regular mesh from which the mask is read.
+const RINGS: usize = 6;
+/// Points of a cell at most.
+const MAX_POINTS: usize = 64;
+/// Words examined at most for the bounds of one scheme.
+const MAX_WORDS: usize = 1100;
+/// Words are long enough where all shrink differences to this part.
+const ENOUGH: (i64, i64) = (1, 4);
+/// Binary places of the generalised inverse.
+const PLACES: u64 = 40;
+/// Entries of products of steps stay below this power of 2.
+const MAX_BITS: u32 = 70;
+/// Binary places of the bounds.
+pub const BOUND_PLACES: u64 = 20;
+
+/// A cell of the lattice: one corner, and the sign of the lattice vectors that lead to the others.
+pub type Cell = (Place, i64);
+
+/// The regular rule of a scheme, cell by cell.
+#[derive(Debug)]
+pub struct Regular {
+    /// Whether cells are triangles.
+    pub triangles: bool,
+    /// `N`: a step makes the lattice so many times finer.
+    pub factor: i64,
+    /// The points of the cell with corners (0,0), (1,0), (0,1), and (1,1) for squares.
+    pub points: Vec<Place>,
+    /// The parts of the cell after a step, in the finer lattice.
+    pub parts: Vec<Cell>,
+    /// The common denominator of all weights.
+    pub denominator: i128,
+    /// For each part, for each of its points, the weights of the points of the cell times the denominator.
+    pub steps: Vec<Vec<Vec<(usize, i128)>>>,
+    /// The largest sum of absolute weights of one point, times the denominator.
+    pub growth: i128,
+    /// The second differences: points of the sign +, −, −, +.
+    pub differences: Vec<[usize; 4]>,
+    /// A bound of `|∇f − slope|` in units of `2^-20` of the largest second difference.
+    pub slope_bound: i128,
+    /// A bound of `|f − fit|` in the same units.
+    pub value_bound: i128,
+}
+
+/// The mask: the weight of the point `q` in the point `p` of the finer lattice at `p − N q`.
+type Mask = BTreeMap<Place, Rational>;
+
+impl Regular {
+    /// The regular rule of a scheme with its bounds, computed once for each scheme; `None` where a step does not keep
+    /// linear functions, or no contraction of the second differences was found.
+    ///
+    /// # Cost
+    /// About a thousand products of small matrices at the first call, a comparison afterwards.
+    #[must_use]
+    pub fn of(rule: &MeshRule) -> Option<Arc<Self>> {
+        static KNOWN: Mutex<Vec<(MeshRule, Option<Arc<Regular>>)>> = Mutex::new(Vec::new());
+        let rule = match rule {
+            MeshRule::Sqrt3(_) => MeshRule::Sqrt3(None),
+            MeshRule::Butterfly { w, .. } => MeshRule::Butterfly { w: w.clone(), modified: false },
+            other => other.clone(),
+        };
+        let mut known = KNOWN.lock().ok()?;
+        if let Some((_, found)) = known.iter().find(|(r, _)| *r == rule) {
+            return found.clone();
+        }
+        let found = Self::build(&rule).map(Arc::new);
+        known.push((rule, found.clone()));
+        found
+    }
+
+    fn build(rule: &MeshRule) -> Option<Self> {
+        let (triangles, factor, mask) = mask(rule)?;
+        let parts = parts(triangles, factor);
+        let points = points(triangles, factor, &mask, &parts)?;
+        let denominator = mask.values().fold(Natural::from(1_u32), |d, w| d.lcm(w.denominator_ref()));
+        let denominator = Integer::from(denominator);
+        let scaled = |w: &Rational| Integer::try_from(w * Rational::from(&denominator)).ok();
+        let index: BTreeMap<Place, usize> = points.iter().enumerate().map(|(i, p)| (*p, i)).collect();
+        let mut steps = Vec::new();
+        for part in &parts {
+            let mut rows = Vec::new();
+            for point in &points {
+                let mut row = Vec::new();
+                for (q, w) in sources(&mask, factor, place(part, *point)) {
+                    row.push((*index.get(&q)?, i128::try_from(&scaled(w)?).ok()?));
+                }
+                rows.push(row);
+            }
+            steps.push(rows);
+        }
+        let sum = |row: &Vec<(usize, i128)>| row.iter().map(|(_, w)| w.abs()).sum::<i128>();
+        let growth = steps.iter().flatten().map(sum).max()?;
+        let differences = differences(triangles, &index);
+        let denominator = i128::try_from(&denominator).ok()?;
+        let mut regular = Self {
+            triangles,
+            factor,
+            points,
+            parts,
+            denominator,
+            steps,
+            growth,
+            differences,
+            slope_bound: 0,
+            value_bound: 0,
+        };
+        if !regular.keeps_linear_functions() {
+            return None;
+        }
+        (regular.slope_bound, regular.value_bound) = Bounds::new(&regular)?.found()?;
+        Some(regular)
+    }
+
+    /// The factor by which the integer functionals below are too large: slopes, and values.
+    #[must_use]
+    pub fn scales(&self) -> (i128, i128) {
+        if self.triangles { (1, 1) } else { (2, 4) }
+    }
+
+    /// The corners of the cell.
+    #[must_use]
+    pub fn corners(&self) -> &'static [Place] {
+        if self.triangles { &[(0, 0), (1, 0), (0, 1)] } else { &[(0, 0), (1, 0), (0, 1), (1, 1)] }
+    }
+
+    fn index(&self, p: Place) -> Option<usize> {
+        self.points.iter().position(|q| *q == p)
+    }
+
+    /// The two slopes of the linear fit, times their scale.
+    #[must_use]
+    pub fn slopes(&self, values: &[i128]) -> [i128; 2] {
+        let at = |p: Place| self.index(p).map_or(0, |i| values[i]);
+        let (a, b, c) = (at((0, 0)), at((1, 0)), at((0, 1)));
+        if self.triangles {
+            return [b - a, c - a];
+        }
+        let d = at((1, 1));
+        [b - a + d - c, c - a + d - b]
+    }
+
+    /// The linear fit at the corners, times its scale.
+    #[must_use]
+    pub fn fit(&self, values: &[i128]) -> Vec<i128> {
+        let at = |p: &Place| self.index(*p).map_or(0, |i| values[i]);
+        if self.triangles {
+            return self.corners().iter().map(at).collect();
+        }
+        let sum: i128 = self.corners().iter().map(at).sum();
+        let [u, v] = self.slopes(values);
+        let sign = |x: i64| i128::from(2 * x - 1);
+        self.corners().iter().map(|(a, b)| sum + sign(*a) * u + sign(*b) * v).collect()
+    }
+
+    /// The largest absolute second difference.
+    #[must_use]
+    pub fn roughness(&self, values: &[i128]) -> i128 {
+        let size = |[a, b, c, d]: &[usize; 4]| (values[*a] - values[*b] - values[*c] + values[*d]).abs();
+        self.differences.iter().map(size).max().unwrap_or(0)
+    }
+
+    /// Whether every step takes the values of a linear function to those of the same function.
+    fn keeps_linear_functions(&self) -> bool {
+        let factor = i128::from(self.factor);
+        self.parts.iter().zip(&self.steps).all(|(part, rows)| {
+            self.points.iter().zip(rows).all(|(point, row)| {
+                let target = place(part, *point);
+                let sum = |f: &dyn Fn(Place) -> i64| {
+                    row.iter().map(|(i, w)| w * i128::from(f(self.points[*i]))).sum::<i128>()
+                };
+                sum(&|_| 1) == self.denominator
+                    && factor * sum(&|p| p.0) == self.denominator * i128::from(target.0)
+                    && factor * sum(&|p| p.1) == self.denominator * i128::from(target.1)
+            })
+        })
+    }
+}
+
+/// A point of a cell in the lattice.
+#[must_use]
+pub fn place((corner, sign): &Cell, point: Place) -> Place {
+    (corner.0 + sign * point.0, corner.1 + sign * point.1)
+}
+
+/// The mask, read from the stencils around a regular vertex; whether the mesh has triangles, and `N`.
+fn mask(rule: &MeshRule) -> Option<(bool, i64, Mask)> {
+    let triangles = matches!(rule, MeshRule::Butterfly { .. } | MeshRule::Sqrt3(_));
+    let factor = if matches!(rule, MeshRule::Sqrt3(_)) { 3 } else { 2 };
+    let stencils = sector_stencils(rule, if triangles { 6 } else { 4 }, RINGS).ok()?;
+    let mut mask = Mask::new();
+    let mut seen = BTreeSet::new();
+    for (index, (i, j)) in stencils.places.iter().enumerate() {
+        let p = (i64::try_from(*i).ok()?, i64::try_from(*j).ok()?);
+        if !seen.insert((p.0.rem_euclid(factor), p.1.rem_euclid(factor))) {
+            continue;
+        }
+        for (q, weight) in row(&stencils, index, triangles) {
+            *mask.entry((p.0 - factor * q.0, p.1 - factor * q.1)).or_default() += weight;
+        }
+    }
+    // The cells that lie upside down are turned by half a circle.
+    let even = mask.iter().all(|(p, w)| mask.get(&(-p.0, -p.1)) == Some(w));
+    (even && seen.len() == usize::try_from(factor * factor).ok()?).then_some((triangles, factor, mask))
+}
+
+/// The weights of a new point around a regular vertex by the place of the old one.
+fn row(stencils: &SectorStencils, index: usize, triangles: bool) -> Vec<(Place, Rational)> {
+    let turned = |(i, j): Place, shift: i64| {
+        let around = if triangles { 6 } else { 4 };
+        (0..shift.rem_euclid(around)).fold((i, j), |(i, j), _| if triangles { (-j, i + j) } else { (-j, i) })
+    };
+    let place = |orbit: usize| {
+        let (i, j) = stencils.places[orbit];
+        (i as i64, j as i64)
+    };
+    let mut list = vec![((0, 0), stencils.from_centre[index].clone())];
+    list.extend(stencils.rows[index].iter().map(|(orbit, shift, w)| (turned(place(*orbit), *shift), w.clone())));
+    list.retain(|(_, w)| *w != 0);
+    list
+}
+
+fn parts(triangles: bool, factor: i64) -> Vec<Cell> {
+    let mut parts = Vec::new();
+    for i in 0..factor {
+        for j in 0..factor {
+            if !triangles || i + j < factor {
+                parts.push(((i, j), 1));
+            }
+            if triangles && i + j + 1 < factor {
+                parts.push(((i + 1, j + 1), -1));
+            }
+        }
+    }
+    parts
+}
+
+/// The old points on which a point depends.
+fn sources(mask: &Mask, factor: i64, p: Place) -> impl Iterator<Item = (Place, &Rational)> {
+    mask.iter().filter_map(move |(k, w)| {
+        let (i, j) = (p.0 - k.0, p.1 - k.1);
+        (i.rem_euclid(factor) == 0 && j.rem_euclid(factor) == 0).then_some(((i / factor, j / factor), w))
+    })
+}
+
+/// The smallest set of points with the corners on which all points of the parts depend; `None` where it does not hold the
+/// cells across the edges.
+fn points(triangles: bool, factor: i64, mask: &Mask, parts: &[Cell]) -> Option<Vec<Place>> {
+    let mut all: BTreeSet<Place> = [(0, 0), (1, 0), (0, 1)].into();
+    if !triangles {
+        all.insert((1, 1));
+    }
+    loop {
+        let mut more = all.clone();
+        for part in parts {
+            for p in &all {
+                more.extend(sources(mask, factor, place(part, *p)).map(|(q, _)| q));
+            }
+        }
+        if more.len() == all.len() {
+            // Without the cells across the edges nothing would be said of how slopes continue there.
+            let across: &[Place] = if triangles {
+                &[(1, 1), (-1, 1), (1, -1)]
+            } else {
+                &[(-1, 0), (-1, 1), (2, 0), (2, 1), (0, -1), (1, -1), (0, 2), (1, 2)]
+            };
+            return across.iter().all(|p| all.contains(p)).then(|| all.into_iter().collect());
+        }
+        if more.len() > MAX_POINTS {
+            return None;
+        }
+        all = more;
+    }
+}
+
+fn differences(triangles: bool, index: &BTreeMap<Place, usize>) -> Vec<[usize; 4]> {
+    let directions: &[Place] = if triangles { &[(1, 0), (0, 1), (-1, 1)] } else { &[(1, 0), (0, 1), (1, 1), (1, -1)] };
+    let mut all = Vec::new();
+    for (k, u) in directions.iter().enumerate() {
+        for v in &directions[k + 1..] {
+            for o in index.keys() {
+                let at = |s: i64, t: i64| index.get(&(o.0 + s * u.0 + t * v.0, o.1 + s * u.1 + t * v.1)).copied();
+                if let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1)) {
+                    all.push([a, b, c, d]);
+                }
+            }
+        }
+    }
+    all
+}
+
+/// A word: the product of its steps times `(N denominator)^length`, by rows, and where its part lies.
+struct Word {
+    rows: Vec<Vec<i128>>,
+    origin: Place,
+    sign: i64,
+}
+
+/// The bounds of Lemma 4 from all words of one length.
+struct Bounds<'a> {
+    regular: &'a Regular,
+    /// The points other than three corners.
+    others: Vec<usize>,
+    /// A matrix that gives the values there from the second differences of nets that are 0 at the three corners, times
+    /// `2^PLACES` and rounded.
+    inverse: Vec<Vec<i128>>,
+}
+
+impl<'a> Bounds<'a> {
+    fn new(regular: &'a Regular) -> Option<Self> {
+        let corners: Vec<usize> = regular.corners()[..3].iter().filter_map(|p| regular.index(*p)).collect();
+        let others: Vec<usize> = (0..regular.points.len()).filter(|i| !corners.contains(i)).collect();
+        let entry = |r: usize, c: usize| {
+            let [a, b, c1, d] = regular.differences[r];
+            let i = others[c];
+            let count = |p: usize| i64::from(p == i);
+            ratio(count(a) - count(b) - count(c1) + count(d), 1)
+        };
+        let a = Matrix::from_fn(regular.differences.len(), others.len(), entry);
+        if a.rank() != others.len() {
+            return None;
+        }
+        let transposed = a.transpose();
+        let exact = (&transposed * &a).solve(&transposed)?;
+        let unit = Rational::from(Integer::from(1) << PLACES);
+        let rounded = |x: &Rational| i128::try_from(&Integer::rounding_from(x * &unit, RoundingMode::Nearest).0).ok();
+        let inverse =
+            (0..exact.rows()).map(|i| exact.row(i).iter().map(rounded).collect()).collect::<Option<Vec<_>>>()?;
+        Some(Self { regular, others, inverse })
+    }
+
+    /// A bound of the sum of absolute coefficients of a functional that is 0 on linear functions, written in the second
+    /// differences; times `2^PLACES`.
+    fn norm(&self, row: &[i128]) -> Option<Integer> {
+        let mut total = Integer::from(0);
+        let count = self.regular.differences.len();
+        let mut size = 0_i128;
+        for i in &self.others {
+            if row[*i].unsigned_abs() >> MAX_BITS != 0 {
+                return None;
+            }
+            size += row[*i].abs();
+        }
+        for j in 0..count {
+            let sum: i128 = self.others.iter().zip(&self.inverse).map(|(i, inverse)| row[*i] * inverse[j]).sum();
+            total += Integer::from(sum.abs());
+        }
+        // Every entry of the inverse is off by half a unit at most.
+        Some(total + Integer::from(size) * Integer::from(count as u64))
+    }
+
+    fn worst(&self, rows: impl IntoIterator<Item = Vec<i128>>) -> Option<Integer> {
+        rows.into_iter().try_fold(Integer::from(0), |worst, row| Some(worst.max(self.norm(&row)?)))
+    }
+
+    fn first(&self) -> Word {
+        let size = self.regular.points.len();
+        let rows = (0..size).map(|i| (0..size).map(|j| i128::from(i == j)).collect()).collect();
+        Word { rows, origin: (0, 0), sign: 1 }
+    }
+
+    fn longer(&self, word: &Word) -> Option<Vec<Word>> {
+        let r = self.regular;
+        let factor = i128::from(r.factor);
+        let extend = |(part, step): (&Cell, &Vec<Vec<(usize, i128)>>)| {
+            let row = |weights: &Vec<(usize, i128)>| {
+                let mut sum = vec![0_i128; r.points.len()];
+                for (i, w) in weights {
+                    for (s, x) in sum.iter_mut().zip(&word.rows[*i]) {
+                        *s = s.checked_add(x.checked_mul(w.checked_mul(factor)?)?)?;
+                    }
+                }
+                sum.iter().all(|s| s.unsigned_abs() >> MAX_BITS == 0).then_some(sum)
+            };
+            let origin = place(&((r.factor * word.origin.0, r.factor * word.origin.1), word.sign), part.0);
+            Some(Word { rows: step.iter().map(row).collect::<Option<_>>()?, origin, sign: word.sign * part.1 })
+        };
+        r.parts.iter().zip(&r.steps).map(extend).collect()
+    }
+
+    /// The values of a functional, given by its values on nets, on each column of a word.
+    fn along(word: &Word, functional: impl Fn(&[i128]) -> Vec<i128>) -> Vec<Vec<i128>> {
+        let columns = word.rows.len();
+        let by_column: Vec<Vec<i128>> =
+            (0..columns).map(|j| functional(&word.rows.iter().map(|row| row[j]).collect::<Vec<_>>())).collect();
+        (0..by_column[0].len()).map(|f| by_column.iter().map(|c| c[f]).collect()).collect()
+    }
+
+    /// Bounds for slope and value, in units of `2^-BOUND_PLACES`, rounded up.
+    fn found(&self) -> Option<(i128, i128)> {
+        let r = self.regular;
+        let start = self.first();
+        let slopes = Self::along(&start, |v| r.slopes(v).to_vec());
+        let fit = Self::along(&start, |v| r.fit(v));
+        let (slope_scale, value_scale) = r.scales();
+        let mut words = vec![start];
+        let (mut unit, mut size) = (1_i128, 1_i128);
+        let mut best = None;
+        while words.len() * r.parts.len() <= MAX_WORDS {
+            let longer: Option<Vec<Vec<Word>>> = words.iter().map(|w| self.longer(w)).collect();
+            words = longer?.into_iter().flatten().collect();
+            // Products are too large by the factor `unit`, and by N^length beside; the latter belongs to slopes.
+            unit = unit.checked_mul(r.denominator).filter(|u| u.unsigned_abs() >> MAX_BITS == 0)?;
+            size = size.checked_mul(i128::from(r.factor))?;
+            let (mut shrink, mut slope, mut value) = (Integer::from(0), Integer::from(0), Integer::from(0));
+            for word in &words {
+                let second = |v: &[i128]| {
+                    r.differences.iter().map(|[a, b, c, d]| v[*a] - v[*b] - v[*c] + v[*d]).collect::<Vec<_>>()
+                };
+                shrink = shrink.max(self.worst(Self::along(word, second))?);
+                let sign = i128::from(word.sign);
+                let moved = Self::along(word, |v| r.slopes(v).to_vec());
+                slope = slope.max(
+                    self.worst(
+                        moved
+                            .iter()
+                            .zip(&slopes)
+                            .map(|(new, old)| new.iter().zip(old).map(|(x, y)| sign * x - unit * y).collect()),
+                    )?,
+                );
+                let at = |corner: &Place| {
+                    let p = place(&(word.origin, word.sign), *corner);
+                    let ratio = value_scale / slope_scale;
+                    let (x, y) = (i128::from(p.0) * ratio, i128::from(p.1) * ratio);
+                    (0..r.points.len()).map(|j| size * fit[0][j] + x * slopes[0][j] + y * slopes[1][j]).collect()
+                };
+                let moved = Self::along(word, |v| r.fit(v));
+                let old: Vec<Vec<i128>> = r.corners().iter().map(at).collect();
+                value = value.max(self.worst(
+                    moved.iter().zip(&old).map(|(new, old)| new.iter().zip(old).map(|(x, y)| x - unit * y).collect()),
+                )?);
+            }
+            let part = |x: &Integer, by: i128| {
+                Rational::from(x) / Rational::from(Integer::from(unit) << PLACES) / Rational::from(Integer::from(by))
+            };
+            let shrink = part(&shrink, 1);
+            if shrink < 1 {
+                let rest = |s: Rational| ratio(1, 1) - s;
+                let slope = part(&slope, slope_scale) / rest(shrink.clone());
+                let value = part(&value, value_scale * size) / rest(&shrink / Rational::from(Integer::from(size)));
+                best = Some((round_up(&slope)?, round_up(&value)?));
+            }
+            if shrink <= ratio(ENOUGH.0, ENOUGH.1) {
+                break;
+            }
+        }
+        best
+    }
+}
+
+fn round_up(x: &Rational) -> Option<i128> {
+    let scaled = x.abs() * Rational::from(Integer::from(1) << BOUND_PLACES);
+    i128::try_from(&(&scaled).ceiling()).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vertex::limit::ring_cells;
+
+    fn butterfly(w: Rational) -> MeshRule {
+        MeshRule::Butterfly { w, modified: true }
+    }
+
+    fn rules() -> [MeshRule; 3] {
+        [butterfly(ratio(1, 16)), MeshRule::Sqrt3(Some(ratio(1, 3))), MeshRule::FourEight]
+    }
+
+    fn matrix(r: &Regular, step: usize) -> Matrix {
+        let mut m = Matrix::zero(r.points.len(), r.points.len());
+        for (i, row) in r.steps[step].iter().enumerate() {
+            for (j, w) in row {
+                m[(i, *j)] = Rational::from(Integer::from(*w)) / Rational::from(Integer::from(r.denominator));
+            }
+        }
+        m
+    }
+
+    #[test]
+    fn bounds_are_those_of_the_theory() {
+        for (rule, points, parts, slope) in
+            [(butterfly(ratio(1, 16)), 27, 4, 5), (MeshRule::Sqrt3(None), 27, 9, 3), (MeshRule::FourEight, 32, 4, 3)]
+        {
+            let r = Regular::of(&rule).unwrap();
+            assert_eq!((r.points.len(), r.parts.len()), (points, parts), "{rule:?}");
+            assert!(r.slope_bound < slope << BOUND_PLACES && r.value_bound < r.slope_bound, "{rule:?}: {r:?}");
+        }
+        // No bounds where the scheme is not C¹ (tension 0 is piecewise linear), or only hardly.
+        for w in [ratio(0, 1), ratio(1, 2), ratio(-1, 16)] {
+            assert!(Regular::of(&butterfly(w)).is_none());
+        }
+    }
+
+    /// Random nets, refined five times: the linear fits of all parts, and their slopes, stay within the bounds.
+    #[test]
+    fn nets_stay_within_the_bounds() {
+        let mut seed = 1_u64;
+        let mut random = || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            i128::from(seed >> 44) << 40
+        };
+        for rule in rules() {
+            let r = Regular::of(&rule).unwrap();
+            let (slope_scale, value_scale) = r.scales();
+            let depth = if r.factor == 3 { 3 } else { 5 };
+            let mut closest = 0;
+            for _ in 0..20 {
+                let net: Vec<i128> = r.points.iter().map(|_| random()).collect();
+                let rough = r.roughness(&net);
+                let (slopes, fit) = (r.slopes(&net), r.fit(&net));
+                let mut level = vec![(net, ((0, 0), 1))];
+                let mut size = 1;
+                for _ in 0..depth {
+                    size *= r.factor;
+                    let mut next = Vec::new();
+                    for (values, (corner, sign)) in &level {
+                        for (part, step) in r.parts.iter().zip(&r.steps) {
+                            let row = |row: &Vec<(usize, i128)>| {
+                                row.iter().map(|(i, w)| values[*i] * w).sum::<i128>() / r.denominator
+                            };
+                            let at = place(&((r.factor * corner.0, r.factor * corner.1), *sign), part.0);
+                            next.push((step.iter().map(row).collect::<Vec<_>>(), (at, sign * part.1)));
+                        }
+                    }
+                    level = next;
+                }
+                for (values, cell) in &level {
+                    for (own, whole) in r.slopes(values).iter().zip(&slopes) {
+                        let off = (i128::from(cell.1 * size) * own - whole).abs() / slope_scale;
+                        assert!(off <= (r.slope_bound * rough) >> BOUND_PLACES, "{rule:?}");
+                        closest = closest.max((off << BOUND_PLACES) / rough);
+                    }
+                    for (value, c) in r.fit(values).iter().zip(r.corners()) {
+                        let p = place(cell, *c);
+                        let ratio = value_scale / slope_scale;
+                        let linear = i128::from(p.0) * slopes[0] + i128::from(p.1) * slopes[1];
+                        let off = (value - fit[0] - linear * ratio / i128::from(size)).abs() / value_scale;
+                        assert!(off <= ((r.value_bound * rough) >> BOUND_PLACES) + 1, "{rule:?}");
+                    }
+                }
+            }
+            assert!(8 * closest > r.slope_bound, "{rule:?}: the bound is not idle");
+        }
+    }
+
+    /// Different nets give different limits on a cell, but for nets that one step makes 0 (docs/theory.md §10.1).
+    #[test]
+    fn limits_tell_nets_apart() {
+        for (rule, rank) in rules().into_iter().zip([27, 27, 28]) {
+            let r = Regular::of(&rule).unwrap();
+            let steps: Vec<Matrix> = (0..r.parts.len()).map(|s| matrix(&r, s)).collect();
+            // The first part has the corner (0,0) of the cell; its limit functional is the left eigenvector for 1.
+            let size = r.points.len();
+            let fixed = (&steps[0] - &Matrix::identity(size)).transpose().kernel();
+            assert_eq!(fixed.cols(), 1);
+            let mut span = fixed.transpose();
+            loop {
+                let all = steps.iter().fold(span.clone(), |all, t| all.stack(&(&span * t)));
+                let reduced = all.echelon();
+                let count = reduced.rows.rows();
+                if count == span.rows() {
+                    break;
+                }
+                span = reduced.rows;
+            }
+            assert_eq!(span.rows(), rank, "{rule:?}");
+            let null = span.kernel();
+            assert!(steps.iter().all(|t| (t * &null).is_zero()));
+            for cell in ring_cells(r.triangles, r.factor) {
+                let distance = |p: &Place| {
+                    let (i, j) = place(&cell, *p);
+                    if r.triangles { i.abs().max(j.abs()).max((i + j).abs()) } else { i.abs().max(j.abs()) }
+                };
+                assert!(r.points.iter().all(|p| distance(p) >= 1));
+                let far: Vec<usize> = (0..size).filter(|i| distance(&r.points[*i]) >= 4).collect();
+                let part = Matrix::from_fn(far.len(), null.cols(), |i, j| null[(far[i], j)].clone());
+                assert_eq!(part.rank(), null.cols());
+            }
+        }
+    }
+
+    /// The stencils of points far from the centre are the same for all weights there.
+    #[test]
+    fn far_stencils_do_not_know_the_centre() {
+        let sets = [
+            (MeshRule::Sqrt3(Some(ratio(0, 1))), MeshRule::Sqrt3(Some(ratio(1, 1)))),
+            (butterfly(ratio(1, 16)), MeshRule::Butterfly { w: ratio(1, 16), modified: false }),
+        ];
+        for n in [3, 4] {
+            for (a, b) in &sets {
+                let (a, b) = (sector_stencils(a, n, 6).unwrap(), sector_stencils(b, n, 6).unwrap());
+                let mut seen = 0;
+                for (k, (i, j)) in a.places.iter().enumerate().filter(|(_, (i, j))| i + j >= 4) {
+                    assert_eq!(
+                        (&a.rows[k], &a.from_centre[k]),
+                        (&b.rows[k], &b.from_centre[k]),
+                        "valence {n}, ({i}, {j})"
+                    );
+                    seen += 1;
+                }
+                assert!(seen > 10);
+            }
+        }
+    }
+}
