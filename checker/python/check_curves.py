@@ -3,8 +3,8 @@
 
 Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
 
-It covers the certificates of curves and sets (but boundary operators of vertices) and of spectra, not those of joint spectral
-radii.  It is written for reading, not for hostile input: use secant-check where limits matter.
+It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries, not those
+of joint spectral radii.  It is written for reading, not for hostile input: use secant-check where limits matter.
 """
 import json
 import sys
@@ -1294,11 +1294,112 @@ class Spectra:
         return all(self.apart((x, y, e), other, moved) for other in self.others(m))
 
 
+# ---- unknown entries -------------------------------------------------------------------------------------------------
+
+class Solved:
+    """A case with unknown entries: an operator is a list of rows whose entries are rationals or numbers of unknowns."""
+
+    def __init__(self, text, value):
+        case = tomllib.loads(text, parse_float=lambda s: Q(s))
+        form, version, _, name, self.verdict, proof = envelope(value)
+        need(form == "secant certificate" and version == 1 and name == case["name"] and "map" not in case, "format")
+        self.case, self.rows, self.names, self.count = namedtuple("Named", "name")(name), case["convention"] == "rows", {}, 0
+        states = case.get("state") or [{"name": "", "piece": [{"to": "", "matrix": m} for m in case["pieces"]]}]
+        need(not any("layout" in s or "reversal" in s for s in states), "case")
+        self.kinds = [s.get("kind", "edge") for s in states]
+        names = [s["name"] for s in states]
+        size = lambda m: len(m[0]) if self.rows else len(m)
+        dims = [s["dimension"] if "dimension" in s else size(s["piece"][0]["matrix"]) for s in states]
+        self.pieces, self.ends = [], []
+        for s, n in zip(states, dims):
+            target = lambda key, of: names.index(of[key])
+            self.pieces.append([(target("to", p), self.operator(p["matrix"], n, dims[target("to", p)]),
+                                 p.get("reversed", False)) for p in s["piece"]])
+            ends = [s.get("left"), s.get("right")]
+            self.ends.append([e and (target("vertex", e), self.inclusion(e["points"], n) if "points" in e else
+                                     self.operator(e["matrix"], n, dims[target("vertex", e)])) for e in ends])
+        self.open = [op for p, e in zip(self.pieces, self.ends) for op in [x[1] for x in p] + [x[1] for x in e if x]
+                     if any(isinstance(x, int) for row in op for x in row)]
+        self.equations = self.write_down()
+        self.judge(*fields(proof, "solutions", "values", "directions", "conflict"))
+
+    @staticmethod
+    def inclusion(points, n):
+        return [[Q(int(p == i)) for p in points] for i in range(n)]
+
+    def operator(self, m, rows, cols):
+        get = (lambda i, j: "?") if m == "?" else (lambda i, j: m[j][i]) if self.rows else (lambda i, j: m[i][j])
+        return [[self.entry(get(i, j)) for j in range(cols)] for i in range(rows)]
+
+    def entry(self, x):
+        if not (isinstance(x, str) and x.startswith("?")):
+            parts = str(x).split("/")
+            return Q(parts[0]) / Q(parts[1] if parts[1:] else 1)
+        if x == "?" or x not in self.names:
+            self.names[x], self.count = self.count, self.count + 1
+        return self.names[x]
+
+    def identities(self):
+        for e, pieces in enumerate(self.pieces):
+            inner = lambda k, finish: self.ends[pieces[k][0]][finish != pieces[k][2]]
+            if self.kinds[e] != "edge":
+                continue
+            for k, finish in ((0, 0), (len(pieces) - 1, 1)):
+                if self.ends[e][finish] and inner(k, finish):
+                    vertex, outer = self.ends[e][finish]
+                    step = self.pieces[vertex][0]
+                    need(step[0] == inner(k, finish)[0], "curve")
+                    yield outer, step[1], pieces[k][1], inner(k, finish)[1]
+            for k in range(1, len(pieces)):
+                if inner(k - 1, 1) and inner(k, 0):
+                    need(inner(k - 1, 1)[0] == inner(k, 0)[0], "curve")
+                    yield pieces[k - 1][1], inner(k - 1, 1)[1], pieces[k][1], inner(k, 0)[1]
+
+    def write_down(self):
+        """For each identity and each open operator its equations: the coefficients of the unknowns, then the right side."""
+        def at(x):
+            value = lambda op: [[x[y] if isinstance(y, int) else y for y in row] for row in op]
+            found = []
+            for a, b, c, d in identities:
+                left, right = mul(value(a), value(b)), mul(value(c), value(d))
+                found.append([y for r, s in zip(left, right) for y in sub(r, s)])
+            return found + [[sum(col) - 1 for col in zip(*value(op))] for op in self.open]
+
+        identities, n = list(self.identities()), self.count
+        for a, b, c, d in identities:
+            need(not any(x in self.open and y in self.open for x, y in ((a, b), (c, d))), "solve")
+        zero = at([Q(0)] * n)
+        units = [at([Q(int(i == k)) for i in range(n)]) for k in range(n)]
+        return [[[u[s][i] - z for u in units] + [-z] for i, z in enumerate(values)] for s, values in enumerate(zero)]
+
+    def ranks(self, chosen):
+        pivots = echelon([row for k in chosen for row in self.equations[k]])[1]
+        return len([p for p in pivots if p < self.count]), len(pivots)
+
+    def judge(self, solutions, values, directions, conflict):
+        n, chosen = self.count, [index(k, len(self.equations)) for k in conflict]
+        contradict = lambda part: len(set(self.ranks(part))) == 2
+        if solutions == "none":
+            need(values is None and directions == [] and chosen == sorted(set(chosen)) and contradict(chosen), "solve")
+            need(not any(contradict([k for k in chosen if k != left_out]) for left_out in chosen), "solve")
+        else:
+            need(solutions == ("family" if directions else "one") and not chosen, "solve")
+            point, along = vector(values, n), [vector(d, n) for d in directions]
+            everything = self.ranks(range(len(self.equations)))
+            need(everything == (n - len(along),) * 2 and len(echelon(along)[1]) == len(along), "solve")
+            for row in (row for source in self.equations for row in source):
+                dot = lambda v: sum(x * y for x, y in zip(row, v))
+                need(dot(point) == row[-1] and not any(map(dot, along)), "solve")
+        need(self.verdict == ("refuted" if solutions == "none" else "proved"), "verdict")
+        self.lines = [f"{self.verdict}: {n} unknowns, {solutions}, {len(directions)} parameters"]
+
+
 def check(case_text, certificate_text):
     refuse = lambda text: need(False, "format")
     value = json.loads(certificate_text, object_pairs_hook=no_duplicates, parse_float=refuse, parse_constant=refuse)
     kind = value.get("kind") if isinstance(value, dict) else None
-    return Spectra(case_text, value) if kind == "spectrum" else Certificate(Case(case_text), value)
+    others = {"spectrum": Spectra, "solve": Solved}
+    return others[kind](case_text, value) if kind in others else Certificate(Case(case_text), value)
 
 
 def main(arguments):

@@ -283,11 +283,15 @@ impl Reader {
                 None => {
                     let pieces = array(need(t, "piece")?, "piece")?;
                     let first = table(pieces.first().ok_or("a state has no piece")?, "piece")?;
-                    let matrix = self.matrix(need(first, "matrix")?, "matrix")?;
-                    if by_rows { matrix.cols } else { matrix.rows }
+                    let rows = array(need(first, "matrix")?, "matrix")?;
+                    if by_rows {
+                        rows.first().map_or(Ok(0), |r| array(r, "matrix").map(|r| r.len()))?
+                    } else {
+                        rows.len()
+                    }
                 }
             };
-            if dim == 0 || heads.iter().any(|h| h.0 == name) {
+            if !(1..=MAX_COORDINATES).contains(&dim) || heads.iter().any(|h| h.0 == name) {
                 return Err("a state without coordinates, or two states of one name".to_owned());
             }
             heads.push((name, kind, dim));
@@ -436,7 +440,7 @@ fn read_with(source: &str, open: bool) -> Result<(Case, Vec<Hole>), Problem> {
         let has = |key: &str| s.as_table().is_some_and(|t| get(t, key).is_some());
         has("reversal") || has("layout")
     };
-    if open && states.iter().any(|s| beyond(s)) {
+    if open && states.iter().any(beyond) {
         return Err("the identities of faces and reversals are not read".to_owned());
     }
     let reader = Reader { bits: Cell::new(0), open, holes: RefCell::default() };

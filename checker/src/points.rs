@@ -146,6 +146,22 @@ pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
     solid.windows(2).map(|w| (w[0], w[1])).collect()
 }
 
+/// Whether all first-level joints of all reachable states are among these (state and two pieces).
+pub fn complete(
+    model: &Model<'_>,
+    listed: &[(usize, usize, usize)],
+    node: &Node<'_>,
+    rule: &str,
+) -> Result<(), Rejected> {
+    for &e in &model.reachable {
+        for (left, right) in joints(model, e) {
+            let why = || format!("the joint of the pieces {left} and {right} of state {e} is missing");
+            node.need(listed.contains(&(e, left, right)), rule, &why())?;
+        }
+    }
+    Ok(())
+}
+
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Result<Address, Rejected> {
     let skip = |e: usize, letter: usize| model.spaces.is_point(e, letter);
     match model.shape.end_address(state, end, &skip) {
@@ -170,6 +186,23 @@ fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> bool {
 }
 
 impl Point {
+    /// The state and the two pieces of a joint.
+    pub fn joint(&self, model: &Model<'_>, root: usize) -> Option<(usize, usize, usize)> {
+        let Place::Joint { path, left, right } = &self.place else { return None };
+        Some((*model.shape.path(root, path)?.last()?, *left, *right))
+    }
+
+    /// Reads `{"state", "point"}`: a first-level joint, seen in the visible quotient of its own state, which is returned.
+    pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Result<(usize, Self), Rejected> {
+        let [state, point] = node.fields(["state", "point"])?;
+        let e = state.index(model.shape.states.len())?;
+        let space = at(&state.place, model.spaces.of(e))?;
+        let point = Self::check(model, &Root { state: e, view: space.visible.times(&space.reading)? }, &point)?;
+        let first = matches!(&point.place, Place::Joint { path, .. } if path.is_empty());
+        node.need(first, rule, "a first-level joint is needed here")?;
+        Ok((e, point))
+    }
+
     /// Reads a point and checks what its certificate says.
     pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Result<Self, Rejected> {
         let [place_node, verdict, kind, rule, common, branches] =
@@ -192,9 +225,7 @@ impl Point {
         if verdict.text()? != point.verdict.word() {
             return reject("point", &verdict.place, format!("what follows is \"{}\"", point.verdict.word()));
         }
-        if kind.text()? != point.kind {
-            return reject("point", &kind.place, format!("the kind is \"{}\"", point.kind));
-        }
+        kind.refuse(kind.text()? != point.kind, "point", format!("the kind is \"{}\"", point.kind))?;
         Ok(point)
     }
 }

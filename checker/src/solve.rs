@@ -32,8 +32,8 @@ impl Equations {
         }
         let is_open = |op: &Op| holes.iter().any(|h| h.op == *op);
         for [a, b, c, d] in &identities {
-            let linear = !(is_open(a) && is_open(b)) && !(is_open(c) && is_open(d));
-            need(linear, "solve", "two operators with unknown entries are multiplied")?;
+            let squared = is_open(a) && is_open(b) || is_open(c) && is_open(d);
+            need(!squared, "solve", "two operators with unknown entries are multiplied")?;
         }
         let mut sums: Vec<Op> = holes.iter().map(|h| h.op).collect();
         sums.dedup();
