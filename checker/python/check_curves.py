@@ -442,26 +442,18 @@ class Model:
 
     def contract(self, entries):
         need(len(entries) == len(self.reachable), "contraction")
-        codes = []
+        codes, hulls = [], []
         for entry, e in zip(entries, self.reachable):
             state, radius, code, hull = fields(entry, "state", "radius", "code", "hull")
-            need(index(state, len(self.states)) == e and isinstance(code, list), "contraction")
-            self.radius[e] = rational(radius)
+            need(index(state, len(self.states)) == e and isinstance(code, (list, dict)), "contraction")
+            self.radius[e], self.hull[e] = rational(radius), []
             codes.append((e, e, identity(self.case.dims[e]), code))
-            points = [] if hull is None else fields(hull, "points", "images")[0]
-            self.hull[e] = [vector(v, self.case.dims[e]) for v in points]
-            need(all(sum(v) == 1 for v in self.hull[e]) and (hull is None or self.hull[e]), "hull")
-        for entry, e in zip(entries, self.reachable):
-            if self.hull[e]:
-                need(len(entry["hull"]["images"]) == len(self.states[e][1]), "hull")
-                for (target, op, _), images in zip(self.states[e][1], entry["hull"]["images"]):
-                    need(len(images) == len(self.hull[target]) > 0, "hull")
-                    for v, terms in zip(self.hull[target], images):
-                        pairs = [fields(term, "vertex", "weight") for term in terms]
-                        need(all(a[0] < b[0] for a, b in zip(pairs, pairs[1:])), "hull")
-                        pairs = [(rational(w), self.hull[e][index(k, len(self.hull[e]))]) for k, w in pairs]
-                        need(all(w > 0 for w, _ in pairs) and sum(w for w, _ in pairs) == 1, "hull")
-                        need(apply(op, v) == [sum(w * x[i] for w, x in pairs) for i in range(len(op))], "hull")
+            hulls.append((e, hull))
+        if all(isinstance(code, dict) for *_, code in codes):
+            self.polytopes([(e, code) for e, _, _, code in codes], True)
+            codes = []
+        if any(hull is not None for _, hull in hulls):
+            self.polytopes(hulls, False)
         while codes:
             start, e, op, tree = codes.pop()
             if tree == ".":
@@ -481,6 +473,29 @@ class Model:
 
     def own_view(self, e):
         return mul(self.visible[e], self.reading(e))
+
+    def polytopes(self, hulls, shrinking):
+        """Hulls that are mapped into one another; with a share in common in all images they prove contraction (Lemma 1')."""
+        for e, hull in hulls:
+            self.hull[e] = [vector(v, self.case.dims[e]) for v in fields(hull, "points", "images")[0]]
+            need(self.hull[e] and all(sum(v) == 1 for v in self.hull[e]), "hull")
+        for e, hull in hulls:
+            need(len(hull["images"]) == len(self.states[e][1]), "hull")
+            for (target, op, _), images in zip(self.states[e][1], hull["images"]):
+                need(len(images) == len(self.hull[target]), "hull")
+                common = set(range(len(self.hull[e])))
+                for v, terms in zip(self.hull[target], images):
+                    pairs = [fields(term, "vertex", "weight") for term in terms]
+                    need(all(a[0] < b[0] for a, b in zip(pairs, pairs[1:])), "hull")
+                    common &= {k for k, _ in pairs}
+                    pairs = [(rational(w), self.hull[e][index(k, len(self.hull[e]))]) for k, w in pairs]
+                    need(all(w > 0 for w, _ in pairs) and sum(w for w, _ in pairs) == 1, "hull")
+                    need(apply(op, v) == [sum(w * x[i] for w, x in pairs) for i in range(len(op))], "hull")
+                need(common or not shrinking, "contraction")
+            if shrinking:
+                need(len(echelon(self.hull[e])[0]) == self.case.dims[e], "contraction")
+                away = max(sum(map(abs, sub(v, self.base[e])), Q(0)) for v in self.hull[e])
+                need(away <= self.radius[e], "contraction")
 
     def on_visible(self, e, piece):
         onto = mul(self.visible[e], self.linear(piece[1], e, piece[0])) if self.visible[e] else []

@@ -57,7 +57,8 @@ pub struct Cell {
 
 impl<'a> Model<'a> {
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
-    /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor.
+    /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
+    /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Result<Self, Rejected> {
         let reachable = shape.reachable();
         let spaces = at(&node.place, Spaces::new(shape, &reachable))?;
@@ -71,26 +72,61 @@ impl<'a> Model<'a> {
         for (item, &e) in items.iter().zip(&model.reachable) {
             let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;
             state.need(state.index(shape.states.len())? == e, "contraction", one_each)?;
-            code.need(matches!(code.value, Json::List(_)), "contraction", "the empty word does not contract")?;
+            code.need(!matches!(code.value, Json::Text(_)), "contraction", "the empty word does not contract")?;
             model.radius[e] = bound.rational()?;
-            let hull = if let Json::Null = hull.value { None } else { Some(hull.fields(["points", "images"])?) };
-            if let Some([points, _]) = &hull {
-                model.hulls[e] = points.matrix(shape.states[e].dim)?.transpose();
-            }
             entries.push((e, code, hull));
         }
-        for (e, code, hull) in entries {
-            at(&code.place, model.contracts(e, e, &Matrix::identity(shape.states[e].dim), code.value))?;
-            if let Some([_, images]) = hull {
-                at(&images.place, model.hull_maps_into(e, &images))?;
+        let by_polytopes = entries.iter().all(|(_, code, _)| matches!(code.value, Json::Object(_)));
+        if by_polytopes {
+            model.polytopes(entries.iter().map(|(e, code, _)| (*e, code)), true)?;
+        } else {
+            for (e, code, _) in &entries {
+                at(&code.place, model.contracts(*e, *e, &Matrix::identity(shape.states[*e].dim), code.value))?;
             }
+        }
+        if !entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Null)) {
+            model.polytopes(entries.iter().map(|(e, _, hull)| (*e, hull)), false)?;
         }
         Ok(model)
     }
 
+    /// Reads the hulls of all states, and the images of their vertices. With `shrinking` they prove contraction (Lemma 1′): the
+    /// vertices of each state span its space, all images under a piece have a vertex of positive weight in common, and the
+    /// vertices lie in the ball of the state.
+    fn polytopes<'n>(
+        &mut self,
+        hulls: impl Iterator<Item = (usize, &'n Node<'n>)>,
+        shrinking: bool,
+    ) -> Result<(), Rejected> {
+        let mut entries = Vec::new();
+        for (e, hull) in hulls {
+            let [points, images] = hull.fields(["points", "images"])?;
+            self.hulls[e] = points.matrix(self.shape.states[e].dim)?.transpose();
+            entries.push((e, points, images));
+        }
+        for (e, points, images) in entries {
+            at(&images.place, self.hull_maps_into(e, &images, shrinking))?;
+            if shrinking {
+                let spans = self.hulls[e].rank()? == self.shape.states[e].dim;
+                points.need(spans, "contraction", "the points do not span the space of the state")?;
+                let (hull, base) = (&self.hulls[e], &self.spaces.of(e)?.base);
+                let ones = Matrix::ones(1, hull.cols, |_, _| true);
+                let shift = hull.minus(&base.times(&ones)?);
+                let column = |j: usize| (0..hull.rows).map(|i| shift.data[i * hull.cols + j].abs()).sum::<BigInt>();
+                let largest = Q::new((0..hull.cols).map(column).max().unwrap_or_default(), shift.den.clone());
+                points.need(
+                    largest <= self.radius[e],
+                    "contraction",
+                    "the ball of this radius does not hold the points",
+                )?;
+            }
+        }
+        Ok(())
+    }
+
     /// Rule `hull`: the image of each vertex of the target's hull under each piece is a convex combination of vertices, so
     /// that the hulls, mapped into themselves by a contracting system, hold the attractors.
-    fn hull_maps_into(&self, e: usize, images: &Node<'_>) -> Result<(), Rejected> {
+    fn hull_maps_into(&self, e: usize, images: &Node<'_>, shrinking: bool) -> Result<(), Rejected> {
         let (own, images, pieces) = (&self.hulls[e], images.list()?, &self.shape.states[e].pieces);
         let sums = Matrix::ones(1, own.rows, |_, _| true).times(own)?;
         let affine = sums == Matrix::ones(1, own.cols, |_, _| true);
@@ -109,6 +145,9 @@ impl<'a> Model<'a> {
                     (row[k], next) = (weight, k + 1);
                 }
             }
+            let common = |k: usize| weights.iter().all(|w| w[k].is_positive());
+            let shrinks = !shrinking || (0..own.cols).any(common);
+            need(shrinks, "contraction", "the images under a piece have no vertex in common")?;
             let weights = Matrix::from_rows(own.cols, &weights).transpose();
             let sums = Matrix::ones(1, own.cols, |_, _| true).times(&weights)?;
             let one = sums == Matrix::ones(1, target.cols, |_, _| true);

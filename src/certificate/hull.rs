@@ -3,7 +3,7 @@
 use super::{Unsupported, number, numbers, unsupported};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::shape::Shape;
+use crate::shape::{Polytopes, Shape, Weights};
 use serde_json::{Value, json};
 
 /// The vertices of the hull of a state, and the images of the hulls of its pieces as convex combinations.
@@ -19,6 +19,16 @@ pub fn hull(shape: &Shape, state: usize, hulls: &[Vec<Vec<Rational>>]) -> Result
     }
     let points: Vec<Value> = vertices.iter().map(|v| numbers(v)).collect();
     Ok(json!({"points": points, "images": images}))
+}
+
+/// The polytope of a state that proves contraction, in the same form.
+pub fn polytope(proof: &Polytopes, state: usize) -> Value {
+    let points: Vec<Value> = proof.vertices[state].iter().map(|v| numbers(v)).collect();
+    let terms = |weights: &Weights| -> Value {
+        weights.iter().map(|(k, w)| json!({"vertex": k, "weight": number(w)})).collect()
+    };
+    let images: Vec<Value> = proof.weights[state].iter().map(|list| list.iter().map(terms).collect()).collect();
+    json!({"points": points, "images": images})
 }
 
 /// The point as a convex combination of the vertices of one triangle (or segment, or point) of a fan.

@@ -102,12 +102,13 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     if found.surface.is_some() {
         return unsupported("the tangent planes of a surface", "points");
     }
-    let Contraction::Proved(contraction) = &found.contraction else {
-        return unsupported("a system whose contraction is not proved", "contraction");
-    };
     let mut states = Vec::new();
     for report in &found.states {
-        let code = tree::code(&case.shape, report.state, &contraction.codes[report.state])?;
+        let code = match &found.contraction {
+            Contraction::Proved(proof) => tree::code(&case.shape, report.state, &proof.codes[report.state])?,
+            Contraction::Polytopes(proof) => hull::polytope(proof, report.state),
+            _ => return unsupported("a system whose contraction is not proved", "contraction"),
+        };
         let hull = match &found.polygons {
             Some(polygons) => hull::hull(&case.shape, report.state, polygons)?,
             None => Value::Null,

@@ -9,7 +9,7 @@ use crate::picture::polytope;
 use crate::radius::{Options, file, joint_radius};
 use crate::report::radius as report;
 use crate::scheme::{self, Mask};
-use crate::shape::{Contraction, Spaces};
+use crate::shape::Spaces;
 use crate::theorem::regularity;
 use crate::theorem::smoothness::curve_regularity;
 use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
@@ -154,7 +154,7 @@ fn case(path: &Path) -> Result<Subject, Problem> {
     case.shape.check_curves().map_err(|e| super::certify::model_problem(&case, &e.into()))?;
     let contraction =
         crate::theorem::contraction_of(&case.shape).map_err(|e| super::certify::model_problem(&case, &e))?;
-    if !matches!(contraction, Contraction::Proved(_)) {
+    if !contraction.is_proved() {
         return Err(wrong(format!("{}: contraction is not decided", case.name)));
     }
     Ok(Subject::Curve(Box::new(case.shape)))

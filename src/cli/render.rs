@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::Plot;
-use crate::shape::{CellKind, Contraction, MAX_SAMPLES, Sample, Shape, contraction, random_sample, sample};
+use crate::shape::{CellKind, MAX_SAMPLES, Sample, Shape, contraction, random_sample, sample};
 use std::path::Path;
 
 /// Longest words.
@@ -38,7 +38,7 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
     }
     let case = Case::read(&args.case)?;
     let (found, how) = points(&case, args)?;
-    let contracts = matches!(contraction(&case.shape, |_| false), Contraction::Proved(_));
+    let contracts = contraction(&case.shape, |_| false).is_proved();
     let note = if contracts { "" } else { "; contraction is not proved, so there may be no attractor" };
     let curve = case.shape.states[case.shape.start].kind == CellKind::Edge && args.chaos.is_none();
     let plot = Plot::new(&case.shape, &found, curve).ok_or_else(|| {

@@ -23,13 +23,18 @@ pub struct LeadingVector {
 }
 
 /// The exact number nearest to a float on the grid `2^-50`.
-#[allow(clippy::float_arithmetic, reason = "rounds a proposal to an exact number")]
 pub(super) fn grid(x: f64) -> Rational {
-    let scaled = (x * 2f64.powi(50)).round();
+    grid_of(x, 50)
+}
+
+/// The exact number nearest to a float on the grid of some binary places; 0 for floats that are too large.
+#[allow(clippy::float_arithmetic, reason = "rounds a proposal to an exact number")]
+pub(super) fn grid_of(x: f64, bits: u64) -> Rational {
+    let scaled = (x * 2f64.powi(i32::try_from(bits).unwrap_or(0))).round();
     if !scaled.is_finite() || scaled.abs() > 1e30 {
         return Rational::from(0);
     }
-    Rational::try_from(scaled).unwrap_or_default() / Rational::from(Integer::from(1) << 50u64)
+    Rational::try_from(scaled).unwrap_or_default() / Rational::from(Integer::from(1) << bits)
 }
 
 /// The rational polytope with matrices divided by about `radius`; `exact` holds exact points where the radius is rational.

@@ -6,6 +6,7 @@ mod balanced;
 mod blocks;
 mod contracts;
 mod driver;
+mod enclose;
 mod exact;
 pub mod file;
 mod float;
@@ -20,7 +21,7 @@ mod tree;
 
 pub use balanced::{Balanced, Complex, ComplexInclusion, ComplexPoint};
 pub use blocks::{Block, Step, blocks, flag};
-pub use contracts::{NormContraction, contraction_by_norms, linear_system};
+pub use contracts::{NormContraction, contraction_by_norms, linear_system, polytopes};
 pub use driver::{BlockProof, Growth, JointRadius, Options, Proof, joint_radius};
 pub use exact::LeadingVector;
 pub use grow::Origin;

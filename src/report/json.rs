@@ -164,6 +164,11 @@ fn contraction(c: &Contraction) -> Value {
             "words": proof.codes.iter().map(Vec::len).sum::<usize>(),
             "constant": proof.constant.to_string(),
         }),
+        Contraction::Polytopes(proof) => json!({
+            "verdict": "proved",
+            "vertices": proof.count(),
+            "constant": proof.constant.to_string(),
+        }),
         Contraction::Refuted { state, word } => {
             json!({ "verdict": "refuted", "state": state, "word": word_text(word) })
         }

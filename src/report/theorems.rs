@@ -33,6 +33,17 @@ pub const THEOREMS: &[Theorem] = &[
         reference: "docs/theory.md §1 (Dobrushin's coefficient).",
     },
     Theorem {
+        id: "lemma-1-prime",
+        name: "Lemma 1′ (contraction by polytopes)",
+        body: "Let every state $e$ have finitely many points of coordinate sum 1 that affinely span its space, with the convex hull \
+               $H_e$, and let every piece map them as $T_i h=m c+(1-m) h'$, $h'∈H_e$, with a number $0<m≤1$ and a point $c∈H_e$ that \
+               depend on the piece only. Then the system contracts and $A_e⊂H_e$.",
+        proof: "Then $T_i$ maps $H_δ-H_δ$ into $(1-m)(H_e-H_e)$. These are unit balls of norms on the vectors of sum 0, in which every \
+                operator has a norm of at most the largest $1-m<1$. So the system contracts, and as the compact sets $H_e$ are mapped \
+                into one another, they hold the attractors.",
+        reference: "docs/theory.md §1.",
+    },
+    Theorem {
         id: "lemma-2",
         name: "Lemma 2 (collapsing pieces)",
         body: "Suppose $L$ is not nilpotent, and let $C⊂K$ be a cell of the ring with $L^{\\dim V}(C-q)=0$. Then the germ does not \

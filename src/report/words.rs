@@ -358,6 +358,13 @@ pub fn contraction(c: &Contraction) -> Line {
                 [short_bound(&proof.constant)],
             )
         }
+        Contraction::Polytopes(proof) => line(
+            &format!(
+                "proved by polytopes with {} vertices: every piece shrinks differences by the factor $≤@$",
+                proof.count()
+            ),
+            [short_bound(&proof.constant)],
+        ),
         Contraction::Refuted { word, .. } => {
             line(&format!("refuted: the cycle `{}` has spectral radius at least 1", word_text(word)), [])
         }

@@ -1,6 +1,6 @@
 //! Whether a system contracts: Dobrushin's coefficient over a finite complete prefix code (theory §1).
 
-use super::Shape;
+use super::{Polytopes, Shape};
 use crate::arith::{Rational, abs};
 use crate::linalg::Matrix;
 use std::collections::BinaryHeap;
@@ -30,8 +30,10 @@ pub struct Contracting {
 /// The answer to the question whether a system contracts.
 #[derive(Debug, Clone)]
 pub enum Contraction {
-    /// It does.
+    /// It does, by the 1-norms of words.
     Proved(Contracting),
+    /// It does, by polytopes.
+    Polytopes(Polytopes),
     /// It does not: a cycle whose linear part has spectral radius at least 1.
     Refuted {
         /// The state of the cycle.
@@ -132,6 +134,14 @@ pub fn contraction(shape: &Shape, mut expands: impl FnMut(&Matrix) -> bool) -> C
     let mut proof = Contracting { codes, length, constant };
     proof.sharpen(shape);
     Contraction::Proved(proof)
+}
+
+impl Contraction {
+    /// Whether the system was proved to contract.
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        matches!(self, Self::Proved(_) | Self::Polytopes(_))
+    }
 }
 
 impl Contracting {

@@ -2,7 +2,7 @@
 
 use super::contraction::{Contracting, norm1};
 use super::hull::{Hulls, hulls};
-use super::{Shape, Spaces, difference};
+use super::{Contraction, Shape, Spaces, difference};
 use crate::arith::{Interval, Rational};
 use crate::linalg::dot;
 
@@ -15,9 +15,24 @@ pub struct Balls {
 }
 
 impl Balls {
-    /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
+    /// What encloses the attractors where contraction is proved: balls, or polytopes with balls around them.
     #[must_use]
-    pub fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
+    pub fn of(shape: &Shape, spaces: &Spaces, contraction: &Contraction) -> Option<Self> {
+        match contraction {
+            Contraction::Proved(proof) => Some(Self::new(shape, spaces, proof)),
+            Contraction::Polytopes(proof) => {
+                let mut radius = vec![Rational::from(0); shape.states.len()];
+                for e in shape.reachable() {
+                    radius[e] = round_up(&proof.reach(e, &spaces.of(e).base));
+                }
+                Some(Self { radius, hulls: Some(proof.vertices.clone()), simplex: false })
+            }
+            Contraction::Refuted { .. } | Contraction::Undetermined { .. } => None,
+        }
+    }
+
+    /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
+    fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
         let mut shifts: Vec<Vec<(Rational, &Rational, usize)>> = Vec::new();
         for (e, code) in proof.codes.iter().enumerate() {
             let shift = |c: &super::ContractingWord| {

@@ -31,10 +31,10 @@ use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
-use crate::radius::{NormContraction, Options, contraction_by_norms};
+use crate::radius::{NormContraction, Options, contraction_by_norms, polytopes};
 use crate::shape::{
-    Address, AddressError, Balls, CellKind, ComplexError, Contracting, Contraction, CurveError, End, Shape, ShapeError,
-    Spaces, contraction,
+    Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, Shape, ShapeError, Spaces,
+    contraction,
 };
 use thiserror::Error;
 
@@ -99,13 +99,15 @@ impl ModelError {
 /// Dominated by contraction (at most [`crate::shape::MAX_WORDS`] products) and the ring conditions of the branches.
 pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelError> {
     shape.check()?;
-    let contraction = contraction(shape, expands);
-    let Some(proof) = contracting(shape, &contraction)? else {
-        return Ok(without_contraction(&contraction, by_norms(shape)?));
-    };
+    let (contraction, norm) = decide_contraction(shape)?;
+    if !contraction.is_proved() {
+        return Ok(without_contraction(&contraction, norm));
+    }
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
-    let balls = Balls::new(shape, &spaces, proof);
+    let Some(balls) = Balls::of(shape, &spaces, &contraction) else {
+        return Ok(without_contraction(&contraction, None));
+    };
     let hulls = std::cell::OnceCell::new();
     let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
     let mut found = Certified::nothing(&contraction);
@@ -140,43 +142,52 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     Ok(found)
 }
 
-/// Decides whether a checked shape contracts.
+/// Decides whether a shape contracts.
 ///
 /// # Errors
 /// [`ModelError::Expands`] with a cycle that does not contract.
+///
+/// # Cost
+/// At most [`crate::shape::MAX_WORDS`] products, then polytopes or a joint spectral radius.
 pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
     shape.check()?;
-    let found = contraction(shape, expands);
-    contracting(shape, &found)?;
-    Ok(found)
-}
-
-/// The proof of contraction, if there is one.
-fn contracting<'a>(shape: &Shape, contraction: &'a Contraction) -> Result<Option<&'a Contracting>, ModelError> {
-    match contraction {
-        Contraction::Proved(proof) => Ok(Some(proof)),
-        Contraction::Refuted { state, word } => {
-            let name = shape.states[*state].name.clone();
-            Err(ModelError::Expands { state: name, index: *state, word: word.clone() })
-        }
-        Contraction::Undetermined { .. } => Ok(None),
-    }
+    Ok(decide_contraction(shape)?.0)
 }
 
 /// Largest number of coordinates of a state for which norms other than those of words are tried.
 const MAX_NORM_DIMENSION: usize = 12;
 
-/// An upper bound below 1 of the joint spectral radius of the linear parts, where words did not decide.
-fn by_norms(shape: &Shape) -> Result<Option<Rational>, ModelError> {
-    if shape.reachable().into_iter().any(|e| shape.states[e].dim > MAX_NORM_DIMENSION) {
-        return Ok(None);
+/// The same where words contract, but slowly.
+const MAX_SLOW_DIMENSION: usize = 5;
+
+/// Constants of words above this one make balls so large that polytopes are tried.
+fn slow_words() -> Rational {
+    Rational::from(31) / Rational::from(32)
+}
+
+/// Decides contraction of a checked shape by words, then by norms; with an upper bound below 1 of the joint spectral radius of
+/// the linear parts where that is known, but nothing that encloses the attractor.
+fn decide_contraction(shape: &Shape) -> Result<(Contraction, Option<Rational>), ModelError> {
+    let expanding = |index: usize, word: &[usize]| {
+        let state = shape.states[index].name.clone();
+        Err(ModelError::Expands { state, index, word: word.to_vec() })
+    };
+    let found = contraction(shape, expands);
+    let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).max().unwrap_or(0);
+    match &found {
+        Contraction::Refuted { state, word } => return expanding(*state, word),
+        // Words that hardly contract give balls far too large.
+        Contraction::Proved(proof) if largest <= MAX_SLOW_DIMENSION && proof.constant > slow_words() => {
+            return Ok((polytopes(shape).map_or(found, Contraction::Polytopes), None));
+        }
+        Contraction::Undetermined { .. } if largest <= MAX_NORM_DIMENSION => {}
+        _ => return Ok((found, None)),
     }
     match contraction_by_norms(shape, &Options::default()) {
-        Some(NormContraction::Refuted { state, word, .. }) => {
-            Err(ModelError::Expands { state: shape.states[state].name.clone(), index: state, word })
-        }
-        Some(NormContraction::Proved(radius)) => Ok(radius.upper),
-        _ => Ok(None),
+        Some(NormContraction::Enclosed(polytopes)) => Ok((Contraction::Polytopes(polytopes), None)),
+        Some(NormContraction::Refuted { state, word, .. }) => expanding(state, &word),
+        Some(NormContraction::Proved(radius)) => Ok((found, radius.upper)),
+        _ => Ok((found, None)),
     }
 }
 

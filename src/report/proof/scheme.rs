@@ -36,7 +36,8 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
         blocks.push(equation("P", Math::matrix(control)));
     }
     blocks.push(Block::heading(2, "Contraction"));
-    blocks.push(quoted_id("lemma-1"));
+    let by_polytopes = matches!(found.contraction, Contraction::Polytopes(_));
+    blocks.push(quoted_id(if by_polytopes { "lemma-1-prime" } else { "lemma-1" }));
     let mut result = words("Here contraction is ");
     result.extend(contraction(&found.contraction));
     result.extend(words("."));
@@ -176,20 +177,20 @@ fn identities(shape: &Shape) -> Vec<Block> {
 
 /// The polygons that hold the attractors, where a ring condition used them.
 fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
-    let Contraction::Proved(proof) = &found.contraction else { return Vec::new() };
+    if let Contraction::Polytopes(proof) = &found.contraction {
+        let text = "The attractors lie inside the polytopes that prove contraction; a functional takes its extreme values at vertices.";
+        let table = vertices(shape, |e| &proof.vertices[e]);
+        let summary = words("The vertices of the polytopes:");
+        return vec![Block::text(text, []), Block::Details { summary, blocks: vec![table] }];
+    }
     if !found.points.iter().flat_map(|p| &p.branches).any(uses_polygons) {
         return Vec::new();
     }
-    let hulls = Spaces::new(shape).and_then(|spaces| Balls::new(shape, &spaces, proof).with_hulls(shape, &spaces));
+    let hulls = Spaces::new(shape).and_then(|spaces| {
+        Balls::of(shape, &spaces, &found.contraction).and_then(|balls| balls.with_hulls(shape, &spaces))
+    });
     let Some(hulls) = hulls else { return Vec::new() };
-    let mut rows = Vec::new();
-    for e in shape.reachable() {
-        for vertex in hulls.hull(e).unwrap_or_default() {
-            rows.push(vec![words(shape.states[e].name.clone()), formula(Math::vector(vertex))]);
-        }
-    }
-    let header = vec![words("state"), words("vertex")];
-    let table = Block::Table(Table { caption: Line::new(), header, rows });
+    let table = vertices(shape, |e| hulls.hull(e).unwrap_or_default());
     vec![
         Block::text(
             "Where a ring condition needs sharper enclosures, these convex polygons are used: every map sends polygon into polygon, which is \
@@ -198,6 +199,13 @@ fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
         ),
         Block::Details { summary: words("The vertices of the polygons:"), blocks: vec![table] },
     ]
+}
+
+/// The vertices of all reachable states.
+fn vertices<'a>(shape: &Shape, of: impl Fn(usize) -> &'a [Vec<crate::arith::Rational>]) -> Block {
+    let row = |(e, vertex): (usize, &Vec<_>)| vec![words(shape.states[e].name.clone()), formula(Math::vector(vertex))];
+    let rows = shape.reachable().into_iter().flat_map(|e| of(e).iter().map(move |v| (e, v))).map(row).collect();
+    Block::Table(Table { caption: Line::new(), header: vec![words("state"), words("vertex")], rows })
 }
 
 fn uses_polygons(branch: &BranchReport) -> bool {

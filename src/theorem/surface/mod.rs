@@ -16,10 +16,10 @@ pub use verdict::{
 };
 
 use super::{
-    Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, contracting, expands, state_report,
+    Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, decide_contraction, state_report,
     without_contraction,
 };
-use crate::shape::{Address, Balls, CellKind, Complex, Spaces, contraction};
+use crate::shape::{Address, Balls, CellKind, Complex, Spaces};
 use branch::{Setting, examine};
 use place::Chart;
 
@@ -41,12 +41,15 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     }
     shape.check()?;
     complex.check()?;
-    let contraction = contraction(shape, expands);
-    let Some(proof) = contracting(shape, &contraction)? else {
+    let (contraction, norm) = decide_contraction(shape)?;
+    if !contraction.is_proved() {
+        return Ok(without_contraction(&contraction, norm));
+    }
+    let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
+    let Some(balls) = Balls::of(shape, &spaces, &contraction) else {
         return Ok(without_contraction(&contraction, None));
     };
-    let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
-    let balls = Balls::new(shape, &spaces, proof).with_simplex(shape);
+    let balls = balls.with_simplex(shape);
     let hulls = std::cell::OnceCell::new();
     let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
     let chart = Chart::new(complex);

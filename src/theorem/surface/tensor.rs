@@ -6,8 +6,8 @@ use super::verdict::{ProductEvidence, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::shape::{Address, Balls, CellKind, Complex, Layout, Shape, Spaces, contraction};
-use crate::theorem::{Context, Dimension, Direction, PointReport, Statement, Verdict, contracting, expands, point};
+use crate::shape::{Address, Balls, CellKind, Complex, Layout, Shape, Spaces};
+use crate::theorem::{Context, Dimension, Direction, PointReport, Statement, Verdict, decide_contraction, point};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
@@ -24,12 +24,11 @@ impl Factor {
     /// `None` where the curve is none, is a point in some state, or is not known to contract.
     fn new(shape: &Shape) -> Option<Self> {
         shape.check().ok()?;
-        let found = contraction(shape, expands);
-        let proof = contracting(shape, &found).ok()??;
+        let (found, _) = decide_contraction(shape).ok()?;
         shape.check_curves().ok()?;
         let spaces = Spaces::new(shape)?;
         let moves = shape.reachable().into_iter().all(|e| spaces.of(e).basis.cols() > 0);
-        let balls = Balls::new(shape, &spaces, proof);
+        let balls = Balls::of(shape, &spaces, &found)?;
         moves.then(|| Self { shape: shape.clone(), spaces, balls, hulls: OnceCell::new(), known: RefCell::default() })
     }
 
