@@ -831,7 +831,9 @@ def branches_of(model, root, place):
             branches.reverse()
         return list(zip(("left", "right"), branches))
     need(at in ("inside", "of set"), "format")
-    return [("both", address(fields(place, "at", "address")[1]))]
+    addr = address(fields(place, "at", "address")[1])
+    need(root == model.case.start and model.normalise(addr, root) == addr and place_of(model, addr) == place, "place")
+    return [("both", addr)]
 
 
 def check_point(model, root, view, value):

@@ -100,7 +100,12 @@ impl Place {
                 let (first, second) = if forward { (before, after) } else { (after, before) };
                 Ok(vec![(Side::Left, first), (Side::Right, second)])
             }
-            Self::Inside(address) | Self::OfSet(address) => Ok(vec![(Side::Both, address.clone())]),
+            Self::Inside(address) | Self::OfSet(address) => {
+                let normal = address.normalise(model.shape, root.state).as_ref() == Some(address);
+                let here = normal && root.state == model.shape.start && Self::of_address(model, address)? == *self;
+                need(here, "place", "the address is not in its normal form, or that of another kind of point")?;
+                Ok(vec![(Side::Both, address.clone())])
+            }
         }
     }
 
