@@ -18,6 +18,7 @@ mod rate;
 mod ring;
 mod rules;
 pub mod shape;
+mod solve;
 mod spectrum;
 
 use std::fmt;
@@ -140,6 +141,10 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
     let found = match kind.text()? {
         "certify" => match case::read(case) {
             Ok(case) => claims::check(&case, &proof)?,
+            Err(why) => return unreadable("case", why),
+        },
+        "solve" => match case::read_open(case) {
+            Ok(open) => solve::check(open, &proof)?,
             Err(why) => return unreadable("case", why),
         },
         "spectrum" => jordan::check(case, &proof)?,

@@ -130,7 +130,7 @@ fn below(system: &System, node: &Node<'_>) -> Result<Q, Rejected> {
     if end != system.arrows[*first].0 {
         return reject("word", &node.place, "the path is not closed");
     }
-    if !has_root_near(&product.characteristic()?.0, &centre, &e)? {
+    if !has_root_near(&product.characteristic()?, &centre, &e)? {
         return reject("word", &error.place, "no eigenvalue is seen in this disc");
     }
     let reach = power(&bound, word.len())? + &e;

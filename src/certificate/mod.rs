@@ -8,11 +8,13 @@ mod everywhere;
 mod hull;
 mod joint;
 mod radius;
+mod solve;
 mod spectrum;
 mod top;
 mod tree;
 
 pub use joint::radius_certificate;
+pub use solve::solve_certificate;
 
 use crate::arith::Rational;
 use crate::case::Case;

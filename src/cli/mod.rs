@@ -212,6 +212,9 @@ struct SolveArgs {
     /// Give a free parameter a value in the case that is written; the others are 0.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Write a certificate of the solutions that secant-check proves again (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
