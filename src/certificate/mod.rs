@@ -124,11 +124,11 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
 }
 
-/// The SHA-256 digest of a text, in hexadecimal.
+/// The SHA-256 digest of a text or of bytes, in hexadecimal.
 #[must_use]
-pub fn sha256(text: &str) -> String {
+pub fn sha256(text: impl AsRef<[u8]>) -> String {
     use sha2::{Digest, Sha256};
-    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
+    Sha256::digest(text.as_ref()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Why a decided verdict was not proved again.

@@ -127,15 +127,38 @@ fn write_table(out: &mut String, table: &Table) {
 /// A line as HTML.
 #[must_use]
 pub fn inline(text: &[Inline]) -> String {
-    text.iter()
-        .map(|run| match run {
-            Inline::Text(t) => escaped(t),
-            Inline::Strong(t) => format!("<strong>{}</strong>", escaped(t)),
-            Inline::Code(t) => format!("<code>{}</code>", escaped(t)),
-            Inline::Math(m) => math_element(m, false),
-            Inline::Mark(tone, t) => format!("<strong class=\"{}\">{}</strong>", tone_class(*tone), escaped(t)),
-        })
-        .collect()
+    let mut out = String::new();
+    let mut taken = 0;
+    for (k, run) in text.iter().enumerate() {
+        let skip = std::mem::take(&mut taken);
+        match run {
+            Inline::Text(t) => out.push_str(&escaped(&t[skip..])),
+            Inline::Strong(t) => out.push_str(&format!("<strong>{}</strong>", escaped(t))),
+            Inline::Code(t) => out.push_str(&format!("<code>{}</code>", escaped(t))),
+            Inline::Mark(tone, t) => {
+                out.push_str(&format!("<strong class=\"{}\">{}</strong>", tone_class(*tone), escaped(t)));
+            }
+            Inline::Math(m) => {
+                let formula = math_element(m, false);
+                let stop = following_stop(text.get(k + 1));
+                taken = stop.len();
+                if stop.is_empty() {
+                    out.push_str(&formula);
+                } else {
+                    out.push_str(&format!("<span class=\"nb\">{formula}{stop}</span>"));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// The stop or comma after a formula, which must not begin a line.
+fn following_stop(next: Option<&Inline>) -> &str {
+    match next {
+        Some(Inline::Text(t)) if t.starts_with(['.', ',', ';', ':', ')']) => &t[..1],
+        _ => "",
+    }
 }
 
 fn tone_class(tone: Tone) -> &'static str {
@@ -169,6 +192,12 @@ pub fn escaped(text: &str) -> String {
 mod tests {
     use super::super::document::{line, words};
     use super::*;
+
+    #[test]
+    fn a_stop_keeps_to_its_formula() {
+        let text = inline(&line("so $x$, and $y$ then", []));
+        assert!(text.contains("</math>,</span> and <math>") && text.ends_with("</math> then"), "{text}");
+    }
 
     #[test]
     fn nothing_from_outside_becomes_markup() {

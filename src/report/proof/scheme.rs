@@ -249,12 +249,18 @@ fn spaces(shape: &Shape, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     } else {
         ""
     };
-    let of = if shape.states.len() > 1 { "of a state $e$ " } else { "" };
-    let text = format!(
-        "The relevant space $V_e$ {of}is the span of the differences of points of its attractor $A_e$, computed by closing the differences of one point \
-         of each attractor under the operators.{part} Each attractor lies in the 1-norm ball around its base point with the radius given."
-    );
-    let text = if shape.states.len() > 1 { text } else { text.replace("V_e", "V").replace("A_e", "A") };
+    let text = if shape.states.len() > 1 {
+        format!(
+            "The relevant space $V_e$ of a state $e$ is the span of the differences of points of its attractor $A_e$, computed by closing the differences \
+             of one point of each attractor under the operators.{part} Each attractor lies in the 1-norm ball around its base point with the \
+             radius given."
+        )
+    } else {
+        format!(
+            "The relevant space $V$ is the span of the differences of points of the attractor $A$, computed by closing the differences between one \
+             point and its images under the operators.{part} The attractor lies in the 1-norm ball around the base point with the radius given."
+        )
+    };
     blocks.push(Block::text(&text, []));
     let rows = found.states.iter().map(|s| {
         let mut row = vec![

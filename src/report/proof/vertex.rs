@@ -28,7 +28,7 @@ pub fn vertex_document(case: &VertexCase, found: &[AtValence], every: Option<&Ev
     blocks.extend(evidence_by_valence(case, found));
     blocks.push(Block::heading(2, "Certificate"));
     blocks.push(Block::Facts(vec![
-        ("case file, SHA-256".to_owned(), code(crate::certificate::sha256(&case.text.text))),
+        ("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes()))),
         ("certificate".to_owned(), words(format!("none: {UNCHECKED}."))),
     ]));
     blocks.extend(references(&seen));
