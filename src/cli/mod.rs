@@ -238,6 +238,9 @@ struct RegularityArgs {
     /// The arity of a mask.
     #[arg(long, default_value_t = 2)]
     arity: usize,
+    /// Write a certificate of the orders of smoothness of the curve of a case file (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
