@@ -438,3 +438,21 @@ fn completions_and_the_manual_are_printed() {
     assert!(output(&["completions", "bash"], 0).0.contains("secant"));
     assert!(output(&["man"], 0).0.contains(".TH"));
 }
+
+#[test]
+fn orders_of_smoothness_have_certificates() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("orders.json");
+    let path = file.to_str().unwrap();
+    let case = "cases/classical/takagi-landsberg-1-3.toml";
+    let (out, _) = output(&["regularity", case, "--certificate", path], 0);
+    assert!(out.contains("fails before piece 1"));
+    let accepted = secant_check::check(
+        &std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(case)).unwrap(),
+        &std::fs::read_to_string(&file).unwrap(),
+    );
+    assert!(accepted.unwrap().claims.contains(&"refuted: the curve is C^1 in the uniform parameter".to_owned()));
+    std::fs::remove_file(&file).unwrap();
+    let (_, err) = output(&["regularity", "four-point", "--certificate", path], 2);
+    assert!(err.contains("case file") && !file.exists());
+}

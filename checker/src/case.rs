@@ -2,10 +2,10 @@
 
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction};
-use crate::shape::{Address, Kind, Piece, Shape, State};
+use crate::shape::{Address, End, Kind, Op, Piece, Shape, State};
 use num_bigint::BigInt;
-use num_traits::One;
-use std::cell::Cell;
+use num_traits::{One, Zero};
+use std::cell::{Cell, RefCell};
 use toml::de::{DeTable, DeValue};
 
 /// Most states of a case.
@@ -14,6 +14,8 @@ pub const MAX_STATES: usize = 64;
 pub const MAX_PIECES: usize = 64;
 /// Most coordinates of a state.
 pub const MAX_COORDINATES: usize = 64;
+/// Most unknown entries.
+const MAX_HOLES: usize = 4_096;
 /// All numbers of a case together, in bits.
 const MAX_BITS: u64 = 1 << 22;
 
@@ -30,8 +32,33 @@ pub struct Case {
 /// Why a case cannot be read; the text names the key.
 pub type Problem = String;
 
+/// A case with unknown entries, which are 0 in its shape.
+pub struct Open {
+    /// The name.
+    pub name: String,
+    /// The shape.
+    pub shape: Shape,
+    /// The unknown entries: by state, first the pieces, then the two boundaries; in each operator by rows.
+    pub holes: Vec<Hole>,
+}
+
+/// An unknown entry.
+pub struct Hole {
+    /// The operator.
+    pub op: Op,
+    /// The row.
+    pub row: usize,
+    /// The column.
+    pub col: usize,
+    /// The number of the unknown; entries of one name are one unknown.
+    pub unknown: usize,
+}
+
+/// Reads the numbers of a case; where entries may be unknown, their places and names are collected.
 struct Reader {
     bits: Cell<u64>,
+    open: bool,
+    holes: RefCell<Vec<(Hole, Option<String>)>>,
 }
 
 fn known(table: &DeTable<'_>, keys: &[&str]) -> Result<(), Problem> {
@@ -78,6 +105,23 @@ fn index(value: &DeValue<'_>, bound: usize, key: &str) -> Result<usize, Problem>
     };
     digits.filter(|k| *k < bound).ok_or_else(|| format!("`{key}` must be a whole number below {bound}"))
 }
+
+/// The keys of a case.
+const CASE_KEYS: [&str; 13] = [
+    "name",
+    "title",
+    "source",
+    "kind",
+    "convention",
+    "pieces",
+    "reversed",
+    "map",
+    "start",
+    "state",
+    "control",
+    "examine",
+    "expect",
+];
 
 /// The keys of a state; those of the boundaries of faces and of reversals are allowed and not read.
 const STATE_KEYS: [&str; 13] = [
@@ -132,8 +176,59 @@ impl Reader {
         Ok(Matrix::from_rows(cols, &rows))
     }
 
+    /// The name of an unknown entry (`"?"` or `"?name"`), where there may be some.
+    fn unknown<'t>(&self, value: &'t DeValue<'_>) -> Option<&'t str> {
+        value.as_str().filter(|_| self.open).and_then(|text| text.strip_prefix('?'))
+    }
+
+    /// An operator with unknown entries, which are noted and 0.
+    fn open_operator(
+        &self,
+        value: &DeValue<'_>,
+        by_rows: bool,
+        size: (usize, usize),
+        op: Op,
+    ) -> Result<Matrix, Problem> {
+        let all = self.unknown(value).is_some();
+        let mut entries = vec![Q::zero(); size.0 * size.1];
+        let rows = if all { Vec::new() } else { array(value, "matrix")? };
+        let at = |row: usize, col: usize| -> Result<&DeValue<'_>, Problem> {
+            let (i, j) = if by_rows { (col, row) } else { (row, col) };
+            let row = array(rows.get(i).ok_or("an operator has the wrong size")?, "matrix")?;
+            row.get(j).copied().ok_or_else(|| "an operator has the wrong size".to_owned())
+        };
+        for (k, entry) in entries.iter_mut().enumerate() {
+            let (row, col) = (k / size.1, k % size.1);
+            let name = if all { Some("") } else { self.unknown(at(row, col)?) };
+            let Some(name) = name else {
+                *entry = self.number(at(row, col)?)?;
+                continue;
+            };
+            let mut holes = self.holes.borrow_mut();
+            let name = (!name.is_empty()).then(|| name.to_owned());
+            let known = holes.iter().find(|(_, n)| name.is_some() && *n == name).map(|(h, _)| h.unknown);
+            let unknown = known.unwrap_or_else(|| holes.iter().map(|(h, _)| h.unknown + 1).max().unwrap_or(0));
+            if holes.len() >= MAX_HOLES {
+                return Err("too many unknown entries".to_owned());
+            }
+            holes.push((Hole { op, row, col, unknown }, name));
+        }
+        Ok(Matrix::new(size.0, size.1, &entries))
+    }
+
     /// An operator on columns of barycentric coordinates of the given size; all its columns sum to 1.
-    fn operator(&self, value: &DeValue<'_>, by_rows: bool, size: (usize, usize)) -> Result<Matrix, Problem> {
+    fn operator(&self, value: &DeValue<'_>, by_rows: bool, size: (usize, usize), op: Op) -> Result<Matrix, Problem> {
+        let has_holes = || {
+            value.as_array().is_some_and(|rows| {
+                rows.iter()
+                    .filter_map(|r| r.get_ref().as_array())
+                    .flatten()
+                    .any(|x| self.unknown(x.get_ref()).is_some())
+            })
+        };
+        if self.unknown(value).is_some() || has_holes() {
+            return self.open_operator(value, by_rows, size, op);
+        }
         let written = self.matrix(value, "matrix")?;
         let op = if by_rows { written.transpose() } else { written };
         if (op.rows, op.cols) != size {
@@ -152,7 +247,7 @@ impl Reader {
         let shift: Vec<Q> =
             array(need(map, "shift")?, "shift")?.into_iter().map(|x| self.number(x)).collect::<Result<_, _>>()?;
         let d = shift.len();
-        if d > 3 || (linear.rows, linear.cols) != (d, d) {
+        if d >= MAX_COORDINATES || (linear.rows, linear.cols) != (d, d) {
             return Err("`linear` and `shift` do not fit".to_owned());
         }
         let image = |i: usize, j: usize| if j == 0 { shift[i].clone() } else { &shift[i] + linear.at(i, j - 1) };
@@ -188,11 +283,15 @@ impl Reader {
                 None => {
                     let pieces = array(need(t, "piece")?, "piece")?;
                     let first = table(pieces.first().ok_or("a state has no piece")?, "piece")?;
-                    let matrix = self.matrix(need(first, "matrix")?, "matrix")?;
-                    if by_rows { matrix.cols } else { matrix.rows }
+                    let rows = array(need(first, "matrix")?, "matrix")?;
+                    if by_rows {
+                        rows.first().map_or(Ok(0), |r| array(r, "matrix").map(|r| r.len()))?
+                    } else {
+                        rows.len()
+                    }
                 }
             };
-            if dim == 0 || heads.iter().any(|h| h.0 == name) {
+            if !(1..=MAX_COORDINATES).contains(&dim) || heads.iter().any(|h| h.0 == name) {
                 return Err("a state without coordinates, or two states of one name".to_owned());
             }
             heads.push((name, kind, dim));
@@ -208,7 +307,8 @@ impl Reader {
                 let piece = table(piece, "piece")?;
                 known(piece, &["to", "matrix", "reversed", "corners"])?;
                 let target = find(need(piece, "to")?)?;
-                let op = self.operator(need(piece, "matrix")?, by_rows, (dim, heads[target].2))?;
+                let place = Op::Piece(states.len(), pieces.len());
+                let op = self.operator(need(piece, "matrix")?, by_rows, (dim, heads[target].2), place)?;
                 let fits = kind == Kind::Set || heads[target].1 == kind;
                 let reversed = flag(piece, "reversed")?;
                 if !fits || (reversed && kind != Kind::Edge) {
@@ -216,7 +316,7 @@ impl Reader {
                 }
                 pieces.push(Piece { target, op, reversed });
             }
-            let boundary = |key: &str| -> Result<Option<(usize, Matrix)>, Problem> {
+            let boundary = |key: &str, end: End| -> Result<Option<(usize, Matrix)>, Problem> {
                 let Some(value) = get(t, key) else { return Ok(None) };
                 let b = table(value, key)?;
                 if kind == Kind::Set && get(b, "edge").is_some() {
@@ -229,12 +329,15 @@ impl Reader {
                 }
                 let op = match get(b, "points") {
                     Some(points) if get(b, "matrix").is_none() => inclusion(points, (dim, heads[vertex].2))?,
-                    _ => self.operator(need(b, "matrix")?, by_rows, (dim, heads[vertex].2))?,
+                    _ => {
+                        let place = Op::End(states.len(), end);
+                        self.operator(need(b, "matrix")?, by_rows, (dim, heads[vertex].2), place)?
+                    }
                 };
                 Ok(Some((vertex, op)))
             };
-            let (left, right) = (boundary("left")?, boundary("right")?);
-            states.push(State { kind, dim, pieces, left, right });
+            let ends = [boundary("left", End::Start)?, boundary("right", End::Finish)?];
+            states.push(State { kind, dim, pieces, ends });
         }
         let start = match get(case, "start") {
             Some(value) => find(value)?,
@@ -261,7 +364,7 @@ impl Reader {
             if pieces.iter().any(|p| p.op.rows != dim) || (kind != Kind::Edge && pieces.iter().any(|p| p.reversed)) {
                 return Err("operators of different sizes, or a set with reversed pieces".to_owned());
             }
-            Ok(State { kind, dim, pieces, left: None, right: None })
+            Ok(State { kind, dim, pieces, ends: [None, None] })
         };
         let (states, start) = if let Some(maps) = get(case, "map") {
             if by_rows || ["start", "reversed", "control"].iter().any(|k| get(case, k).is_some()) {
@@ -285,7 +388,8 @@ impl Reader {
                 let mut pieces = Vec::new();
                 for value in array(need(case, "pieces")?, "pieces")? {
                     let n = self.matrix(value, "pieces")?.rows;
-                    pieces.push(Piece { target: 0, op: self.operator(value, by_rows, (n, n))?, reversed: false });
+                    let op = self.operator(value, by_rows, (n, n), Op::Piece(0, pieces.len()))?;
+                    pieces.push(Piece { target: 0, op, reversed: false });
                 }
                 for value in get(case, "reversed").map_or(Ok(Vec::new()), |v| array(v, "reversed"))? {
                     let k = index(value, pieces.len(), "reversed")?;
@@ -314,27 +418,32 @@ impl Reader {
 /// # Errors
 /// What is wrong, in words.
 pub fn read(source: &str) -> Result<Case, Problem> {
+    let (case, _) = read_with(source, false)?;
+    Ok(case)
+}
+
+/// Reads a case file with unknown entries. Faces and reversals are refused, because the identities of both are not read.
+///
+/// # Errors
+/// What is wrong, in words.
+pub fn read_open(source: &str) -> Result<Open, Problem> {
+    let (case, holes) = read_with(source, true)?;
+    Ok(Open { name: case.name, shape: case.shape, holes })
+}
+
+fn read_with(source: &str, open: bool) -> Result<(Case, Vec<Hole>), Problem> {
     let parsed = DeTable::parse(source).map_err(|e| format!("not TOML: {}", e.message()))?;
     let case = parsed.get_ref();
-    known(
-        case,
-        &[
-            "name",
-            "title",
-            "source",
-            "kind",
-            "convention",
-            "pieces",
-            "reversed",
-            "map",
-            "start",
-            "state",
-            "control",
-            "examine",
-            "expect",
-        ],
-    )?;
-    let reader = Reader { bits: Cell::new(0) };
+    known(case, &CASE_KEYS)?;
+    let states = get(case, "state").map_or(Ok(Vec::new()), |v| array(v, "state"))?;
+    let beyond = |s: &&DeValue<'_>| {
+        let has = |key: &str| s.as_table().is_some_and(|t| get(t, key).is_some());
+        has("reversal") || has("layout")
+    };
+    if open && states.iter().any(beyond) {
+        return Err("the identities of faces and reversals are not read".to_owned());
+    }
+    let reader = Reader { bits: Cell::new(0), open, holes: RefCell::default() };
     let shape = reader.shape(case)?;
     let mut examine = Vec::new();
     for entry in get(case, "examine").map_or(Ok(Vec::new()), |v| array(v, "examine"))? {
@@ -344,14 +453,16 @@ pub fn read(source: &str) -> Result<Case, Problem> {
         let address = Address::parse(written).and_then(|a| a.normalise(&shape, shape.start));
         examine.push(address.ok_or_else(|| format!("`{written}` is no address of this case"))?);
     }
-    Ok(Case { name: text(need(case, "name")?, "name")?.to_owned(), shape, examine })
+    let holes = reader.holes.into_inner().into_iter().map(|(hole, _)| hole).collect();
+    Ok((Case { name: text(need(case, "name")?, "name")?.to_owned(), shape, examine }, holes))
 }
+
 /// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
 pub fn matrix_list(text: &str) -> Result<crate::radius::System, Problem> {
     let parsed = DeTable::parse(text).map_err(|e| e.message().to_owned())?;
     let file = parsed.get_ref();
     known(file, &["name", "matrices", "states", "arrows"])?;
-    let reader = Reader { bits: Cell::new(0) };
+    let reader = Reader { bits: Cell::new(0), open: false, holes: RefCell::default() };
     let mut matrices: Vec<Matrix> = Vec::new();
     for item in array(need(file, "matrices")?, "matrices")? {
         if let DeValue::Array(rows) = item {

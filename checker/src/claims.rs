@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::points::{Place, Point, joints};
+use crate::points::{Place, Point, complete};
 use crate::ring::Model;
 use crate::shape::{Address, End, Kind};
 use crate::spectrum::positive_definite;
@@ -52,9 +52,11 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Resu
     let address = crate::rules::read_address(&of)?;
     let normal = address.normalise(&case.shape, case.shape.start);
     let question = Question::Address(address.clone());
-    if normal.as_ref() != Some(&address) || asked.contains(&question) {
-        return reject("answers", &of.place, "the address is not in its normal form, or was asked for before");
-    }
+    of.refuse(
+        normal.as_ref() != Some(&address) || asked.contains(&question),
+        "answers",
+        "the address is not in its normal form, or was asked for before",
+    )?;
     Ok(question)
 }
 
@@ -67,9 +69,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
     let mut checked = Vec::new();
     for item in points.list()? {
         let point = Point::check(&model, &root, &item)?;
-        if checked.iter().any(|p: &Point| p.place == point.place) {
-            return reject("points", &item.place, "the same point twice");
-        }
+        item.refuse(checked.iter().any(|p: &Point| p.place == point.place), "points", "the same point twice")?;
         checked.push(point);
     }
     let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], lines: Vec::new() };
@@ -117,9 +117,11 @@ impl Claims<'_> {
             }
             Question::Address(address) => {
                 let [what, of, verdict, points] = node.fields(["question", "address", "verdict", "points"])?;
-                if crate::rules::read_address(&of)? != *address {
-                    return reject("answers", &of.place, "the case asks for another address here");
-                }
+                of.refuse(
+                    crate::rules::read_address(&of)? != *address,
+                    "answers",
+                    "the case asks for another address here",
+                )?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
                 let text = format!("a tangent line at the address {:?} ({:?})", address.prefix, address.cycle);
                 self.lines.push(format!("{}: the shape has {text}", found.word()));
@@ -161,9 +163,7 @@ impl Claims<'_> {
     fn select(&mut self, node: &Node<'_>) -> Result<Vec<usize>, Rejected> {
         let items = node.list()?;
         let indices = items.iter().map(|n| n.index(self.points.len())).collect::<Result<Vec<_>, _>>()?;
-        if indices.windows(2).any(|w| w[0] >= w[1]) {
-            return reject("answers", &node.place, "indices must ascend");
-        }
+        node.refuse(indices.windows(2).any(|w| w[0] >= w[1]), "answers", "indices must ascend")?;
         indices.iter().for_each(|&k| self.used[k] = true);
         Ok(indices)
     }
@@ -171,9 +171,11 @@ impl Claims<'_> {
     /// The verdict on "all these places have a tangent line" from some of them.
     fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Result<Verdict, Rejected> {
         let chosen = self.select(node)?;
-        if chosen.iter().any(|&k| !places.contains(&self.points[k].place)) {
-            return reject("answers", &node.place, "a point that is not asked for");
-        }
+        node.refuse(
+            chosen.iter().any(|&k| !places.contains(&self.points[k].place)),
+            "answers",
+            "a point that is not asked for",
+        )?;
         let together = chosen.iter().map(|&k| self.points[k].verdict).reduce(Verdict::and);
         Ok(match together {
             Some(Verdict::Proved) if chosen.len() < places.len() => Verdict::Undetermined,
@@ -187,17 +189,11 @@ impl Claims<'_> {
         let chosen = self.select(points)?;
         let theorem_name = theorem.text()?;
         let items = upstairs.list()?;
-        if !items.is_empty() && theorem_name != "5'" {
-            return reject("joints", &upstairs.place, "only Theorem 5' uses joints upstairs");
-        }
-        let mut listed = Vec::new();
-        for &k in &chosen {
-            let Place::Joint { path, left, right } = &self.points[k].place else {
-                return reject("joints", &points.place, format!("point {k} is no joint"));
-            };
-            let state = self.model.shape.path(self.model.shape.start, path).and_then(|p| p.last().copied());
-            listed.push((state.unwrap_or(0), *left, *right));
-        }
+        upstairs.refuse(!items.is_empty() && theorem_name != "5'", "joints", "only Theorem 5' uses joints upstairs")?;
+        let place = |&k: &usize| self.points[k].joint(self.model, self.model.shape.start);
+        let Some(listed) = chosen.iter().map(place).collect::<Option<Vec<_>>>() else {
+            return reject("joints", &points.place, "a point that is no joint");
+        };
         let mut verdict = chosen.iter().map(|&k| self.points[k].verdict).reduce(Verdict::and);
         let text = match (theorem_name, verdict) {
             ("none", Some(Verdict::Refuted)) => "every joint of every level",
@@ -206,7 +202,8 @@ impl Claims<'_> {
                 "every joint of every level"
             }
             ("5" | "5'", Some(Verdict::Proved)) => {
-                self.complete(&listed, points)?;
+                complete(self.model, &listed, points, "joints")?;
+                points.need(!listed.is_empty(), "joints", "there is no joint")?;
                 at(&theorem.place, self.injective(theorem_name == "5"))?;
                 if theorem_name == "5" {
                     "every joint of every level, a dense set"
@@ -226,19 +223,6 @@ impl Claims<'_> {
         let verdict = verdict.unwrap_or(Verdict::Undetermined);
         self.lines.push(format!("{}: the curve has a tangent line at {text}", verdict.word()));
         Ok(verdict)
-    }
-
-    /// All first-level joints of all reachable states are listed, and there is one.
-    fn complete(&self, listed: &[(usize, usize, usize)], node: &Node<'_>) -> Result<(), Rejected> {
-        for &e in &self.model.reachable {
-            for (left, right) in joints(self.model, e) {
-                if !listed.contains(&(e, left, right)) {
-                    let why = format!("the joint of the pieces {left} and {right} of state {e} is missing");
-                    return reject("joints", &node.place, why);
-                }
-            }
-        }
-        if listed.is_empty() { reject("joints", &node.place, "there is no joint") } else { Ok(()) }
     }
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
@@ -266,23 +250,16 @@ impl Claims<'_> {
             spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
         }
         for item in items {
-            let [state, point] = item.fields(["state", "point"])?;
-            let e = state.index(shape.states.len())?;
-            let space = at(&state.place, spaces.of(e))?;
-            let root = Root { state: e, view: space.visible.times(&space.reading)? };
-            let point = Point::check(self.model, &root, &point)?;
-            let Place::Joint { path, left, right } = &point.place else {
-                return reject("joints", &item.place, "a joint is needed here");
-            };
-            if !path.is_empty() || point.verdict != Verdict::Proved || listed.contains(&(e, *left, *right)) {
-                return reject("joints", &item.place, "each first-level joint is proved once, in its own state");
-            }
-            listed.push((e, *left, *right));
+            let (e, point) = Point::in_own_state(self.model, item, "joints")?;
+            let joint = point.joint(self.model, e).filter(|j| !listed.contains(j));
+            let new = point.verdict == Verdict::Proved && joint.is_some();
+            item.need(new, "joints", "each first-level joint is proved once, in its own state")?;
+            listed.extend(joint);
             if let Some(vector) = point.common {
                 spans[e] = spans[e].stack(&vector.transpose()).echelon()?.0;
             }
         }
-        self.complete(&listed, node)?;
+        complete(self.model, &listed, node, "joints")?;
         let images = |span: &Matrix, e: usize, k: usize| {
             span.times(&spaces.on_visible(e, &shape.states[e].pieces[k])?.transpose())
         };
@@ -297,9 +274,11 @@ impl Claims<'_> {
                 break;
             }
         }
-        if self.model.reachable.iter().any(|&e| spans[e].rows < spans[e].cols) {
-            return reject("joints", &node.place, "the tangent lines are not seen to span the visible quotients");
-        }
+        node.refuse(
+            self.model.reachable.iter().any(|&e| spans[e].rows < spans[e].cols),
+            "joints",
+            "the tangent lines are not seen to span the visible quotients",
+        )?;
         Ok(())
     }
 
@@ -307,15 +286,15 @@ impl Claims<'_> {
     fn similarities(&self, node: &Node<'_>) -> Result<(), Rejected> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         let items = node.list()?;
-        if items.len() != self.model.reachable.len() {
-            return reject("similarities", &node.place, "one scalar product for each reachable state is needed");
-        }
+        node.refuse(
+            items.len() != self.model.reachable.len(),
+            "similarities",
+            "one scalar product for each reachable state is needed",
+        )?;
         let mut products: Vec<Matrix> = (0..shape.states.len()).map(|_| Matrix::identity(0)).collect();
         for (item, &e) in items.iter().zip(&self.model.reachable) {
             let n = spaces.of(e)?.basis.cols;
-            if n < 2 {
-                return reject("similarities", &item.place, "the relevant space has fewer than 2 dimensions");
-            }
+            item.refuse(n < 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
             products[e] = positive_definite(item, n)?;
         }
         for &e in &self.model.reachable {

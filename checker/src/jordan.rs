@@ -105,9 +105,7 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Res
     let mut basis = Matrix::empty(matrix.rows);
     for item in node.list()? {
         let [polynomial, roots, chains] = item.fields(["polynomial", "roots", "chains"])?;
-        let p = polynomial.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
-        let monic = (2..=matrix.rows + 1).contains(&p.len()) && p[p.len() - 1].is_one();
-        polynomial.need(monic, "roots", "a monic polynomial of degree at least 1 is needed")?;
+        let p = Field::monic(&polynomial, matrix.rows)?;
         let factor = Rc::new(Matrix::new(1, p.len(), &p));
         let mut counted = 0;
         for root in roots.list()? {

@@ -82,6 +82,11 @@ impl<'a> Node<'a> {
         if holds { Ok(()) } else { reject(rule, &self.place, why) }
     }
 
+    /// A rejection of this value where something holds.
+    pub fn refuse(&self, holds: bool, rule: &str, why: impl Into<String>) -> Result<(), Rejected> {
+        if holds { reject(rule, &self.place, why) } else { Ok(()) }
+    }
+
     /// Whether this is `null`.
     pub fn is_null(&self) -> bool {
         matches!(self.value, Json::Null)
@@ -167,9 +172,7 @@ impl<'a> Node<'a> {
     /// A word: a list of at most 1000 letters below 64.
     pub fn word(&self) -> Result<Vec<usize>, Rejected> {
         let items = self.list()?;
-        if items.len() > crate::MAX_LETTERS {
-            return reject("limit", &self.place, "the word is too long");
-        }
+        self.refuse(items.len() > crate::MAX_LETTERS, "limit", "the word is too long")?;
         items.iter().map(|n| n.index(crate::case::MAX_PIECES)).collect()
     }
 }

@@ -15,9 +15,11 @@ mod points;
 pub mod poly;
 mod radius;
 mod rate;
+mod regularity;
 mod ring;
 mod rules;
 pub mod shape;
+mod solve;
 mod spectrum;
 
 use std::fmt;
@@ -138,8 +140,13 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
     }
     let proof = json::Node { place: "proof".to_owned(), ..proof };
     let found = match kind.text()? {
-        "certify" => match case::read(case) {
-            Ok(case) => claims::check(&case, &proof)?,
+        kind @ ("certify" | "regularity") => match case::read(case) {
+            Ok(case) if kind == "certify" => claims::check(&case, &proof)?,
+            Ok(case) => regularity::check(&case, &proof)?,
+            Err(why) => return unreadable("case", why),
+        },
+        "solve" => match case::read_open(case) {
+            Ok(open) => solve::check(open, &proof)?,
             Err(why) => return unreadable("case", why),
         },
         "spectrum" => jordan::check(case, &proof)?,

@@ -226,25 +226,20 @@ impl Matrix {
         Self { den: self.den / common, ..self }
     }
 
-    /// The coefficients of the characteristic polynomial `det(x − self)` (a row) and of the polynomial matrix `adj(x − self)`,
-    /// lowest first (Faddeev and LeVerrier).
-    pub fn characteristic(&self) -> Result<(Self, Vec<Self>), Rejected> {
+    /// The coefficients of the characteristic polynomial `det(x − self)` as a row, lowest first (Faddeev and LeVerrier).
+    pub fn characteristic(&self) -> Result<Self, Rejected> {
         let n = self.rows;
-        let (mut coefficients, mut adjugate) = (vec![Q::one()], Vec::new());
-        let mut m = Self::identity(n);
+        let (mut coefficients, mut m) = (vec![Q::one()], Self::identity(n));
         for k in 1..=n {
-            let product = self.times(&m)?;
-            adjugate.push(m);
-            let trace: BigInt = (0..n).map(|i| &product.data[i * n + i]).sum();
-            coefficients.push(ratio(-trace, &product.den * k));
-            m = product;
+            m = self.times(&m)?;
+            let trace: BigInt = (0..n).map(|i| &m.data[i * n + i]).sum();
+            coefficients.push(ratio(-trace, &m.den * k));
             // The trace is a multiple of k, so that the denominator stays that of the power.
             let diagonal = coefficients[k].numer() * (&m.den / coefficients[k].denom());
             (0..n).for_each(|i| m.data[i * n + i] += &diagonal);
         }
         coefficients.reverse();
-        adjugate.reverse();
-        Ok((Self::new(1, n + 1, &coefficients), adjugate))
+        Ok(Self::new(1, n + 1, &coefficients))
     }
 }
 
@@ -277,12 +272,9 @@ mod tests {
     #[test]
     fn characteristic_polynomials() {
         let m = matrix(&[&[1, 2, 3], &[4, 5, 6], &[7, 8, 10]]);
-        assert_eq!(m.characteristic().unwrap().0, matrix(&[&[3, -12, -16, 1]]));
+        assert_eq!(m.characteristic().unwrap(), matrix(&[&[3, -12, -16, 1]]));
         let half = Q::new(1.into(), 2.into());
-        let (halved, adjugate) = m.scaled(&half).characteristic().unwrap();
-        assert_eq!(halved.scaled(&whole(8)), matrix(&[&[3, -24, -64, 8]]));
-        // (x − A) adj(x − A) = χ(x): the coefficient of x^0.
-        assert_eq!(m.scaled(&-half).times(&adjugate[0]).unwrap(), Matrix::identity(3).scaled(&halved.at(0, 0)));
+        assert_eq!(m.scaled(&half).characteristic().unwrap().scaled(&whole(8)), matrix(&[&[3, -24, -64, 8]]));
         assert_eq!(m.rank().unwrap(), 3);
         assert_eq!(matrix(&[&[1, 2], &[2, 4]]).echelon().unwrap().0, matrix(&[&[1, 2]]));
         let echelon = matrix(&[&[0, 2, 1], &[-3, 0, 5]]).echelon().unwrap();

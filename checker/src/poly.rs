@@ -1,14 +1,14 @@
 //! Real number fields with a chosen embedding, interval enclosures, and the count of roots in a disc.
 
+use crate::Rejected;
 use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
 use crate::number::{Q, spend};
-use crate::{Rejected, reject};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 /// Largest degree of a number field.
-const MAX_DEGREE: usize = 64;
+pub const MAX_DEGREE: usize = 64;
 
 /// A closed interval with rational ends.
 #[derive(Debug, Clone, PartialEq)]
@@ -134,11 +134,8 @@ impl Field {
 
     /// Reads `polynomial` (monic; it need not be irreducible) and `interval` and checks that there is one root in it.
     pub fn read(polynomial: &Node<'_>, interval: &Node<'_>) -> Result<Self, Rejected> {
-        let m = polynomial.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
-        let d = m.len().saturating_sub(1);
-        if !(1..=MAX_DEGREE).contains(&d) || !m[d].is_one() {
-            return reject("field", &polynomial.place, "a monic polynomial of degree 1 to 64 is needed");
-        }
+        let m = Self::monic(polynomial, MAX_DEGREE)?;
+        let d = m.len() - 1;
         let ends = interval.vector(2)?;
         if d == 1 {
             interval.need(ends[0] == ends[1] && ends[0] == -&m[0], "field", "both ends must be the rational root")?;
@@ -153,6 +150,14 @@ impl Field {
         let monotone = Self::real(&Matrix { cols: d, data: slope, ..row }, &place)?.is_nonzero();
         interval.need(monotone, "field", "the interval is too wide to hold one root only")?;
         Ok(Self { interval: place, by_root: Self::companion(&m) })
+    }
+
+    /// Reads a monic polynomial of a degree from 1 on, lowest coefficient first.
+    pub fn monic(node: &Node<'_>, most: usize) -> Result<Vec<Q>, Rejected> {
+        let m = node.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
+        let monic = (2..=most + 1).contains(&m.len()) && m.last().is_some_and(Q::is_one);
+        node.need(monic, "field", &format!("a monic polynomial of degree 1 to {most} is needed"))?;
+        Ok(m)
     }
 
     /// The matrix by which a row of coefficients modulo a monic polynomial is multiplied by the root.
@@ -175,15 +180,34 @@ impl Field {
     pub fn coordinates(degree: usize, node: &Node<'_>, count: usize) -> Result<Matrix, Rejected> {
         let items = node.list()?;
         node.need(items.len() == count, "format", "a vector of another length is needed here")?;
-        let mut entries = Vec::new();
-        for item in items {
-            let element = item.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
-            let fits = element.len() <= degree && element.last().is_none_or(|c| !c.is_zero());
-            item.need(fits, "format", "an element is a polynomial of lower degree without leading zeros")?;
-            let zeros = degree - element.len();
-            entries.extend(element.into_iter().chain(std::iter::repeat_n(Q::zero(), zeros)));
+        let entries = items.iter().map(|item| Self::coefficients(degree, item)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Matrix::from_rows(degree, &entries))
+    }
+
+    fn coefficients(degree: usize, node: &Node<'_>) -> Result<Vec<Q>, Rejected> {
+        let mut element = node.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
+        let fits = element.len() <= degree && element.last().is_none_or(|c| !c.is_zero());
+        node.need(fits, "format", "an element is a polynomial of lower degree without leading zeros")?;
+        element.resize(degree, Q::zero());
+        Ok(element)
+    }
+
+    /// Reads an element.
+    pub fn element(&self, node: &Node<'_>) -> Result<Matrix, Rejected> {
+        Ok(Matrix::new(1, self.degree(), &Self::coefficients(self.degree(), node)?))
+    }
+
+    /// Whether an element is the root of `m` by which `number` is generated: it is a root, and lies in the interval of that.
+    pub fn is_root(&self, m: &[Q], number: &Self, x: &Matrix) -> Result<bool, Rejected> {
+        let constant = |c: &Q| self.embedded(&Matrix::new(1, 1, std::slice::from_ref(c)));
+        let mut value = constant(&Q::zero());
+        for c in m.iter().rev() {
+            value = self.dot(&value, x)?.plus(&Q::one(), &constant(c));
         }
-        Ok(Matrix::new(count, degree, &entries))
+        let (place, at) = (&number.interval, self.enclose(x)?);
+        let inside = place.lo <= at.lo.at(0, 0) && at.hi.at(0, 0) <= place.hi;
+        // Of a polynomial of degree 1 there is no other root.
+        Ok(value.is_zero() && (inside || m.len() == 2))
     }
 
     /// The vector of these rational numbers (a column) in the field.

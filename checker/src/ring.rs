@@ -292,7 +292,7 @@ mod tests {
     fn segment() -> Shape {
         let op = row(&[3, 1]).stack(&row(&[1, 3])).scaled(&(whole(1) / whole(4)));
         let pieces = vec![Piece { target: 0, op, reversed: false }];
-        let states = vec![State { kind: Kind::Set, dim: 2, pieces, left: None, right: None }];
+        let states = vec![State { kind: Kind::Set, dim: 2, pieces, ends: [None, None] }];
         Shape { states, start: 0, view: Matrix::identity(2) }
     }
 

@@ -69,76 +69,82 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
 }
 
 /// Evidence with real top eigenvalues and exactly one longest chain.
-struct Leading {
-    field: Field,
+pub struct Leading {
+    /// The field of the eigenvalues.
+    pub field: Field,
     chains: Vec<Chain>,
     longest: usize,
 }
 
 impl Leading {
-    fn chain(&self) -> &Chain {
-        &self.chains[self.longest]
-    }
-
-    /// The sign of the eigenvalue of the longest chain.
-    fn eigenvalue_sign(&self) -> i32 {
-        self.chain().sign * self.field.interval.sign()
-    }
-
-    /// `g L − λ g` for a row over the field.
-    fn residual(&self, linear: &Matrix, row: &Matrix) -> Result<Matrix, Rejected> {
-        residual(&self.field.by_root, &linear.transpose(), self.chain().sign, row)
-    }
-
-    /// The value of a row at the last vector of a chain.
-    fn pairing(&self, row: &Matrix, chain: &Chain) -> Result<Matrix, Rejected> {
-        self.field.dot(row, &chain.vectors[chain.vectors.len() - 1])
-    }
-}
-
-impl Branch<'_> {
-    fn leading(&self, node: &Node<'_>) -> Result<Leading, Rejected> {
-        let Top::Real { field, chains } = Top::read(node, &self.germ.linear)? else {
+    /// Reads and checks a top of this form.
+    pub fn read(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+        let Top::Real { field, chains } = Top::read(node, linear)? else {
             return reject("leading", &node.place, "a real top is needed here");
         };
         let length = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
         let longest: Vec<usize> = (0..chains.len()).filter(|&k| chains[k].vectors.len() == length).collect();
         match longest[..] {
-            [longest] => Ok(Leading { field, chains, longest }),
+            [longest] => Ok(Self { field, chains, longest }),
             _ => reject("leading", &node.place, "exactly one longest chain is needed here"),
         }
     }
 
+    /// The vectors of the longest chain.
+    pub fn vectors(&self) -> &[Matrix] {
+        &self.chains[self.longest].vectors
+    }
+
+    /// The sign of its eigenvalue.
+    pub fn eigenvalue_sign(&self) -> i32 {
+        self.chains[self.longest].sign * self.field.interval.sign()
+    }
+
+    /// `g L − λ g` for a row over the field.
+    fn residual(&self, linear: &Matrix, row: &Matrix) -> Result<Matrix, Rejected> {
+        residual(&self.field.by_root, &linear.transpose(), self.chains[self.longest].sign, row)
+    }
+
     /// Rule `leading`: a row `g` with `g L = λ g` that reads the coefficient of the last vector of the longest chain, up to
     /// a factor whose sign is returned.
-    fn leading_row(&self, top: &Leading, node: &Node<'_>) -> Result<(Matrix, i32), Rejected> {
-        let row = top.field.vector(node, self.germ.dim())?;
-        let left = top.residual(&self.germ.linear, &row)?.is_zero();
+    pub fn row(&self, linear: &Matrix, node: &Node<'_>) -> Result<(Matrix, i32), Rejected> {
+        let row = self.field.vector(node, linear.rows)?;
+        let left = self.residual(linear, &row)?.is_zero();
         node.need(left, "leading", "the row is no left eigenvector")?;
-        for (k, chain) in top.chains.iter().enumerate() {
-            let blind = k == top.longest || top.pairing(&row, chain)?.is_zero();
-            node.need(blind, "leading", "the row sees a shorter chain")?;
+        let mut sign = 0;
+        for (k, chain) in self.chains.iter().enumerate() {
+            let value = self.field.dot(&row, &chain.vectors[chain.vectors.len() - 1])?;
+            if k == self.longest {
+                sign = self.field.sign(&value)?;
+            } else {
+                node.need(value.is_zero(), "leading", "the row sees a shorter chain")?;
+            }
         }
-        let sign = top.field.sign(&top.pairing(&row, top.chain())?)?;
         node.need(sign != 0, "leading", "the row is not seen to be nonzero")?;
         Ok((row, sign))
+    }
+}
+
+impl Branch<'_> {
+    fn leading(&self, node: &Node<'_>) -> Result<Leading, Rejected> {
+        Leading::read(node, &self.germ.linear)
     }
 
     /// Theorems 2 and 3.
     fn line(&self, node: &Node<'_>, rule: &str) -> Result<Found, Rejected> {
         let [_, top, functional, cover] = node.fields(["rule", "top", "functional", "cover"])?;
         let top = self.leading(&top)?;
-        let length = top.chain().vectors.len();
+        let length = top.vectors().len();
         let fits = (length == 1) == (rule == "theorem-2");
         need(fits, rule, "Theorem 2 is about chains of length 1, Theorem 3 about longer ones")?;
-        let (row, pairing) = self.leading_row(&top, &functional)?;
+        let (row, pairing) = top.row(&self.germ.linear, &functional)?;
         let functional = self.model.functionals(&self.germ, &top.field, &[&row])?;
         let cells = self.model.cover(&self.germ, &functional, None, &cover)?;
         // L^m x is about C(m, l) λ^(m-l) (g x / g v) v_1 with l = length - 1; m runs over all large numbers.
         let lambda = top.eigenvalue_sign();
         let parity = if length % 2 == 0 { lambda } else { 1 };
         let (left, right) = self.rays(&cells, lambda, pairing * parity);
-        self.found_line(&top.field, &top.chain().vectors[0], left, right)
+        self.found_line(&top.field, &top.vectors()[0], left, right)
     }
 
     /// The rays of earlier and of later points, for even and odd numbers of turns.
@@ -226,8 +232,8 @@ impl Branch<'_> {
     fn null_point(&self, node: &Node<'_>) -> Result<Found, Rejected> {
         let [_, top, functional, address] = node.fields(["rule", "top", "functional", "address"])?;
         let top = self.leading(&top)?;
-        need(top.chain().vectors.len() == 1, "null-point", "a simple eigenvalue is needed")?;
-        let (row, _) = self.leading_row(&top, &functional)?;
+        need(top.vectors().len() == 1, "null-point", "a simple eigenvalue is needed")?;
+        let (row, _) = top.row(&self.germ.linear, &functional)?;
         let (y, _) = self.ring_point(&address)?;
         let vanishes = y.transpose().times(&row)?.is_zero();
         address.need(vanishes, "null-point", "the functional does not vanish at the point")?;
@@ -242,8 +248,8 @@ impl Branch<'_> {
         let [_, top, functional, isolation, positive, negative] =
             node.fields(["rule", "top", "functional", "isolation", "positive", "negative"])?;
         let top = self.leading(&top)?;
-        need(top.chain().vectors.len() == 1, "sign-change", "a simple eigenvalue is needed")?;
-        let (row, _) = self.leading_row(&top, &functional)?;
+        need(top.vectors().len() == 1, "sign-change", "a simple eigenvalue is needed")?;
+        let (row, _) = top.row(&self.germ.linear, &functional)?;
         self.changing_part(&top.field, &row, &positive, &negative)?;
         // Isolation: the rows of L^dim have no common zero on the ring.
         let rows = self.germ.linear.power(self.germ.dim())?.echelon()?.0;
@@ -273,9 +279,9 @@ impl Branch<'_> {
         let [_, top, second, first, positive, negative, cover] =
             node.fields(["rule", "top", "second", "first", "positive", "negative", "cover"])?;
         let top = self.leading(&top)?;
-        let block = top.chains.len() == 1 && top.chain().vectors.len() == 2;
+        let block = top.chains.len() == 1 && top.vectors().len() == 2;
         need(block, "crossing", "one block of length 2 is needed")?;
-        let (c2, _) = self.leading_row(&top, &second)?;
+        let (c2, _) = top.row(&self.germ.linear, &second)?;
         let c1 = top.field.vector(&first, self.germ.dim())?;
         let chain = top.residual(&self.germ.linear, &c1)? == c2;
         first.need(chain, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
@@ -285,7 +291,7 @@ impl Branch<'_> {
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
         let same = signs.windows(2).all(|s| s[0] == s[1]);
         cover.need(same, "crossing", "g_1 takes both signs where g_2 may vanish")?;
-        let vectors = top.chain().vectors.iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
+        let vectors = top.vectors().iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
         Self::plane("crossing", &vectors.collect::<Result<Vec<_>, _>>()?)
     }
 
@@ -293,7 +299,7 @@ impl Branch<'_> {
     fn direction(&self, node: &Node<'_>) -> Result<Found, Rejected> {
         let [_, top] = node.fields(["rule", "top"])?;
         let top = self.leading(&top)?;
-        Ok(match self.found_line(&top.field, &top.chain().vectors[0], Vec::new(), Vec::new())? {
+        Ok(match self.found_line(&top.field, &top.vectors()[0], Vec::new(), Vec::new())? {
             Found::Line(line) => Found::Direction(line),
             other => other,
         })
@@ -301,17 +307,8 @@ impl Branch<'_> {
 }
 
 impl Line {
-    /// Whether a rational vector (a column) lies on the line: `1` and `-1` for its two rays.
-    pub fn along(&self, common: &Matrix) -> Result<Option<i32>, Rejected> {
-        self.parallel(&self.field.embedded(common), &Enclosed::exact(common.clone()))
-    }
-
-    /// The same for another line over the same field.
-    pub fn agrees(&self, other: &Self) -> Result<Option<i32>, Rejected> {
-        if self.field == other.field { self.parallel(&other.vector, &other.values) } else { Ok(None) }
-    }
-
-    fn parallel(&self, w: &Matrix, values: &Enclosed) -> Result<Option<i32>, Rejected> {
+    /// Whether a vector over the field of the line lies on it: `1` and `-1` for its two rays.
+    pub fn along(&self, w: &Matrix) -> Result<Option<i32>, Rejected> {
         for i in 0..w.rows {
             for j in 0..i {
                 let product = |i, j| self.field.dot(&self.vector.row(i), &w.row(j));
@@ -320,6 +317,7 @@ impl Line {
                 }
             }
         }
+        let values = self.field.enclose(w)?;
         let relations = (0..w.rows).map(|k| self.values.sign(k) * values.sign(k));
         Ok(relations.into_iter().find(|r| *r != 0))
     }

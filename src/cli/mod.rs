@@ -215,6 +215,9 @@ struct SolveArgs {
     /// Give a free parameter a value in the case that is written; the others are 0.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+    /// Write a certificate of the solutions that secant-check proves again (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -235,6 +238,9 @@ struct RegularityArgs {
     /// The arity of a mask.
     #[arg(long, default_value_t = 2)]
     arity: usize,
+    /// Write a certificate of the orders of smoothness of the curve of a case file (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -44,7 +44,8 @@ pub fn listed(items: &[String]) -> String {
 /// `1 piece`, `2 pieces`.
 #[must_use]
 pub fn count(number: usize, noun: &str) -> String {
-    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
+    let ending = if noun.ends_with('s') { "es" } else { "s" };
+    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}{ending}") }
 }
 
 /// What a point is called: `Left end`, `Joint of pieces 0 and 1`.
