@@ -4,10 +4,8 @@
 use secant::arith::{Rational, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::scheme::{Mask, bspline, tensor};
-use secant::shape::{Address, Boundary, CellKind, Complex, Piece, Shape, State};
-use secant::theorem::surface::{
-    Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point,
-};
+use secant::shape::{Address, CellKind, Complex, Shape};
+use secant::theorem::surface::{Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point};
 use secant::theorem::{Certified, Statement, Verdict};
 
 /// A reproducible source of small numbers.
@@ -177,59 +175,6 @@ fn a_patch_that_collapses_to_a_line_has_dimension_1() {
     for p in &surface(&found).points {
         assert!(p.dimension.exact && p.dimension.at_least == 1, "{:?} {:?} {:?}", p.spot, p.dimension, p.reason);
     }
-}
-
-/// An affine curve in the plane with end points as vertices.
-fn with_vertices(pieces: &[(Matrix, Vec<Rational>)], ends: [Vec<Rational>; 2]) -> Shape {
-    let mut shape = Shape::single(CellKind::Edge, pieces.iter().map(|(l, t)| Shape::affine_operator(l, t)).collect());
-    let point = |p: &[Rational]| {
-        let rest = p.iter().fold(ratio(1, 1), |s, x| s - x);
-        Matrix::from_columns(p.len() + 1, &[[&[rest], p].concat()])
-    };
-    // One vertex state of one coordinate serves for both ends.
-    let piece = Piece { target: 1, op: Matrix::identity(1), reversed: false };
-    let vertex =
-        State { name: "v".into(), kind: CellKind::Vertex, dim: 1, pieces: vec![piece], left: None, right: None };
-    shape.states.push(vertex);
-    let [start, finish] = ends;
-    shape.states[0].left = Some(Boundary { vertex: 1, op: point(&start) });
-    shape.states[0].right = Some(Boundary { vertex: 1, op: point(&finish) });
-    shape
-}
-
-#[test]
-fn a_path_that_winds_around_0_refutes() {
-    // x runs from 0 over 1/2 and -1/2 to 1: at (0, 0) the pair (x(s), x(t)) of functionals of 1/2 has common zeros in the ring,
-    // none of them at a point with a short address.
-    let piece = |a: Rational, c: Rational, t: [Rational; 2]| {
-        (Matrix::from_rows(2, vec![vec![a, c], vec![ratio(0, 1), ratio(1, 3)]]), t.to_vec())
-    };
-    let curve = with_vertices(
-        &[
-            piece(ratio(1, 2), ratio(0, 1), [ratio(0, 1), ratio(0, 1)]),
-            piece(ratio(1, 8), ratio(-9, 32), [ratio(1, 2), ratio(4, 3)]),
-            piece(ratio(1, 8), ratio(11, 32), [ratio(-1, 2), ratio(8, 3)]),
-        ],
-        [vector(&[0, 0], 1), vector(&[1, 4], 1)],
-    );
-    let complex = tensor(&curve, &curve).unwrap();
-    let found = at(&complex, &[]);
-    let corner = surface(&found).points.iter().find(|p| p.spot == Spot::Corner(0)).unwrap();
-    assert_eq!((corner.verdict, corner.dimension.at_least), (Verdict::Refuted, 3), "{:?}", corner.reason);
-    let Some(SurfaceWitness::Winding(winding)) = &corner.branches[0].outcome.witness else { panic!("no path") };
-    assert_eq!(winding.number.abs(), 1);
-    // Neighbouring half planes overlap, and the path turns once around 0.
-    let quarter = |k: usize| match (winding.path[k].functional, winding.path[k].sign) {
-        (0, 1) => 0_i32,
-        (1, 1) => 1,
-        (0, _) => 2,
-        _ => 3,
-    };
-    let n = winding.path.len();
-    let turn: i32 = (0..n).map(|k| (quarter((k + 1) % n) - quarter(k) + 5).rem_euclid(4) - 1).sum();
-    assert_eq!(turn, 4 * winding.number);
-    // The curve has no tangent at its start, so that the theorem on tensor products says the same.
-    assert_eq!(corner.product.as_ref().map(|e| e.verdict), Some(Verdict::Refuted));
 }
 
 // ---- sampling -------------------------------------------------------------------------------------------------------

@@ -3,13 +3,15 @@
 
 Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
 
-It covers every rule of the format except boundary operators of vertices.  It is written for reading, not for hostile input:
-use secant-check where limits matter.
+It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries, not those
+of joint spectral radii.  It is written for reading, not for hostile input: use secant-check where limits matter.
 """
 import json
 import sys
 import tomllib
+from collections import namedtuple
 from fractions import Fraction as Q
+from math import gcd, lcm
 
 
 class Rejected(Exception):
@@ -85,13 +87,12 @@ def fixed_point(op):
 
 def characteristic(a):
     n = len(a)
-    c, m, adjugate = [Q(0)] * n + [Q(1)], identity(n), []
+    c, m = [Q(0)] * n + [Q(1)], identity(n)
     for k in range(1, n + 1):
-        adjugate.insert(0, m)
         product = mul(a, m)
         c[n - k] = -sum(product[i][i] for i in range(n)) / k
         m = [[x + c[n - k] * int(i == j) for j, x in enumerate(row)] for i, row in enumerate(product)]
-    return c, adjugate
+    return c
 
 
 def power(a, k):
@@ -154,17 +155,12 @@ def weighted(row, v):
     return total
 
 
-class Field:
-    def __init__(self, m, interval):
-        self.m, self.interval = m, interval
-        need(2 <= len(m) <= 65 and m[-1] == 1, "field")
-        lo, hi = interval
-        if len(m) == 2:
-            need(lo == hi == -m[0], "field")
-        else:
-            at = lambda x: horner(m, (x, x))[0]
-            need(lo < hi and at(lo) * at(hi) < 0, "field")
-            need(i_sign(horner([k * c for k, c in enumerate(m)][1:], interval)) != 0, "field")
+class Ring:
+    """Polynomials modulo a monic one, which need not be irreducible."""
+
+    def __init__(self, m, most=64):
+        self.m = m
+        need(2 <= len(m) <= most + 1 and m[-1] == 1, "field")
 
     def mul(self, a, b):
         if not a or not b:
@@ -187,11 +183,50 @@ class Field:
             total = combine(total, 1, self.mul(a, b))
         return total
 
+    def theta(self, sign):
+        return self.mul([Q(0), Q(sign)], [Q(1)])
+
+    def vector(self, items, n):
+        need(isinstance(items, list) and len(items) == n, "format")
+        return [poly(x, len(self.m) - 1) for x in items]
+
+    def chain(self, matrix, sign, items, rule):
+        vectors, theta = [self.vector(v, len(matrix)) for v in items], self.theta(sign)
+        need(vectors, rule)
+        for k, v in enumerate(vectors):
+            for i, row in enumerate(matrix):
+                image = combine(weighted(row, v), -1, self.mul(theta, v[i]))
+                need(image == (vectors[k - 1][i] if k else []), rule)
+        return vectors
+
+
+def root_near(p, z, e):
+    """Whether n |p(z)| <= e |p'(z)|: then a root of p is within e of z."""
+    size = lambda p: sum(part[0] ** 2 for part in horner_complex(p, [(x, x) for x in z]))
+    return (len(p) - 1) ** 2 * size(p) <= e * e * size([k * c for k, c in enumerate(p)][1:])
+
+
+class Field(Ring):
+    def __init__(self, m, interval):
+        super().__init__(m)
+        self.interval = lo, hi = interval
+        if len(m) == 2:
+            need(lo == hi == -m[0], "field")
+        else:
+            at = lambda x: horner(m, (x, x))[0]
+            need(lo < hi and at(lo) * at(hi) < 0, "field")
+            need(i_sign(horner([k * c for k, c in enumerate(m)][1:], interval)) != 0, "field")
+
     def value(self, element):
         return horner(element, self.interval)
 
-    def theta(self, sign):
-        return self.mul([Q(0), Q(sign)], [Q(1)])
+    def equals(self, number, x):
+        """Whether the element x is the root that generates the field `number`."""
+        value = []
+        for c in reversed(number.m):
+            value = combine(self.mul(value, x), 1, trim([c]))
+        (lo, hi), (a, b) = number.interval, self.value(x)
+        return not value and (len(number.m) == 2 or lo <= a <= b <= hi)
 
 
 def inside(p):
@@ -432,6 +467,13 @@ class Model:
                 need(isinstance(tree, list) and len(tree) == len(pieces), "contraction")
                 codes += [(start, t, mul(op, piece), child) for (t, piece, _), child in zip(pieces, tree)]
 
+    def reading(self, e):
+        """Reads the coordinates of a vector of the relevant space."""
+        return [[Q(int(p == j)) for j in range(self.case.dims[e])] for p in self.pivots[e]]
+
+    def own_view(self, e):
+        return mul(self.visible[e], self.reading(e))
+
     def polytopes(self, hulls, shrinking):
         """Hulls that are mapped into one another; with a share in common in all images they prove contraction (Lemma 1')."""
         for e, hull in hulls:
@@ -444,6 +486,7 @@ class Model:
                 common = set(range(len(self.hull[e])))
                 for v, terms in zip(self.hull[target], images):
                     pairs = [fields(term, "vertex", "weight") for term in terms]
+                    need(all(a[0] < b[0] for a, b in zip(pairs, pairs[1:])), "hull")
                     common &= {k for k, _ in pairs}
                     pairs = [(rational(w), self.hull[e][index(k, len(self.hull[e]))]) for k, w in pairs]
                     need(all(w > 0 for w, _ in pairs) and sum(w for w, _ in pairs) == 1, "hull")
@@ -474,8 +517,7 @@ class Germ:
         need(self.n > 0, "germ")
         pick = lambda m: [[row[p] for p in pivots] for row in m]
         self.linear, self.view = pick(mul(rows, linear_v)), pick(on_v)
-        reading = [[Q(int(p == j)) for j in range(model.case.dims[e])] for p in model.pivots[e]]
-        self.chart = mul(rows, reading)
+        self.chart = mul(rows, model.reading(e))
         self.turn = model.orientation(e, addr[1]) if model.states[e][0] == "edge" else 1
         self.prefix = model.orientation(root, addr[0])
         self.falls = power(self.linear, self.n)
@@ -566,31 +608,24 @@ class Top:
     def __init__(self, value, linear):
         n = self.n = len(linear)
         kind = self.kind = value.get("top") if isinstance(value, dict) else None
-        names = {"real": ["polynomial", "interval", "chains"], "pair": ["centre", "error"],
+        names = {"real": ["polynomial", "interval", "chains"], "pair": ["polynomial", "centre", "error", "vectors"],
                  "conformal": ["basis", "gram", "square"]}
         need(kind in names, "format")
         _, radius, *rest = fields(value, "top", "radius", *names[kind])
         r = rational(radius)
-        chi, self.adjugate = characteristic(linear)
         need(r > 0, "disc")
-        count = n - inside([c * r ** k for k, c in enumerate(chi)])
-        getattr(self, kind)(linear, r, count, chi, *rest)
+        count = n - inside([c * r ** k for k, c in enumerate(characteristic(linear))])
+        getattr(self, kind)(linear, r, count, *rest)
 
-    def real(self, linear, r, count, chi, m, interval, chains):
+    def real(self, linear, r, count, m, interval, chains):
         f = self.field = Field(poly(m, 65), tuple(vector(interval, 2)))
         need(f.interval[0] > r or f.interval[1] < -r, "top-real")
         self.chains = []
         for chain in chains:
             sign, vectors = fields(chain, "sign", "vectors")
-            need(sign in ("+", "-") and vectors, "format")
-            need(all(len(v) == len(linear) for v in vectors), "format")
-            vectors = [[poly(x, len(f.m) - 1) for x in v] for v in vectors]
-            theta = f.theta(1 if sign == "+" else -1)
-            for k, v in enumerate(vectors):
-                for i, row in enumerate(linear):
-                    image = combine(weighted(row, v), -1, f.mul(theta, v[i]))
-                    need(image == (vectors[k - 1][i] if k else []), "top-real")
-            self.chains.append((1 if sign == "+" else -1, vectors))
+            need(sign in ("+", "-"), "format")
+            sign = 1 if sign == "+" else -1
+            self.chains.append((sign, f.chain(linear, sign, vectors, "top-real")))
         need(sum(len(v) for _, v in self.chains) == count, "top-real")
         for s in (1, -1):
             starts = [[f.value(x) for x in v[0]] for t, v in self.chains if t == s]
@@ -598,15 +633,15 @@ class Top:
             need(len(starts) != 1 or any(map(i_sign, starts[0])), "top-real")
             need(len(starts) != 2 or not_parallel(*starts), "top-real")
 
-    def pair(self, linear, r, count, chi, centre, error):
-        (x, y), e = vector(centre, 2), rational(error)
-        need(count == 2 and y > e > 0 and x * x + y * y > (r + e) ** 2, "top-pair")
-        size = lambda p: sum(part[0] ** 2 for part in horner_complex(p, ((x, x), (y, y))))
-        slope = size([k * c for k, c in enumerate(chi)][1:])
-        need(slope != 0 and self.n ** 2 * size(chi) <= e * e * slope, "top-pair")
+    def pair(self, linear, r, count, m, centre, error, vectors):
+        ring, (x, y), e = Ring(poly(m, 65)), vector(centre, 2), rational(error)
+        need(y > e > 0 and x * x + y * y > (r + e) ** 2 and root_near(ring.m, (x, y), e), "top-pair")
+        self.vectors = ring.chain(linear, 1, vectors, "top-pair")
         self.value = ((x - e, x + e), (y - e, y + e))
+        need(2 * len(self.vectors) == count, "top-pair")
+        need(any(map(i_sign, sum(self.directions(identity(self.n)), []))), "top-pair")
 
-    def conformal(self, linear, r, count, chi, basis, gram, square):
+    def conformal(self, linear, r, count, basis, gram, square):
         rows, s = [vector(v, self.n) for v in basis], rational(square)
         reduced, pivots = echelon(rows)
         need(reduced == rows and len(rows) == count, "top-conformal")
@@ -623,12 +658,8 @@ class Top:
             ends = [v[0] for _, v in self.chains if len(v) == longest]
             return [[self.field.value(weighted(row, v)) for row in view] for v in ends]
         if self.kind == "pair":
-            spanning = []
-            for j in range(self.n):
-                entry = lambda row: [sum(c * m[i][j] for i, c in enumerate(row)) for m in self.adjugate]
-                values = [horner_complex(entry(row), self.value) for row in view]
-                spanning += [[z[0] for z in values], [z[1] for z in values]]
-            return spanning
+            values = [horner_complex(weighted(row, self.vectors[0]), self.value) for row in view]
+            return [[z[0] for z in values], [z[1] for z in values]]
         return [[(x, x) for x in apply(view, v)] for v in self.basis]
 
 
@@ -653,11 +684,12 @@ class Line:
         self.values = [field.value(x) for x in self.vector]
         need(any(map(i_sign, self.values)), "line")
 
-    def relation(self, w, signs):
+    def relation(self, w):
         for i in range(len(w)):
             for j in range(i):
                 need(self.field.mul(self.vector[i], w[j]) == self.field.mul(self.vector[j], w[i]), "line")
-        return next((i_sign(x) * s for x, s in zip(self.values, signs) if i_sign(x) * s), None)
+        signs = [i_sign(x) * i_sign(self.field.value(y)) for x, y in zip(self.values, w)]
+        return next((s for s in signs if s), None)
 
 
 class Branch:
@@ -694,7 +726,7 @@ class Branch:
 
     def row(self, items):
         need(isinstance(items, list) and len(items) == self.germ.n, "format")
-        return [poly(g, len(self.field.m) - 1) for g in items]
+        return self.field.vector(items, self.germ.n)
 
     def leading_row(self, top, items):
         self.leading(top)
@@ -799,7 +831,9 @@ def branches_of(model, root, place):
             branches.reverse()
         return list(zip(("left", "right"), branches))
     need(at in ("inside", "of set"), "format")
-    return [("both", address(fields(place, "at", "address")[1]))]
+    addr = address(fields(place, "at", "address")[1])
+    need(root == model.case.start and model.normalise(addr, root) == addr and place_of(model, addr) == place, "place")
+    return [("both", addr)]
 
 
 def check_point(model, root, view, value):
@@ -808,7 +842,6 @@ def check_point(model, root, view, value):
     need(len(addresses) == len(items), "point")
     found = [(side, item and (Branch(Germ(model, root, view, a)).check(item) or "plane"))
              for (side, a), item in zip(addresses, items)]
-    common = None if common is None else vector(common, len(view))
     lines = [line for _, line in found if isinstance(line, Line)]
     if rule == "plane":
         need([f for _, f in found if f is not None] == ["plane"] and common is None, "plane")
@@ -819,14 +852,23 @@ def check_point(model, root, view, value):
         conclusion = ("refuted", "corner" if single else "none")
     else:
         need(rule == "line" and len(lines) == len(found) and all(line.exact for line in lines), "point")
-        left, right = [], []
-        for side, line in found:
-            if common is not None:
-                signs = [(x > 0) - (x < 0) for x in common]
-                factor = line.relation([trim([x]) for x in common], signs)
-            else:
-                need((line.field.m, line.field.interval) == (lines[0].field.m, lines[0].field.interval), "line")
-                factor = line.relation(lines[0].vector, map(i_sign, lines[0].values))
+        left, right, factors = [], [], [1]
+        if common is None:
+            need(len(lines) == 1, "line")
+        elif all(isinstance(x, str) for x in common):
+            common = vector(common, len(view))
+            factors = [line.relation([trim([x]) for x in common]) for line in lines]
+        else:
+            need(len(common) == len(view), "format")
+            numbers = [fields(x, "polynomial", "interval", "elements") for x in common]
+            numbers = [(Field(poly(m, 65), tuple(vector(i, 2))), elements) for m, i, elements in numbers]
+            need(all(len(elements) == len(lines) for _, elements in numbers), "format")
+            for k, line in enumerate(lines):
+                w = line.field.vector([elements[k] for _, elements in numbers], len(view))
+                need(all(line.field.equals(x, y) for (x, _), y in zip(numbers, w)), "line")
+                factors = factors[:k] + [line.relation(w)]
+            common = None
+        for (side, line), factor in zip(found, factors):
             need(factor, "line")
             left += [s * factor for s in line.left] if side != "right" else []
             right += [s * factor for s in line.right] if side != "left" else []
@@ -839,7 +881,10 @@ def check_point(model, root, view, value):
             name = ("cusp" if left == right else "regular") if sizes == (1, 1) else "none"
         conclusion = ("proved", name)
     need((verdict, kind) == conclusion, "point")
-    return place, verdict, common
+    return Point(place, verdict, kind, common)
+
+
+Point = namedtuple("Point", "place verdict kind common")
 
 
 def place_of(model, addr):
@@ -860,17 +905,27 @@ def place_of(model, addr):
     if side is None:
         return {"at": "inside", "address": {"prefix": addr[0], "cycle": addr[1]}}
     for k in reversed(range(len(addr[0]))):
-        side = side != model.states[states[k]][1][addr[0][k]][2]
+        pieces = model.states[states[k]][1]
+        side = side != pieces[addr[0][k]][2]
+        if model.is_point(pieces[addr[0][k]]):
+            before, after = ([p for p in part if not model.is_point(p)]
+                             for part in (pieces[:addr[0][k]], pieces[addr[0][k] + 1:]))
+            if bool(before) == bool(after):
+                return {"at": "inside", "address": {"prefix": addr[0], "cycle": addr[1]}}
+            side = bool(before)
         for left, right in model.joints(states[k]):
             if addr[0][k] == (left if side else right):
                 return {"at": "joint", "path": addr[0][:k], "left": left, "right": right}
     return {"at": "right end" if side else "left end"}
 
 
+def envelope(value):
+    return fields(value, "format", "version", "kind", "case", "verdict", "proof")
+
+
 class Certificate:
     def __init__(self, case, value):
-        form, version, of_kind, name, verdict, proof = fields(
-            value, "format", "version", "kind", "case", "verdict", "proof")
+        form, version, of_kind, name, verdict, proof = envelope(value)
         contraction, points, answers = fields(proof, "contraction", "points", "answers")
         need(of_kind == "certify", "format")
         need(form == "secant certificate" and version == 1 and name == case.name, "format")
@@ -880,6 +935,7 @@ class Certificate:
         need(all(p not in places[:k] for k, p in enumerate(places)), "points")
         self.used, self.lines = set(), []
         found = [self.answer(q, a) for q, a in zip(self.questions(answers), answers)]
+        found = [verdict for verdict in found if verdict is not None]
         need(self.used == set(range(len(points))), "points")
         self.verdict = self.together(found)
         need(verdict == self.verdict, "verdict")
@@ -898,8 +954,10 @@ class Certificate:
         asked = [a for k, a in enumerate(asked) if a not in asked[:k]]
         need(len(answers) >= len(asked), "answers")
         for k in range(len(asked), len(answers)):
-            question = "any point"
-            if k + 1 < len(answers) or answers[k].get("question") != "any point":
+            question = answers[k].get("question")
+            if question == "every point":
+                need(question not in asked, "answers")
+            elif k + 1 < len(answers) or question != "any point":
                 question = address(answers[k].get("address"))
                 normal = self.model.normalise(question, self.case.start)
                 need(normal == question and question not in asked, "answers")
@@ -916,6 +974,12 @@ class Certificate:
         if question == "joints":
             what, verdict, theorem, items, upstairs = fields(value, "question", "verdict", "theorem", "points", "upstairs")
             found, text = self.joints(theorem, self.select(items), upstairs), "joints, theorem " + theorem
+        elif question == "every point":
+            what, verdict, *rest = fields(value, "question", "verdict", "cones", "maps", "view", "window", "slow", "rate",
+                                          "joints", "witness")
+            need(verdict == Cones(self.model, self.points, self.used).check(*rest), "answers")
+            self.lines.append(f"{verdict}: every point")
+            return None
         elif question == "any point":
             what, verdict, products = fields(value, "question", "verdict", "products")
             found, text = self.similarities(products), "any point"
@@ -944,7 +1008,7 @@ class Certificate:
             return "refuted" if "refuted" in verdicts else "undetermined"
         need(theorem in ("5", "5'") and chosen and set(verdicts) == {"proved"}, "joints")
         required = {(e, *pair) for e in model.reachable for pair in model.joints(e)}
-        need(required == {(model.path(start, p["path"])[-1], p["left"], p["right"]) for p, _, _ in chosen}, "joints")
+        need(required == {(model.path(start, p["path"])[-1], p["left"], p["right"]) for p, *_ in chosen}, "joints")
         for e in model.reachable:
             for piece in model.states[e][1]:
                 rows, width = model.on_visible(e, piece)
@@ -957,8 +1021,7 @@ class Certificate:
         for item in upstairs:
             e, point = fields(item, "state", "point")
             need(index(e, len(model.states)) in model.reachable, "joints")
-            reading = [[Q(int(p == j)) for j in range(model.case.dims[e])] for p in model.pivots[e]]
-            place, verdict, common = check_point(model, e, mul(model.visible[e], reading), point)
+            place, verdict, _, common = check_point(model, e, model.own_view(e), point)
             need(place["at"] == "joint" and place["path"] == [] and verdict == "proved", "joints")
             listed.append((e, place["left"], place["right"]))
             spans[e] += [common] if common is not None else []
@@ -989,10 +1052,371 @@ class Certificate:
         return "refuted"
 
 
+# ---- every point: Theorems 6 and 6' ----------------------------------------------------------------------------------
+
+class Cones:
+    """The answer to "every point": the verdict on G1 that follows."""
+
+    def __init__(self, model, points, used):
+        self.model, self.points, self.used = model, points, used
+        need(model.states[model.case.start][0] == "edge", "every-point")
+
+    def check(self, cones, maps, view, window, slow, rate, joints, witness):
+        model = self.model
+        need(len(witness) <= 1, "format")
+        for k in witness:
+            point = self.points[index(k, len(self.points))]
+            need(point.verdict == "refuted" or point.kind in ("cusp", "oscillating"), "every-point")
+            self.used.add(k)
+        if not cones:
+            need(witness and maps == slow == joints == [] and view is None is rate and window == 0, "every-point")
+            return "refuted"
+        need(len(cones) == len(maps) == len(model.reachable), "cone")
+        self.rays = {e: self.cone(e, c) for e, c in zip(model.reachable, cones)}
+        self.maps = {e: self.images(e, m) for e, m in zip(model.reachable, maps)}
+        if view is not None:
+            seen = [apply(model.case.view, ray) for ray in self.rays[model.case.start]]
+            need(all(sum(x * y for x, y in zip(vector(view, len(ray)), ray)) > 0 for ray in seen), "cone")
+        need(0 < index(window, 9), "slow")
+        cycles = self.idle_cycles(window)
+        need(len(slow) == len(cycles), "slow")
+        for item, (e, letters) in zip(slow, cycles):
+            self.pulls(item, e, letters)
+        if rate is not None:
+            self.rate(*fields(rate, "length", "cross_ratio"))
+        agree = not any(model.joints(e) for e in model.reachable)
+        if joints:
+            self.joints(joints)
+            agree = True
+        return "refuted" if witness else "proved" if agree and view is not None else "undetermined"
+
+    def cone(self, e, value):
+        model = self.model
+        rays, functional, chord = fields(value, "rays", "functional", "chord")
+        n = model.case.dims[e]
+        rays, f, y = [vector(v, n) for v in rays], vector(functional, n), vector(chord, len(rays))
+        basis = model.basis[e]
+        need(model.states[e][0] == "edge" and basis, "cone")
+        need(all(apply(transpose(basis), [v[p] for p in model.pivots[e]]) == v for v in rays), "cone")
+        need(len(echelon(rays)[1]) == len(basis), "cone")
+        need(all(sum(a * b for a, b in zip(f, v)) > 0 for v in rays), "cone")
+        ends = sub(model.end_point(e, True), model.end_point(e, False))
+        need(any(y) and min(y) >= 0 and apply(transpose(rays), y) == ends, "cone")
+        return rays
+
+    def images(self, e, items):
+        pieces, found = self.model.states[e][1], []
+        need(len(items) == len(pieces), "format")
+        for item, (target, op, backwards) in zip(items, pieces):
+            b = [vector(row, len(self.rays[target])) for row in item]
+            need(len(b) == len(self.rays[e]) and all(any(col) and min(col) >= 0 for col in zip(*b)), "cone")
+            for ray, column in zip(self.rays[target], zip(*b)):
+                image = [-x if backwards else x for x in apply(op, ray)]
+                need(image == apply(transpose(self.rays[e]), column), "cone")
+            found.append(b)
+        return found
+
+    def positive(self, e, letters):
+        """Whether the product of a word is positive."""
+        states = self.model.path(e, letters)
+        product = self.maps[e][letters[0]]
+        for s, k in zip(states[1:], letters[1:]):
+            product = mul(product, self.maps[s][k])
+        return all(x > 0 for row in product for x in row)
+
+    def idle_cycles(self, window):
+        """The cycles of the graph of words of a length that have no positive factor."""
+        model, words = self.model, [(e, ()) for e in self.model.reachable]
+        for _ in range(window):
+            longer = [(e, w + (k,)) for e, w in words for k in range(len(model.states[model.path(e, w)[-1]][1]))]
+            ends = lambda e, w: zip(model.path(e, w), (w[j:] for j in range(len(w))))
+            words = [(e, w) for e, w in longer if not any(self.positive(s, tail) for s, tail in ends(e, w))]
+            need(len(words) <= 1000, "limit")
+        follows = lambda a, b: model.path(a[0], a[1][:1])[-1] == b[0] and a[1][1:] == b[1][:-1]
+        after = [[k for k, b in enumerate(words) if follows(a, b)] for a in words]
+        reach = []
+        for k in range(len(words)):
+            open_, seen = list(after[k]), set()
+            while open_:
+                j = open_.pop()
+                if j not in seen:
+                    seen.add(j)
+                    open_ += after[j]
+            reach.append(seen)
+        cycles, seen = [], set()
+        for k in range(len(words)):
+            if k not in reach[k]:
+                continue
+            need(sum(k in reach[j] for j in after[k]) == 1, "slow")
+            at, letters = k, []
+            while at not in seen:
+                seen.add(at)
+                letters.append(words[at][1][0])
+                at = next(j for j in after[at] if at in reach[j])
+            if letters:
+                cycles.append((words[k][0], letters))
+        return cycles
+
+    def pulls(self, value, e, letters):
+        """All rays tend to the leading eigenvector of the cycle, or lie on it."""
+        model = self.model
+        state, word_, top, functional = fields(value, "state", "word", "top", "functional")
+        need(index(state, len(model.states)) == e and word(word_) == letters, "slow")
+        turn = model.orientation(e, letters)
+        linear = [[turn * x for x in row] for row in model.linear(model.product(e, letters)[0], e, e)]
+        need(isinstance(top, dict) and top.get("top") == "real", "slow")
+        branch = Branch(namedtuple("Germ", "linear n")(linear, len(linear)))
+        row = branch.leading_row(Top(top, linear), functional)
+        need(branch.eigenvalue_sign > 0, "slow")
+        v, f = branch.vectors[0], branch.field
+        for ray in self.rays[e]:
+            ray = [ray[p] for p in model.pivots[e]]
+            if i_sign(f.value(weighted(ray, row))) > 0:
+                continue
+            scaled = lambda x, p: trim([x * c for c in p])
+            need(all(scaled(x, v[j]) == scaled(ray[j], v[i]) for i, x in enumerate(ray) for j in range(i)), "slow")
+            along = next(i_sign(f.value(y)) * (1 if x > 0 else -1) for x, y in zip(ray, v) if x and i_sign(f.value(y)))
+            need(along == branch.pairing, "slow")
+
+    def rate(self, length, bound):
+        bound, layer = rational(bound), [(e, identity(len(self.rays[e]))) for e in self.model.reachable]
+        need(bound >= 1 and 0 < index(length, 13), "rate")
+        for _ in range(length):
+            layer = [(piece[0], mul(p, b)) for e, p in layer for piece, b in zip(self.model.states[e][1], self.maps[e])]
+            need(len(layer) <= 5000, "limit")
+        for _, b in layer:
+            need(all(x > 0 for row in b for x in row), "rate")
+            for j in range(len(b[0])):
+                for k in range(j):
+                    ratios = [row[j] / row[k] for row in b]
+                    need(max(ratios) <= bound * min(ratios), "rate")
+
+    def joints(self, items):
+        model, listed = self.model, set()
+        for item in items:
+            if "listed" in item:
+                e, k = fields(item, "state", "listed")
+                point = self.points[index(k, len(self.points))]
+                need(point.place["at"] == "joint", "every-point")
+                op, end = model.product(model.case.start, point.place["path"])
+                seen = mul(mul(model.case.view, op), transpose(model.basis[end], model.case.dims[end]))
+                need(end == index(e, len(model.states)) and len(echelon(seen)[1]) == len(model.visible[e]), "every-point")
+            else:
+                e, point = fields(item, "state", "point")
+                need(index(e, len(model.states)) in model.reachable, "word")
+                point = check_point(model, e, model.own_view(e), point)
+                need(point.place["at"] == "joint" and point.place["path"] == [], "every-point")
+            need((point.verdict, point.kind) == ("proved", "regular"), "every-point")
+            listed.add((e, point.place["left"], point.place["right"]))
+        need(all((e, *pair) in listed for e in model.reachable for pair in model.joints(e)), "every-point")
+
+
+# ---- spectra ---------------------------------------------------------------------------------------------------------
+
+class Spectra:
+    def __init__(self, text, value):
+        form, version, _, name, verdict, proof = envelope(value)
+        (items,) = fields(proof, "spectra")
+        need(form == "secant certificate" and version == 1 and verdict == "proved", "format")
+        if items and items[0].get("operator") is None:
+            own, places = "matrix", [(None, self.plain(text))]
+        else:
+            case = Case(text)
+            own, places = case.name, [({"state": e, "piece": k}, p[1]) for e, (_, pieces) in enumerate(case.states)
+                                      for k, p in enumerate(pieces) if p[0] == e]
+        need(own == name and len(items) == len(places) > 0, "spectrum")
+        self.case, self.verdict, self.lines = namedtuple("Named", "name")(name), verdict, []
+        for item, (place, matrix) in zip(items, places):
+            operator, factors, modulus, classes = fields(item, "operator", "factors", "modulus", "classes")
+            need(operator == place and (place is None or list(operator) == list(place)), "spectrum")
+            self.spectrum(matrix, factors, modulus, classes)
+
+    @staticmethod
+    def plain(text):
+        words = [w for line in text.splitlines() for w in line.split("#")[0].split()]
+        n, numbers = int(words[0]), [Q(w) for w in words[1:]]
+        need(0 < n <= 256 and len(numbers) == n * n, "matrix")
+        return [numbers[k * n:(k + 1) * n] for k in range(n)]
+
+    def spectrum(self, a, factors, modulus, classes):
+        self.discs, rows, n = [], [], len(a)
+        for item in factors:
+            m, roots, chains = fields(item, "polynomial", "roots", "chains")
+            ring, before = Ring(vector(m), n), len(self.discs)
+            for root in roots:
+                centre, error = fields(root, "centre", "error")
+                (x, y), e = vector(centre, 2), rational(error)
+                need(e >= 0 and (y == 0 or y > e) and root_near(ring.m, (x, y), e), "roots")
+                self.discs.append((x, y, e, ring.m))
+            need(sum(1 + (d[1] > 0) for d in self.discs[before:]) == len(ring.m) - 1, "roots")
+            lengths, chains = [len(c) for c in chains], [ring.chain(a, 1, c, "chains") for c in chains]
+            need(lengths and lengths == sorted(lengths, reverse=True), "chains")
+            for v in (v for c in chains for v in c):
+                rows += transpose([p + [Q(0)] * (len(ring.m) - 1 - len(p)) for p in v])
+            self.lines.append(f"proved: factor of degree {len(ring.m) - 1}, Jordan blocks {lengths}")
+        need(all(self.apart(c, d) for k, c in enumerate(self.discs) for d in self.discs[:k]), "roots")
+        need(len(rows) == n and 2 <= index(modulus, 1 << 31), "chains")
+        den = lcm(*(x.denominator for row in rows for x in row))
+        rows = [[int(x * den) % modulus for x in row] for row in rows]
+        for j in range(n):
+            k = next((k for k in range(j, n) if gcd(rows[k][j], modulus) == 1), None)
+            need(k is not None, "chains")
+            rows[j], rows[k] = rows[k], rows[j]
+            inverse = pow(rows[j][j], -1, modulus)
+            for k in range(j + 1, n):
+                factor = rows[k][j] * inverse
+                rows[k] = [(x - factor * y) % modulus for x, y in zip(rows[k], rows[j])]
+        self.moduli(classes)
+
+    @staticmethod
+    def apart(c, d, slack=0):
+        far = (c[2] + d[2] + slack) ** 2
+        return all((c[0] - d[0]) ** 2 + (c[1] - y) ** 2 > far for y in (d[1], -d[1]))
+
+    def moduli(self, classes):
+        listed, above = [], None
+        for k, item in enumerate(classes):
+            members, square, below = fields(item, "members", "square", "below")
+            need(members, "moduli")
+            listed += [index(m, len(self.discs)) for m in members]
+            last = below is None
+            need(not last or k + 1 == len(classes), "moduli")
+            below = None if last else rational(below)
+            for x, y, e, _ in (self.discs[m] for m in members):
+                need(above is None or (above > e and x * x + y * y < (above - e) ** 2), "moduli")
+                need(last or (below >= 0 and x * x + y * y > (below + e) ** 2), "moduli")
+            if square is None:
+                need(all(self.opposite(members[0], m) for m in members[1:]), "moduli")
+            else:
+                need(all(self.inverted(m, rational(square)) for m in members), "moduli")
+            above = below
+        need(sorted(listed) == list(range(len(self.discs))), "moduli")
+        self.lines.append(f"proved: classes of equal modulus {[len(c['members']) for c in classes]}")
+
+    def others(self, m):
+        return [d for k, d in enumerate(self.discs) if k != m and d[3] is self.discs[m][3]]
+
+    def opposite(self, a, b):
+        x, y, e, p = self.discs[a]
+        reflected = [c * (-1) ** (len(p) - 1 - k) for k, c in enumerate(p)] == self.discs[b][3]
+        return reflected and all(self.apart((-x, y, e), d) for d in self.others(b))
+
+    def inverted(self, m, s):
+        x, y, e, p = self.discs[m]
+        d, least = len(p) - 1, max(abs(x), abs(y)) - e
+        closed = s > 0 and all(p[d - j] * s ** (d - j) == p[0] * p[j] for j in range(d + 1))
+        if not closed or least <= 0:
+            return False
+        moved = (abs(s - x * x - y * y) + 2 * (abs(x) + abs(y)) * e + e * e) / least
+        return all(self.apart((x, y, e), other, moved) for other in self.others(m))
+
+
+# ---- unknown entries -------------------------------------------------------------------------------------------------
+
+class Solved:
+    """A case with unknown entries: an operator is a list of rows whose entries are rationals or numbers of unknowns."""
+
+    def __init__(self, text, value):
+        case = tomllib.loads(text, parse_float=lambda s: Q(s))
+        form, version, _, name, self.verdict, proof = envelope(value)
+        need(form == "secant certificate" and version == 1 and name == case["name"] and "map" not in case, "format")
+        self.case, self.rows, self.names, self.count = namedtuple("Named", "name")(name), case["convention"] == "rows", {}, 0
+        states = case.get("state") or [{"name": "", "piece": [{"to": "", "matrix": m} for m in case["pieces"]]}]
+        need(not any("layout" in s or "reversal" in s for s in states), "case")
+        self.kinds = [s.get("kind", "edge") for s in states]
+        names = [s["name"] for s in states]
+        size = lambda m: len(m[0]) if self.rows else len(m)
+        dims = [s["dimension"] if "dimension" in s else size(s["piece"][0]["matrix"]) for s in states]
+        self.pieces, self.ends = [], []
+        for s, n in zip(states, dims):
+            target = lambda key, of: names.index(of[key])
+            self.pieces.append([(target("to", p), self.operator(p["matrix"], n, dims[target("to", p)]),
+                                 p.get("reversed", False)) for p in s["piece"]])
+            ends = [s.get("left"), s.get("right")]
+            self.ends.append([e and (target("vertex", e), self.inclusion(e["points"], n) if "points" in e else
+                                     self.operator(e["matrix"], n, dims[target("vertex", e)])) for e in ends])
+        self.open = [op for p, e in zip(self.pieces, self.ends) for op in [x[1] for x in p] + [x[1] for x in e if x]
+                     if any(isinstance(x, int) for row in op for x in row)]
+        self.equations = self.write_down()
+        self.judge(*fields(proof, "solutions", "values", "directions", "conflict"))
+
+    @staticmethod
+    def inclusion(points, n):
+        return [[Q(int(p == i)) for p in points] for i in range(n)]
+
+    def operator(self, m, rows, cols):
+        get = (lambda i, j: "?") if m == "?" else (lambda i, j: m[j][i]) if self.rows else (lambda i, j: m[i][j])
+        return [[self.entry(get(i, j)) for j in range(cols)] for i in range(rows)]
+
+    def entry(self, x):
+        if not (isinstance(x, str) and x.startswith("?")):
+            parts = str(x).split("/")
+            return Q(parts[0]) / Q(parts[1] if parts[1:] else 1)
+        if x == "?" or x not in self.names:
+            self.names[x], self.count = self.count, self.count + 1
+        return self.names[x]
+
+    def identities(self):
+        for e, pieces in enumerate(self.pieces):
+            inner = lambda k, finish: self.ends[pieces[k][0]][finish != pieces[k][2]]
+            if self.kinds[e] != "edge":
+                continue
+            for k, finish in ((0, 0), (len(pieces) - 1, 1)):
+                if self.ends[e][finish] and inner(k, finish):
+                    vertex, outer = self.ends[e][finish]
+                    step = self.pieces[vertex][0]
+                    need(step[0] == inner(k, finish)[0], "curve")
+                    yield outer, step[1], pieces[k][1], inner(k, finish)[1]
+            for k in range(1, len(pieces)):
+                if inner(k - 1, 1) and inner(k, 0):
+                    need(inner(k - 1, 1)[0] == inner(k, 0)[0], "curve")
+                    yield pieces[k - 1][1], inner(k - 1, 1)[1], pieces[k][1], inner(k, 0)[1]
+
+    def write_down(self):
+        """For each identity and each open operator its equations: the coefficients of the unknowns, then the right side."""
+        def at(x):
+            value = lambda op: [[x[y] if isinstance(y, int) else y for y in row] for row in op]
+            found = []
+            for a, b, c, d in identities:
+                left, right = mul(value(a), value(b)), mul(value(c), value(d))
+                found.append([y for r, s in zip(left, right) for y in sub(r, s)])
+            return found + [[sum(col) - 1 for col in zip(*value(op))] for op in self.open]
+
+        identities, n = list(self.identities()), self.count
+        for a, b, c, d in identities:
+            need(not any(x in self.open and y in self.open for x, y in ((a, b), (c, d))), "solve")
+        zero = at([Q(0)] * n)
+        units = [at([Q(int(i == k)) for i in range(n)]) for k in range(n)]
+        return [[[u[s][i] - z for u in units] + [-z] for i, z in enumerate(values)] for s, values in enumerate(zero)]
+
+    def ranks(self, chosen):
+        pivots = echelon([row for k in chosen for row in self.equations[k]])[1]
+        return len([p for p in pivots if p < self.count]), len(pivots)
+
+    def judge(self, solutions, values, directions, conflict):
+        n, chosen = self.count, [index(k, len(self.equations)) for k in conflict]
+        contradict = lambda part: len(set(self.ranks(part))) == 2
+        if solutions == "none":
+            need(values is None and directions == [] and chosen == sorted(set(chosen)) and contradict(chosen), "solve")
+            need(not any(contradict([k for k in chosen if k != left_out]) for left_out in chosen), "solve")
+        else:
+            need(solutions == ("family" if directions else "one") and not chosen, "solve")
+            point, along = vector(values, n), [vector(d, n) for d in directions]
+            everything = self.ranks(range(len(self.equations)))
+            need(everything == (n - len(along),) * 2 and len(echelon(along)[1]) == len(along), "solve")
+            for row in (row for source in self.equations for row in source):
+                dot = lambda v: sum(x * y for x, y in zip(row, v))
+                need(dot(point) == row[-1] and not any(map(dot, along)), "solve")
+        need(self.verdict == ("refuted" if solutions == "none" else "proved"), "verdict")
+        self.lines = [f"{self.verdict}: {n} unknowns, {solutions}, {len(directions)} parameters"]
+
+
 def check(case_text, certificate_text):
     refuse = lambda text: need(False, "format")
     value = json.loads(certificate_text, object_pairs_hook=no_duplicates, parse_float=refuse, parse_constant=refuse)
-    return Certificate(Case(case_text), value)
+    kind = value.get("kind") if isinstance(value, dict) else None
+    others = {"spectrum": Spectra, "solve": Solved}
+    return others[kind](case_text, value) if kind in others else Certificate(Case(case_text), value)
 
 
 def main(arguments):

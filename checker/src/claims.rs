@@ -4,11 +4,11 @@ use crate::case::Case;
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::points::{Place, Point, joints};
+use crate::points::{Place, Point, complete};
 use crate::ring::Model;
 use crate::shape::{Address, End, Kind};
 use crate::spectrum::positive_definite;
-use crate::{Accepted, Rejected, Verdict, at, need, reject};
+use crate::{Accepted, Checked, Verdict, at, need, reject};
 use num_traits::Signed;
 
 /// What a case asks.
@@ -41,7 +41,7 @@ fn questions(case: &Case) -> Vec<Question> {
 }
 
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
-fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Result<Question, Rejected> {
+fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     if item.tag("question")? == "any point" && last {
         return Ok(Question::AnyPoint);
     }
@@ -52,14 +52,16 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Resu
     let address = crate::rules::read_address(&of)?;
     let normal = address.normalise(&case.shape, case.shape.start);
     let question = Question::Address(address.clone());
-    if normal.as_ref() != Some(&address) || asked.contains(&question) {
-        return reject("answers", &of.place, "the address is not in its normal form, or was asked for before");
-    }
+    of.refuse(
+        normal.as_ref() != Some(&address) || asked.contains(&question),
+        "answers",
+        "the address is not in its normal form, or was asked for before",
+    )?;
     Ok(question)
 }
 
 /// Checks the proof of a certificate of the kind `certify`.
-pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
+pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, points, answers] = node.fields(["contraction", "points", "answers"])?;
     let model = Model::read(&case.shape, &contraction)?;
     at(&contraction.place, case.shape.check_curves(&model.reachable))?;
@@ -67,9 +69,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
     let mut checked = Vec::new();
     for item in points.list()? {
         let point = Point::check(&model, &root, &item)?;
-        if checked.iter().any(|p: &Point| p.place == point.place) {
-            return reject("points", &item.place, "the same point twice");
-        }
+        item.refuse(checked.iter().any(|p: &Point| p.place == point.place), "points", "the same point twice")?;
         checked.push(point);
     }
     let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], lines: Vec::new() };
@@ -106,7 +106,7 @@ struct Claims<'a> {
 
 impl Claims<'_> {
     /// Checks the answer to a question.
-    fn answer(&mut self, node: &Node<'_>, question: &Question) -> Result<Verdict, Rejected> {
+    fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
         let (what, verdict, found) = match question {
             Question::Ends => {
                 let [what, verdict, points] = node.fields(["question", "verdict", "points"])?;
@@ -117,9 +117,11 @@ impl Claims<'_> {
             }
             Question::Address(address) => {
                 let [what, of, verdict, points] = node.fields(["question", "address", "verdict", "points"])?;
-                if crate::rules::read_address(&of)? != *address {
-                    return reject("answers", &of.place, "the case asks for another address here");
-                }
+                of.refuse(
+                    crate::rules::read_address(&of)? != *address,
+                    "answers",
+                    "the case asks for another address here",
+                )?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
                 let text = format!("a tangent line at the address {:?} ({:?})", address.prefix, address.cycle);
                 self.lines.push(format!("{}: the shape has {text}", found.word()));
@@ -137,8 +139,7 @@ impl Claims<'_> {
                     self.used[k] = true;
                 }
                 self.lines.push(format!("{}: {}", found.verdict.word(), found.claim));
-                let verdict = Node { value: node.field("verdict")?, place: format!("{}.verdict", node.place) };
-                (node.tag("question")? == "every point", verdict, found.verdict)
+                (node.tag("question")? == "every point", node.field("verdict")?, found.verdict)
             }
             Question::AnyPoint => {
                 let [what, verdict, products] = node.fields(["question", "verdict", "products"])?;
@@ -158,22 +159,22 @@ impl Claims<'_> {
     }
 
     /// The points with the indices given.
-    fn select(&mut self, node: &Node<'_>) -> Result<Vec<usize>, Rejected> {
+    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<usize>> {
         let items = node.list()?;
-        let indices = items.iter().map(|n| n.index(self.points.len())).collect::<Result<Vec<_>, _>>()?;
-        if indices.windows(2).any(|w| w[0] >= w[1]) {
-            return reject("answers", &node.place, "indices must ascend");
-        }
+        let indices = items.iter().map(|n| n.index(self.points.len())).collect::<Checked<Vec<_>>>()?;
+        node.refuse(indices.windows(2).any(|w| w[0] >= w[1]), "answers", "indices must ascend")?;
         indices.iter().for_each(|&k| self.used[k] = true);
         Ok(indices)
     }
 
     /// The verdict on "all these places have a tangent line" from some of them.
-    fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Result<Verdict, Rejected> {
+    fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Checked<Verdict> {
         let chosen = self.select(node)?;
-        if chosen.iter().any(|&k| !places.contains(&self.points[k].place)) {
-            return reject("answers", &node.place, "a point that is not asked for");
-        }
+        node.refuse(
+            chosen.iter().any(|&k| !places.contains(&self.points[k].place)),
+            "answers",
+            "a point that is not asked for",
+        )?;
         let together = chosen.iter().map(|&k| self.points[k].verdict).reduce(Verdict::and);
         Ok(match together {
             Some(Verdict::Proved) if chosen.len() < places.len() => Verdict::Undetermined,
@@ -183,21 +184,15 @@ impl Claims<'_> {
     }
 
     /// The joints: refuted by one of them; proved by Theorem 5 or 5′.
-    fn joints(&mut self, theorem: &Node<'_>, points: &Node<'_>, upstairs: &Node<'_>) -> Result<Verdict, Rejected> {
+    fn joints(&mut self, theorem: &Node<'_>, points: &Node<'_>, upstairs: &Node<'_>) -> Checked<Verdict> {
         let chosen = self.select(points)?;
         let theorem_name = theorem.text()?;
         let items = upstairs.list()?;
-        if !items.is_empty() && theorem_name != "5'" {
-            return reject("joints", &upstairs.place, "only Theorem 5' uses joints upstairs");
-        }
-        let mut listed = Vec::new();
-        for &k in &chosen {
-            let Place::Joint { path, left, right } = &self.points[k].place else {
-                return reject("joints", &points.place, format!("point {k} is no joint"));
-            };
-            let state = self.model.shape.path(self.model.shape.start, path).and_then(|p| p.last().copied());
-            listed.push((state.unwrap_or(0), *left, *right));
-        }
+        upstairs.refuse(!items.is_empty() && theorem_name != "5'", "joints", "only Theorem 5' uses joints upstairs")?;
+        let place = |&k: &usize| self.points[k].joint(self.model, self.model.shape.start);
+        let Some(listed) = chosen.iter().map(place).collect::<Option<Vec<_>>>() else {
+            return reject("joints", &points.place, "a point that is no joint");
+        };
         let mut verdict = chosen.iter().map(|&k| self.points[k].verdict).reduce(Verdict::and);
         let text = match (theorem_name, verdict) {
             ("none", Some(Verdict::Refuted)) => "every joint of every level",
@@ -206,7 +201,8 @@ impl Claims<'_> {
                 "every joint of every level"
             }
             ("5" | "5'", Some(Verdict::Proved)) => {
-                self.complete(&listed, points)?;
+                complete(self.model, &listed, points, "joints")?;
+                points.need(!listed.is_empty(), "joints", "there is no joint")?;
                 at(&theorem.place, self.injective(theorem_name == "5"))?;
                 if theorem_name == "5" {
                     "every joint of every level, a dense set"
@@ -228,21 +224,8 @@ impl Claims<'_> {
         Ok(verdict)
     }
 
-    /// All first-level joints of all reachable states are listed, and there is one.
-    fn complete(&self, listed: &[(usize, usize, usize)], node: &Node<'_>) -> Result<(), Rejected> {
-        for &e in &self.model.reachable {
-            for (left, right) in joints(self.model, e) {
-                if !listed.contains(&(e, left, right)) {
-                    let why = format!("the joint of the pieces {left} and {right} of state {e} is missing");
-                    return reject("joints", &node.place, why);
-                }
-            }
-        }
-        if listed.is_empty() { reject("joints", &node.place, "there is no joint") } else { Ok(()) }
-    }
-
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
-    fn injective(&self, with_view: bool) -> Result<(), Rejected> {
+    fn injective(&self, with_view: bool) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         for &e in &self.model.reachable {
             for piece in &shape.states[e].pieces {
@@ -258,7 +241,7 @@ impl Claims<'_> {
     }
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
-    fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Result<(), Rejected> {
+    fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         let mut listed = Vec::new();
         let mut spans = vec![Matrix::empty(0); shape.states.len()];
@@ -266,23 +249,16 @@ impl Claims<'_> {
             spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
         }
         for item in items {
-            let [state, point] = item.fields(["state", "point"])?;
-            let e = state.index(shape.states.len())?;
-            let space = at(&state.place, spaces.of(e))?;
-            let root = Root { state: e, view: space.visible.times(&space.reading)? };
-            let point = Point::check(self.model, &root, &point)?;
-            let Place::Joint { path, left, right } = &point.place else {
-                return reject("joints", &item.place, "a joint is needed here");
-            };
-            if !path.is_empty() || point.verdict != Verdict::Proved || listed.contains(&(e, *left, *right)) {
-                return reject("joints", &item.place, "each first-level joint is proved once, in its own state");
-            }
-            listed.push((e, *left, *right));
+            let (e, point) = Point::in_own_state(self.model, item, "joints")?;
+            let joint = point.joint(self.model, e).filter(|j| !listed.contains(j));
+            let new = point.verdict == Verdict::Proved && joint.is_some();
+            item.need(new, "joints", "each first-level joint is proved once, in its own state")?;
+            listed.extend(joint);
             if let Some(vector) = point.common {
                 spans[e] = spans[e].stack(&vector.transpose()).echelon()?.0;
             }
         }
-        self.complete(&listed, node)?;
+        complete(self.model, &listed, node, "joints")?;
         let images = |span: &Matrix, e: usize, k: usize| {
             span.times(&spaces.on_visible(e, &shape.states[e].pieces[k])?.transpose())
         };
@@ -297,25 +273,27 @@ impl Claims<'_> {
                 break;
             }
         }
-        if self.model.reachable.iter().any(|&e| spans[e].rows < spans[e].cols) {
-            return reject("joints", &node.place, "the tangent lines are not seen to span the visible quotients");
-        }
+        node.refuse(
+            self.model.reachable.iter().any(|&e| spans[e].rows < spans[e].cols),
+            "joints",
+            "the tangent lines are not seen to span the visible quotients",
+        )?;
         Ok(())
     }
 
     /// All maps are similarities for some scalar products on the relevant spaces, of dimension at least 2.
-    fn similarities(&self, node: &Node<'_>) -> Result<(), Rejected> {
+    fn similarities(&self, node: &Node<'_>) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         let items = node.list()?;
-        if items.len() != self.model.reachable.len() {
-            return reject("similarities", &node.place, "one scalar product for each reachable state is needed");
-        }
+        node.refuse(
+            items.len() != self.model.reachable.len(),
+            "similarities",
+            "one scalar product for each reachable state is needed",
+        )?;
         let mut products: Vec<Matrix> = (0..shape.states.len()).map(|_| Matrix::identity(0)).collect();
         for (item, &e) in items.iter().zip(&self.model.reachable) {
             let n = spaces.of(e)?.basis.cols;
-            if n < 2 {
-                return reject("similarities", &item.place, "the relevant space has fewer than 2 dimensions");
-            }
+            item.refuse(n < 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
             products[e] = positive_definite(item, n)?;
         }
         for &e in &self.model.reachable {

@@ -1,16 +1,15 @@
 //! Every point of a curve: invariant cones (Theorems 6 and 6′), joints at which the half-tangents agree, or a point that has
 //! no tangent that turns continuously.
 
-use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
 use crate::number::whole;
-use crate::points::{Place, Point, joints};
+use crate::points::{Place, Point, complete, joints};
 use crate::rate::Bounds;
 use crate::ring::Model;
+use crate::rules::Leading;
 use crate::shape::{End, Kind};
-use crate::spectrum::{Top, residual};
-use crate::{Rejected, Verdict, at, reject};
+use crate::{Checked, Verdict, at, reject};
 use num_traits::{Signed, Zero};
 
 /// Longest window, and most words of one window without a positive factor.
@@ -39,7 +38,7 @@ struct Cones<'a> {
 }
 
 /// Checks `{"question": "every point", …}`.
-pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Answer, Rejected> {
+pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<Answer> {
     let [_, _, cones, maps, view, window, slow, rate, together, witness] =
         node.fields(["question", "verdict", "cones", "maps", "view", "window", "slow", "rate", "joints", "witness"])?;
     let start = &model.shape.states[model.shape.start];
@@ -48,9 +47,11 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Ans
     let named = |verdict, claim: &str| Ok(Answer { verdict, witness, claim: claim.to_owned() });
     if cones.list()?.is_empty() {
         let empty = [&maps, &slow, &together].into_iter().all(|n| n.list().is_ok_and(|l| l.is_empty()));
-        if !empty || !view.is_null() || !rate.is_null() || window.index(1)? != 0 || witness.is_none() {
-            return reject("every-point", &node.place, "without cones only a point can refute");
-        }
+        node.refuse(
+            !empty || !view.is_null() || !rate.is_null() || window.index(1)? != 0 || witness.is_none(),
+            "every-point",
+            "without cones only a point can refute",
+        )?;
         return named(Verdict::Refuted, "the curve is G¹");
     }
     let found = at(&cones.place, Cones::read(model, &cones, &maps))?;
@@ -77,7 +78,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Ans
 }
 
 /// The index of a point at which the tangent does not exist or does not turn continuously.
-fn refuting(points: &[Point], node: &Node<'_>) -> Result<Option<usize>, Rejected> {
+fn refuting(points: &[Point], node: &Node<'_>) -> Checked<Option<usize>> {
     let items = node.list()?;
     let [item] = &items[..] else {
         return if items.is_empty() { Ok(None) } else { node.malformed("at most one point is needed here") };
@@ -89,72 +90,54 @@ fn refuting(points: &[Point], node: &Node<'_>) -> Result<Option<usize>, Rejected
 
 /// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state, or as a listed
 /// point through a map that is injective on that quotient.
-fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<(), Rejected> {
-    let mut listed = Vec::new();
+fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<()> {
+    let (mut listed, start) = (Vec::new(), model.shape.start);
     for item in node.list()? {
         let own;
-        let (point, e) = if item.field("listed").is_ok() {
+        let (point, root) = if item.get("listed").is_some() {
             let [state, index] = item.fields(["state", "listed"])?;
-            let (e, k) = (state.index(model.shape.states.len())?, index.index(points.len())?);
-            at(&item.place, injective(model, &points[k], e))?;
-            (&points[k], e)
-        } else {
-            let [state, point] = item.fields(["state", "point"])?;
+            let point = &points[index.index(points.len())?];
             let e = state.index(model.shape.states.len())?;
-            let space = at(&state.place, model.spaces.of(e))?;
-            let root = Root { state: e, view: space.visible.times(&space.reading)? };
-            own = Point::check(model, &root, &point)?;
-            if !matches!(&own.place, Place::Joint { path, .. } if path.is_empty()) {
-                return reject("every-point", &item.place, "a first-level joint is needed here");
-            }
+            let sees = injective(model, point, e)?;
+            item.need(sees, "every-point", "the joint of another state, or directions are lost where it is looked at")?;
+            (point, start)
+        } else {
+            let (e, point) = Point::in_own_state(model, &item, "every-point")?;
+            own = point;
             (&own, e)
         };
-        let Place::Joint { left, right, .. } = &point.place else {
-            return reject("every-point", &item.place, "a joint is needed here");
-        };
-        if point.verdict != Verdict::Proved || point.kind != "regular" {
-            return reject("every-point", &item.place, "the joint must be regular");
-        }
-        listed.push((e, *left, *right));
+        let regular = point.verdict == Verdict::Proved && point.kind == "regular";
+        item.need(regular, "every-point", "the joint must be regular")?;
+        listed.extend(point.joint(model, root));
     }
-    for &e in &model.reachable {
-        for (left, right) in joints(model, e) {
-            if !listed.contains(&(e, left, right)) {
-                let why = format!("the joint of the pieces {left} and {right} of state {e} is missing");
-                return reject("every-point", &node.place, why);
-            }
-        }
-    }
-    Ok(())
+    complete(model, &listed, node, "every-point")
 }
 
-/// The point is a joint of the state, and the map along its path to where it is looked at is injective on the quotient.
-fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<(), Rejected> {
-    let shape = model.shape;
-    let Place::Joint { path, .. } = &point.place else { return reject("every-point", "", "a joint is needed here") };
-    let (op, end) = shape.product(shape.start, path)?;
+/// Whether a point is a joint of a state, and the map along its path to where it is looked at is injective on the quotient.
+fn injective(model: &Model<'_>, point: &Point, e: usize) -> Checked<bool> {
+    let Place::Joint { path, .. } = &point.place else { return Ok(false) };
+    let (op, end) = model.shape.product(model.shape.start, path)?;
     let space = model.spaces.of(e)?;
-    let seen = shape.view.times(&op)?.times(&space.basis)?;
-    if end != e || seen.rank()? != space.visible.rows {
-        return reject("every-point", "", "the joint of another state, or directions are lost where it is looked at");
-    }
-    Ok(())
+    let seen = model.shape.view.times(&op)?;
+    Ok(end == e && seen.times(&space.basis)?.rank()? == space.visible.rows)
 }
 
 /// Reads a matrix of the given size, by rows.
-fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Result<Matrix, Rejected> {
+fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Checked<Matrix> {
     let found = node.matrix(cols)?;
     if found.rows == rows { Ok(found) } else { node.malformed(&format!("{rows} rows are needed here")) }
 }
 
 impl<'a> Cones<'a> {
     /// The cones are pointed, span the relevant spaces, hold the chords, and are mapped into each other.
-    fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Result<Self, Rejected> {
+    fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
         let shape = model.shape;
         let (own, images) = (cones.list()?, maps.list()?);
-        if own.len() != model.reachable.len() || images.len() != own.len() {
-            return reject("cone", &cones.place, "one cone for each reachable state is needed, breadth first");
-        }
+        cones.refuse(
+            own.len() != model.reachable.len() || images.len() != own.len(),
+            "cone",
+            "one cone for each reachable state is needed, breadth first",
+        )?;
         let mut rays: Vec<Matrix> = shape.states.iter().map(|s| Matrix::empty(s.dim)).collect();
         for (item, &e) in own.iter().zip(&model.reachable) {
             rays[e] = at(&item.place, Self::cone(model, e, item))?;
@@ -168,32 +151,36 @@ impl<'a> Cones<'a> {
             for (item, piece) in items.iter().zip(&shape.states[e].pieces) {
                 let b = matrix(item, rays[e].rows, rays[piece.target].rows)?;
                 let zero = (0..b.cols).any(|j| b.columns(&[j]).is_zero());
-                if zero || b.data.iter().any(Signed::is_negative) {
-                    return reject("cone", &item.place, "coefficients are not negative, and no column is 0");
-                }
+                item.refuse(
+                    zero || b.data.iter().any(Signed::is_negative),
+                    "cone",
+                    "coefficients are not negative, and no column is 0",
+                )?;
                 let turned = whole(if piece.reversed { -1 } else { 1 });
                 let image = piece.op.times(&rays[piece.target].transpose())?;
                 let combined = rays[e].transpose().times(&b)?;
-                if image != combined.scaled(&turned) {
-                    return reject("cone", &item.place, "the images of the rays are other vectors");
-                }
+                item.refuse(image != combined.scaled(&turned), "cone", "the images of the rays are other vectors")?;
                 all[e].push(b);
             }
         }
         Ok(Self { model, rays, maps: all })
     }
 
-    fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Result<Matrix, Rejected> {
+    fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Checked<Matrix> {
         let [rays, functional, chord] = node.fields(["rays", "functional", "chord"])?;
         let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
-        if state.kind != Kind::Edge || space.basis.cols == 0 {
-            return reject("cone", &node.place, "only curves that are more than a point have cones");
-        }
+        node.refuse(
+            state.kind != Kind::Edge || space.basis.cols == 0,
+            "cone",
+            "only curves that are more than a point have cones",
+        )?;
         let rows = matrix(&rays, rays.list()?.len(), state.dim)?;
         let coordinates = space.reading.times(&rows.transpose())?;
-        if space.basis.times(&coordinates)? != rows.transpose() || rows.rank()? != space.basis.cols {
-            return reject("cone", &rays.place, "the rays do not span the relevant space");
-        }
+        rays.refuse(
+            space.basis.times(&coordinates)? != rows.transpose() || rows.rank()? != space.basis.cols,
+            "cone",
+            "the rays do not span the relevant space",
+        )?;
         let values = rows.times(&Matrix::new(state.dim, 1, &functional.vector(state.dim)?))?;
         if let Some(k) = values.data.iter().position(|x| !x.is_positive()) {
             return reject("cone", &functional.place, format!("the functional is not positive on ray {k}"));
@@ -201,14 +188,16 @@ impl<'a> Cones<'a> {
         let y = Matrix::new(rows.rows, 1, &chord.vector(rows.rows)?);
         let end = |end: End| model.shape.end_point(e, end);
         let difference = end(End::Finish)?.minus(&end(End::Start)?);
-        if y.is_zero() || y.data.iter().any(Signed::is_negative) || rows.transpose().times(&y)? != difference {
-            return reject("cone", &chord.place, "the chord is no such combination of the rays");
-        }
+        chord.refuse(
+            y.is_zero() || y.data.iter().any(Signed::is_negative) || rows.transpose().times(&y)? != difference,
+            "cone",
+            "the chord is no such combination of the rays",
+        )?;
         Ok(rows)
     }
 
     /// Whether a functional is given that is positive on the cone of the start as it is looked at.
-    fn seen(&self, cones: &Node<'_>, view: &Node<'_>) -> Result<bool, Rejected> {
+    fn seen(&self, cones: &Node<'_>, view: &Node<'_>) -> Checked<bool> {
         if view.is_null() {
             return Ok(false);
         }
@@ -222,7 +211,7 @@ impl<'a> Cones<'a> {
     }
 
     /// All words of `length` letters whose factors have no positive product, by state and then by letters, with the state.
-    fn idle_words(&self, length: usize) -> Result<Vec<(usize, Vec<usize>)>, Rejected> {
+    fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
         let shape = self.model.shape;
         let mut words: Vec<(usize, usize, Vec<usize>)> = self.model.reachable.iter().map(|&e| (e, e, vec![])).collect();
         for _ in 0..length {
@@ -244,7 +233,7 @@ impl<'a> Cones<'a> {
     }
 
     /// Whether no end of a word has a positive product.
-    fn idle(&self, from: usize, word: &[usize]) -> Result<bool, Rejected> {
+    fn idle(&self, from: usize, word: &[usize]) -> Checked<bool> {
         let states = self.model.shape.path(from, word).unwrap_or_default();
         let mut product: Option<Matrix> = None;
         for (&e, &letter) in states.iter().zip(word).rev() {
@@ -262,10 +251,8 @@ impl<'a> Cones<'a> {
     }
 
     /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
-    fn shrink(&self, window: usize, slow: &Node<'_>) -> Result<(), Rejected> {
-        if window == 0 {
-            return reject("slow", &slow.place, "the window must be positive");
-        }
+    fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
+        slow.refuse(window == 0, "slow", "the window must be positive")?;
         let cycles = self.idle_cycles(&self.idle_words(window)?)?;
         let items = slow.list()?;
         if items.len() != cycles.len() {
@@ -278,7 +265,7 @@ impl<'a> Cones<'a> {
     }
 
     /// The cycles of the graph of overlapping words, which must not meet; each from its first word on.
-    fn idle_cycles(&self, words: &[(usize, Vec<usize>)]) -> Result<Vec<(usize, Vec<usize>)>, Rejected> {
+    fn idle_cycles(&self, words: &[(usize, Vec<usize>)]) -> Checked<Vec<(usize, Vec<usize>)>> {
         let shape = self.model.shape;
         let n = words.len();
         let follows = |(e, a): &(usize, Vec<usize>), (f, b): &(usize, Vec<usize>)| {
@@ -315,40 +302,22 @@ impl<'a> Cones<'a> {
 
     /// The cycle has one positive leading eigenvalue with one longest chain; each ray has a positive leading coefficient, or
     /// is the ray to which the others are pulled.
-    fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Result<(), Rejected> {
+    fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Checked<()> {
         let [state, letters, top, functional] = node.fields(["state", "word", "top", "functional"])?;
-        if state.index(usize::MAX)? != e || letters.word()? != word {
-            return reject("slow", &node.place, format!("the cycle {word:?} of state {e} is expected here"));
-        }
+        node.refuse(
+            state.index(usize::MAX)? != e || letters.word()? != word,
+            "slow",
+            format!("the cycle {word:?} of state {e} is expected here"),
+        )?;
         let model = self.model;
         let (product, _) = model.shape.product(e, word)?;
         let turn = whole(i64::from(model.shape.orientation(e, word)));
         let linear = model.spaces.linear(&product, e, e)?.scaled(&turn);
-        let Top::Real { field, chains } = Top::read(&top, &linear)? else {
-            return reject("slow", &top.place, "a real top is needed here");
-        };
-        let length = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
-        let longest: Vec<_> = chains.iter().filter(|c| c.vectors.len() == length).collect();
-        let [chain] = longest[..] else {
-            return reject("slow", &top.place, "exactly one longest chain is needed here");
-        };
-        if chain.sign * field.interval.sign() <= 0 {
-            return reject("slow", &top.place, "the leading eigenvalue must be positive");
-        }
-        let row = field.vector(&functional, linear.rows)?;
-        if !residual(&field.by_root, &linear.transpose(), chain.sign, &row)?.is_zero() {
-            return reject("slow", &functional.place, "the row is no left eigenvector");
-        }
-        for other in &chains {
-            let pairing = field.dot(&row, &other.vectors[other.vectors.len() - 1])?;
-            if !std::ptr::eq(other, chain) && !pairing.is_zero() {
-                return reject("slow", &functional.place, "the row sees a shorter chain");
-            }
-        }
-        let pairing = field.sign(&field.dot(&row, &chain.vectors[length - 1])?)?;
-        if pairing == 0 {
-            return reject("slow", &functional.place, "the row is not seen to be nonzero");
-        }
+        let top_node = top;
+        let top = Leading::read(&top_node, &linear)?;
+        top_node.refuse(top.eigenvalue_sign() <= 0, "slow", "the leading eigenvalue must be positive")?;
+        let (row, pairing) = top.row(&linear, &functional)?;
+        let (field, v) = (&top.field, &top.vectors()[0]);
         let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
         for k in 0..rays.rows {
             let ray = rays.row(k);
@@ -356,7 +325,7 @@ impl<'a> Cones<'a> {
                 continue;
             }
             // The others tend to `pairing · v_1`; this one must be a positive multiple of it.
-            let (v, ray) = (&chain.vectors[0], ray.entries());
+            let ray = ray.entries();
             let parallel = |i: usize| (0..i).all(|j| v.row(j).scaled(&ray[i]) == v.row(i).scaled(&ray[j]));
             if !(0..ray.len()).all(parallel) {
                 let why = format!("the leading coefficient of ray {k} is not positive");
@@ -365,19 +334,17 @@ impl<'a> Cones<'a> {
             let values = field.enclose(v)?;
             let along = (0..ray.len()).map(|i| values.sign(i) * if ray[i].is_negative() { -1 } else { 1 });
             let along = along.zip(&ray).find(|(s, x)| *s != 0 && !x.is_zero()).map_or(0, |(s, _)| s);
-            if along != pairing {
-                return reject(
-                    "slow",
-                    &functional.place,
-                    format!("ray {k} is not the one to which the others are pulled"),
-                );
-            }
+            functional.refuse(
+                along != pairing,
+                "slow",
+                format!("ray {k} is not the one to which the others are pulled"),
+            )?;
         }
         Ok(())
     }
 
     /// Products of `length` letters have cross-ratios of at most `cross_ratio`; says what follows.
-    fn rate(&self, node: &Node<'_>) -> Result<String, Rejected> {
+    fn rate(&self, node: &Node<'_>) -> Checked<String> {
         if node.is_null() {
             return Ok(String::new());
         }

@@ -3,10 +3,11 @@
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
+use crate::poly::{Field, MAX_DEGREE};
 use crate::ring::Model;
 use crate::rules::{self, Found, Line};
 use crate::shape::{Address, End, Kind};
-use crate::{Rejected, Verdict, at, reject};
+use crate::{Checked, Verdict, at, need, reject};
 
 /// Where a point sits.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -50,7 +51,7 @@ pub struct Point {
 
 impl Place {
     /// Reads a place.
-    pub fn read(node: &Node<'_>) -> Result<Self, Rejected> {
+    pub fn read(node: &Node<'_>) -> Checked<Self> {
         Ok(match node.tag("at")? {
             "left end" => {
                 node.fields(["at"])?;
@@ -78,7 +79,7 @@ impl Place {
     }
 
     /// The branches of the point: for a curve through the outermost pieces that are more than a point.
-    fn branches(&self, model: &Model<'_>, root: &Root) -> Result<Vec<(Side, Address)>, Rejected> {
+    fn branches(&self, model: &Model<'_>, root: &Root) -> Checked<Vec<(Side, Address)>> {
         match self {
             Self::End(end) => {
                 let side = if *end == End::Start { Side::Right } else { Side::Left };
@@ -99,12 +100,17 @@ impl Place {
                 let (first, second) = if forward { (before, after) } else { (after, before) };
                 Ok(vec![(Side::Left, first), (Side::Right, second)])
             }
-            Self::Inside(address) | Self::OfSet(address) => Ok(vec![(Side::Both, address.clone())]),
+            Self::Inside(address) | Self::OfSet(address) => {
+                let normal = address.normalise(model.shape, root.state).as_ref() == Some(address);
+                let here = normal && root.state == model.shape.start && Self::of_address(model, address)? == *self;
+                need(here, "place", "the address is not in its normal form, or that of another kind of point")?;
+                Ok(vec![(Side::Both, address.clone())])
+            }
         }
     }
 
     /// The place of the point with a normalised address: an end, a joint, a point inside, or a point of a set.
-    pub fn of_address(model: &Model<'_>, address: &Address) -> Result<Self, Rejected> {
+    pub fn of_address(model: &Model<'_>, address: &Address) -> Checked<Self> {
         let shape = model.shape;
         let unknown = || reject("word", "", "a letter of an address does not exist");
         let Some(states) = shape.path(shape.start, &address.prefix) else { return unknown() };
@@ -145,7 +151,18 @@ pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
     solid.windows(2).map(|w| (w[0], w[1])).collect()
 }
 
-fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Result<Address, Rejected> {
+/// Whether all first-level joints of all reachable states are among these (state and two pieces).
+pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
+    for &e in &model.reachable {
+        for (left, right) in joints(model, e) {
+            let why = || format!("the joint of the pieces {left} and {right} of state {e} is missing");
+            node.need(listed.contains(&(e, left, right)), rule, &why())?;
+        }
+    }
+    Ok(())
+}
+
+fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
     let skip = |e: usize, letter: usize| model.spaces.is_point(e, letter);
     match model.shape.end_address(state, end, &skip) {
         Some(address) => Ok(Address { prefix: [path, &address.prefix].concat(), ..address }),
@@ -169,16 +186,29 @@ fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> bool {
 }
 
 impl Point {
+    /// The state and the two pieces of a joint.
+    pub fn joint(&self, model: &Model<'_>, root: usize) -> Option<(usize, usize, usize)> {
+        let Place::Joint { path, left, right } = &self.place else { return None };
+        Some((*model.shape.path(root, path)?.last()?, *left, *right))
+    }
+
+    /// Reads `{"state", "point"}`: a first-level joint, seen in the visible quotient of its own state, which is returned.
+    pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Checked<(usize, Self)> {
+        let [state, point] = node.fields(["state", "point"])?;
+        let e = state.index(model.shape.states.len())?;
+        let space = at(&state.place, model.spaces.of(e))?;
+        let point = Self::check(model, &Root { state: e, view: space.visible.times(&space.reading)? }, &point)?;
+        let first = matches!(&point.place, Place::Joint { path, .. } if path.is_empty());
+        node.need(first, rule, "a first-level joint is needed here")?;
+        Ok((e, point))
+    }
+
     /// Reads a point and checks what its certificate says.
-    pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Result<Self, Rejected> {
+    pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Checked<Self> {
         let [place_node, verdict, kind, rule, common, branches] =
             node.fields(["place", "verdict", "kind", "rule", "common", "branches"])?;
         let place = Place::read(&place_node)?;
         let addresses = at(&place_node.place, place.branches(model, root))?;
-        let common = match common.value {
-            crate::json::Json::Null => None,
-            _ => Some(Matrix::new(root.view.rows, 1, &common.vector(root.view.rows)?)),
-        };
         let items = branches.list()?;
         if items.len() != addresses.len() {
             return reject("point", &branches.place, format!("the point has {} branches", addresses.len()));
@@ -191,13 +221,11 @@ impl Point {
             };
             found.push((*side, result));
         }
-        let point = at(&node.place, conclude(place, rule.text()?, common, &found))?;
+        let point = at(&node.place, conclude(place, rule.text()?, &common, root.view.rows, &found))?;
         if verdict.text()? != point.verdict.word() {
             return reject("point", &verdict.place, format!("what follows is \"{}\"", point.verdict.word()));
         }
-        if kind.text()? != point.kind {
-            return reject("point", &kind.place, format!("the kind is \"{}\"", point.kind));
-        }
+        kind.refuse(kind.text()? != point.kind, "point", format!("the kind is \"{}\"", point.kind))?;
         Ok(point)
     }
 }
@@ -207,11 +235,11 @@ impl Point {
 fn conclude(
     place: Place,
     rule: &str,
-    common: Option<Matrix>,
+    common: &Node<'_>,
+    dimension: usize,
     found: &[(Side, Option<Found>)],
-) -> Result<Point, Rejected> {
-    let mut lines: Vec<(Side, &Line)> = Vec::new();
-    let (mut planes, mut directions) = (0, Vec::new());
+) -> Checked<Point> {
+    let (mut lines, mut directions, mut planes): (Vec<(Side, &Line)>, Vec<&Line>, _) = (Vec::new(), Vec::new(), 0);
     for (side, result) in found {
         match result {
             Some(Found::Line(line)) => lines.push((*side, line)),
@@ -220,46 +248,27 @@ fn conclude(
             None => {}
         }
     }
-    if rule == "plane" {
-        if planes != 1 || !lines.is_empty() || !directions.is_empty() || common.is_some() {
-            return reject("plane", "", "one branch with a plane, and nothing else, is needed");
+    let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
+    match rule {
+        "plane" => {
+            let alone = planes == 1 && lines.is_empty() && directions.is_empty() && common.is_null();
+            need(alone, "plane", "one branch with a plane, and nothing else, is needed")?;
+            refuted(place, "none")
         }
-        return Ok(Point { place, verdict: Verdict::Refuted, kind: "none", common: None });
-    }
-    if rule == "differ" {
-        let contained: Vec<&Line> = lines.iter().map(|(_, line)| *line).chain(directions).collect();
-        let ([a, b], true) = (&contained[..], common.is_none() && found.len() == 2) else {
-            return reject("differ", "", "two branches with a line each, and nothing else, are needed");
-        };
-        if !a.differs(b) {
-            return reject("differ", "", "the two lines are not seen to be different");
-        }
-        let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
-        return Ok(Point {
-            place,
-            verdict: Verdict::Refuted,
-            kind: if corner { "corner" } else { "none" },
-            common: None,
-        });
-    }
-    if lines.len() != found.len() {
-        return reject("point", "", "every branch needs a proved line");
-    }
-    match (rule, &lines[..]) {
-        ("line", [(first_side, first), rest @ ..]) => {
-            let (mut left, mut right) = (Vec::new(), Vec::new());
-            let base = match &common {
-                Some(vector) => first.along(vector)?,
-                None => Some(1),
+        "differ" => {
+            let contained: Vec<&Line> = lines.iter().map(|(_, line)| *line).chain(directions).collect();
+            let ([a, b], true) = (&contained[..], common.is_null() && found.len() == 2) else {
+                return reject("differ", "", "two branches with a line each, and nothing else, are needed");
             };
-            let Some(base) = base else { return reject("line", "", "the common vector is not on the line") };
-            add_rays(*first_side, first, base, &mut left, &mut right);
-            for (side, line) in rest {
-                let relation = match &common {
-                    Some(vector) => line.along(vector)?,
-                    None => line.agrees(first)?,
-                };
-                let Some(relation) = relation else { return reject("line", "", "the lines are not seen to agree") };
+            need(a.differs(b), "differ", "the two lines are not seen to be different")?;
+            let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
+            refuted(place, if corner { "corner" } else { "none" })
+        }
+        "line" => {
+            need(lines.len() == found.len(), "point", "every branch needs a proved line")?;
+            let (relations, common) = relations(common, dimension, &lines)?;
+            let (mut left, mut right) = (Vec::new(), Vec::new());
+            for ((side, line), relation) in lines.iter().zip(relations) {
                 add_rays(*side, line, relation, &mut left, &mut right);
             }
             let kind = kind(&place, &left, &right);
@@ -267,6 +276,41 @@ fn conclude(
         }
         _ => reject("point", "", "the rule is \"line\", \"differ\" (two branches) or \"plane\""),
     }
+}
+
+/// For each line the ray on which a common vector lies, as a sign; the vector is returned where it is rational. Of a single
+/// line `common` may be `null`; otherwise it is a rational vector, or a list with one algebraic number for each coordinate,
+/// each the root of a polynomial in an interval, as elements of the fields of the lines.
+fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Checked<(Vec<i32>, Option<Matrix>)> {
+    let shared = |ray: Option<i32>| match ray {
+        Some(sign) => Ok(sign),
+        None => reject("line", &common.place, "the lines are not seen to have this vector in common"),
+    };
+    if common.is_null() {
+        return Ok((vec![shared((lines.len() == 1).then_some(1))?], None));
+    }
+    let items = common.list()?;
+    if items.iter().all(|item| item.text().is_ok()) {
+        let vector = Matrix::new(dimension, 1, &common.vector(dimension)?);
+        let along = |(_, line): &(Side, &Line)| shared(line.along(&line.field.embedded(&vector))?);
+        return Ok((lines.iter().map(along).collect::<Checked<_>>()?, Some(vector)));
+    }
+    common.need(items.len() == dimension, "format", "one number for each coordinate is needed here")?;
+    let mut vectors: Vec<Matrix> = lines.iter().map(|(_, line)| Matrix::empty(line.field.degree())).collect();
+    for item in &items {
+        let [polynomial, interval, elements] = item.fields(["polynomial", "interval", "elements"])?;
+        let m = Field::monic(&polynomial, MAX_DEGREE)?;
+        let number = Field::read(&polynomial, &interval)?;
+        let list = elements.list()?;
+        elements.need(list.len() == lines.len(), "format", "one element for each branch is needed here")?;
+        for ((vector, element), (_, line)) in vectors.iter_mut().zip(&list).zip(lines) {
+            let x = line.field.element(element)?;
+            element.need(line.field.is_root(&m, &number, &x)?, "line", "the element is not this root")?;
+            *vector = vector.stack(&x);
+        }
+    }
+    let along = |((_, line), vector): (&(Side, &Line), &Matrix)| shared(line.along(vector)?);
+    Ok((lines.iter().zip(&vectors).map(along).collect::<Checked<_>>()?, None))
 }
 
 fn add_rays(side: Side, line: &Line, factor: i32, left: &mut Vec<i32>, right: &mut Vec<i32>) {

@@ -21,12 +21,7 @@ pub struct System {
 
 /// Checks the proof of a certificate of the kind `jsr`.
 pub fn check(text: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
-    let system = match matrix_list(text) {
-        Ok(system) => system,
-        Err(why) => {
-            return Err(Rejected { rule: "matrices".to_owned(), place: String::new(), why, unreadable: true });
-        }
-    };
+    let system = matrix_list(text)?;
     let found = bounds(&system, node)?;
     let text = if found.lower == found.upper {
         format!("proved: the joint spectral radius is {}", found.lower)
@@ -140,7 +135,7 @@ fn below(system: &System, node: &Node<'_>) -> Result<Q, Rejected> {
     if end != system.arrows[*first].0 {
         return reject("word", &node.place, "the path is not closed");
     }
-    if !has_root_near(&product.characteristic()?.0, &centre, &e)? {
+    if !has_root_near(&product.characteristic()?, &centre, &e)? {
         return reject("word", &error.place, "no eigenvalue is seen in this disc");
     }
     let reach = power(&bound, word.len())? + &e;

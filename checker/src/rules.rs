@@ -8,7 +8,7 @@ use crate::poly::{Enclosed, Field};
 use crate::ring::{Cell, Model};
 use crate::shape::Address;
 use crate::spectrum::{Chain, Top, residual, span_a_plane};
-use crate::{Rejected, at, need, reject};
+use crate::{Checked, at, need, reject};
 use num_traits::Zero;
 
 /// A proved tangent line, or a line in the tangent subspace.
@@ -36,7 +36,7 @@ pub enum Found {
 }
 
 /// Reads an address as an object with prefix and cycle.
-pub fn read_address(node: &Node<'_>) -> Result<Address, Rejected> {
+pub fn read_address(node: &Node<'_>) -> Checked<Address> {
     let [prefix, cycle] = node.fields(["prefix", "cycle"])?;
     let address = Address { prefix: prefix.word()?, cycle: cycle.word()? };
     if address.cycle.is_empty() { cycle.malformed("the cycle of an address is not empty") } else { Ok(address) }
@@ -48,7 +48,7 @@ struct Branch<'a> {
 }
 
 /// Checks the certificate of the branch with this address.
-pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Result<Found, Rejected> {
+pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Checked<Found> {
     let germ = at(&node.place, Germ::new(model, root, address))?;
     let branch = Branch { model, germ };
     at(
@@ -69,76 +69,82 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
 }
 
 /// Evidence with real top eigenvalues and exactly one longest chain.
-struct Leading {
-    field: Field,
+pub struct Leading {
+    /// The field of the eigenvalues.
+    pub field: Field,
     chains: Vec<Chain>,
     longest: usize,
 }
 
 impl Leading {
-    fn chain(&self) -> &Chain {
-        &self.chains[self.longest]
-    }
-
-    /// The sign of the eigenvalue of the longest chain.
-    fn eigenvalue_sign(&self) -> i32 {
-        self.chain().sign * self.field.interval.sign()
-    }
-
-    /// `g L − λ g` for a row over the field.
-    fn residual(&self, linear: &Matrix, row: &Matrix) -> Result<Matrix, Rejected> {
-        residual(&self.field.by_root, &linear.transpose(), self.chain().sign, row)
-    }
-
-    /// The value of a row at the last vector of a chain.
-    fn pairing(&self, row: &Matrix, chain: &Chain) -> Result<Matrix, Rejected> {
-        self.field.dot(row, &chain.vectors[chain.vectors.len() - 1])
-    }
-}
-
-impl Branch<'_> {
-    fn leading(&self, node: &Node<'_>) -> Result<Leading, Rejected> {
-        let Top::Real { field, chains } = Top::read(node, &self.germ.linear)? else {
+    /// Reads and checks a top of this form.
+    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
+        let Top::Real { field, chains } = Top::read(node, linear)? else {
             return reject("leading", &node.place, "a real top is needed here");
         };
         let length = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
         let longest: Vec<usize> = (0..chains.len()).filter(|&k| chains[k].vectors.len() == length).collect();
         match longest[..] {
-            [longest] => Ok(Leading { field, chains, longest }),
+            [longest] => Ok(Self { field, chains, longest }),
             _ => reject("leading", &node.place, "exactly one longest chain is needed here"),
         }
     }
 
+    /// The vectors of the longest chain.
+    pub fn vectors(&self) -> &[Matrix] {
+        &self.chains[self.longest].vectors
+    }
+
+    /// The sign of its eigenvalue.
+    pub fn eigenvalue_sign(&self) -> i32 {
+        self.chains[self.longest].sign * self.field.interval.sign()
+    }
+
+    /// `g L − λ g` for a row over the field.
+    fn residual(&self, linear: &Matrix, row: &Matrix) -> Checked<Matrix> {
+        residual(&self.field.by_root, &linear.transpose(), self.chains[self.longest].sign, row)
+    }
+
     /// Rule `leading`: a row `g` with `g L = λ g` that reads the coefficient of the last vector of the longest chain, up to
     /// a factor whose sign is returned.
-    fn leading_row(&self, top: &Leading, node: &Node<'_>) -> Result<(Matrix, i32), Rejected> {
-        let row = top.field.vector(node, self.germ.dim())?;
-        let left = top.residual(&self.germ.linear, &row)?.is_zero();
+    pub fn row(&self, linear: &Matrix, node: &Node<'_>) -> Checked<(Matrix, i32)> {
+        let row = self.field.vector(node, linear.rows)?;
+        let left = self.residual(linear, &row)?.is_zero();
         node.need(left, "leading", "the row is no left eigenvector")?;
-        for (k, chain) in top.chains.iter().enumerate() {
-            let blind = k == top.longest || top.pairing(&row, chain)?.is_zero();
-            node.need(blind, "leading", "the row sees a shorter chain")?;
+        let mut sign = 0;
+        for (k, chain) in self.chains.iter().enumerate() {
+            let value = self.field.dot(&row, &chain.vectors[chain.vectors.len() - 1])?;
+            if k == self.longest {
+                sign = self.field.sign(&value)?;
+            } else {
+                node.need(value.is_zero(), "leading", "the row sees a shorter chain")?;
+            }
         }
-        let sign = top.field.sign(&top.pairing(&row, top.chain())?)?;
         node.need(sign != 0, "leading", "the row is not seen to be nonzero")?;
         Ok((row, sign))
     }
+}
+
+impl Branch<'_> {
+    fn leading(&self, node: &Node<'_>) -> Checked<Leading> {
+        Leading::read(node, &self.germ.linear)
+    }
 
     /// Theorems 2 and 3.
-    fn line(&self, node: &Node<'_>, rule: &str) -> Result<Found, Rejected> {
+    fn line(&self, node: &Node<'_>, rule: &str) -> Checked<Found> {
         let [_, top, functional, cover] = node.fields(["rule", "top", "functional", "cover"])?;
         let top = self.leading(&top)?;
-        let length = top.chain().vectors.len();
+        let length = top.vectors().len();
         let fits = (length == 1) == (rule == "theorem-2");
         need(fits, rule, "Theorem 2 is about chains of length 1, Theorem 3 about longer ones")?;
-        let (row, pairing) = self.leading_row(&top, &functional)?;
+        let (row, pairing) = top.row(&self.germ.linear, &functional)?;
         let functional = self.model.functionals(&self.germ, &top.field, &[&row])?;
         let cells = self.model.cover(&self.germ, &functional, None, &cover)?;
         // L^m x is about C(m, l) λ^(m-l) (g x / g v) v_1 with l = length - 1; m runs over all large numbers.
         let lambda = top.eigenvalue_sign();
         let parity = if length % 2 == 0 { lambda } else { 1 };
         let (left, right) = self.rays(&cells, lambda, pairing * parity);
-        self.found_line(&top.field, &top.chain().vectors[0], left, right)
+        self.found_line(&top.field, &top.vectors()[0], left, right)
     }
 
     /// The rays of earlier and of later points, for even and odd numbers of turns.
@@ -157,7 +163,7 @@ impl Branch<'_> {
         (left, right)
     }
 
-    fn found_line(&self, field: &Field, v: &Matrix, left: Vec<i32>, right: Vec<i32>) -> Result<Found, Rejected> {
+    fn found_line(&self, field: &Field, v: &Matrix, left: Vec<i32>, right: Vec<i32>) -> Checked<Found> {
         let vector = self.germ.view.times(v)?;
         let values = field.enclose(&vector)?;
         need(values.is_nonzero(), "line", "the direction is not seen to be nonzero")?;
@@ -165,33 +171,33 @@ impl Branch<'_> {
     }
 
     /// The corollary on a line: `dim Y = 1` and `L ≠ 0`; the rays stay open.
-    fn whole_line(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn whole_line(&self, node: &Node<'_>) -> Checked<Found> {
         node.fields(["rule"])?;
         let fits = self.germ.dim() == 1 && !self.germ.linear.is_zero();
         need(fits, "corollary-line", "the visible quotient is no line, or L is 0")?;
         self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1), Vec::new(), Vec::new())
     }
 
-    fn plane(rule: &str, vectors: &[Enclosed]) -> Result<Found, Rejected> {
+    fn plane(rule: &str, vectors: &[Enclosed]) -> Checked<Found> {
         need(span_a_plane(vectors), rule, "the directions are not seen to span a plane")?;
         Ok(Found::Plane)
     }
 
     /// The corollary: `U ⊂ D*` and `dim G U ≥ 2`.
-    fn corollary(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn corollary(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top] = node.fields(["rule", "top"])?;
         let top = Top::read(&top, &self.germ.linear)?;
         Self::plane("corollary", &top.directions(&self.germ.view)?)
     }
 
     /// `G` is injective on `Y`.
-    fn injective(&self, rule: &str) -> Result<(), Rejected> {
+    fn injective(&self, rule: &str) -> Checked<()> {
         let injective = self.germ.view.rank()? == self.germ.dim();
         need(injective, rule, "the map into the space where the shape is looked at is not injective on the quotient")
     }
 
     /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
-    fn ring_point(&self, node: &Node<'_>) -> Result<(Matrix, Position), Rejected> {
+    fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix, Position)> {
         let address = read_address(node)?;
         let letters = self.germ.ring.iter().map(|p| p.word.len()).max().unwrap_or(0);
         let word: Vec<usize> = (0..letters).map(|k| address.letter(k)).collect();
@@ -209,7 +215,7 @@ impl Branch<'_> {
         row: &Matrix,
         positive: &Node<'_>,
         negative: &Node<'_>,
-    ) -> Result<Position, Rejected> {
+    ) -> Checked<Position> {
         let mut parts = Vec::new();
         for (node, wanted) in [(positive, 1), (negative, -1)] {
             let (y, part) = self.ring_point(node)?;
@@ -223,11 +229,11 @@ impl Branch<'_> {
     }
 
     /// Theorem 4 with a point of the ring at which the leading functional vanishes.
-    fn null_point(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn null_point(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, address] = node.fields(["rule", "top", "functional", "address"])?;
         let top = self.leading(&top)?;
-        need(top.chain().vectors.len() == 1, "null-point", "a simple eigenvalue is needed")?;
-        let (row, _) = self.leading_row(&top, &functional)?;
+        need(top.vectors().len() == 1, "null-point", "a simple eigenvalue is needed")?;
+        let (row, _) = top.row(&self.germ.linear, &functional)?;
         let (y, _) = self.ring_point(&address)?;
         let vanishes = y.transpose().times(&row)?.is_zero();
         address.need(vanishes, "null-point", "the functional does not vanish at the point")?;
@@ -238,12 +244,12 @@ impl Branch<'_> {
     }
 
     /// Theorem 4 with two points of one connected part of the ring at which the leading functional has opposite signs.
-    fn sign_change(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn sign_change(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, isolation, positive, negative] =
             node.fields(["rule", "top", "functional", "isolation", "positive", "negative"])?;
         let top = self.leading(&top)?;
-        need(top.chain().vectors.len() == 1, "sign-change", "a simple eigenvalue is needed")?;
-        let (row, _) = self.leading_row(&top, &functional)?;
+        need(top.vectors().len() == 1, "sign-change", "a simple eigenvalue is needed")?;
+        let (row, _) = top.row(&self.germ.linear, &functional)?;
         self.changing_part(&top.field, &row, &positive, &negative)?;
         // Isolation: the rows of L^dim have no common zero on the ring.
         let rows = self.germ.linear.power(self.germ.dim())?.echelon()?.0;
@@ -254,7 +260,7 @@ impl Branch<'_> {
     }
 
     /// Lower bound from the orbit of one point of the ring: its own leading directions and those of the corollary.
-    fn orbit(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, address, own] = node.fields(["rule", "top", "address", "own"])?;
         let top = Top::read(&top, &self.germ.linear)?;
         let (y, _) = self.ring_point(&address)?;
@@ -269,13 +275,13 @@ impl Branch<'_> {
 
     /// Section 6: one real block of length 2, and a connected part of the ring on which `c_2` takes both signs while `c_1` has
     /// one sign wherever `c_2` vanishes.
-    fn crossing(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn crossing(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, second, first, positive, negative, cover] =
             node.fields(["rule", "top", "second", "first", "positive", "negative", "cover"])?;
         let top = self.leading(&top)?;
-        let block = top.chains.len() == 1 && top.chain().vectors.len() == 2;
+        let block = top.chains.len() == 1 && top.vectors().len() == 2;
         need(block, "crossing", "one block of length 2 is needed")?;
-        let (c2, _) = self.leading_row(&top, &second)?;
+        let (c2, _) = top.row(&self.germ.linear, &second)?;
         let c1 = top.field.vector(&first, self.germ.dim())?;
         let chain = top.residual(&self.germ.linear, &c1)? == c2;
         first.need(chain, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
@@ -285,15 +291,15 @@ impl Branch<'_> {
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
         let same = signs.windows(2).all(|s| s[0] == s[1]);
         cover.need(same, "crossing", "g_1 takes both signs where g_2 may vanish")?;
-        let vectors = top.chain().vectors.iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
-        Self::plane("crossing", &vectors.collect::<Result<Vec<_>, _>>()?)
+        let vectors = top.vectors().iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
+        Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }
 
     /// The corollary for one direction: `G v_1` lies in `D*`.
-    fn direction(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn direction(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top] = node.fields(["rule", "top"])?;
         let top = self.leading(&top)?;
-        Ok(match self.found_line(&top.field, &top.chain().vectors[0], Vec::new(), Vec::new())? {
+        Ok(match self.found_line(&top.field, &top.vectors()[0], Vec::new(), Vec::new())? {
             Found::Line(line) => Found::Direction(line),
             other => other,
         })
@@ -301,17 +307,8 @@ impl Branch<'_> {
 }
 
 impl Line {
-    /// Whether a rational vector (a column) lies on the line: `1` and `-1` for its two rays.
-    pub fn along(&self, common: &Matrix) -> Result<Option<i32>, Rejected> {
-        self.parallel(&self.field.embedded(common), &Enclosed::exact(common.clone()))
-    }
-
-    /// The same for another line over the same field.
-    pub fn agrees(&self, other: &Self) -> Result<Option<i32>, Rejected> {
-        if self.field == other.field { self.parallel(&other.vector, &other.values) } else { Ok(None) }
-    }
-
-    fn parallel(&self, w: &Matrix, values: &Enclosed) -> Result<Option<i32>, Rejected> {
+    /// Whether a vector over the field of the line lies on it: `1` and `-1` for its two rays.
+    pub fn along(&self, w: &Matrix) -> Checked<Option<i32>> {
         for i in 0..w.rows {
             for j in 0..i {
                 let product = |i, j| self.field.dot(&self.vector.row(i), &w.row(j));
@@ -320,6 +317,7 @@ impl Line {
                 }
             }
         }
+        let values = self.field.enclose(w)?;
         let relations = (0..w.rows).map(|k| self.values.sign(k) * values.sign(k));
         Ok(relations.into_iter().find(|r| *r != 0))
     }

@@ -1,8 +1,8 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
 use crate::matrix::Matrix;
-use crate::number::{charge, spend};
-use crate::{MAX_LETTERS, Rejected, need, reject};
+use crate::number::{Q, charge, spend};
+use crate::{Checked, MAX_LETTERS, need, reject};
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,10 +35,17 @@ pub struct State {
     pub dim: usize,
     /// Its pieces, by letter.
     pub pieces: Vec<Piece>,
-    /// The boundary operator at the start: vertex and matrix.
-    pub left: Option<(usize, Matrix)>,
-    /// The boundary operator at the finish.
-    pub right: Option<(usize, Matrix)>,
+    /// The boundary operators at the start and at the finish: vertex and matrix.
+    pub ends: [Option<(usize, Matrix)>; 2],
+}
+
+/// An operator of a shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Op {
+    /// Of a piece of a state.
+    Piece(usize, usize),
+    /// The boundary operator at an end of a state.
+    End(usize, End),
 }
 
 /// An automaton of operators with a start state and a map into the space where the shape is looked at.
@@ -157,7 +164,7 @@ impl Shape {
     }
 
     /// The product of the operators of a word and the state where it ends.
-    pub fn product(&self, from: usize, word: &[usize]) -> Result<(Matrix, usize), Rejected> {
+    pub fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
         let mut state = from;
         let mut product = Matrix::identity(self.states[from].dim);
         for &letter in word {
@@ -177,7 +184,7 @@ impl Shape {
     }
 
     /// The point with an address whose cycle returns to its state.
-    pub fn point(&self, from: usize, address: &Address) -> Result<Matrix, Rejected> {
+    pub fn point(&self, from: usize, address: &Address) -> Checked<Matrix> {
         let (prefix, state) = self.product(from, &address.prefix)?;
         let (cycle, back) = self.product(state, &address.cycle)?;
         need(
@@ -214,44 +221,78 @@ impl Shape {
     }
 
     /// An end point of the curve of a state.
-    pub fn end_point(&self, state: usize, end: End) -> Result<Matrix, Rejected> {
+    pub fn end_point(&self, state: usize, end: End) -> Checked<Matrix> {
         match self.end_address(state, end, &|_, _| false) {
             Some(address) => self.point(state, &address),
             None => reject("curve", "", "a state without pieces"),
         }
     }
 
-    /// Rule `curve`: in every reachable edge state each piece begins where the one before ends, and the boundary operators,
-    /// where the case gives them, satisfy the identities of incidence and adjacency.
-    pub fn check_curves(&self, reachable: &[usize]) -> Result<(), Rejected> {
+    /// Rule `curve`: in every reachable edge state each piece begins where the one before ends, and the identities hold.
+    pub fn check_curves(&self, reachable: &[usize]) -> Checked<()> {
         for &e in reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
-            let pieces = &self.states[e].pieces;
-            for (j, pair) in pieces.windows(2).enumerate() {
+            for (j, pair) in self.states[e].pieces.windows(2).enumerate() {
                 let end = |p: &Piece, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
                 let meet = end(&pair[0], End::Finish)? == end(&pair[1], End::Start)?;
                 need(meet, "curve", &format!("pieces {j} and {} of state {e} do not meet", j + 1))?;
-                let (a, b) = (self.inner(&pair[0], End::Finish), self.inner(&pair[1], End::Start));
-                if let (Some((v, a)), Some((w, b))) = (a, b) {
-                    let holds = v != w || pair[0].op.times(a)? == pair[1].op.times(b)?;
-                    need(holds, "curve", &format!("the identity of adjacency fails in state {e}"))?;
-                }
             }
-            let (Some(first), Some(last)) = (pieces.first(), pieces.last()) else { continue };
-            for (piece, outer, end) in
-                [(first, &self.states[e].left, End::Start), (last, &self.states[e].right, End::Finish)]
-            {
-                let (Some((v, outer)), Some((w, inner))) = (outer, self.inner(piece, end)) else { continue };
-                let vertex = &self.states[*v].pieces[0];
-                let holds = vertex.target != *w || outer.times(&vertex.op)? == piece.op.times(inner)?;
-                need(holds, "curve", &format!("the identity of incidence fails in state {e}"))?;
+            for [a, b, c, d] in self.identities(e)? {
+                let holds = self.op(a).times(self.op(b))? == self.op(c).times(self.op(d))?;
+                need(holds, "curve", &format!("an identity of incidence or adjacency fails in state {e}"))?;
             }
         }
         Ok(())
     }
 
-    fn inner(&self, piece: &Piece, end: End) -> Option<&(usize, Matrix)> {
-        let target = &self.states[piece.target];
-        if end.in_piece(piece) == End::Start { target.left.as_ref() } else { target.right.as_ref() }
+    /// The identities `a b = c d` of an edge state, where it has boundary operators: of incidence at the start and at the
+    /// finish, then of adjacency.
+    pub fn identities(&self, e: usize) -> Checked<Vec<[Op; 4]>> {
+        let pieces = &self.states[e].pieces;
+        let vertex = |state: usize, end: End| self.states[state].ends[end as usize].as_ref().map(|b| b.0);
+        let inner = |k: usize, end: End| {
+            let (target, end) = (pieces[k].target, end.in_piece(&pieces[k]));
+            Some((vertex(target, end)?, Op::End(target, end)))
+        };
+        let mut all = Vec::new();
+        if self.states[e].kind != Kind::Edge {
+            return Ok(all);
+        }
+        let why = "boundaries that should coincide are of different vertices";
+        for (k, end) in [(0, End::Start), (pieces.len() - 1, End::Finish)] {
+            let (Some(v), Some((w, inside))) = (vertex(e, end), inner(k, end)) else { continue };
+            need(self.states[v].pieces[0].target == w, "curve", why)?;
+            all.push([Op::End(e, end), Op::Piece(v, 0), Op::Piece(e, k), inside]);
+        }
+        for k in 1..pieces.len() {
+            let (Some((v, before)), Some((w, after))) = (inner(k - 1, End::Finish), inner(k, End::Start)) else {
+                continue;
+            };
+            need(v == w, "curve", why)?;
+            all.push([Op::Piece(e, k - 1), before, Op::Piece(e, k), after]);
+        }
+        Ok(all)
+    }
+
+    /// The matrix of an operator; that of piece 0 of the start where there is no such operator.
+    pub fn op(&self, op: Op) -> &Matrix {
+        let (state, end) = match op {
+            Op::Piece(state, letter) => return &self.states[state].pieces[letter].op,
+            Op::End(state, end) => (state, end),
+        };
+        self.states[state].ends[end as usize].as_ref().map_or(&self.states[self.start].pieces[0].op, |b| &b.1)
+    }
+
+    /// Changes an entry of an operator.
+    pub fn set(&mut self, op: Op, row: usize, col: usize, value: &Q) {
+        let matrix = match op {
+            Op::Piece(state, letter) => Some(&mut self.states[state].pieces[letter].op),
+            Op::End(state, end) => self.states[state].ends[end as usize].as_mut().map(|b| &mut b.1),
+        };
+        if let Some(m) = matrix {
+            let mut entries = m.entries();
+            entries[row * m.cols + col] = value.clone();
+            *m = Matrix::new(m.rows, m.cols, &entries);
+        }
     }
 }
 
@@ -278,7 +319,7 @@ pub struct Spaces {
 
 impl Spaces {
     /// The space of a reachable state.
-    pub fn of(&self, state: usize) -> Result<&Space, Rejected> {
+    pub fn of(&self, state: usize) -> Checked<&Space> {
         match self.all.get(state) {
             Some(Some(space)) => Ok(space),
             _ => reject("word", "", "a state that cannot be reached"),
@@ -286,7 +327,7 @@ impl Spaces {
     }
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
-    pub fn new(shape: &Shape, reachable: &[usize]) -> Result<Self, Rejected> {
+    pub fn new(shape: &Shape, reachable: &[usize]) -> Checked<Self> {
         let none = |e: usize| Matrix::empty(shape.states[e].dim);
         let mut base: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
         for &e in reachable {
@@ -315,13 +356,13 @@ impl Spaces {
         }
         for &e in reachable {
             let is_point = |p: &Piece| Ok(p.op.times(&spaces.of(p.target)?.basis)?.is_zero());
-            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Result<_, _>>()?;
+            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
         }
         Ok(spaces)
     }
 
     /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
-    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Result<Matrix, Rejected> {
+    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Checked<Matrix> {
         self.of(to)?.reading.times(&op.times(&self.of(from)?.basis)?)
     }
 
@@ -331,7 +372,7 @@ impl Spaces {
     }
 
     /// The map between visible quotients that a piece of a state induces.
-    pub fn on_visible(&self, state: usize, piece: &Piece) -> Result<Matrix, Rejected> {
+    pub fn on_visible(&self, state: usize, piece: &Piece) -> Checked<Matrix> {
         let (own, target) = (self.of(state)?, self.of(piece.target)?);
         let onto = own.visible.times(&self.linear(&piece.op, state, piece.target)?)?;
         // Rows of `onto` are combinations of the echelon rows of the target; the leading columns give the coefficients.
@@ -348,8 +389,8 @@ pub fn close(
     reachable: &[usize],
     family: &mut [Matrix],
     ends: impl Fn(usize, &Piece) -> (usize, usize),
-    images: impl Fn(&Matrix, &Piece) -> Result<Matrix, Rejected>,
-) -> Result<(), Rejected> {
+    images: impl Fn(&Matrix, &Piece) -> Checked<Matrix>,
+) -> Checked<()> {
     loop {
         let mut grown = false;
         for &e in reachable {

@@ -3,8 +3,8 @@
 use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
 use crate::number::{Q, bits, spend, whole};
-use crate::poly::{Enclosed, Field, Interval, has_root_near, roots_in_disc, values};
-use crate::{Rejected, reject};
+use crate::poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, roots_in_disc, values};
+use crate::{Checked, reject};
 use num_bigint::BigInt;
 use num_traits::{Signed, pow};
 
@@ -25,19 +25,19 @@ pub enum Top {
         /// The chains.
         chains: Vec<Chain>,
     },
-    /// Simple complex conjugate eigenvalues.
+    /// Complex conjugate eigenvalues with one Jordan block each.
     Pair {
         /// A square that holds one of them: its real and its imaginary side.
         value: [Interval; 2],
-        /// The coefficients of `adj(x − L)`: its nonzero columns are eigenvectors where `x` is a simple eigenvalue.
-        adjugate: Vec<Matrix>,
+        /// Its eigenvector over `Q[x]/(m)`.
+        vector: Matrix,
     },
     /// A rational invariant subspace on which `L` is a conformal map for some scalar product; its basis as rows.
     Conformal(Matrix),
 }
 
 /// The radius, and how many roots of the characteristic polynomial have a larger modulus; none has this one.
-fn outside(chi: &Matrix, radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
+fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
     let (r, n) = (radius.rational()?, chi.cols - 1);
     radius.need(r.is_positive(), "disc", "the radius must be positive")?;
     spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
@@ -50,18 +50,12 @@ fn outside(chi: &Matrix, radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
 }
 
 /// `M v − s θ v` for a vector over `Q[x]/(m)`, given by the matrix that multiplies by the root of `m`.
-pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Result<Matrix, Rejected> {
+pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Checked<Matrix> {
     Ok(matrix.times(v)?.plus(&whole(-i64::from(sign)), &v.times(by_root)?))
 }
 
 /// Reads the vectors of a Jordan chain of the eigenvalue `s θ`.
-pub fn chain(
-    list: &Node<'_>,
-    matrix: &Matrix,
-    by_root: &Matrix,
-    sign: i32,
-    rule: &str,
-) -> Result<Vec<Matrix>, Rejected> {
+pub fn chain(list: &Node<'_>, matrix: &Matrix, by_root: &Matrix, sign: i32, rule: &str) -> Checked<Vec<Matrix>> {
     let mut vectors: Vec<Matrix> = Vec::new();
     for item in list.list()? {
         let v = Field::coordinates(by_root.rows, &item, matrix.rows)?;
@@ -76,7 +70,7 @@ pub fn chain(
 
 impl Top {
     /// Reads and checks the evidence for the top of the spectrum of `linear`.
-    pub fn read(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let read = match node.tag("top")? {
             "real" => Self::real(node, linear),
             "pair" => Self::pair(node, linear),
@@ -86,10 +80,10 @@ impl Top {
         crate::at(&node.place, read)
     }
 
-    fn real(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    fn real(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let [_, radius, polynomial, interval, list] =
             node.fields(["top", "radius", "polynomial", "interval", "chains"])?;
-        let (r, count) = outside(&linear.characteristic()?.0, &radius)?;
+        let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let field = Field::read(&polynomial, &interval)?;
         let beyond = field.interval.lo > r || field.interval.hi < -&r;
         interval.need(beyond, "top-real", "the eigenvalue must lie outside the disc")?;
@@ -107,7 +101,7 @@ impl Top {
         list.need(all, "top-real", &format!("{count} eigenvalues lie outside the disc"))?;
         for s in [1, -1] {
             let starts = chains.iter().filter(|c| c.sign == s).map(|c| field.enclose(&c.vectors[0]));
-            let independent = match &starts.collect::<Result<Vec<_>, _>>()?[..] {
+            let independent = match &starts.collect::<Checked<Vec<_>>>()?[..] {
                 [] => true,
                 [v] => v.is_nonzero(),
                 [v, w] => v.not_parallel(w),
@@ -118,23 +112,28 @@ impl Top {
         Ok(Self::Real { field, chains })
     }
 
-    fn pair(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
-        let [_, radius, centre, error] = node.fields(["top", "radius", "centre", "error"])?;
-        let (chi, adjugate) = linear.characteristic()?;
-        let (r, count) = outside(&chi, &radius)?;
-        let (c, e) = (centre.vector(2)?, error.rational()?);
+    fn pair(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
+        let [_, radius, polynomial, centre, error, list] =
+            node.fields(["top", "radius", "polynomial", "centre", "error", "vectors"])?;
+        let (r, count) = outside(&linear.characteristic()?, &radius)?;
+        let (m, c, e) = (Field::monic(&polynomial, MAX_DEGREE)?, centre.vector(2)?, error.rational()?);
         let (x, y, far) = (&c[0], &c[1], &r + &e);
-        let fits = count == 2 && e.is_positive() && *y > e && x * x + y * y > &far * &far;
-        node.need(fits, "top-pair", "two eigenvalues outside the disc and off the real axis are needed")?;
-        let near = has_root_near(&chi, &c, &e)?;
-        error.need(near, "top-pair", "no eigenvalue is seen to lie within this distance of the centre")?;
+        let fits = e.is_positive() && *y > e && x * x + y * y > &far * &far;
+        node.need(fits, "top-pair", "an eigenvalue outside the disc and off the real axis is needed")?;
+        let near = has_root_near(&Matrix::new(1, m.len(), &m), &c, &e)?;
+        error.need(near, "top-pair", "no root is seen to lie within this distance of the centre")?;
+        let vectors = chain(&list, linear, &Field::companion(&m), 1, "top-pair")?;
         let around = |v: &Q| Interval { lo: v - &e, hi: v + &e };
-        Ok(Self::Pair { value: [around(x), around(y)], adjugate })
+        let (value, vector) = ([around(x), around(y)], vectors[0].clone());
+        let [re, im] = values(&vector, &value[0], &value[1])?;
+        let all = 2 * vectors.len() == count && (re.is_nonzero() || im.is_nonzero());
+        list.need(all, "top-pair", &format!("{count} eigenvalues lie outside the disc, or the vector may be 0"))?;
+        Ok(Self::Pair { value, vector })
     }
 
-    fn conformal(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    fn conformal(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let [_, radius, basis, gram, square] = node.fields(["top", "radius", "basis", "gram", "square"])?;
-        let (r, count) = outside(&linear.characteristic()?.0, &radius)?;
+        let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let e = basis.matrix(linear.rows)?;
         let (echelon, pivots) = e.echelon()?;
         let fits = echelon == e && e.rows == count;
@@ -150,23 +149,14 @@ impl Top {
     }
 
     /// Enclosures of real vectors that span the image under `view` of the eigenvectors that end the longest chains.
-    pub fn directions(&self, view: &Matrix) -> Result<Vec<Enclosed>, Rejected> {
+    pub fn directions(&self, view: &Matrix) -> Checked<Vec<Enclosed>> {
         match self {
             Self::Real { field, chains } => {
                 let longest = chains.iter().map(|c| c.vectors.len()).max();
                 let ending = chains.iter().filter(|c| Some(c.vectors.len()) == longest);
                 ending.map(|c| field.enclose(&view.times(&c.vectors[0])?)).collect()
             }
-            Self::Pair { value, adjugate } => {
-                let seen = adjugate.iter().map(|m| view.times(m)).collect::<Result<Vec<_>, _>>()?;
-                let mut spanning = Vec::new();
-                for j in 0..view.cols {
-                    let column = |m: &Matrix| m.columns(&[j]).transpose();
-                    let entries = seen.iter().fold(Matrix::empty(view.rows), |all, m| all.stack(&column(m)));
-                    spanning.extend(values(&entries.transpose(), &value[0], &value[1])?);
-                }
-                Ok(spanning)
-            }
+            Self::Pair { value, vector } => Ok(values(&view.times(vector)?, &value[0], &value[1])?.into()),
             Self::Conformal(basis) => {
                 let images = basis.times(&view.transpose())?;
                 Ok((0..images.rows).map(|i| Enclosed::exact(images.row(i).transpose())).collect())
@@ -176,7 +166,7 @@ impl Top {
 }
 
 /// Reads a symmetric matrix whose elimination without exchanges has positive pivots only.
-pub fn positive_definite(node: &Node<'_>, n: usize) -> Result<Matrix, Rejected> {
+pub fn positive_definite(node: &Node<'_>, n: usize) -> Checked<Matrix> {
     let matrix = node.matrix(n)?;
     node.need(matrix.rows == n && matrix.transpose() == matrix, "gram", "a symmetric matrix is needed")?;
     let mut rest = matrix.clone();

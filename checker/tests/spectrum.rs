@@ -55,7 +55,7 @@ fn forged_spectra_are_rejected() {
     assert_eq!(rejected("/factors/0/roots/0/error", json!("3/4")), "roots");
     assert_eq!(rejected("/factors/2/roots/0/centre", json!(["0", "-1"])), "roots");
     assert_eq!(rejected("/factors/2/roots", json!([])), "roots");
-    assert_eq!(rejected("/factors/0/polynomial", json!(["-1", "2"])), "roots");
+    assert_eq!(rejected("/factors/0/polynomial", json!(["-1", "2"])), "field");
     // Classes in the wrong order, torn apart, joined, with the wrong square or the wrong radius.
     assert_eq!(rejected("/classes/0/below", json!("1/4")), "moduli");
     assert_eq!(rejected("/classes/0/below", json!("-3/4")), "moduli");

@@ -167,9 +167,6 @@ fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bo
         points.sort();
         points
     };
-    let head =
-        (&found.case, found.verdict, found.claims.len()) == (&original.case, original.verdict, original.claims.len());
-    let mut claims = found.claims.iter().zip(&original.claims);
     if original.claims[0].contains("C^0") {
         // Orders of smoothness: fewer of them, with weaker bounds of the radii, are a weaker statement.
         let weaker = |(a, b): (&String, &String)| {
@@ -184,9 +181,14 @@ fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bo
             && found.points.len() == found.claims.len()
             && found.points.iter().zip(&original.points).all(weaker);
     }
+    // The answer about every point may be left out, whatever it is.
+    let asked = original.claims.iter().filter(|c| !c.contains("G¹") || found.claims.iter().any(|f| f.contains("G¹")));
+    let claims: Vec<&String> = asked.collect();
+    let head = (&found.case, found.verdict, found.claims.len()) == (&original.case, original.verdict, claims.len());
+    let mut both = found.claims.iter().zip(claims);
     match radius(&original.claims[0]) {
         Some((low, high)) => head && radius(&found.claims[0]).is_some_and(|(l, h)| l <= high && low <= h),
-        None => head && sorted(found) == sorted(original) && claims.all(|(a, b)| a == b || weaker_rate(a, b)),
+        None => head && sorted(found) == sorted(original) && both.all(|(a, b)| a == b || weaker_rate(a, b)),
     }
 }
 

@@ -1,11 +1,12 @@
 //! Points and branches: which rule proves them, and the evidence it needs.
 
-use super::top::{elements, longest, top};
-use super::{Unsupported, address_json, numbers, tree, unsupported};
+use super::top::{element, elements, longest, top};
+use super::{Unsupported, address_json, number, numbers, tree, unsupported};
+use crate::algebraic::locate;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::Shape;
-use crate::theorem::{BranchReport, Outcome, PointReport, RingProof, Statement, Verdict, Witness};
+use crate::theorem::{BranchReport, Direction, Outcome, PointReport, RingProof, Statement, Verdict, Witness};
 use serde_json::{Value, json};
 
 /// A decided point.
@@ -17,10 +18,11 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
         (Verdict::Proved, _) => {
             if let Some(vector) = point.tangent.as_ref().and_then(crate::theorem::Direction::rational) {
                 common = numbers(&vector);
-            } else if let [a, b] = &point.branches[..]
-                && !same_field(a, b)
-            {
-                return unsupported("equal irrational lines of different eigenvalues", branch_name(a));
+            } else if let [a, b] = &point.branches[..] {
+                let (Some(first), Some(second)) = (line(a), line(b)) else {
+                    return unsupported("a branch without a line", branch_name(a));
+                };
+                common = algebraic(&[first, second]);
             }
             "line"
         }
@@ -50,12 +52,33 @@ fn branch_name(b: &BranchReport) -> String {
     format!("branch {}", b.address)
 }
 
-fn same_field(a: &BranchReport, b: &BranchReport) -> bool {
-    let root = |b: &BranchReport| match &b.outcome {
-        Outcome::Line { eigenvalue: (f, r), .. } => Some(b.spectrum.factors[*f].roots[*r].clone()),
+fn line(b: &BranchReport) -> Option<&Direction> {
+    match &b.outcome {
+        Outcome::Line { direction, .. } => Some(direction),
         _ => None,
+    }
+}
+
+/// The coordinates of one line that several directions have in common, as algebraic numbers with the elements of the fields
+/// of the directions that they are.
+fn algebraic(directions: &[&Direction]) -> Value {
+    // The first coordinate that is not 0 becomes 1.
+    let unit = |d: &&Direction| {
+        let d = d.normalised();
+        let lead = d.coords.iter().find(|c| !c.is_zero()).map_or(1, |c| c.sign(&d.root));
+        d.times(lead)
     };
-    matches!((root(a), root(b)), (Some(x), Some(y)) if x.same(&y))
+    let normal: Vec<Direction> = directions.iter().map(unit).collect();
+    let number = |k: usize| {
+        let x = locate(&normal[0].coords[k], &normal[0].root);
+        let interval = x.enclosure(100).0;
+        json!({
+            "polynomial": numbers(x.minpoly().coeffs()),
+            "interval": [number(&interval.lo), number(&interval.hi)],
+            "elements": normal.iter().map(|d| element(&d.coords[k])).collect::<Value>(),
+        })
+    };
+    (0..normal[0].coords.len()).map(number).collect()
 }
 
 fn eigenvalue(pair: &(usize, usize)) -> Eigenvalue {

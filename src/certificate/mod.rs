@@ -9,12 +9,14 @@ mod hull;
 mod joint;
 mod radius;
 mod regularity;
+mod solve;
 mod spectrum;
 mod top;
 mod tree;
 
 pub use joint::radius_certificate;
 pub use regularity::regularity_certificate;
+pub use solve::solve_certificate;
 
 use crate::arith::Rational;
 use crate::case::Case;
@@ -133,11 +135,11 @@ fn contraction<'a>(
     Ok(Value::Array(states))
 }
 
-/// The SHA-256 digest of a text, in hexadecimal.
+/// The SHA-256 digest of a text or of bytes, in hexadecimal.
 #[must_use]
-pub fn sha256(text: &str) -> String {
+pub fn sha256(text: impl AsRef<[u8]>) -> String {
     use sha2::{Digest, Sha256};
-    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
+    Sha256::digest(text.as_ref()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Why a decided verdict was not proved again.

@@ -31,8 +31,8 @@ pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) 
             return Ok(real(spectrum, lead, &radius));
         }
     }
-    let simple = |m: &Eigenvalue| spectrum.factor(*m).multiplicity == 1;
-    if members.len() == 2 && members.iter().all(simple) && !spectrum.root(members[0]).is_real() {
+    let one_block = |m: &Eigenvalue| spectrum.factor(*m).blocks.len() == 1;
+    if members.len() == 2 && members.iter().all(one_block) && !spectrum.root(members[0]).is_real() {
         return Ok(pair(spectrum, &radius));
     }
     match conformal(linear, spectrum, &radius) {
@@ -76,14 +76,18 @@ fn pair(spectrum: &Spectrum, radius: &Rational) -> Value {
     let upper = |root: &&Root| root.enclosure(64).1.lo > 0;
     let roots = [spectrum.root(members[0]), spectrum.root(members[1])];
     let root = roots.into_iter().find(upper).unwrap_or(roots[0]);
+    let vectors: Value =
+        spectrum.factor(members[0]).right.iter().flat_map(|c| &c.vectors).map(|v| elements(v)).collect();
     let (re, im) = root.enclosure(200);
     let centre = |x: &Interval| number(&Interval::point(x.mid()).outward(200).lo);
     let error = Rational::from(1) / Rational::from(Integer::from(1) << 120u64);
     json!({
         "top": "pair",
         "radius": number(radius),
+        "polynomial": numbers(root.minpoly().coeffs()),
         "centre": [centre(&re), centre(&im)],
         "error": number(&error),
+        "vectors": vectors,
     })
 }
 

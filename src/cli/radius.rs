@@ -1,7 +1,7 @@
 //! `secant jsr` and `secant regularity`.
 
-use super::output::{complain, print, write_file};
-use super::{BAD_INPUT, JsrArgs, PROVED, RegularityArgs, UNDETERMINED};
+use super::output::{deliver, write_file};
+use super::{JsrArgs, PROVED, RegularityArgs, UNDETERMINED};
 use crate::arith::{Rational, parse_rational};
 use crate::case::{Case, Origin};
 use crate::diagnostic::Problem;
@@ -18,16 +18,7 @@ use std::path::Path;
 
 /// Prints bounds of the joint spectral radius of the matrices of a file.
 pub fn jsr(args: &JsrArgs) -> u8 {
-    match radius(args) {
-        Ok(text) => {
-            print(&text);
-            PROVED
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    deliver(radius(args).map(|text| (text, PROVED)))
 }
 
 fn radius(args: &JsrArgs) -> Result<String, Problem> {
@@ -65,20 +56,11 @@ enum Subject {
 
 /// Prints the regularity of a scheme, a curve or a scaling function.
 pub fn regularity(args: &RegularityArgs) -> u8 {
-    let answer = match &args.certificate {
+    let made = match &args.certificate {
         Some(path) => certified(args, path),
         None => subject(args).and_then(|subject| table(&subject)),
     };
-    match answer {
-        Ok((text, decided)) => {
-            print(&text);
-            if decided { PROVED } else { UNDETERMINED }
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    deliver(made.map(|(text, decided)| (text, if decided { PROVED } else { UNDETERMINED })))
 }
 
 fn wrong(message: String) -> Problem {

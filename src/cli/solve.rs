@@ -1,11 +1,12 @@
 //! `secant solve`: the entries of a case that its identities force.
 
 use super::certify::json_text;
-use super::output::{complain, print, write_file};
+use super::output::{print, settle, write_file};
 use super::progress::Waiting;
-use super::{BAD_INPUT, PROVED, REFUTED, SolveArgs};
+use super::{PROVED, REFUTED, SolveArgs};
 use crate::arith::{Rational, parse_rational};
 use crate::case::Case;
+use crate::certificate::{self, Doubt};
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
 use crate::poly::factor;
@@ -32,27 +33,30 @@ pub fn run(args: &SolveArgs) -> u8 {
         }
         Ok(found)
     });
-    match done {
-        Ok(found) => {
-            if args.json {
-                print(&json_text(&found.json, true));
-            } else if !args.quiet {
-                print(&found.text);
-            }
-            if found.case.is_some() { PROVED } else { REFUTED }
+    settle(done.map(|found| {
+        if args.json {
+            print(&json_text(&found.json, true));
+        } else if !args.quiet {
+            print(&found.text);
         }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+        if found.case.is_some() { PROVED } else { REFUTED }
+    }))
 }
 
 fn solve(case: &Case, args: &SolveArgs) -> Result<Found, Problem> {
     let problem = case.unknowns().map_err(|e| refused(case, &e))?;
+    let solution = problem.solve().map_err(|e| refused(case, &e))?;
+    if let Some(path) = &args.certificate {
+        let written = certificate::solve_certificate(case, &problem, &solution).map_err(Doubt::from);
+        let accepted = written.and_then(|c| certificate::checked(&case.text.text, c));
+        let none = |doubt: Doubt| {
+            Problem::new("secant::certificate::none", doubt.to_string())
+                .with_help("see docs/certificate.md; nothing was written")
+        };
+        write_file(path, accepted.map_err(none)?.text())?;
+    }
     let complex = case.complex();
     let identities = complex.identities().map_err(|e| refused(case, &UnknownError::Complex(e)))?.len();
-    let solution = problem.solve().map_err(|e| refused(case, &e))?;
     let mut head = format!(
         "{}: {} and {}\n",
         case.name,

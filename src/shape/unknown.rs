@@ -129,6 +129,11 @@ impl Problem {
         all.into_iter().collect()
     }
 
+    /// The unknown entries (operator, row, column) with the number of their unknown.
+    pub fn entries(&self) -> impl Iterator<Item = ((OpName, usize, usize), usize)> {
+        self.places.iter().map(|(place, unknown)| (*place, *unknown))
+    }
+
     /// The problem without unknowns; see [`Problem::unknown`].
     #[must_use]
     pub fn new(complex: Complex) -> Self {

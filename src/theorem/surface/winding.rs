@@ -8,10 +8,8 @@ use crate::theorem::ring::{Node, Position, Ring};
 use crate::theorem::{Discharged, Functional};
 use std::collections::VecDeque;
 
-/// Cells of the ring whose boundary is followed.
-const MAX_CELLS: usize = 160;
-/// Pieces of one boundary.
-const MAX_PATH: usize = 400;
+/// Rounds of the search: how many cells of the ring are tried, and how many pieces of each boundary at most.
+const ROUNDS: [(usize, usize); 3] = [(40, 100), (12, 600), (4, 2400)];
 /// Binary digits of irrational functionals.
 const BITS: u64 = 128;
 
@@ -31,19 +29,7 @@ pub fn winding(chart: &Chart, complex: &Complex, ring: &Ring, pair: &[Functional
     let errors = approximations.each_ref().map(|(_, e)| e * &bound);
     let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| ring.row_on_points(row)).collect();
     let search = Search { chart, complex, ring, errors };
-    let mut queue: VecDeque<Node> = ring.roots(&rows);
-    let mut budget = MAX_CELLS;
-    while let Some(node) = queue.pop_front() {
-        if search.strict(&node).is_some() || complex.shape.states[node.end].kind != CellKind::Face {
-            continue;
-        }
-        if let Some(found) = search.around(&node) {
-            return Some(found);
-        }
-        budget = budget.checked_sub(1)?;
-        queue.extend(ring.children(&node));
-    }
-    None
+    ROUNDS.iter().find_map(|(cells, longest)| search.round(ring.roots(&rows), *cells, *longest))
 }
 
 struct Search<'a> {
@@ -54,6 +40,22 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    /// Tries so many cells, larger ones first.
+    fn round(&self, mut queue: VecDeque<Node>, cells: usize, longest: usize) -> Option<Winding> {
+        let mut left = cells;
+        while let Some(node) = queue.pop_front() {
+            if self.strict(&node).is_some() || self.complex.shape.states[node.end].kind != CellKind::Face {
+                continue;
+            }
+            if let Some(found) = self.around(&node, longest) {
+                return Some(found);
+            }
+            left = left.checked_sub(1)?;
+            queue.extend(self.ring.children(&node));
+        }
+        None
+    }
+
     /// A functional with a strict sign on the cell.
     fn strict(&self, node: &Node) -> Option<Discharged> {
         for (functional, (row, error)) in node.rows.iter().zip(&self.errors).enumerate() {
@@ -68,7 +70,7 @@ impl Search<'_> {
     }
 
     /// The winding number of the boundary of a cell, where it is not 0 and can be told.
-    fn around(&self, node: &Node) -> Option<Winding> {
+    fn around(&self, node: &Node, longest: usize) -> Option<Winding> {
         let sides = self.complex.faces.get(&node.end)?.layout.sides();
         let mut open: VecDeque<Stretch> = VecDeque::new();
         // The sides in the order of the corners 0, 1, 2, (3).
@@ -80,7 +82,7 @@ impl Search<'_> {
         let mut steps = 0;
         while let Some(stretch) = open.pop_front() {
             steps += 1;
-            if steps > MAX_PATH {
+            if steps > longest {
                 return None;
             }
             match self.strict(&stretch.node) {
@@ -152,4 +154,53 @@ fn turns(path: &[Discharged]) -> Option<i32> {
         };
     }
     Some(total / 4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+    use crate::linalg::Matrix;
+    use crate::scheme::{bspline, tensor};
+    use crate::shape::{Balls, Spaces};
+    use crate::theorem::decide_contraction;
+
+    /// The bilinear patch is the unit square itself: `(s − a, t − b)` has a zero in it, once around or once against the clock,
+    /// or none.
+    #[test]
+    fn boundaries_of_the_unit_square() {
+        let line = bspline(1, 2).unwrap().curve_with_vertices().unwrap();
+        let complex = tensor(&line, &line).unwrap();
+        let shape = &complex.shape;
+        let chart = Chart::new(&complex).unwrap();
+        let spaces = Spaces::new(shape).unwrap();
+        let balls = Balls::of(shape, &spaces, &decide_contraction(shape).unwrap().0).unwrap();
+        let nothing = Matrix::zero(0, 4);
+        let ring = Ring { shape, spaces: &spaces, balls: &balls, state: 0, fixed: &[], chart: &nothing, pieces: &[] };
+        let search = Search { chart: &chart, complex: &complex, ring: &ring, errors: [ratio(0, 1), ratio(0, 1)] };
+        // Values at the corners in the order of the control points, read off the corners of the patch.
+        let corner = |k: usize| shape.point(0, &crate::shape::Address::periodic(vec![k])).unwrap();
+        let place = |k: usize| corner(k).iter().position(|x| *x == 1).unwrap();
+        let row = |f: &dyn Fn(i64, i64) -> Rational| {
+            let mut row = vec![ratio(0, 1); 4];
+            for (k, (s, t)) in [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().enumerate() {
+                row[place(k)] = f(s, t);
+            }
+            row
+        };
+        let whole = |a: (i64, i64), b: (i64, i64), swapped: bool| {
+            let s = row(&|s, _| ratio(s, 1) - ratio(a.0, a.1));
+            let t = row(&|_, t| ratio(t, 1) - ratio(b.0, b.1));
+            let rows = if swapped { vec![t, s] } else { vec![s, t] };
+            Node { word: Vec::new(), end: 0, position: Position::Unordered, rows }
+        };
+        let number = |node: Node| search.round([node].into(), 1, 600).map(|w| (w.number, w.path.len()));
+        let (once, stretches) = number(whole((2, 5), (4, 7), false)).unwrap();
+        assert_eq!(once, 1);
+        assert!(stretches >= 8);
+        assert_eq!(number(whole((2, 5), (4, 7), true)).map(|w| w.0), Some(-1));
+        assert_eq!(number(whole((7, 5), (4, 7), false)), None);
+        // A zero on the boundary is none inside.
+        assert_eq!(number(whole((0, 1), (4, 7), false)), None);
+    }
 }
