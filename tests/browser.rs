@@ -1,11 +1,14 @@
 //! The HTML reports in a browser: `SECANT_BROWSER=1 cargo test --test browser` with Chromium (Debian: `chromium`).
 //! `SECANT_BROWSER=DIR` keeps the screenshots in DIR.
 
+use secant::case::VertexCase;
 use secant::prelude::*;
+use secant::theorem::surface::certify_complex;
+use secant::vertex::at_valence;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-const CASES: [&str; 8] = [
+const CASES: [&str; 14] = [
     "thesis/half-tangent",
     "classical/levy",
     "classical/takagi",
@@ -14,7 +17,16 @@ const CASES: [&str; 8] = [
     "control/bezier-cusp",
     "irrational/regular-sqrt-2",
     "two-parameter/digits-400-corner",
+    "bspline/degree-5",
+    "automata/closed",
+    "control/cubic-null",
+    "surfaces/bicubic-space",
+    "surfaces/null-refuted",
+    "faces/catmull-clark-5",
 ];
+
+/// Cases about vertices.
+const VERTICES: [&str; 2] = ["surfaces/catmull-clark-12-12", "surfaces/doo-sabin-frequency-2"];
 
 /// Says in the title how many formulas and pictures have a size, and whether the page is wider than the window.
 const PROBE: &str = "<script>addEventListener('load', () => {
@@ -34,10 +46,8 @@ fn reports_are_shown_without_errors() {
     let scratch = tempfile::tempdir().unwrap();
     let kept = PathBuf::from(kept);
     let shots = if kept.is_dir() { kept } else { scratch.path().to_owned() };
-    for name in CASES {
-        let case = Case::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"))).unwrap();
-        let found = certify(&case.shape, &case.examine).unwrap();
-        let page = html::render(&proof::document(&case, &found));
+    for name in CASES.into_iter().chain(VERTICES) {
+        let page = page(name);
         let stem = name.replace('/', "--");
         let (plain, probed) = (scratch.path().join(format!("{stem}.html")), scratch.path().join("probe.html"));
         std::fs::write(&plain, &page).unwrap();
@@ -59,6 +69,18 @@ fn reports_are_shown_without_errors() {
     }
 }
 
+fn page(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
+    if VERTICES.contains(&name) {
+        let case = VertexCase::read(&path).unwrap();
+        let found: Vec<_> = [3, 5].iter().filter_map(|n| at_valence(&case.rule, *n).ok()).collect();
+        return html::render(&proof::vertex_document(&case, &found, None));
+    }
+    let case = Case::read(&path).unwrap();
+    let found = certify_complex(&case.complex(), &case.examine).unwrap();
+    html::render(&proof::document(&case, &found))
+}
+
 fn title(dom: &str) -> &str {
     dom.split("<title>").nth(1).and_then(|t| t.split("</title>").next()).unwrap_or_default()
 }
@@ -66,6 +88,7 @@ fn title(dom: &str) -> &str {
 fn chromium(profile: &Path, args: &[&str]) -> (String, String) {
     let out = Command::new("chromium")
         .args(["--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--enable-logging=stderr"])
+        .args(["--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"])
         .arg(format!("--user-data-dir={}", profile.join("profile").display()))
         .args(args)
         .output()

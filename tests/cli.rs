@@ -284,6 +284,70 @@ fn results_are_kept_and_found_again() {
 }
 
 #[test]
+fn a_kept_result_is_taken_only_where_it_is_whole_and_still_proved() {
+    let dir = tempfile::tempdir().unwrap();
+    let store = dir.path().display().to_string();
+    let surface = "cases/surfaces/one-direction.toml";
+    let args = ["certify", "--resume", &store, HALF, surface, "--address", "(0)"];
+    let (fresh, _) = output(&args, 1);
+    // The kinds of a surface's points are kept, too.
+    let (again, _) = output(&args, 1);
+    assert!(again.contains("2 kept"), "{again}");
+    let row = |text: &str| text.lines().find(|l| l.contains("one-direction")).map(str::to_owned);
+    assert!(row(&fresh).is_some() && row(&fresh) == row(&again), "{fresh}\n{again}");
+    let file = dir.path().join("cases--thesis--half-tangent.result.json");
+    let certificate = dir.path().join("cases--thesis--half-tangent.certificate.json");
+    let (kept, proof) = (std::fs::read_to_string(&file).unwrap(), std::fs::read_to_string(&certificate).unwrap());
+    let one_kept = |what: &str| {
+        let (out, _) = output(&args, 1);
+        assert!(out.contains("1 kept"), "{what}\n{out}");
+        // It was certified again and kept as before.
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), kept, "{what}");
+    };
+    // Another verdict, other kinds, another program, half a file.
+    std::fs::write(&file, kept.replace("proved", "refuted")).unwrap();
+    one_kept("another verdict");
+    std::fs::write(&file, kept.replace("cusp", "regular")).unwrap();
+    one_kept("another kind");
+    let mut value: Value = serde_json::from_str(&kept).unwrap();
+    value["seal"] = "0".repeat(64).into();
+    std::fs::write(&file, value.to_string()).unwrap();
+    one_kept("another program");
+    std::fs::write(&file, &kept[..kept.len() / 2]).unwrap();
+    one_kept("half a file");
+    // A certificate that proves nothing, with its right digest in a file whose seal is not.
+    let forged = proof.replacen("\"proof\"", "\"prose\"", 1);
+    std::fs::write(&certificate, &forged).unwrap();
+    let mut value: Value = serde_json::from_str(&kept).unwrap();
+    value["certificate"] = secant::certificate::sha256(&forged).into();
+    std::fs::write(&file, value.to_string()).unwrap();
+    one_kept("another certificate");
+    assert_eq!(std::fs::read_to_string(&certificate).unwrap(), proof);
+}
+
+#[test]
+fn several_cases_may_be_about_vertices() {
+    let (out, _) = output(&["certify", HALF, "cases/surfaces/catmull-clark-12-12.toml"], 0);
+    assert!(out.contains("2 cases: 2 proved") && out.contains("C¹ valence"), "{out}");
+}
+
+#[test]
+fn cones_are_drawn_where_there_are_some() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("cones.svg");
+    let file = path.display().to_string();
+    let case = "cases/bspline/degree-2.toml";
+    output(&["certify", "-q", case, "--svg", &file, "--draw", "cones"], 0);
+    let first = std::fs::read_to_string(&path).unwrap();
+    assert!(first.matches("sc-y").count() > 8 && first.contains("cones</title>"), "{first}");
+    output(&["certify", "-q", case, "--svg", &file, "--draw", "cones"], 0);
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), first);
+    let (_, err) = output(&["certify", "cases/classical/levy.toml", "--svg", &file, "--draw", "cones"], 2);
+    assert!(err.contains("no cones"), "{err}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), first);
+}
+
+#[test]
 fn colours_are_for_terminals_and_not_under_no_color() {
     // `script` of util-linux gives the program a terminal.
     let run = |no_color: bool| {
@@ -373,4 +437,22 @@ fn latex_is_complete() {
 fn completions_and_the_manual_are_printed() {
     assert!(output(&["completions", "bash"], 0).0.contains("secant"));
     assert!(output(&["man"], 0).0.contains(".TH"));
+}
+
+#[test]
+fn orders_of_smoothness_have_certificates() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("orders.json");
+    let path = file.to_str().unwrap();
+    let case = "cases/classical/takagi-landsberg-1-3.toml";
+    let (out, _) = output(&["regularity", case, "--certificate", path], 0);
+    assert!(out.contains("fails before piece 1"));
+    let accepted = secant_check::check(
+        &std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(case)).unwrap(),
+        &std::fs::read_to_string(&file).unwrap(),
+    );
+    assert!(accepted.unwrap().claims.contains(&"refuted: the curve is C^1 in the uniform parameter".to_owned()));
+    std::fs::remove_file(&file).unwrap();
+    let (_, err) = output(&["regularity", "four-point", "--certificate", path], 2);
+    assert!(err.contains("case file") && !file.exists());
 }

@@ -4,10 +4,8 @@
 use secant::arith::{Rational, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::scheme::{Mask, bspline, tensor};
-use secant::shape::{Address, Boundary, CellKind, Complex, Piece, Shape, State};
-use secant::theorem::surface::{
-    Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point,
-};
+use secant::shape::{Address, CellKind, Complex, Shape};
+use secant::theorem::surface::{Surface, SurfaceBranch, SurfacePoint, SurfaceWitness, certify_complex, product_point};
 use secant::theorem::{Certified, Statement, Verdict};
 
 /// A reproducible source of small numbers.
@@ -177,24 +175,6 @@ fn a_patch_that_collapses_to_a_line_has_dimension_1() {
     for p in &surface(&found).points {
         assert!(p.dimension.exact && p.dimension.at_least == 1, "{:?} {:?} {:?}", p.spot, p.dimension, p.reason);
     }
-}
-
-/// An affine curve in the plane with end points as vertices.
-fn with_vertices(pieces: &[(Matrix, Vec<Rational>)], ends: [Vec<Rational>; 2]) -> Shape {
-    let mut shape = Shape::single(CellKind::Edge, pieces.iter().map(|(l, t)| Shape::affine_operator(l, t)).collect());
-    let point = |p: &[Rational]| {
-        let rest = p.iter().fold(ratio(1, 1), |s, x| s - x);
-        Matrix::from_columns(p.len() + 1, &[[&[rest], p].concat()])
-    };
-    // One vertex state of one coordinate serves for both ends.
-    let piece = Piece { target: 1, op: Matrix::identity(1), reversed: false };
-    let vertex =
-        State { name: "v".into(), kind: CellKind::Vertex, dim: 1, pieces: vec![piece], left: None, right: None };
-    shape.states.push(vertex);
-    let [start, finish] = ends;
-    shape.states[0].left = Some(Boundary { vertex: 1, op: point(&start) });
-    shape.states[0].right = Some(Boundary { vertex: 1, op: point(&finish) });
-    shape
 }
 
 // ---- sampling -------------------------------------------------------------------------------------------------------

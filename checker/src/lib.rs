@@ -15,6 +15,7 @@ mod points;
 pub mod poly;
 mod radius;
 mod rate;
+mod regularity;
 mod ring;
 mod rules;
 pub mod shape;
@@ -144,6 +145,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
     let found = match kind.text()? {
         "certify" => claims::check(&case::read(case, false)?, &proof)?,
         "solve" => solve::check(case::read(case, true)?, &proof)?,
+        "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),

@@ -22,12 +22,27 @@ pub struct System {
 /// Checks the proof of a certificate of the kind `jsr`.
 pub fn check(text: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
     let system = matrix_list(text)?;
-    let (name, claims, blocks) = bounds(&system, node)?;
-    Ok(Accepted { case: name, verdict: Verdict::Proved, claims: vec![claims], points: blocks })
+    let found = bounds(&system, node)?;
+    let text = if found.lower == found.upper {
+        format!("proved: the joint spectral radius is {}", found.lower)
+    } else {
+        format!("proved: the joint spectral radius is at least {} and at most {}", found.lower, found.upper)
+    };
+    Ok(Accepted { case: system.name, verdict: Verdict::Proved, claims: vec![text], points: found.blocks })
 }
 
-/// The name, what is proved of the radius, and one line for each block.
-fn bounds(system: &System, node: &Node<'_>) -> Result<(String, String, Vec<String>), Rejected> {
+/// What is proved of a radius.
+pub struct Bounds {
+    /// It is at least this.
+    pub lower: Q,
+    /// It is at most this.
+    pub upper: Q,
+    /// One line for each block.
+    pub blocks: Vec<String>,
+}
+
+/// Checks `{"lower", "upper", "bases", "blocks"}` for a system.
+pub fn bounds(system: &System, node: &Node<'_>) -> Result<Bounds, Rejected> {
     let [lower, upper, bases, blocks] = node.fields(["lower", "upper", "bases", "blocks"])?;
     let lo = if lower.is_null() { Q::zero() } else { at(&lower.place, below(system, &lower))? };
     let hi = upper.rational()?;
@@ -71,15 +86,10 @@ fn bounds(system: &System, node: &Node<'_>) -> Result<(String, String, Vec<Strin
     if used != system.dims {
         return reject("block", &blocks.place, "the blocks do not fill the spaces");
     }
-    let text = if lo == hi {
-        format!("proved: the joint spectral radius is {lo}")
-    } else {
-        format!("proved: the joint spectral radius is at least {lo} and at most {hi}")
-    };
     if lo > hi {
         return reject("block", &upper.place, "the bounds contradict each other");
     }
-    Ok((system.name.clone(), text, lines))
+    Ok(Bounds { lower: lo, upper: hi, blocks: lines })
 }
 
 /// A basis of every state (columns) and its inverse.

@@ -530,3 +530,52 @@ fn long_numbers_do_not_run_away() {
     assert_eq!(rule("koch-2", &[("/points/0/branches/0/top/polynomial", json!(many))]), "limit");
     assert!(begin.elapsed().as_secs() < 60, "{:?}", begin.elapsed());
 }
+
+#[test]
+fn orders_of_smoothness() {
+    let order = |k: usize| -> Value {
+        let (_, text) = stored("regularity-spline");
+        let whole: Value = serde_json::from_str(&text).unwrap();
+        whole.pointer(&format!("/proof/orders/{k}")).unwrap().clone()
+    };
+    let radius = "/orders/1/radius";
+    let (upper, bound) = (format!("{radius}/upper"), format!("{radius}/blocks/0/bound"));
+    let terms = |arrow: usize| format!("{radius}/blocks/0/norm/inclusions/{arrow}/terms/0/1");
+    let (first, second) = (terms(0), terms(1));
+    // The curve is not C¹, although the radius is below 1/2.
+    all(
+        "regularity-takagi-third",
+        &[
+            ("orders", &[("/orders/1/joints", json!("holds"))]),
+            ("orders", &[("/orders/1/joints", json!("none"))]),
+            ("orders", &[("/orders/0/joints", json!("holds"))]),
+            ("orders", &[("/orders/1/order", json!(2))]),
+            ("orders", &[("/orders/1/dims", json!([0])), (radius, Value::Null)]),
+            ("orders", &[("/orders/1/dims", json!([2]))]),
+            ("orders", &[(radius, Value::Null)]),
+            ("orders", &[("/orders", json!([]))]),
+            // A bound that is true, but not below 1/2.
+            ("orders", &[(&upper, json!("1/2"))]),
+            ("block", &[(&upper, json!("1/4"))]),
+            ("inclusion", &[(&bound, json!("1/4")), (&first, json!("1/4")), (&second, json!("1/4"))]),
+            ("block", &[("/orders/1/radius/bases", json!([[["0"]]]))]),
+            ("word", &[("/orders/1/radius/lower/bound", json!("1/2"))]),
+            ("contraction", &[("/contraction/0/radius", json!("1/8"))]),
+        ],
+    );
+    let second = order(2);
+    let orders = |list: Vec<Value>| ("/orders", json!(list));
+    all(
+        "regularity-spline",
+        &[
+            ("orders", &[orders(vec![order(0), second.clone()])]),
+            ("orders", &[orders(vec![order(1), second.clone()])]),
+            ("orders", &[orders(vec![order(0), order(1), second.clone(), second])]),
+            ("orders", &[("/orders/2/joints", json!("fails"))]),
+        ],
+    );
+    // A piece that runs backwards, and a curve with corners, under the same proof.
+    let (case, text) = stored("regularity-takagi-third");
+    let other = case.replace("[\"-1/2\", \"1/3\"]", "[\"-1/2\", \"-1/3\"]");
+    assert!(secant_check::check(&other, &text).is_err() && other != case);
+}

@@ -4,7 +4,7 @@ use super::{Certificate, Unsupported, number, numbers, unsupported};
 use crate::arith::{Interval, Rational};
 use crate::linalg::Matrix;
 use crate::radius::file::File;
-use crate::radius::{Balanced, BlockProof, Body, JointRadius, Lower, Polytope, Proof, Quadratic, Tree};
+use crate::radius::{Balanced, BlockProof, Body, JointRadius, Lower, Polytope, Proof, Quadratic, System, Tree};
 use serde_json::{Value, json};
 
 /// How close the bounds of the certificate are to those found, in binary places.
@@ -15,7 +15,11 @@ const BITS: u64 = 80;
 /// # Errors
 /// [`Unsupported`] where no word was found, or a block has no upper bound.
 pub fn radius_certificate(file: &File, found: &JointRadius) -> Result<Certificate, Unsupported> {
-    let system = &file.system;
+    Ok(Certificate::new("jsr", &file.name, "proved", radius_proof(&file.system, found)?))
+}
+
+/// The bounds that were found for a system, with what proves them.
+pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value, Unsupported> {
     let lower = match &found.lower {
         Some(lower) => below(&system.product(&lower.path), lower)?,
         None => Value::Null,
@@ -41,8 +45,7 @@ pub fn radius_certificate(file: &File, found: &JointRadius) -> Result<Certificat
         upper = upper.max(bound.clone());
         blocks.push(json!({"dims": dims, "bound": number(&bound), "norm": norm}));
     }
-    let proof = json!({"lower": lower, "upper": number(&upper), "bases": bases, "blocks": blocks});
-    Ok(Certificate::new("jsr", &file.name, "proved", proof))
+    Ok(json!({"lower": lower, "upper": number(&upper), "bases": bases, "blocks": blocks}))
 }
 
 /// A disc that holds an eigenvalue of the product, and a rational below its modulus to the power `1/length`.

@@ -8,17 +8,19 @@ mod everywhere;
 mod hull;
 mod joint;
 mod radius;
+mod regularity;
 mod solve;
 mod spectrum;
 mod top;
 mod tree;
 
 pub use joint::radius_certificate;
+pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
 
 use crate::arith::Rational;
 use crate::case::Case;
-use crate::shape::{Address, CellKind, Contraction};
+use crate::shape::{Address, CellKind, Contraction, Shape};
 use crate::theorem::{Certified, Claim, PointReport, Role, Statement, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
@@ -102,19 +104,8 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     if found.surface.is_some() {
         return unsupported("the tangent planes of a surface", "points");
     }
-    let mut states = Vec::new();
-    for report in &found.states {
-        let code = match &found.contraction {
-            Contraction::Proved(proof) => tree::code(&case.shape, report.state, &proof.codes[report.state])?,
-            Contraction::Polytopes(proof) => hull::polytope(proof, report.state),
-            _ => return unsupported("a system whose contraction is not proved", "contraction"),
-        };
-        let hull = match &found.polygons {
-            Some(polygons) => hull::hull(&case.shape, report.state, polygons)?,
-            None => Value::Null,
-        };
-        states.push(json!({"state": report.state, "radius": number(&report.radius), "code": code, "hull": hull}));
-    }
+    let radii = found.states.iter().map(|r| (r.state, &r.radius));
+    let states = contraction(&case.shape, &found.contraction, radii, found.polygons.as_deref())?;
     let mut points = Points { case, places: Vec::new(), json: Vec::new() };
     for point in &found.points {
         points.add(point)?;
@@ -124,11 +115,31 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
 }
 
-/// The SHA-256 digest of a text, in hexadecimal.
+/// Why a system contracts, and what encloses its attractors, by reachable state.
+fn contraction<'a>(
+    shape: &Shape,
+    found: &Contraction,
+    radii: impl Iterator<Item = (usize, &'a Rational)>,
+    polygons: Option<&[Vec<Vec<Rational>>]>,
+) -> Result<Value, Unsupported> {
+    let mut states = Vec::new();
+    for (state, radius) in radii {
+        let code = match found {
+            Contraction::Proved(proof) => tree::code(shape, state, &proof.codes[state])?,
+            Contraction::Polytopes(proof) => hull::polytope(proof, state),
+            _ => return unsupported("a system whose contraction is not proved", "contraction"),
+        };
+        let hull = polygons.map_or(Ok(Value::Null), |polygons| hull::hull(shape, state, polygons))?;
+        states.push(json!({"state": state, "radius": number(radius), "code": code, "hull": hull}));
+    }
+    Ok(Value::Array(states))
+}
+
+/// The SHA-256 digest of a text or of bytes, in hexadecimal.
 #[must_use]
-pub fn sha256(text: &str) -> String {
+pub fn sha256(text: impl AsRef<[u8]>) -> String {
     use sha2::{Digest, Sha256};
-    Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
+    Sha256::digest(text.as_ref()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
 /// Why a decided verdict was not proved again.

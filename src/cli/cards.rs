@@ -118,8 +118,7 @@ fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
     let case = VertexCase::read(path)?;
     let asked = case.valences.clone().unwrap_or(Valences::List((3..=12).collect()));
     let (found, every) = super::vertex::at(&case, &asked, true)?;
-    let report =
-        wanted.written.then(|| html::render(&crate::report::vertex::document(&case, &found, every.as_ref(), true)));
+    let report = wanted.written.then(|| html::render(&proof::vertex_document(&case, &found, every.as_ref())));
     let verdict = overall(&found, every.as_ref());
     let mut parts: Vec<String> =
         every.iter().filter(|e| e.proved()).map(|e| format!("proved at every valence from {} on", e.from)).collect();

@@ -2,11 +2,12 @@
 
 use super::output::{complain, print, stdout_colour, write_file};
 use super::progress::Waiting;
-use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED, approximate, many};
+use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::arith::Rational;
 use crate::case::{Case, MAX_LETTERS};
 use crate::certificate::{Certificate, Doubt, Unsupported, certificate, confirm};
 use crate::diagnostic::Problem;
+use crate::report::document::Block;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
 use crate::shape::{Address, CurveError, Frame, word_text};
@@ -121,11 +122,24 @@ pub(super) fn extension(path: &Path) -> String {
 /// The [`Problem`] of the file, of an address, or of the model.
 pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<Evidence>), Problem> {
     let (case, addresses) = read(path, args)?;
-    let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(&case, &error))?;
+    let (found, evidence) = examined(&case, &addresses, args)?;
+    Ok((case, found, evidence))
+}
+
+/// Certifies a case that was read, with the evidence where a decided verdict was to be checked.
+///
+/// # Errors
+/// The [`Problem`] of the model, or of a certificate that the checker does not accept.
+pub fn examined(
+    case: &Case,
+    addresses: &[Address],
+    args: &CertifyArgs,
+) -> Result<(Certified, Option<Evidence>), Problem> {
+    let found = certify_complex(&case.complex(), addresses).map_err(|error| model_problem(case, &error))?;
     if args.no_check || found.verdict == Verdict::Undetermined {
-        return Ok((case, found, None));
+        return Ok((found, None));
     }
-    let evidence = match confirm(&case, &found) {
+    let evidence = match confirm(case, &found) {
         Ok(certificate) => Ok(certificate),
         Err(Doubt::Unsupported(unsupported)) => Err(unsupported),
         Err(doubt) => {
@@ -134,7 +148,7 @@ pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<E
             ));
         }
     };
-    Ok((case, found, Some(evidence)))
+    Ok((found, Some(evidence)))
 }
 
 /// Reads a case and the addresses asked for.
@@ -213,7 +227,7 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
     });
     let svg = match args.svg.as_deref() {
         None => None,
-        Some(path) => Some((path, picture(case, found)?)),
+        Some(path) => Some((path, picture(case, found, args.draw)?)),
     };
     let png = match args.png.as_deref() {
         None => None,
@@ -238,8 +252,16 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
     Ok(())
 }
 
-fn picture(case: &Case, found: &Certified) -> Result<String, Problem> {
-    figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(case))
+fn picture(case: &Case, found: &Certified, what: Drawn) -> Result<String, Problem> {
+    match (what, figures::cones(case, found)) {
+        (Drawn::Shape, _) => figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(case)),
+        (Drawn::Cones, Some(Block::Figure { svg, .. })) => Ok(svg),
+        (Drawn::Cones, _) => {
+            let message = format!("there are no cones to be drawn for {}", case.name);
+            Err(Problem::new("secant::picture", message)
+                .with_help("cones are found for curves that are G¹ or have corners only (Theorem 6); leave out --draw"))
+        }
+    }
 }
 
 fn undrawn(case: &Case) -> Problem {

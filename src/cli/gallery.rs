@@ -1,9 +1,9 @@
 //! `secant gallery`: all cases on one page, with a report for each.
 
 use super::cards::{Entry, OPEN, REFUSED, Report, entry, is_selected};
-use super::output::{complain, print, write_file};
+use super::output::{complain, print, settle, write_file};
 use super::progress::Progress;
-use super::{BAD_INPUT, GalleryArgs, PROVED, REFUTED};
+use super::{GalleryArgs, PROVED, REFUTED};
 use crate::diagnostic::Problem;
 use crate::report::html::escaped;
 use crate::report::words;
@@ -24,13 +24,7 @@ const MORE_STYLE: &str = "main { max-width: 72rem; }
 
 /// Writes the page and the reports, or checks the page.
 pub fn run(args: &GalleryArgs) -> u8 {
-    match make(args) {
-        Ok(code) => code,
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    settle(make(args))
 }
 
 fn make(args: &GalleryArgs) -> Result<u8, Problem> {

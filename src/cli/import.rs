@@ -1,8 +1,7 @@
 //! `secant import`: files of other programs, written as cases.
 
-use super::expand::deliver;
-use super::output::complain;
-use super::{BAD_INPUT, PROVED};
+use super::PROVED;
+use super::output::{print_or_write, settle};
 use crate::case::MAX_BYTES;
 use crate::diagnostic::Problem;
 use crate::scheme::{Heading, SchemeError, case_text, parse_fractint, parse_json};
@@ -17,13 +16,7 @@ const JSON: &str = "JSON: matrices act as its `convention` says (columns sum to 
 
 /// Reads a file and writes it as a case.
 pub fn run(path: &Path, entry: Option<&str>, output: Option<&Path>) -> u8 {
-    match read(path, entry).and_then(|text| deliver(&text, output)) {
-        Ok(()) => PROVED,
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    settle(read(path, entry).and_then(|text| print_or_write(&text, output)).map(|()| PROVED))
 }
 
 fn read(path: &Path, entry: Option<&str>) -> Result<String, Problem> {

@@ -1,7 +1,7 @@
 //! `secant init`: a starter case.
 
-use super::output::{complain, print};
-use super::{BAD_INPUT, PROVED};
+use super::PROVED;
+use super::output::deliver;
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use std::io::Write;
@@ -12,17 +12,10 @@ const STARTER: &str = include_str!("starter.toml");
 
 /// Writes `NAME.toml`, unless it exists.
 pub fn run(name: &str) -> u8 {
-    match write(name) {
-        Ok(path) => {
-            let shown = path.display();
-            print(&format!("{shown} is written; try  secant certify {shown}\n"));
-            PROVED
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    deliver(write(name).map(|path| {
+        let shown = path.display();
+        (format!("{shown} is written; try  secant certify {shown}\n"), PROVED)
+    }))
 }
 
 fn write(name: &str) -> Result<PathBuf, Problem> {

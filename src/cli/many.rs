@@ -1,13 +1,14 @@
 //! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
-use super::certify::{Evidence, NOT_ASKED, check_json, exit_code, json_text, one};
+use super::certify::{Evidence, NOT_ASKED, check_json, examined, exit_code, json_text, read};
 use super::output::{complain, print, stdout_colour};
 use super::progress::Progress;
-use super::resume::Store;
+use super::resume::{Kept, Store};
 use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED};
+use crate::case::VertexCase;
 use crate::diagnostic::Problem;
 use crate::report::document::{Block, Document, Inline, Line, Table, Tone, words};
-use crate::report::{json, text, words as phrases};
+use crate::report::{json, text, vertex as report, words as phrases};
 use crate::theorem::{Certified, Kind, Verdict};
 use rayon::prelude::*;
 use serde_json::Value;
@@ -95,12 +96,14 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 /// One case: from the store where its result is up to date, otherwise certified and stored.
 fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
-    if let Some(json) = store.and_then(|s| s.find(path))
-        && let Some(done) = kept(json)
-    {
+    if super::vertex::is_about_vertices(path) {
+        return about_vertices(path);
+    }
+    let (case, addresses) = read(path, args)?;
+    if let Some(done) = store.and_then(|s| s.find(path, &case)).and_then(kept) {
         return Ok(done);
     }
-    let (case, found, evidence) = one(path, args)?;
+    let (found, evidence) = examined(&case, &addresses, args)?;
     let json = check_json(json::report(&case, &found), evidence.as_ref());
     let done = Done {
         name: case.name.clone(),
@@ -112,20 +115,35 @@ fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
     };
     if let Some(store) = store {
         let certificate = evidence.and_then(Evidence::ok).map(|c| c.text());
-        store.keep(path, &case.text.text, &done.json, certificate.as_deref())?;
+        let kept = Kept { report: done.json.clone(), kinds: done.kinds.clone() };
+        store.keep(path, &case.text.text, &kept, certificate.as_deref())?;
     }
     Ok(done)
 }
 
-/// A stored result, read back; `None` where it is not what this version writes.
-fn kept(json: Value) -> Option<Done> {
-    let verdict = verdict_of(json["verdict"].as_str()?)?;
-    let points = json["points"].as_array()?.iter().map(|p| {
-        let verdict = verdict_of(p["verdict"].as_str()?)?;
-        Some(point_word(verdict, p["kind"].as_str()?).to_owned())
+/// A case about the vertices of a mesh: the verdicts at the valences of its file. The checker has no rule for them.
+fn about_vertices(path: &Path) -> Outcome {
+    let case = VertexCase::read(path)?;
+    let asked = super::vertex::valences(&case, None)?;
+    let (found, every) = super::vertex::at(&case, &asked, true)?;
+    let smooth = found.iter().map(|f| match f.smooth {
+        Verdict::Proved => "C¹ valence",
+        Verdict::Refuted => "valence not C¹",
+        Verdict::Undetermined => "open valence",
     });
-    let points: Vec<String> = points.collect::<Option<_>>()?;
-    let kinds = counted(points.iter().map(String::as_str)).join(", ");
+    Ok(Done {
+        name: case.name.clone(),
+        verdict: report::overall(&found, every.as_ref()),
+        kinds: counted(smooth).join(", "),
+        checked: Checked::NoRule,
+        json: report::json(&case, &found, every.as_ref()),
+        kept: false,
+    })
+}
+
+/// A stored result, read back; `None` where it is not what this version writes.
+fn kept(Kept { report: json, kinds }: Kept) -> Option<Done> {
+    let verdict = verdict_of(json["verdict"].as_str()?)?;
     let (name, checked) = (json["case"].as_str()?.to_owned(), Checked::of(&json)?);
     Some(Done { name, verdict, kinds, checked, json, kept: true })
 }

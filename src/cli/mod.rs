@@ -132,6 +132,9 @@ struct CertifyArgs {
     /// The same as PNG, without the words in the picture.
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
+    /// What --svg draws: the shape with its tangents, or the cones of Theorem 6 along a curve.
+    #[arg(long, value_name = "WHAT", value_enum, default_value_t = Drawn::Shape, requires = "svg")]
+    draw: Drawn,
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
@@ -139,7 +142,7 @@ struct CertifyArgs {
     #[arg(long)]
     no_check: bool,
     /// Keep the results and certificates of many cases in a directory, and skip the cases whose result there is up to
-    /// date: same text of the case, same addresses and checks, same version of secant.
+    /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
@@ -235,6 +238,9 @@ struct RegularityArgs {
     /// The arity of a mask.
     #[arg(long, default_value_t = 2)]
     arity: usize,
+    /// Write a certificate of the orders of smoothness of the curve of a case file (docs/certificate.md).
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -247,6 +253,15 @@ struct JsrArgs {
     /// Write a certificate of the bounds that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+}
+
+/// What a picture shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Drawn {
+    /// The shape with its control polygon and the limit rays.
+    Shape,
+    /// The cones that hold the secants of the cells.
+    Cones,
 }
 
 #[derive(Debug, Args)]

@@ -1,5 +1,6 @@
 //! Writing: whole files or none, colours only for people.
 
+use super::BAD_INPUT;
 use crate::diagnostic::Problem;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -42,6 +43,34 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem>
 pub fn print(text: &str) {
     let mut out = std::io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// The exit code of a command that prints a text, or that of bad input with its diagnostic.
+pub fn deliver(made: Result<(String, u8), Problem>) -> u8 {
+    settle(made.map(|(text, code)| {
+        print(&text);
+        code
+    }))
+}
+
+/// The exit code of a command, or that of bad input with its diagnostic.
+pub fn settle(done: Result<u8, Problem>) -> u8 {
+    done.unwrap_or_else(|problem| {
+        complain(&problem);
+        BAD_INPUT
+    })
+}
+
+/// Prints a text, or writes it to a file, whole or not at all.
+///
+/// # Errors
+/// A [`Problem`] that names the file.
+pub fn print_or_write(text: &str, output: Option<&Path>) -> Result<(), Problem> {
+    match output {
+        Some(path) => write_file(path, text)?,
+        None => print(text),
+    }
+    Ok(())
 }
 
 /// Prints a problem to the standard error.

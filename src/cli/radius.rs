@@ -1,7 +1,7 @@
 //! `secant jsr` and `secant regularity`.
 
-use super::output::{complain, print, write_file};
-use super::{BAD_INPUT, JsrArgs, PROVED, RegularityArgs, UNDETERMINED};
+use super::output::{deliver, write_file};
+use super::{JsrArgs, PROVED, RegularityArgs, UNDETERMINED};
 use crate::arith::{Rational, parse_rational};
 use crate::case::{Case, Origin};
 use crate::diagnostic::Problem;
@@ -9,7 +9,7 @@ use crate::picture::polytope;
 use crate::radius::{Options, file, joint_radius};
 use crate::report::radius as report;
 use crate::scheme::{self, Mask};
-use crate::shape::Spaces;
+use crate::shape::{Contraction, Spaces};
 use crate::theorem::regularity;
 use crate::theorem::smoothness::curve_regularity;
 use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
@@ -18,16 +18,7 @@ use std::path::Path;
 
 /// Prints bounds of the joint spectral radius of the matrices of a file.
 pub fn jsr(args: &JsrArgs) -> u8 {
-    match radius(args) {
-        Ok(text) => {
-            print(&text);
-            PROVED
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    deliver(radius(args).map(|text| (text, PROVED)))
 }
 
 fn radius(args: &JsrArgs) -> Result<String, Problem> {
@@ -65,16 +56,11 @@ enum Subject {
 
 /// Prints the regularity of a scheme, a curve or a scaling function.
 pub fn regularity(args: &RegularityArgs) -> u8 {
-    match subject(args).and_then(|subject| table(&subject)) {
-        Ok((text, decided)) => {
-            print(&text);
-            if decided { PROVED } else { UNDETERMINED }
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    let made = match &args.certificate {
+        Some(path) => certified(args, path),
+        None => subject(args).and_then(|subject| table(&subject)),
+    };
+    deliver(made.map(|(text, decided)| (text, if decided { PROVED } else { UNDETERMINED })))
 }
 
 fn wrong(message: String) -> Problem {
@@ -151,13 +137,47 @@ fn case(path: &Path) -> Result<Subject, Problem> {
     if let Some(Origin::Mask(mask)) = &case.scheme {
         return Ok(Subject::Mask(mask.clone()));
     }
-    case.shape.check_curves().map_err(|e| super::certify::model_problem(&case, &e.into()))?;
-    let contraction =
-        crate::theorem::contraction_of(&case.shape).map_err(|e| super::certify::model_problem(&case, &e))?;
-    if !contraction.is_proved() {
+    contracting(&case)?;
+    Ok(Subject::Curve(Box::new(case.shape)))
+}
+
+/// Why the curve of a case contracts.
+fn contracting(case: &Case) -> Result<Contraction, Problem> {
+    case.shape.check_curves().map_err(|e| super::certify::model_problem(case, &e.into()))?;
+    let found = crate::theorem::contraction_of(&case.shape).map_err(|e| super::certify::model_problem(case, &e))?;
+    if !found.is_proved() {
         return Err(wrong(format!("{}: contraction is not decided", case.name)));
     }
-    Ok(Subject::Curve(Box::new(case.shape)))
+    Ok(found)
+}
+
+/// Writes the certificate of a curve, and prints its table; of a mask after the table of the mask.
+fn certified(args: &RegularityArgs, path: &Path) -> Result<(String, bool), Problem> {
+    let what = args.what.trim();
+    if !what.ends_with(".toml") && !Path::new(what).is_file() {
+        return Err(Problem::new("secant::regularity", format!("{what} is no case file, which a certificate is about"))
+            .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; wavelets have no certificates"));
+    }
+    let case = Case::read(Path::new(what))?;
+    let contraction = contracting(&case)?;
+    let shape = &case.shape;
+    let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
+    let found = curve_regularity(shape, &spaces, &Options::default()).map_err(|e| wrong(e.to_string()))?;
+    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; nothing was written");
+    let certificate = crate::certificate::regularity_certificate(&case, &spaces, &contraction, &found);
+    let certificate = certificate
+        .map_err(|e| nothing(e.to_string()))
+        .and_then(|c| crate::certificate::checked(&case.checked_text(), c).map_err(|e| nothing(e.to_string())))?;
+    write_file(path, &certificate.text())?;
+    let decided = found.exponent.is_some() || found.polynomial;
+    let own = report::curve_regularity(shape, &found);
+    match &case.scheme {
+        Some(Origin::Mask(mask)) => {
+            let (text, decided) = table(&Subject::Mask(mask.clone()))?;
+            Ok((format!("{text}\nThe certificate is about the curve:\n{own}"), decided))
+        }
+        _ => Ok((own, decided)),
+    }
 }
 
 fn mask(text: &str, arity: usize) -> Result<Mask, String> {

@@ -1,8 +1,8 @@
 //! `secant render`: exact points of a shape, drawn.
 
-use super::output::{complain, print, write_file};
+use super::output::{deliver, write_file};
 use super::progress::Progress;
-use super::{BAD_INPUT, PROVED, RenderArgs};
+use super::{PROVED, RenderArgs};
 use crate::arith::to_f64;
 use crate::case::Case;
 use crate::diagnostic::Problem;
@@ -18,16 +18,7 @@ const DEFAULT_POINTS: usize = 20_000;
 
 /// Renders the case into the files asked for.
 pub fn run(args: &RenderArgs) -> u8 {
-    match render(args) {
-        Ok(text) => {
-            print(&text);
-            PROVED
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    deliver(render(args).map(|text| (text, PROVED)))
 }
 
 fn render(args: &RenderArgs) -> Result<String, Problem> {

@@ -1,8 +1,8 @@
 //! `secant schemes`: the named schemes, and each of them written as a case.
 
+use super::PROVED;
 use super::irrational;
-use super::output::{complain, print};
-use super::{BAD_INPUT, PROVED};
+use super::output::{deliver, print};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::Problem;
 use crate::scheme::{self, Heading, case_text};
@@ -19,18 +19,11 @@ pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
         return PROVED;
     };
     let text = irrational::written(name, parameters).unwrap_or_else(|| written(name, parameters));
-    match text {
-        Ok(text) => {
-            print(&text);
-            PROVED
-        }
-        Err(message) => {
-            let problem = Problem::new("secant::scheme", message)
-                .with_help("`secant schemes` lists the schemes; parameters are written as in degree=3");
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    let problem = |message| {
+        Problem::new("secant::scheme", message)
+            .with_help("`secant schemes` lists the schemes; parameters are written as in degree=3")
+    };
+    deliver(text.map(|text| (text, PROVED)).map_err(problem))
 }
 
 fn entry(name: &str, summary: &str, parameters: &[scheme::Parameter], source: &str) -> String {

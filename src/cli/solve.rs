@@ -1,9 +1,9 @@
 //! `secant solve`: the entries of a case that its identities force.
 
 use super::certify::json_text;
-use super::output::{complain, print, write_file};
+use super::output::{print, settle, write_file};
 use super::progress::Waiting;
-use super::{BAD_INPUT, PROVED, REFUTED, SolveArgs};
+use super::{PROVED, REFUTED, SolveArgs};
 use crate::arith::{Rational, parse_rational};
 use crate::case::Case;
 use crate::certificate::{self, Doubt};
@@ -33,20 +33,14 @@ pub fn run(args: &SolveArgs) -> u8 {
         }
         Ok(found)
     });
-    match done {
-        Ok(found) => {
-            if args.json {
-                print(&json_text(&found.json, true));
-            } else if !args.quiet {
-                print(&found.text);
-            }
-            if found.case.is_some() { PROVED } else { REFUTED }
+    settle(done.map(|found| {
+        if args.json {
+            print(&json_text(&found.json, true));
+        } else if !args.quiet {
+            print(&found.text);
         }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+        if found.case.is_some() { PROVED } else { REFUTED }
+    }))
 }
 
 fn solve(case: &Case, args: &SolveArgs) -> Result<Found, Problem> {

@@ -1,8 +1,8 @@
 //! `secant spectrum`: eigenvalues, multiplicities, Jordan blocks, chains and modulus classes of a matrix or of a case.
 
-use super::output::{complain, print, write_file};
+use super::output::{deliver, write_file};
 use super::progress::Waiting;
-use super::{BAD_INPUT, PROVED, SpectrumArgs, UNDETERMINED};
+use super::{PROVED, SpectrumArgs, UNDETERMINED};
 use crate::algebraic::field::FieldMatrix;
 use crate::approx::{ApproxSpectrum, approximate_spectrum};
 use crate::case::{Case, FieldCase, matrix_file};
@@ -37,16 +37,8 @@ impl From<FieldMatrix> for Entries {
 
 /// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
 pub fn run(args: &SpectrumArgs) -> u8 {
-    match matrices(&args.file).and_then(|input| rendered(args, &input)) {
-        Ok(text) => {
-            print(&text);
-            if args.approx { UNDETERMINED } else { PROVED }
-        }
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    let code = if args.approx { UNDETERMINED } else { PROVED };
+    deliver(matrices(&args.file).and_then(|input| rendered(args, &input)).map(|text| (text, code)))
 }
 
 fn rendered(args: &SpectrumArgs, input: &Input) -> Result<String, Problem> {

@@ -1,12 +1,13 @@
 //! `secant certify` of a case about the vertices of a mesh.
 
+use super::CertifyArgs;
 use super::certify::{exit_code, extension, json_text};
-use super::output::{complain, print, stdout_colour, write_file};
+use super::output::{print, settle, stdout_colour, write_file};
 use super::progress::{Progress, Waiting};
-use super::{BAD_INPUT, CertifyArgs};
 use crate::case::{Valences, VertexCase};
 use crate::diagnostic::Problem;
 use crate::picture::characteristic::sheet;
+use crate::report::proof::vertex_document;
 use crate::report::{html, latex, markdown, text, vertex as report};
 use crate::scheme::SchemeError;
 use crate::vertex::{AtValence, Every, at_valence, every};
@@ -22,13 +23,7 @@ pub fn is_about_vertices(path: &Path) -> bool {
 
 /// Certifies every valence that was asked for.
 pub fn run(path: &Path, args: &CertifyArgs) -> u8 {
-    match certified(path, args) {
-        Ok(code) => code,
-        Err(problem) => {
-            complain(&problem);
-            BAD_INPUT
-        }
-    }
+    settle(certified(path, args))
 }
 
 fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
@@ -40,11 +35,11 @@ fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
         .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
     }
     let case = VertexCase::read(path)?;
-    let asked = valences(&case, args)?;
+    let asked = valences(&case, args.valence.as_deref())?;
     let (found, every) = at(&case, &asked, args.quiet)?;
     let every = every.as_ref();
     let reported = args.report.as_deref().map(|path| {
-        let document = report::document(&case, &found, every, true);
+        let document = vertex_document(&case, &found, every);
         let written = match extension(path).as_str() {
             "md" => markdown::render(&document),
             "tex" => latex::render(&document),
@@ -104,8 +99,12 @@ fn all_at_once(case: &VertexCase, quiet: bool) -> Result<Every, Problem> {
     })
 }
 
-fn valences(case: &VertexCase, args: &CertifyArgs) -> Result<Valences, Problem> {
-    match (&args.valence, &case.valences) {
+/// The valences asked for by the option, or by the case itself.
+///
+/// # Errors
+/// A [`Problem`] where there are none, or the option is not understood.
+pub fn valences(case: &VertexCase, option: Option<&str>) -> Result<Valences, Problem> {
+    match (option, &case.valences) {
         (Some(text), _) => Valences::parse(text).map_err(|error| {
             Problem::new("secant::usage::valence", error)
                 .with_help("write --valence 5, --valence 3..32 (both ends included), --valence 3,5,8 or --valence all")

@@ -2,6 +2,7 @@
 #![allow(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "pictures")]
 
 use crate::vertex::net::Net;
+use std::collections::HashSet;
 use std::fmt::Write as _;
 
 /// Side of a panel in pixels.
@@ -10,6 +11,8 @@ const SIDE: f64 = 240.0;
 const FOOT: f64 = 26.0;
 /// Points on a line of a patch.
 const STEPS: usize = 8;
+/// Lines are the same where their points agree to this part of the ring.
+const GRAIN: f64 = 2000.0;
 
 /// What is drawn of one valence.
 #[derive(Debug, Clone, Copy)]
@@ -57,33 +60,46 @@ fn point(net: &Net<(f64, f64)>, u: f64, v: f64) -> (f64, f64) {
     rows[0][0]
 }
 
-/// The borders of the patches, and for squares two lines across; turned into all sectors and shrunk twice.
+/// The borders of the patches, and for curved squares two lines across; turned into all sectors and shrunk twice. What two
+/// patches share is drawn once.
 fn lines(panel: &Panel<'_>) -> Vec<(usize, Polyline)> {
     let mut own: Vec<Polyline> = Vec::new();
     let share = |k: usize| k as f64 / STEPS as f64;
     for net in panel.patches {
+        let flat = net.rows.len() == 2 && net.rows[0].len() == 2;
+        let stride = if flat { STEPS } else { 1 };
         let mut line = |f: &dyn Fn(f64) -> (f64, f64)| {
-            own.push((0..=STEPS).map(|k| f(share(k))).map(|(u, v)| point(net, u, v)).collect());
+            own.push((0..=STEPS).step_by(stride).map(|k| f(share(k))).map(|(u, v)| point(net, u, v)).collect());
         };
         if net.triangle {
             line(&|t| (t, 0.0));
             line(&|t| (0.0, t));
             line(&|t| (1.0 - t, t));
         } else {
-            for at in [0.0, 0.5, 1.0] {
+            for at in [0.0, 0.5, 1.0].into_iter().step_by(if flat { 2 } else { 1 }) {
                 line(&|t| (t, at));
                 line(&|t| (at, t));
             }
         }
     }
     let mut all = Vec::new();
+    let mut seen = HashSet::new();
+    let reach = own.iter().flatten().fold(1e-9, |m: f64, p| m.max(p.0.abs()).max(p.1.abs()));
+    let cell = |p: &(f64, f64)| ((p.0 / reach * GRAIN).round() as i64, (p.1 / reach * GRAIN).round() as i64);
     let mut size = 1.0;
     for copy in 0..3 {
         for sector in 0..panel.valence {
             let angle = std::f64::consts::TAU * (panel.frequency * sector) as f64 / panel.valence as f64;
             let (s, c) = angle.sin_cos();
             let turn = |p: &(f64, f64)| (size * (p.0 * c - p.1 * s), size * (p.0 * s + p.1 * c));
-            all.extend(own.iter().map(|l| (copy, l.iter().map(turn).collect::<Polyline>())));
+            for line in &own {
+                let line: Polyline = line.iter().map(turn).collect();
+                let mut key: Vec<(i64, i64)> = line.iter().map(cell).collect();
+                key.sort_unstable();
+                if seen.insert(key) {
+                    all.push((copy, line));
+                }
+            }
         }
         size *= panel.eigenvalue;
     }
@@ -102,12 +118,10 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
     let (width, height) = (columns as f64 * SIDE, rows as f64 * (SIDE + FOOT));
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-         style=\"max-width:{}px\">\n<title>{}</title>\n\
-         <style>path{{fill:none;stroke-linejoin:round}}.c0{{stroke:#1f5fbf;stroke-width:1}}.c1{{stroke:#1a8a4a;stroke-width:.8}}\
-         .c2{{stroke:#8a8f98;stroke-width:.6}}text{{font:12px sans-serif;fill:#3c4048;text-anchor:middle}}\
-         @media (prefers-color-scheme:dark){{.c0{{stroke:#7fb0ff}}.c1{{stroke:#5fd08f}}text{{fill:#d4d8de}}}}</style>\n",
+         style=\"max-width:{}px\">\n<title>{}</title>\n<style>{}</style>\n",
         1.5 * width,
-        crate::report::html::escaped(title)
+        crate::report::html::escaped(title),
+        super::style()
     );
     for (index, panel) in panels.iter().enumerate() {
         let all = lines(panel);
@@ -122,10 +136,14 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
                     let _ = write!(path, "{letter}{:.1} {:.1}", cx + p.0 * scale, cy - p.1 * scale);
                 }
             }
-            let _ = writeln!(svg, "<path class=\"c{copy}\" d=\"{path}\"/>");
+            let _ = writeln!(svg, "<path class=\"sc-m sc-m{copy}\" d=\"{path}\"/>");
         }
         let foot = cy + SIDE / 2.0 + 14.0;
-        let _ = writeln!(svg, "<text x=\"{cx}\" y=\"{foot}\">valence {}</text>", panel.valence);
+        let _ = writeln!(
+            svg,
+            "<text class=\"sc-t\" text-anchor=\"middle\" x=\"{cx}\" y=\"{foot}\">valence {}</text>",
+            panel.valence
+        );
     }
     svg.push_str("</svg>\n");
     svg
@@ -138,7 +156,7 @@ pub fn thumbnail(panel: &Panel<'_>, label: &str) -> String {
     let scale = 48.0 / extent(&all);
     let mut path = String::new();
     for (_, line) in all.iter().filter(|(copy, _)| *copy < 2) {
-        for (k, p) in line.iter().step_by(STEPS / 4).enumerate() {
+        for (k, p) in line.iter().step_by((line.len() / 4).max(1)).enumerate() {
             let letter = if k == 0 { 'M' } else { 'L' };
             let _ = write!(path, "{letter}{:.1} {:.1}", 50.0 + p.0 * scale, 50.0 - p.1 * scale);
         }

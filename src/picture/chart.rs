@@ -43,10 +43,9 @@ pub fn functional(boxes: &[CellBox], profile: &[[f64; 2]], spot: Option<f64>, ti
     }
     sheet.line("sc-a", [x(0.0), y(0.0)], [x(1.0), y(0.0)]);
     sheet.line("sc-a", [x(0.0), y(bottom)], [x(0.0), y(top)]);
-    for value in [bottom, 0.0, top] {
-        if value == 0.0 || (y(value) - y(0.0)).abs() > 12.0 {
-            sheet.text([x(0.0) - 6.0, y(value) + 4.0], Anchor::End, fixed(value).replace('-', "−"));
-        }
+    let far = |value: &f64| (y(*value) - y(0.0)).abs() > 12.0;
+    for value in [bottom, top].into_iter().filter(far).chain([0.0]) {
+        sheet.text([x(0.0) - 6.0, y(value) + 4.0], Anchor::End, fixed(value).replace('-', "−"));
     }
     if boxes.len() <= 24 {
         for b in boxes {

@@ -1,5 +1,6 @@
 //! Diagrams that are no shapes: eigenvalues in the complex plane, automata.
 
+use super::frame::Frame;
 use super::svg::{Anchor, Element, document};
 use super::tikz;
 use std::f64::consts::PI;
@@ -62,6 +63,16 @@ impl Sheet {
         self.path(class, (0..=72).map(point).collect());
     }
 
+    /// Cuts the sheet down to what is on it, with a margin.
+    pub fn crop(&mut self, margin: f64) {
+        let boxes: Vec<Frame> = self.elements.iter().flat_map(Frame::of).collect();
+        let Some(all) = boxes.into_iter().reduce(Frame::joined) else { return };
+        let shift = [margin - all.lo[0], margin - all.lo[1]];
+        self.elements.iter_mut().for_each(|e| e.shift(shift));
+        self.width = all.hi[0] - all.lo[0] + 2.0 * margin;
+        self.height = all.hi[1] - all.lo[1] + 2.0 * margin;
+    }
+
     pub fn finish(self, title: &str) -> Drawing {
         let svg = document(&self.elements, self.width, self.height, title);
         Drawing { svg, tikz: tikz::picture(&self.elements) }
@@ -96,13 +107,20 @@ pub fn spectrum(dots: &[Dot], title: &str) -> Drawing {
             drawn.push(modulus);
         }
     }
-    for (k, dot) in dots.iter().enumerate() {
+    for dot in dots {
+        sheet.disc(if dot.top { "sc-tangent" } else { "sc-cusp" }, place(dot.re, dot.im), 4.5);
+    }
+    // Large eigenvalues come first; a label that would meet another one is left out, since the table has all values.
+    let mut taken: Vec<Frame> =
+        sheet.elements.iter().filter(|e| matches!(e, Element::Label { .. })).filter_map(Frame::of).collect();
+    for dot in dots.iter().filter(|d| !d.label.is_empty()) {
         let at = place(dot.re, dot.im);
-        sheet.disc(if dot.top { "sc-tangent" } else { "sc-cusp" }, at, 4.5);
-        if !dot.label.is_empty() {
-            let below = dot.im < 0.0 || (dot.im == 0.0 && k % 2 == 1);
-            let shift = if below { 18.0 } else { -9.0 };
-            sheet.text([at[0], at[1] + shift], Anchor::Middle, dot.label.clone());
+        let shifts = if dot.im < 0.0 { [18.0, -9.0] } else { [-9.0, 18.0] };
+        let spots = shifts.map(|shift| [at[0], at[1] + shift]);
+        let free = |spot: &[f64; 2]| taken.iter().all(|t| !t.meets(&Frame::label(*spot, Anchor::Middle, &dot.label)));
+        if let Some(spot) = spots.into_iter().find(free) {
+            taken.push(Frame::label(spot, Anchor::Middle, &dot.label));
+            sheet.text(spot, Anchor::Middle, dot.label.clone());
         }
     }
     sheet.finish(title)
@@ -150,6 +168,7 @@ pub fn automaton(names: &[String], start: usize, arrows: &[Arrow], title: &str) 
         }
         sheet.text([at[0], at[1] + 4.0], Anchor::Middle, name.clone());
     }
+    sheet.crop(10.0);
     sheet.finish(title)
 }
 

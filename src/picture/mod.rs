@@ -4,6 +4,8 @@
 pub mod characteristic;
 mod chart;
 mod diagram;
+mod field;
+mod frame;
 mod germ;
 mod invariant;
 mod plot;
@@ -15,6 +17,7 @@ mod trace;
 
 pub use chart::{CellBox, Turning, functional, turning as turning_chart};
 pub use diagram::{Arrow, Dot, Drawing, automaton, spectrum};
+pub use field::{ConeField, cone_field};
 pub use germ::{profile, turning, zoom};
 pub use invariant::polytope;
 pub use plot::Plot;
@@ -144,7 +147,10 @@ fn draw(shape: &Shape, projection: &Projection, title: &str, marks: &[Mark]) -> 
     }
     for (mark, at) in marks.iter().zip(&spots) {
         let rays: Vec<[f64; 2]> = mark.rays.iter().map(|r| projection.direction(r)).collect();
-        canvas.mark(mark.style, *at, &rays, &mark.label);
+        canvas.mark(mark.style, *at, &rays);
+    }
+    for (mark, at) in marks.iter().zip(&spots) {
+        canvas.label(*at, &mark.label);
     }
     Some(canvas)
 }

@@ -1,4 +1,5 @@
 use super::MarkStyle;
+use super::frame::Frame;
 use std::fmt::Write;
 
 const WIDTH: f64 = 640.0;
@@ -15,11 +16,14 @@ pub(super) const STYLE: &str = ".sc-p{fill:none;stroke:#8a8f98;stroke-width:1;st
 .sc-y{fill:#b06a00;fill-opacity:.22;stroke:#b06a00;stroke-width:.8}\
 .sc-tangent{stroke:#1a8a4a;fill:#1a8a4a}.sc-cusp{stroke:#b06a00;fill:#b06a00}\
 .sc-corner{stroke:#c4332b;fill:#c4332b}.sc-open{stroke:#7a4fb5;fill:#7a4fb5}\
+.sc-m{fill:none;stroke-linejoin:round;stroke:#1f5fbf;stroke-width:1}.sc-m.sc-m1{stroke:#1a8a4a;stroke-width:.8}\
+.sc-m.sc-m2{stroke:#8a8f98;stroke-width:.6}\
 path.sc-r{fill:none}\
 @media screen and (prefers-color-scheme:dark){.sc-c,.sc-s{stroke:#7fb0ff}.sc-t{fill:#d4d8de}.sc-a{stroke:#9aa2ae}\
 .sc-x{fill:#7fb0ff;stroke:#7fb0ff}.sc-y{fill:#f0b050;stroke:#f0b050}\
 .sc-tangent{stroke:#5fd08f;fill:#5fd08f}.sc-cusp{stroke:#f0b050;fill:#f0b050}\
-.sc-corner{stroke:#ff8077;fill:#ff8077}.sc-open{stroke:#c0a0f0;fill:#c0a0f0}}";
+.sc-corner{stroke:#ff8077;fill:#ff8077}.sc-open{stroke:#c0a0f0;fill:#c0a0f0}\
+.sc-m{stroke:#7fb0ff}.sc-m.sc-m1{stroke:#5fd08f}}";
 
 /// Where a label stands with respect to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +46,17 @@ pub(super) enum Element {
     Disc { class: &'static str, at: [f64; 2], radius: f64 },
     /// Words at a point of their base line.
     Label { at: [f64; 2], anchor: Anchor, text: String },
+}
+
+impl Element {
+    /// Moves the element.
+    pub fn shift(&mut self, by: [f64; 2]) {
+        let moved = |p: &mut [f64; 2]| *p = [p[0] + by[0], p[1] + by[1]];
+        match self {
+            Self::Path { points, .. } | Self::Cloud { points, .. } => points.iter_mut().for_each(moved),
+            Self::Disc { at, .. } | Self::Label { at, .. } => moved(at),
+        }
+    }
 }
 
 /// A drawing in the making; y points up in the coordinates given to it.
@@ -93,8 +108,31 @@ impl Canvas {
         self.elements.push(Element::Cloud { class: "sc-s", points: self.placed(points) });
     }
 
+    /// A polygon with its inside.
+    pub fn filled(&mut self, class: &'static str, corners: &[[f64; 2]]) {
+        let mut points = self.placed(corners);
+        points.extend(points.first().copied());
+        self.elements.push(Element::Path { class, points });
+    }
+
+    /// A sector between two angles, of a radius in pixels.
+    pub fn fan(&mut self, class: &'static str, at: [f64; 2], angles: (f64, f64), radius: f64) {
+        let at = self.place(at);
+        let arc = (0..=12).map(|k| angles.0 + (angles.1 - angles.0) * f64::from(k) / 12.0);
+        let mut points = vec![at];
+        points.extend(arc.map(|a| [at[0] + radius * a.cos(), at[1] - radius * a.sin()]));
+        points.push(at);
+        self.elements.push(Element::Path { class, points });
+    }
+
+    /// A small point.
+    pub fn dot(&mut self, at: [f64; 2]) {
+        let at = self.place(at);
+        self.elements.push(Element::Disc { class: "sc-k", at, radius: 2.5 });
+    }
+
     /// A point with its rays, each as an arrow of fixed length.
-    pub fn mark(&mut self, style: MarkStyle, at: [f64; 2], rays: &[[f64; 2]], label: &str) {
+    pub fn mark(&mut self, style: MarkStyle, at: [f64; 2], rays: &[[f64; 2]]) {
         let class = match style {
             MarkStyle::Tangent => "sc-tangent",
             MarkStyle::Cusp => "sc-cusp",
@@ -109,10 +147,51 @@ impl Canvas {
             }
         }
         self.elements.push(Element::Disc { class, at, radius: 4.0 });
-        let left = at[0] > WIDTH - 90.0;
-        let spot = [if left { at[0] - 8.0 } else { at[0] + 8.0 }, (at[1] - 8.0).max(14.0)];
-        let anchor = if left { Anchor::End } else { Anchor::Start };
-        self.elements.push(Element::Label { at: spot, anchor, text: label.to_owned() });
+    }
+
+    /// Words beside a point, where they cover least; left out where they would cover other words.
+    pub fn label(&mut self, at: [f64; 2], text: &str) {
+        let at = self.place(at);
+        let spots = [
+            ([8.0, -8.0], Anchor::Start),
+            ([-8.0, -8.0], Anchor::End),
+            ([8.0, 17.0], Anchor::Start),
+            ([-8.0, 17.0], Anchor::End),
+            ([0.0, -12.0], Anchor::Middle),
+            ([0.0, 21.0], Anchor::Middle),
+            ([10.0, 4.0], Anchor::Start),
+            ([-10.0, 4.0], Anchor::End),
+        ];
+        let placed = spots.map(|(d, anchor)| ([at[0] + d[0], at[1] + d[1]], anchor));
+        let cost = |(spot, anchor): &([f64; 2], Anchor)| self.covered(&Frame::label(*spot, *anchor, text));
+        let costs: Vec<Option<usize>> = placed.iter().map(cost).collect();
+        let best = (0..placed.len()).filter(|k| costs[*k].is_some()).min_by_key(|k| costs[*k]);
+        if let Some(k) = best {
+            let (at, anchor) = placed[k];
+            self.elements.push(Element::Label { at, anchor, text: text.to_owned() });
+        }
+    }
+
+    /// How much of the drawing a label would cover; `None` where it leaves the sheet or meets another one.
+    fn covered(&self, frame: &Frame) -> Option<usize> {
+        let sheet = Frame { lo: [2.0, 2.0], hi: [WIDTH - 2.0, self.height - 2.0] };
+        if !sheet.holds(&frame.lo) || !sheet.holds(&frame.hi) {
+            return None;
+        }
+        let mut cost = 0;
+        for element in &self.elements {
+            match element {
+                Element::Label { .. } if Frame::of(element).is_some_and(|f| f.meets(frame)) => return None,
+                Element::Disc { .. } if Frame::of(element).is_some_and(|f| f.meets(frame)) => cost += 8,
+                Element::Path { class, points } => {
+                    let weight = if *class == "sc-p" || *class == "sc-c" { 1 } else { 2 };
+                    cost += weight * points.windows(2).map(|ends| inside(frame, ends[0], ends[1])).sum::<usize>();
+                }
+                Element::Cloud { points, .. } => cost += points.iter().filter(|p| frame.holds(p)).count(),
+                Element::Label { .. } | Element::Disc { .. } => {}
+            }
+        }
+        Some(cost)
     }
 
     fn arrow(&mut self, class: &'static str, from: [f64; 2], unit: [f64; 2]) {
@@ -155,6 +234,18 @@ impl Canvas {
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
+}
+
+/// About how many steps of some pixels of a segment lie in a frame.
+fn inside(frame: &Frame, from: [f64; 2], to: [f64; 2]) -> usize {
+    const STEP: f64 = 3.0;
+    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let steps = (length / STEP).ceil().clamp(1.0, 400.0) as u32;
+    let at = |k: u32| {
+        let s = f64::from(k) / f64::from(steps);
+        [from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1])]
+    };
+    (0..steps).filter(|k| frame.holds(&at(*k))).count()
 }
 
 /// A complete SVG document.

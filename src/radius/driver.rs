@@ -309,6 +309,7 @@ fn by_balanced(result: &mut BlockProof, best: &Best, own: &[&Lower], options: &O
 /// Real eigenvectors of the leading words, scaled to about 1 and, for nonnegative matrices, made nonnegative.
 fn eigenvectors(block: &Block, own: &[&Lower]) -> Vec<LeadingVector> {
     let mut out = Vec::new();
+    let mut lines: Vec<(usize, Vec<f64>)> = Vec::new();
     for lower in own.iter().filter_map(|l| real_power(&block.system, l)) {
         let Some(mut vector) = Eigenvector::of(&block.system.product(&lower.path), &lower.root) else { continue };
         let values: Vec<f64> = vector.enclosure(&lower.root, 64).iter().map(|x| to_f64(&x.mid())).collect();
@@ -316,6 +317,13 @@ fn eigenvectors(block: &Block, own: &[&Lower]) -> Vec<LeadingVector> {
         if largest == 0.0 || !largest.is_finite() {
             continue;
         }
+        // Words that tie often have the same eigenvector; one vertex is enough.
+        let state = block.system.arrows[lower.path[0]].from;
+        let line: Vec<f64> = values.iter().map(|x| x / largest).collect();
+        if lines.iter().any(|(s, l)| *s == state && l.iter().zip(&line).all(|(a, b)| (a - b).abs() < 1e-12)) {
+            continue;
+        }
+        lines.push((state, line));
         vector.scale(&scale_near(1.0 / largest));
         out.push(LeadingVector { lower, vector });
     }

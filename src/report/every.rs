@@ -37,7 +37,7 @@ pub fn claim(every: &Everywhere) -> String {
 #[must_use]
 pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String, Line)> {
     let mut verdict = vec![mark(every.verdict)];
-    verdict.extend(words(format!("  {}", claim(every))));
+    verdict.extend(words(format!(": {}", claim(every))));
     if let Some(reason) = &every.reason {
         verdict.extend(words(format!("; {reason}")));
     }

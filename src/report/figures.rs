@@ -7,6 +7,7 @@ use super::words::{addresses, count, listed, point_name};
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Rational, to_f64};
 use crate::case::Case;
+use crate::jordan::Spectrum;
 use crate::picture::{self, Arrow, CellBox, Dot, Drawing, Mark, MarkStyle, Picture};
 use crate::shape::{CellKind, Shape, word_text};
 use crate::theorem::{
@@ -73,8 +74,7 @@ const MAX_LABELS: usize = 8;
 
 /// The eigenvalues of a cycle in the complex plane.
 #[must_use]
-pub fn spectrum(branch: &BranchReport) -> Block {
-    let spectrum = &branch.spectrum;
+pub fn spectrum(spectrum: &Spectrum) -> Block {
     let members: Vec<_> =
         spectrum.classes.iter().enumerate().flat_map(|(k, c)| c.members.iter().map(move |m| (k, *m))).collect();
     let mut dots = Vec::new();
@@ -96,6 +96,24 @@ pub fn spectrum(branch: &BranchReport) -> Block {
     let alt = format!("Eigenvalues in the complex plane: {}.", listed(&told));
     let text = "The eigenvalues in the complex plane, those of the largest modulus in green, with the circles of their moduli.";
     figure(picture::spectrum(&dots, "Eigenvalues"), alt, words(text))
+}
+
+/// The cones of Theorem 6 along the curve; `None` where there are none, or they are not seen in the plane of the drawing.
+#[must_use]
+pub fn cones(case: &Case, found: &Certified) -> Option<Block> {
+    let every = found.everywhere.as_ref()?;
+    let title = format!("{}: cones", case.title);
+    let field = picture::cone_field(&case.shape, every.cone.as_ref()?, &title)?;
+    let alt = format!(
+        "The curve with {}; at the start of each of them a fan, the cone that holds its forward secants, and nested parallelograms around the cells.",
+        count(field.cells, "cell")
+    );
+    let text = format!(
+        "The cones along the curve, down to its cells of {}. The fan at the start of a cell $u$ is the cone $ε_u T_u C$ of its forward secants. Every cell \
+         lies in the parallelogram in which this cone meets the reversed one at its end; cells of all levels down to the last are drawn.",
+        count(field.level, "letter")
+    );
+    Some(figure(field.drawing, alt, line(&text, [])))
 }
 
 /// The interval of parameters of a cell of an edge state.

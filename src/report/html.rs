@@ -1,12 +1,16 @@
 //! Documents as self-contained HTML: MathML formulas, inline SVG, light and dark, fit for printing.
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::math::Math;
 use super::mathml::math_element;
 use crate::picture;
 
 const STYLE: &str = include_str!("style.css");
 /// Tables of a list that may be skipped stand open up to this length.
 const OPEN_ROWS: usize = 12;
+
+/// Matrices with more columns than this are set in small type.
+const WIDE: usize = 10;
 
 /// Writes a document as one HTML file that needs nothing else.
 #[must_use]
@@ -41,7 +45,8 @@ fn write_block(out: &mut String, block: &Block) {
         }
         Block::Paragraph(text) => out.push_str(&format!("<p>{}</p>\n", inline(text))),
         Block::Formula(math) => {
-            out.push_str(&format!("<div class=\"formula\">{}</div>\n", math_element(math, true)));
+            let dense = if columns(math) > WIDE { " dense" } else { "" };
+            out.push_str(&format!("<div class=\"formula{dense}\">{}</div>\n", math_element(math, true)));
         }
         Block::List(items) => {
             let items: String = items.iter().map(|i| format!("<li>{}</li>\n", inline(i))).collect();
@@ -81,12 +86,21 @@ fn write_block(out: &mut String, block: &Block) {
     }
 }
 
+/// The most columns of a matrix in a formula.
+fn columns(math: &Math) -> usize {
+    match math {
+        Math::Matrix(rows) => rows.first().map_or(0, Vec::len),
+        Math::Row(parts) => parts.iter().map(columns).max().unwrap_or(0),
+        _ => 0,
+    }
+}
+
 fn write_check(out: &mut String, Check { tone, text }: &Check) {
     let (mark, word) = match tone {
         Tone::Good => ("✔", "holds"),
         Tone::Bad => ("✘", "fails"),
         Tone::Open => ("?", "not decided"),
-        Tone::Neutral => ("·", "not needed"),
+        Tone::Neutral => ("·", "for information"),
     };
     let class = tone_class(*tone);
     out.push_str(&format!(
@@ -113,15 +127,38 @@ fn write_table(out: &mut String, table: &Table) {
 /// A line as HTML.
 #[must_use]
 pub fn inline(text: &[Inline]) -> String {
-    text.iter()
-        .map(|run| match run {
-            Inline::Text(t) => escaped(t),
-            Inline::Strong(t) => format!("<strong>{}</strong>", escaped(t)),
-            Inline::Code(t) => format!("<code>{}</code>", escaped(t)),
-            Inline::Math(m) => math_element(m, false),
-            Inline::Mark(tone, t) => format!("<strong class=\"{}\">{}</strong>", tone_class(*tone), escaped(t)),
-        })
-        .collect()
+    let mut out = String::new();
+    let mut taken = 0;
+    for (k, run) in text.iter().enumerate() {
+        let skip = std::mem::take(&mut taken);
+        match run {
+            Inline::Text(t) => out.push_str(&escaped(&t[skip..])),
+            Inline::Strong(t) => out.push_str(&format!("<strong>{}</strong>", escaped(t))),
+            Inline::Code(t) => out.push_str(&format!("<code>{}</code>", escaped(t))),
+            Inline::Mark(tone, t) => {
+                out.push_str(&format!("<strong class=\"{}\">{}</strong>", tone_class(*tone), escaped(t)));
+            }
+            Inline::Math(m) => {
+                let formula = math_element(m, false);
+                let stop = following_stop(text.get(k + 1));
+                taken = stop.len();
+                if stop.is_empty() {
+                    out.push_str(&formula);
+                } else {
+                    out.push_str(&format!("<span class=\"nb\">{formula}{stop}</span>"));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// The stop or comma after a formula, which must not begin a line.
+fn following_stop(next: Option<&Inline>) -> &str {
+    match next {
+        Some(Inline::Text(t)) if t.starts_with(['.', ',', ';', ':', ')']) => &t[..1],
+        _ => "",
+    }
 }
 
 fn tone_class(tone: Tone) -> &'static str {
@@ -154,8 +191,13 @@ pub fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::document::{line, words};
-    use super::super::math::Math;
     use super::*;
+
+    #[test]
+    fn a_stop_keeps_to_its_formula() {
+        let text = inline(&line("so $x$, and $y$ then", []));
+        assert!(text.contains("</math>,</span> and <math>") && text.ends_with("</math> then"), "{text}");
+    }
 
     #[test]
     fn nothing_from_outside_becomes_markup() {

@@ -36,12 +36,12 @@ fn write_block(out: &mut String, block: &Block) {
         Block::Checks(checks) => {
             for Check { tone, text } in checks {
                 let mark = match tone {
-                    Tone::Good => "[x]",
-                    Tone::Bad => "[ ] **fails:**",
-                    Tone::Open => "[ ] **not decided:**",
-                    Tone::Neutral => "(not needed)",
+                    Tone::Good => "[x] ",
+                    Tone::Bad => "[ ] **fails:** ",
+                    Tone::Open => "[ ] **not decided:** ",
+                    Tone::Neutral => "",
                 };
-                out.push_str(&format!("- {mark} {}\n", inline(text)));
+                out.push_str(&format!("- {mark}{}\n", inline(text)));
             }
         }
         Block::Table(table) => write_table(out, table),

@@ -51,7 +51,9 @@ fn row(parts: &[Math]) -> String {
     let mut out = String::new();
     for (k, part) in parts.iter().enumerate() {
         let before = k.checked_sub(1).map(|j| &parts[j]);
-        if before.is_some_and(name) && !matches!(part, Math::Symbol(_)) {
+        // Names keep a distance from what follows, and from a number before them.
+        let after_number = name(part) && matches!(before, Some(Math::Digits(_) | Math::Number(_)));
+        if before.is_some_and(name) && !matches!(part, Math::Symbol(_)) || after_number {
             out.push_str("<mspace width=\"0.17em\"/>");
         }
         let operand = before.is_some_and(|b| matches!(kind(b), Spacing::Tight | Spacing::Close));

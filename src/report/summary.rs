@@ -54,16 +54,16 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
 pub(super) fn claim_line(claim: &Claim) -> Line {
     let mut out = vec![mark(claim.verdict)];
     let text = match claim.verdict {
-        Verdict::Proved => format!("  {}", claim.text),
-        Verdict::Refuted => format!("  it is false that {}", claim.text),
-        Verdict::Undetermined => format!("  whether {}", claim.text),
+        Verdict::Proved => format!(": {}", claim.text),
+        Verdict::Refuted => format!(": it is false that {}", claim.text),
+        Verdict::Undetermined => format!(": whether {}", claim.text),
     };
     out.extend(words(text));
     if let Some(s) = deciding(claim) {
         out.extend(words(format!(" [{}]", statement(s))));
     }
     if let Some(reason) = &claim.reason {
-        out.extend(words(format!(": {reason}")));
+        out.extend(words(format!("; {reason}")));
     }
     out
 }

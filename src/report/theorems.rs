@@ -93,7 +93,8 @@ pub const THEOREMS: &[Theorem] = &[
         id: "corollary",
         name: "Corollary (refuting without the ring)",
         body: "If $L$ is not nilpotent, then $U⊂D^*$, isolated or not, where $U$ is the span of the eigenvectors that end the longest \
-               chains of the largest modulus ($U=E_1$ when $E_1$ is semisimple). So $\\dim U≥2$ refutes a tangent line.",
+               chains of the largest modulus ($U=E_1$ when $E_1$ is semisimple). The same holds for the image of $U$ at the point. So an image of \
+               dimension 2 or more refutes a tangent line, and one of dimension 3 or more a tangent plane.",
         proof: "The relevant space is spanned by the differences of the attractor; so some points of it have a leading coefficient \
                 different from 0, and their hulls span $U$.",
         reference: SOURCE,
@@ -167,9 +168,10 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "theorem-5",
         name: "Theorem 5 (a dense set by finitely many checks)",
-        body: "If every first-level joint of every reachable edge state is differentiable, and every $T_i$ and the projection by the \
-               control points are injective on the (visible) relevant spaces, then the curve is differentiable, of the same kind, at \
-               the image of every joint under every admissible word: a dense set.",
+        body: "Let $W_e$ be $V_e$ divided by the vectors that $P T_u$ kills for every path $u$ from the start to $e$ (without control points \
+               $W_e=V_e$). If every first-level joint of every reachable edge state is differentiable, and every $T_i$, leading from $e$ to \
+               $δ$, is injective as a map $W_δ→W_e$ and the projection $P$ on $W$ of the start, then the curve is differentiable, of the \
+               same kind, at the image of every joint under every admissible word: a dense set.",
         proof: "The germ of the joint $uj$ is the image under $T_u$ of that of the joint $j$; an injective linear map takes limit \
                 directions to limit directions and lines to lines.",
         reference: "docs/theory.md §9.",
@@ -177,7 +179,8 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "theorem-5-projected",
         name: "Theorem 5′ (a projection that is not injective)",
-        body: "Let all $T_i : W_δ→W_e$ be injective, and let every first-level joint $j$ of every reachable edge state $e$ be \
+        body: "Let $W_e$ be $V_e$ divided by the vectors that $P T_u$ kills for every path $u$ from the start to $e$. Let every $T_i$, leading \
+               from $e$ to $δ$, be injective as a map $W_δ→W_e$, and let every first-level joint $j$ of every reachable edge state $e$ be \
                differentiable in $W_e$ with tangent line $ℓ_j$. Then the projected curve is differentiable, of the same kind, at the \
                joint $uj$ for every path $u$ with $P T_u ℓ_j≠0$. If moreover the smallest invariant family that contains the lines is \
                all of $W$, every cell whose projection is more than a point contains such a joint.",
@@ -190,8 +193,9 @@ pub const THEOREMS: &[Theorem] = &[
         id: "theorem-6",
         name: "Theorem 6 (common cones)",
         body: "Let every edge state have rays $G_e$ that span $V_e$, a functional $f_e$ with $f_e G_e>0$, a chord $G_e y_e$ with $y_e≥0$, \
-               $y_e≠0$, and for every piece $ε_i T_i G_δ=G_e B_i$ with $B_i>0$ entrywise. If the pieces meet, then all secants of a cell $u$ \
-               lie in the cone $ε_u T_u C$, these cones shrink to a ray at a uniform geometric rate, and both half-tangents exist at \
+               $y_e≠0$, and for every piece $i$, leading from $e$ to $δ$, $ε_i T_i G_δ=G_e B_i$ with $B_i>0$ entrywise, where $ε_i=-1$ for a piece \
+               that runs backwards and $ε_i=1$ otherwise. If the pieces meet, then all secants of a cell $u$, directed forward, \
+               lie in the cone $ε_u T_u C$, where $C$ is the cone of the rays of its state; these cones shrink to a ray at a uniform geometric rate, and both half-tangents exist at \
                every point. If they agree at the first-level joints of all reachable states, the curve is G¹ with a \
                Hölder-continuous tangent. With control points the same holds for the projected curve if $h P G>0$ for some $h$.",
         proof: "A secant between vertices of cells is a sum of chords of smaller cells, all in the cone; take closures. Positive matrices \
@@ -230,7 +234,8 @@ pub const THEOREMS: &[Theorem] = &[
     Theorem {
         id: "theorem-5-surface",
         name: "Theorem 5″ (a dense set of a surface)",
-        body: "Let all $T_i : W_δ→W_e$ be injective, and let every reachable face $e$ have a vertex $j_e$ inside it at which it is \
+        body: "Let $W_e$ be $V_e$ divided by the vectors that $P T_u$ kills for every path $u$ from the start to $e$. Let every $T_i$, leading \
+               from $e$ to $δ$, be injective as a map $W_δ→W_e$, and let every reachable face $e$ have a vertex $j_e$ inside it at which it is \
                differentiable in $W_e$ with tangent plane $Π_e$. Then the surface has the tangent plane $P T_u Π_e$ at the vertex \
                $u j_e$ for every path $u$ from the start on which $P T_u$ does not fold $Π_e$. If $P$ is injective on $W$ that is every \
                cell, hence a dense set.",
@@ -256,6 +261,19 @@ pub const THEOREMS: &[Theorem] = &[
                $k$ times around 0.",
         proof: "The images of the sectors are turned copies. Along one sector the image of the boundary leads from $P$ to $ω P$ in an open \
                 half-plane, so its argument changes by less than $π$, hence by $2πk/n$; there are $n$ sectors.",
+        reference: "docs/theory.md §10.1.",
+    },
+    Theorem {
+        id: "lemma-4",
+        name: "Lemma 4 (limits of schemes that are no splines)",
+        body: "Let a rule on a regular lattice make it $N$ times finer with each step, keep linear functions, and be symmetric under half a turn. Let $Ω$ be \
+               the points that determine a cell and its parts, $T_s$ the map of nets on $Ω$ to the part $s$, which lies upside down if $σ_s=-1$, $F p$ the slopes of \
+               the linear fit of a net $p$ at the corners, and $D(p)$ the largest absolute second difference of $p$ in $Ω$. If for some $k$ the number \
+               $R=\\max |ℓ N^k T_w|$ over words $w$ of length $k$ and second differences $ℓ$ is below 1, then the limit $f$ of $p$ is C¹, and on the whole cell its \
+               gradient differs from $F p$ by at most $e_1 D(p)$ with $e_1=\\max |σ_w N^k F T_w-F|/(1-R)$; the values differ in the same way from those of the fit, by at \
+               most $e_0 D(p)$.",
+        proof: "$D(N^{mk} T_w p)≤R^m D(p)$ for words of length $mk$, so the slopes of the fits converge uniformly, to the gradient of $f$. The best constant $e_1$ \
+                satisfies $e_1≤e_1 R+\\max |σ_w N^k F T_w-F|$, since the gradient on the part $w$ is $σ_w N^k$ times that of the limit of $T_w p$.",
         reference: "docs/theory.md §10.1.",
     },
     Theorem {
@@ -338,6 +356,12 @@ pub fn of(statement: Statement) -> &'static Theorem {
         Statement::Theorem5Surface => "theorem-5-surface",
         Statement::TensorProduct => "tensor-product",
     };
+    by_id(id)
+}
+
+/// The statement with exactly this id; the first one for an id that does not exist.
+#[must_use]
+pub(super) fn by_id(id: &str) -> &'static Theorem {
     THEOREMS.iter().find(|t| t.id == id).unwrap_or(&THEOREMS[0])
 }
 

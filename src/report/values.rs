@@ -1,6 +1,6 @@
 //! Exact algebraic values as formulas and decimals.
 
-use super::math::Math;
+use super::math::{Math, shortened};
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::poly::Poly;
@@ -32,8 +32,8 @@ pub fn decimal(x: &Rational, digits: u64) -> String {
 pub fn decimal_math(x: &Rational, digits: u64) -> Math {
     let text = decimal(x, digits);
     match text.strip_prefix('-') {
-        Some(size) => Math::Row(vec![Math::Symbol('−'), Math::Digits(size.to_owned())]),
-        None => Math::Digits(text),
+        Some(size) => Math::Row(vec![Math::Symbol('−'), Math::Digits(shortened(size))]),
+        None => Math::Digits(shortened(&text)),
     }
 }
 

@@ -141,25 +141,26 @@ pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
     }
 }
 
-/// The table by valence, with reasons below it and, in full, the evidence and a picture of each.
+/// The table by valence, with reasons below it and, in full, the evidence for each.
 #[must_use]
 pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, full: bool) -> Document {
-    let header = ["valence", "λ", "blocks", "regular", "injective", "tangent plane", "C¹"].map(words).to_vec();
-    let row = |f: &AtValence| {
-        vec![
-            words(f.valence.to_string()),
-            shown(f),
-            words(frequencies(f)),
-            yes_no(f.regular()),
-            yes_no(f.injective()),
-            vec![mark(f.plane)],
-            vec![mark(f.smooth)],
-        ]
-    };
-    let caption = words(format!("{}: C¹ for almost all control points, by valence", case.title));
+    let mut blocks = summary_by_valence(case, found, every);
+    blocks.push(Block::Paragraph(words(format!("Note: {UNCHECKED}."))));
+    if full {
+        blocks.extend(evidence_by_valence(case, found));
+    }
+    Document { title: case.title.clone(), blocks }
+}
+
+/// What holds at all valences, the table by valence, and the reasons below it.
+pub(super) fn summary_by_valence(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> Vec<Block> {
     let mut blocks = every.map(all_valences).unwrap_or_default();
     if !found.is_empty() {
-        blocks.push(Block::Table(Table { caption, header, rows: found.iter().map(row).collect() }));
+        blocks.push(Block::Table(table(case, found)));
+    }
+    let equations = equations(found);
+    if !equations.is_empty() {
+        blocks.push(Block::List(equations));
     }
     let mut grouped: Vec<(String, Verdict, Vec<usize>)> = Vec::new();
     for f in found {
@@ -167,10 +168,6 @@ pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, f
             Some((_, _, list)) => list.push(f.valence),
             None => grouped.push((f.reason.clone(), f.smooth, vec![f.valence])),
         }
-    }
-    let equations = equations(found);
-    if !equations.is_empty() {
-        blocks.push(Block::List(equations));
     }
     let reasons = grouped.iter().map(|(reason, verdict, list)| {
         let mut line = vec![mark(*verdict)];
@@ -185,23 +182,43 @@ pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, f
     if !witnesses.is_empty() {
         blocks.push(Block::List(witnesses));
     }
-    blocks.push(Block::Paragraph(words(format!("Note: {UNCHECKED}."))));
-    if full {
-        for f in found {
-            blocks.push(Block::Heading(2, words(format!("Valence {}", f.valence))));
-            blocks.push(Block::Facts(evidence(f)));
-            if let Some(panel) = panel(f) {
-                let title = format!("{}, valence {}", case.title, f.valence);
-                blocks.push(Block::Figure {
-                    svg: sheet(&[panel], &title),
-                    tikz: tikz(&panel),
-                    alt: format!("The characteristic map at valence {}", f.valence),
-                    caption: words("The ring of the characteristic map and two smaller copies."),
-                });
-            }
+    blocks
+}
+
+fn table(case: &VertexCase, found: &[AtValence]) -> Table {
+    let header = ["valence", "λ", "blocks", "regular", "injective", "tangent plane", "C¹"].map(words).to_vec();
+    let row = |f: &AtValence| {
+        vec![
+            words(f.valence.to_string()),
+            shown(f),
+            words(frequencies(f)),
+            yes_no(f.regular()),
+            yes_no(f.injective()),
+            vec![mark(f.plane)],
+            vec![mark(f.smooth)],
+        ]
+    };
+    let caption = words(format!("{}: C¹ for almost all control points, by valence", case.title));
+    Table { caption, header, rows: found.iter().map(row).collect() }
+}
+
+/// A section for every valence, with its evidence and a picture of the characteristic map.
+pub(super) fn evidence_by_valence(case: &VertexCase, found: &[AtValence]) -> Vec<Block> {
+    let mut blocks = Vec::new();
+    for f in found {
+        blocks.push(Block::Heading(2, words(format!("Valence {}", f.valence))));
+        blocks.push(Block::Facts(evidence(f)));
+        if let Some(panel) = panel(f) {
+            let title = format!("{}, valence {}", case.title, f.valence);
+            blocks.push(Block::Figure {
+                svg: sheet(&[panel], &title),
+                tikz: tikz(&panel),
+                alt: format!("The characteristic map at valence {}", f.valence),
+                caption: words("The ring of the characteristic map and two smaller copies."),
+            });
         }
     }
-    Document { title: case.title.clone(), blocks }
+    blocks
 }
 
 /// The statement for all valences, with its conditions.
@@ -262,7 +279,7 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
         facts.push(("minimal polynomial".to_owned(), code(p.primitive_display("x"))));
     }
     if let Some(top) = &f.top {
-        facts.push(("all others below".to_owned(), words(format!("{:.10}", crate::arith::to_f64(&top.others)))));
+        facts.push(("all others below".to_owned(), words(super::radius::decimal(&top.others, true, 10))));
     }
     if let Some(signs) = &f.jacobian {
         let of =

@@ -44,7 +44,8 @@ pub fn listed(items: &[String]) -> String {
 /// `1 piece`, `2 pieces`.
 #[must_use]
 pub fn count(number: usize, noun: &str) -> String {
-    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}s") }
+    let ending = if noun.ends_with('s') { "es" } else { "s" };
+    if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}{ending}") }
 }
 
 /// What a point is called: `Left end`, `Joint of pieces 0 and 1`.
@@ -220,23 +221,25 @@ pub fn holder(h: &Holder) -> Line {
         Some(x) => Math::number(&crate::arith::abs(&x)),
         None => decimal_math(&modulus.mid(), 6),
     };
-    // Whole exponents are recognised exactly.
-    let mut power = h.scale.clone();
-    let mut whole = None;
-    for k in 1..=6usize {
-        if h.eigenvalue.rational().is_some_and(|x| crate::arith::abs(&x) == power) {
-            whole = Some(k);
-        }
-        power *= &h.scale;
-    }
-    let mut out = match whole {
-        Some(k) => line("$h=\\ln(@)/\\ln(@)=@$", [size, Math::number(&h.scale), Math::count(k)]),
+    let mut out = match exact_exponent(h) {
+        Some(exact) => line("$h=\\ln(@)/\\ln(@)=@$", [size, Math::number(&h.scale), Math::number(&exact)]),
         None => line("$h=\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]),
     };
-    if h.power > 0 {
-        out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m^{@}$", [Math::count(h.power)]));
+    match h.power {
+        0 => {}
+        1 => out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m$", [])),
+        k => out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m^{@}$", [Math::count(k)])),
     }
     out
+}
+
+/// A rational exponent `a/b` of small terms: `|λ|^b = s^a`.
+fn exact_exponent(h: &Holder) -> Option<Rational> {
+    use malachite_base::num::arithmetic::traits::Pow;
+    let size = crate::arith::abs(&h.eigenvalue.rational()?);
+    let fits = |(a, b): &(u64, u64)| (&size).pow(*b) == (&h.scale).pow(*a);
+    let pairs = (1..=4u64).flat_map(|b| (1..=6 * b).map(move |a| (a, b)));
+    pairs.into_iter().find(fits).map(|(a, b)| Rational::from(a) / Rational::from(b))
 }
 
 /// What a kind of point means, in brackets after its name.

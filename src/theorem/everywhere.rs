@@ -136,7 +136,9 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
     }
     let (verdict, reason) = match (witness, &obstacle) {
-        (Some(_), _) => (Verdict::Refuted, "a point without a tangent that turns continuously".to_owned()),
+        (Some(_), _) => {
+            (Verdict::Refuted, "at a point the tangent does not exist or does not turn continuously".to_owned())
+        }
         (None, Some(o)) => {
             let word = crate::shape::word_text(&o.word);
             (Verdict::Undetermined, format!("no strictly invariant cone exists: the cycle {word} has {}", o.reason))

@@ -49,7 +49,9 @@ pub struct CurveOrder {
     pub threshold: Rational,
     /// Dimensions of the spaces `F_e` of the differences of derivatives of order `k`.
     pub dims: Vec<usize>,
-    /// The joint spectral radius on them; `None` where they are 0 (a polynomial).
+    /// The operators on them, arrows by state and letter; `None` where they are 0 (a polynomial).
+    pub system: Option<System>,
+    /// Their joint spectral radius.
     pub radius: Option<JointRadius>,
     /// Its enclosure; 0 on the space 0.
     pub enclosure: Option<Interval>,
@@ -105,7 +107,8 @@ pub fn curve_regularity(
     let base = Rational::from(1) / Rational::from(level.pieces as u64);
     let mut threshold = Rational::from(1);
     for order in 0..=MAX_ORDER {
-        let (radius, enclosure) = level.radius(options);
+        let system = level.system();
+        let (radius, enclosure) = radius_of(system.as_ref(), options);
         let below = enclosure.as_ref().is_some_and(|e| e.hi < threshold);
         let joints = (order > 0 && below).then(|| level.joints()).flatten();
         let smooth = match &joints {
@@ -118,7 +121,16 @@ pub fn curve_regularity(
             found.exponent = enclosure.as_ref().and_then(|e| minus_log(e, level.pieces));
         }
         let dims = level.families.iter().map(Matrix::rows).collect();
-        found.orders.push(CurveOrder { order, threshold: threshold.clone(), dims, radius, enclosure, joints, smooth });
+        found.orders.push(CurveOrder {
+            order,
+            threshold: threshold.clone(),
+            dims,
+            system,
+            radius,
+            enclosure,
+            joints,
+            smooth,
+        });
         if smooth != Some(true) {
             break;
         }
@@ -131,6 +143,18 @@ pub fn curve_regularity(
         threshold *= &base;
     }
     Ok(found)
+}
+
+/// The joint spectral radius of these operators; 0 without them.
+fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
+    let Some(system) = system else { return (None, Some(Interval::point(Rational::from(0)))) };
+    let Ok(radius) = joint_radius(system, options) else { return (None, None) };
+    let enclosure = radius.upper.clone().map(|upper| match &radius.lower {
+        Some(lower) if radius.exact => lower.enclosure(96),
+        Some(lower) => Interval::new(lower.enclosure(96).lo, upper),
+        None => Interval::point(upper),
+    });
+    (Some(radius), enclosure)
 }
 
 /// The derivatives of one order: their differences span `families`, and `chords` are their values over a state: of order 0 the
@@ -171,10 +195,10 @@ impl<'a> Level<'a> {
         self.states.iter().position(|s| *s == state).unwrap_or(0)
     }
 
-    /// The joint spectral radius of the operators on the families, not scaled.
-    fn radius(&self, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
+    /// The operators on the families, not scaled.
+    fn system(&self) -> Option<System> {
         if self.families.iter().all(|f| f.rows() == 0) {
-            return (None, Some(Interval::point(Rational::from(0))));
+            return None;
         }
         let pivots: Vec<Vec<usize>> = self.families.iter().map(|f| f.echelon().pivots).collect();
         let mut arrows = Vec::new();
@@ -187,14 +211,7 @@ impl<'a> Level<'a> {
                 arrows.push(Arrow { from, to, matrix, label: arrows.len() });
             }
         }
-        let system = System { dims: pivots.iter().map(Vec::len).collect(), arrows };
-        let Ok(radius) = joint_radius(&system, options) else { return (None, None) };
-        let enclosure = radius.upper.clone().map(|upper| match &radius.lower {
-            Some(lower) if radius.exact => lower.enclosure(96),
-            Some(lower) => Interval::new(lower.enclosure(96).lo, upper),
-            None => Interval::point(upper),
-        });
-        (Some(radius), enclosure)
+        Some(System { dims: pivots.iter().map(Vec::len).collect(), arrows })
     }
 
     /// The derivative: `F` of codimension 1 below the families, and its values at the ends, as limits of `N T c`.

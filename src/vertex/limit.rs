@@ -20,8 +20,8 @@ use std::sync::Arc;
 const RADIUS: i64 = 3;
 /// Rings of points beyond the ring of cells.
 const REACH: i64 = 3;
-/// Binary places of the largest value.
-const BITS: u64 = 58;
+/// Binary places of the largest value: with bounds below `2^10` (see [`Regular`]) no product below leaves 128 bits.
+const BITS: u64 = 48;
 /// Cells examined at most for one sign.
 const BUDGET: usize = 40_000;
 /// How often a cell is divided at most.
@@ -270,20 +270,25 @@ impl Ring {
         (((a * scale) as i128, (b * scale) as i128), UNIT as i128)
     }
 
-    /// The corners of the cells after one step, as floats `x, y` in the coordinates `x + y ω`, in a unit of its own.
+    /// The corners of the cells in the limit, nearly, as floats `x, y` in the coordinates `x + y ω`, in a unit of its own.
     #[must_use]
     #[allow(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "pictures only")]
     pub fn corners(&self) -> Vec<Net<(f64, f64)>> {
-        let unit = 2_f64.powi(-(BITS as i32)) / self.regular.scales().1 as f64;
-        let net = |piece: &Piece| {
-            let (x, y) = (self.regular.fit(&piece.x), self.regular.fit(&piece.y));
-            let p: Vec<(f64, f64)> = x.iter().zip(&y).map(|(x, y)| (*x as f64 * unit, *y as f64 * unit)).collect();
-            if self.regular.triangles {
-                Net { triangle: true, rows: vec![vec![p[0], p[1]], vec![p[2]]] }
-            } else {
-                Net { triangle: false, rows: vec![vec![p[0], p[1]], vec![p[2], p[3]]] }
-            }
+        const STEPS: usize = 3;
+        let r = &self.regular;
+        let unit = 2_f64.powi(-(BITS as i32)) / r.scales().1 as f64;
+        let corner = |piece: &Piece, k: usize| {
+            let (i, j) = r.corners()[k];
+            let own = ((i * (r.factor - 1), j * (r.factor - 1)), 1);
+            let next = r.parts.iter().position(|part| *part == own).unwrap_or(0);
+            let last = (0..STEPS).fold(piece.clone(), |p, _| self.divided(&p).swap_remove(next));
+            (r.fit(&last.x)[k] as f64 * unit, r.fit(&last.y)[k] as f64 * unit)
         };
-        self.pieces.iter().flat_map(|p| self.divided(p)).map(|p| net(&p)).collect()
+        let net = |piece: &Piece| {
+            let p: Vec<(f64, f64)> = (0..r.corners().len()).map(|k| corner(piece, k)).collect();
+            let second = p[2..].to_vec();
+            Net { triangle: r.triangles, rows: vec![vec![p[0], p[1]], second] }
+        };
+        self.pieces.iter().map(net).collect()
     }
 }

@@ -20,14 +20,18 @@ pub type Place = (i64, i64);
 const RINGS: usize = 6;
 /// Points of a cell at most.
 const MAX_POINTS: usize = 64;
-/// Words examined at most for the bounds of one scheme.
-const MAX_WORDS: usize = 1100;
-/// Words are long enough where all shrink differences to this part.
-const ENOUGH: (i64, i64) = (1, 4);
+/// Words examined at most for the bounds of one scheme, and where they hardly shrink differences.
+const MAX_WORDS: [usize; 2] = [1100, 4500];
+/// Words are long enough where all shrink differences to the first part, and still too short where not to the second.
+const ENOUGH: [(i64, i64); 2] = [(1, 4), (1, 2)];
 /// Binary places of the generalised inverse.
 const PLACES: u64 = 40;
 /// Entries of products of steps stay below this power of 2.
 const MAX_BITS: u32 = 70;
+/// Weights and their denominator stay below this power of 2.
+const WEIGHT_BITS: u32 = 60;
+/// Bounds of this size and more are of no use.
+const USELESS: i128 = 1 << (BOUND_PLACES + 10);
 /// Binary places of the bounds.
 pub const BOUND_PLACES: u64 = 20;
 
@@ -99,7 +103,11 @@ impl Regular {
             for point in &points {
                 let mut row = Vec::new();
                 for (q, w) in sources(&mask, factor, place(part, *point)) {
-                    row.push((*index.get(&q)?, i128::try_from(&scaled(w)?).ok()?));
+                    let weight = i128::try_from(&scaled(w)?).ok()?;
+                    if weight.unsigned_abs() >> WEIGHT_BITS != 0 {
+                        return None;
+                    }
+                    row.push((*index.get(&q)?, weight));
                 }
                 rows.push(row);
             }
@@ -108,7 +116,7 @@ impl Regular {
         let sum = |row: &Vec<(usize, i128)>| row.iter().map(|(_, w)| w.abs()).sum::<i128>();
         let growth = steps.iter().flatten().map(sum).max()?;
         let differences = differences(triangles, &index);
-        let denominator = i128::try_from(&denominator).ok()?;
+        let denominator = i128::try_from(&denominator).ok().filter(|d| d >> WEIGHT_BITS == 0)?;
         let mut regular = Self {
             triangles,
             factor,
@@ -412,7 +420,8 @@ impl<'a> Bounds<'a> {
         let mut words = vec![start];
         let (mut unit, mut size) = (1_i128, 1_i128);
         let mut best = None;
-        while words.len() * r.parts.len() <= MAX_WORDS {
+        let mut most = MAX_WORDS[1];
+        while words.len() * r.parts.len() <= most {
             let longer: Option<Vec<Vec<Word>>> = words.iter().map(|w| self.longer(w)).collect();
             words = longer?.into_iter().flatten().collect();
             // Products are too large by the factor `unit`, and by N^length beside; the latter belongs to slopes.
@@ -454,11 +463,13 @@ impl<'a> Bounds<'a> {
                 let rest = |s: Rational| ratio(1, 1) - s;
                 let slope = part(&slope, slope_scale) / rest(shrink.clone());
                 let value = part(&value, value_scale * size) / rest(&shrink / Rational::from(Integer::from(size)));
-                best = Some((round_up(&slope)?, round_up(&value)?));
+                let bounds = (round_up(&slope)?, round_up(&value)?);
+                best = Some(bounds).filter(|(slope, value)| *slope.max(value) < USELESS);
             }
-            if shrink <= ratio(ENOUGH.0, ENOUGH.1) {
+            if shrink <= ratio(ENOUGH[0].0, ENOUGH[0].1) {
                 break;
             }
+            most = if shrink <= ratio(ENOUGH[1].0, ENOUGH[1].1) { MAX_WORDS[0] } else { MAX_WORDS[1] };
         }
         best
     }
@@ -472,6 +483,7 @@ fn round_up(x: &Rational) -> Option<i128> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arith::parse_rational;
     use crate::vertex::limit::ring_cells;
 
     fn butterfly(w: Rational) -> MeshRule {
@@ -502,7 +514,8 @@ mod tests {
             assert!(r.slope_bound < slope << BOUND_PLACES && r.value_bound < r.slope_bound, "{rule:?}: {r:?}");
         }
         // No bounds where the scheme is not C¹ (tension 0 is piecewise linear), or only hardly.
-        for w in [ratio(0, 1), ratio(1, 2), ratio(-1, 16)] {
+        let long = parse_rational(&format!("1/{}", "7".repeat(60))).unwrap();
+        for w in [ratio(0, 1), ratio(1, 2), ratio(-1, 16), Rational::from(1_u64 << 62), long] {
             assert!(Regular::of(&butterfly(w)).is_none());
         }
     }

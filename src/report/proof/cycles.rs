@@ -4,9 +4,10 @@ use super::super::document::{Block, Inline, Line, Table, formula, line, words};
 use super::super::math::Math;
 use super::super::values::{polynomial, root_math};
 use super::super::words::listed;
-use super::{Quoted, equation, statements};
+use super::{Quoted, matrix, scheme, statements};
 use crate::case::Case;
 use crate::jordan::Spectrum;
+use crate::linalg::Matrix;
 use crate::report::figures;
 use crate::report::values::decimal_math;
 use crate::shape::{Spaces, word_text};
@@ -52,25 +53,47 @@ pub(super) fn name(case: &Case, branch: &BranchReport, k: usize) -> String {
 
 pub(super) fn section(case: &Case, spaces: &Spaces, branch: &BranchReport, k: usize, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::Heading(3, words(name(case, branch, k)))];
-    blocks.push(equation("M", Math::matrix(&branch.cycle_operator)));
+    blocks.extend(cycle_operator(case, branch.state, &branch.address.cycle, &branch.cycle_operator));
     blocks.push(Block::text(
-        "with the fixed point $q=@$ (check: $M q=q$, coordinate sum 1).",
+        "The fixed point is $q=@$: $M q=q$, with the coordinate sum 1.",
         [Math::vector(&branch.fixed)],
     ));
     blocks.extend(space_blocks(spaces, branch));
     if branch.linear.rows() > 0 {
         let on = if branch.linear.rows() < branch.relevant { "$Y$" } else { "$V$" };
         blocks.push(Block::text(&format!("In these coordinates $M$ acts on {on} by"), []));
-        blocks.push(equation("L", Math::matrix(&branch.linear)));
+        blocks.push(matrix(Math::Letter('L'), &branch.linear));
         blocks.extend(spectrum_blocks(&branch.spectrum));
         if branch.linear.rows() > 1 {
-            blocks.push(figures::spectrum(branch));
+            blocks.push(figures::spectrum(&branch.spectrum));
         }
         blocks.extend(ring_blocks(branch, seen));
     }
     blocks.extend(statements::blocks(case, branch, seen));
     blocks
 }
+
+/// `M` as a product of operators, with its entries unless it is one of them.
+pub(super) fn cycle_operator(case: &Case, state: usize, cycle: &[usize], m: &Matrix) -> Vec<Block> {
+    let shape = &case.shape;
+    let mut at = state;
+    let mut factors = Vec::new();
+    for &letter in cycle {
+        let of = (shape.states.len() > 1).then(|| shape.states[at].name.as_str());
+        factors.push(scheme::operator(letter, of));
+        at = shape.states[at].pieces[letter].target;
+    }
+    if let [only] = factors.as_slice() {
+        return vec![Block::text("The cycle has the operator $M=@$.", [only.clone()])];
+    }
+    let short = factors.len() <= MAX_FACTORS;
+    let product = if short { Math::Row(factors) } else { Math::of("T_w") };
+    let text = if short { "The cycle has the operator" } else { "The cycle $w$ has the operator" };
+    vec![Block::text(text, []), matrix(Math::parse("M=@", &mut std::iter::once(product)), m)]
+}
+
+/// Most operators whose product is written out.
+const MAX_FACTORS: usize = 8;
 
 fn space_blocks(spaces: &Spaces, branch: &BranchReport) -> Vec<Block> {
     let basis = &spaces.of(branch.state).basis;
@@ -97,7 +120,7 @@ fn space_blocks(spaces: &Spaces, branch: &BranchReport) -> Vec<Block> {
     }
     if seen > 0 {
         blocks.push(Block::text("Coordinates of a point $x$ of the attractor are $C(x-q)$ with", []));
-        blocks.push(equation("C", Math::matrix(&branch.chart)));
+        blocks.push(matrix(Math::Letter('C'), &branch.chart));
     }
     blocks
 }
@@ -152,8 +175,8 @@ fn ring_blocks(branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
     if !dropped.is_empty() {
         let text =
             format!("By Lemma 2 these cells, which fall into $q$ as a whole, are left out: {}.", listed(&dropped));
-        blocks.push(Block::text(&text, []));
         blocks.extend(seen.once_id("lemma-2"));
+        blocks.push(Block::text(&text, []));
     }
     blocks
 }

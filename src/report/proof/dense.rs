@@ -1,20 +1,21 @@
 //! The section on the dense set.
 
 use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
+use super::super::values::direction_math;
 use super::super::words::{mark, point_name, tone};
-use super::quoted;
+use super::{Quoted, quoted};
 use crate::case::Case;
 use crate::report::theorems;
 use crate::theorem::{Certified, DenseSet, Kind, Statement, Verdict};
 
-pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
+pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let Some(dense) = &found.dense else { return Vec::new() };
     let is_dense = |s: Statement| matches!(s, Statement::Theorem5 | Statement::Theorem5Projected);
     let Some(claim) = found.claims.iter().find(|c| c.statement.is_some_and(is_dense)) else { return Vec::new() };
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
     let statement = claim.statement.map(theorems::of);
     match (claim.verdict, statement) {
-        (Verdict::Proved, Some(theorem)) => blocks.push(quoted(theorem)),
+        (Verdict::Proved, Some(theorem)) => blocks.push(seen.once(theorem)),
         (Verdict::Undetermined, Some(theorem)) => {
             blocks.push(quoted(theorem));
             blocks.push(Block::text("It is not applied: of its hypotheses some fail or are not decided.", []));
@@ -25,7 +26,8 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
             blocks.push(Block::text(text, []));
         }
     }
-    blocks.push(Block::Checks(checks(case, found, dense)));
+    let projected = claim.statement == Some(Statement::Theorem5Projected);
+    blocks.push(Block::Checks(checks(case, found, dense, projected, claim.verdict == Verdict::Proved)));
     let mut conclusion: Line = line("**Conclusion.** ", []);
     conclusion.push(mark(claim.verdict));
     let how = match claim.verdict {
@@ -42,7 +44,7 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
     blocks
 }
 
-fn checks(case: &Case, found: &Certified, dense: &DenseSet) -> Vec<Check> {
+fn checks(case: &Case, found: &Certified, dense: &DenseSet, projected: bool, proved: bool) -> Vec<Check> {
     let shape = &case.shape;
     let mut checks = Vec::new();
     for &index in &dense.joints {
@@ -62,14 +64,33 @@ fn checks(case: &Case, found: &Certified, dense: &DenseSet) -> Vec<Check> {
         checks.push(Check { tone: if ok { Tone::Good } else { Tone::Bad }, text });
     }
     if shape.control.is_some() {
-        let (tone, verb) = if dense.view_injective { (Tone::Good, "is") } else { (Tone::Bad, "is not") };
-        let text = words(format!("the projection by the control points {verb} injective on the relevant space"));
-        checks.push(Check { tone, text });
+        // Theorem 5′ is for projections that are not injective.
+        let (tone, text) = match (dense.view_injective, projected) {
+            (true, _) => (Tone::Good, "the projection by the control points is injective on the relevant space"),
+            (false, false) => {
+                (Tone::Bad, "the projection by the control points is not injective on the relevant space")
+            }
+            (false, true) => (
+                Tone::Neutral,
+                "the projection by the control points is not injective on the relevant space, so that Theorem 5 does not apply",
+            ),
+        };
+        checks.push(Check { tone, text: words(text) });
     }
     for point in &dense.upstairs {
-        let mut text = words(format!("before the projection, {}: ", point_name(shape, point).to_lowercase()));
+        // The names of states keep their case.
+        let name = point_name(shape, point).replacen("Joint", "joint", 1);
+        let mut text = line(&format!("before the projection, {name}, in coordinates of $W$: "), []);
         text.push(mark(point.verdict));
+        if let Some(tangent) = &point.tangent {
+            text.extend(line(", with the tangent line of $ℓ=@$", [direction_math(tangent)]));
+        }
         checks.push(Check { tone: tone(point.verdict), text });
+    }
+    if projected && proved {
+        let text = "the smallest family of subspaces of the $W_e$ that contains these lines and is mapped into itself by all $T_i$ is all of $W$ (the \
+                    lines were closed under the operators)";
+        checks.push(Check { tone: Tone::Good, text: line(text, []) });
     }
     checks
 }

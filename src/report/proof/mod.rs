@@ -8,75 +8,107 @@ mod points;
 mod scheme;
 mod statements;
 mod surface;
+mod surface_cycle;
+mod vertex;
+
+pub use vertex::vertex_document;
 
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
 use super::summary::{claim_line, shape_line};
-use super::theorems::{THEOREMS, Theorem};
-use super::words::{deciding, mark, statement};
+use super::theorems::{self, Theorem};
+use super::words::mark;
 use crate::case::Case;
-use crate::shape::Spaces;
+use crate::linalg::Matrix;
+use crate::shape::{CellKind, Spaces};
 use crate::theorem::{BranchReport, Certified, Verdict};
+
+/// Matrices with more rows or columns than this are folded.
+const LARGE: usize = 8;
 
 /// The whole proof as a document.
 #[must_use]
 pub fn document(case: &Case, found: &Certified) -> Document {
     let mut blocks = opening(case, found);
-    blocks.extend(scheme::section(case, found));
+    let mut seen = Quoted::default();
+    let start = case.shape.states[case.shape.start].kind;
+    blocks.extend(scheme::section(case, found, &mut seen));
     let cycles = cycles::distinct(found);
     if let Some(spaces) = Spaces::new(&case.shape).filter(|_| !found.points.is_empty()) {
-        let mut seen = Quoted::default();
-        blocks.extend(definitions());
+        blocks.extend(definitions(start));
         blocks.push(Block::heading(2, "The cycles"));
         for (k, branch) in cycles.iter().enumerate() {
             blocks.extend(cycles::section(case, &spaces, branch, k, &mut seen));
         }
-        blocks.extend(points::section(case, found, &cycles));
+        blocks.extend(points::section(case, found, &cycles, &mut seen));
     }
     if let Some(surface) = &found.surface {
-        blocks.extend(surface::section(case, surface));
+        blocks.extend(definitions(start));
+        blocks.extend(surface::section(case, surface, &mut seen));
     }
-    blocks.extend(dense::section(case, found));
-    blocks.extend(every::section(case, found));
+    blocks.extend(dense::section(case, found, &mut seen));
+    blocks.extend(every::section(case, found, &mut seen));
     blocks.extend(certificate_section(case, found));
-    blocks.extend(closing(found));
+    blocks.extend(references(&seen));
     Document { title: case.title.clone(), blocks }
 }
 
-/// The statements quoted so far: each is quoted in full where it is first used.
+/// The statements quoted so far, in order: each is quoted in full where it is first used.
 #[derive(Default)]
-struct Quoted(Vec<&'static str>);
+struct Quoted(Vec<&'static Theorem>);
 
 impl Quoted {
-    /// The statement in full, or a reference to where it stands.
-    fn once(&mut self, theorem: &Theorem) -> Vec<Block> {
-        if self.0.contains(&theorem.id) {
-            let name = theorem.name.split(" (").next().unwrap_or(theorem.name);
-            return vec![Block::text(&format!("**{name}** (above) applies:"), [])];
+    /// Whether the statement was not quoted before; from now on it was.
+    fn is_new(&mut self, theorem: &'static Theorem) -> bool {
+        let new = self.0.iter().all(|t| t.id != theorem.id);
+        if new {
+            self.0.push(theorem);
         }
-        self.0.push(theorem.id);
-        vec![quoted(theorem)]
+        new
+    }
+
+    /// The statement in full, or a reference to where it stands.
+    fn once(&mut self, theorem: &'static Theorem) -> Block {
+        if self.is_new(theorem) {
+            return quoted(theorem);
+        }
+        let name = theorem.name.split(" (").next().unwrap_or(theorem.name);
+        Block::text(&format!("**{name}** (above) applies:"), [])
     }
 
     /// The statement with an id in full, or nothing where it was quoted before.
-    fn once_id(&mut self, id: &'static str) -> Vec<Block> {
-        if self.0.contains(&id) {
-            return Vec::new();
-        }
-        self.0.push(id);
-        vec![quoted_id(id)]
+    fn once_id(&mut self, id: &'static str) -> Option<Block> {
+        let theorem = theorems::by_id(id);
+        self.is_new(theorem).then(|| quoted(theorem))
     }
 }
 
 /// The words that the statements use.
-fn definitions() -> Vec<Block> {
-    let items = [
+fn definitions(start: CellKind) -> Vec<Block> {
+    let (dimension, branches) = if start == CellKind::Face {
+        (
+            "There is a **tangent plane** if and only if $\\dim D^*=2$.",
+            "Every point examined has one **branch** for each cell that contains it: an address $u w^ω$ with a prefix $u$ and a cycle $w$.",
+        )
+    } else {
+        (
+            "There is a **tangent line** if and only if $\\dim D^*=1$.",
+            "Every point examined has one or two **branches**: addresses $u w^ω$ with a prefix $u$ and a cycle $w$.",
+        )
+    };
+    let limits = format!(
         "A unit vector $d$ is a **limit direction** at $p$ if $(a_k-p)/|a_k-p|→d$ for points $a_k≠p$ of the shape whose addresses tend to that of $p$; \
-         the **tangent subspace** $D^*$ is the span of the limit directions. There is a **tangent line** if and only if $\\dim D^*=1$.",
-        "Every point examined has one or two **branches**: addresses $u w^ω$ with a prefix $u$ and a cycle $w$. What follows depends on the \
+         the **tangent subspace** $D^*$ is the span of the limit directions. {dimension}"
+    );
+    let cycle = format!(
+        "{branches} What follows depends on the \
          cycle alone, up to the map $T_u$ of the prefix: $M=T_w$ has the fixed point $q$, $V$ is the span of the differences of the attractor, $L$ is $M$ on $V$, \
-         the **ring** $K$ is what leaves the cycle during its first turn, and $X=K-q$. All points near $q$ are images $M^m x$ of points of the ring.",
+         the **ring** $K$ is what leaves the cycle during its first turn, and $X=K-q$. All points near $q$ are images $M^m x$ of points $x$ of the ring."
+    );
+    let mut items = vec![
+        limits.as_str(),
+        cycle.as_str(),
         "$ρ_1>ρ_2>…$ are the different moduli of the eigenvalues of $L$, $E_i$ is the real generalised eigenspace of modulus $ρ_i$, \
          $F_i=E_{i+1}⊕E_{i+2}⊕…$, and $π_i$ is the projection of $V$ to $E_1⊕…⊕E_i$ along $F_i$. The smallest $i$ with $0∉π_i(X)$ is the **depth**. \
          $E_i$ is **semisimple** if all its Jordan blocks have size 1. $U$ is the span of the eigenvectors that end the longest Jordan chains of modulus $ρ_1$, \
@@ -84,6 +116,18 @@ fn definitions() -> Vec<Block> {
         "A branch is **isolated** if no point of $X$ lies in the generalised kernel of $L$. The **hull** of a vector is the smallest $L$-invariant \
          subspace that contains it.",
     ];
+    if start != CellKind::Face {
+        items.push(
+            "The **angular deviation** after $m$ turns is the largest angle between the tangent line and a secant from $p$ to a point of the branch behind \
+             $m$ turns of its cycle.",
+        );
+    }
+    if start == CellKind::Edge {
+        items.push(
+            "The **local Hölder exponent** $h=\\ln ρ_1/\\ln s$ is that of the branch at $p$ in the uniform parameter, in which the \
+             pieces of a cell take equal parts of its interval; one turn of the cycle shrinks the parameter by $s$.",
+        );
+    }
     vec![Block::heading(2, "Definitions"), Block::List(items.iter().map(|t| line(t, [])).collect())]
 }
 
@@ -133,11 +177,6 @@ fn quoted(theorem: &Theorem) -> Block {
     Block::Statement { name: theorem.name.to_owned(), body: line(theorem.body, []) }
 }
 
-/// The statement with an id, quoted.
-fn quoted_id(id: &str) -> Block {
-    quoted(THEOREMS.iter().find(|t| t.id == id).unwrap_or(&THEOREMS[0]))
-}
-
 /// What identifies the case and its certificate.
 fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
     let digest = |text: &str| Line::from([Inline::Code(crate::certificate::sha256(text))]);
@@ -162,33 +201,15 @@ fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
     vec![Block::heading(2, "Certificate"), Block::Facts(facts)]
 }
 
-fn closing(found: &Certified) -> Vec<Block> {
-    let mut used: Vec<&str> = Vec::new();
-    for branch in found.points.iter().flat_map(|p| &p.branches) {
-        if let Some(s) = applied(branch) {
-            let name = statement(s);
-            if !used.contains(&name) {
-                used.push(name);
-            }
-        }
-    }
-    let of_surface = found.surface.iter().flat_map(|s| &s.points).flat_map(|p| &p.branches);
-    for name in of_surface.filter_map(|b| b.outcome.statement).map(statement) {
-        if !used.contains(&name) {
-            used.push(name);
-        }
-    }
-    for name in found.claims.iter().filter_map(deciding).map(statement) {
-        if !used.contains(&name) {
-            used.push(name);
-        }
-    }
+/// The thesis, the statements that were quoted, and the program.
+fn references(seen: &Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "References")];
     let mut items: Vec<Line> = vec![words(
         "S. Podkorytov, Tangent spaces for self-similar shapes, PhD thesis, Université de Bourgogne, Dijon 2013, tel-01005330; chapter 3 for the \
          models, chapter 4 for the conditions.",
     )];
-    if !used.is_empty() {
+    if !seen.0.is_empty() {
+        let used: Vec<&str> = seen.0.iter().map(|t| t.name).collect();
         let text = format!("Statements applied: {}. Proofs: docs/theory.md, or `secant explain`.", used.join("; "));
         items.push(line(&text, []));
     }
@@ -207,7 +228,12 @@ fn applied(branch: &BranchReport) -> Option<crate::theorem::Statement> {
     }
 }
 
-/// `name = value` as a formula in a line of its own.
-fn equation(name: &str, value: Math) -> Block {
-    Block::Formula(Math::parse(&format!("{name}=@"), &mut std::iter::once(value)))
+/// `name = matrix` as a formula in a line of its own, folded where it is large.
+fn matrix(name: Math, m: &Matrix) -> Block {
+    let block = Block::Formula(Math::parse("@=@", &mut [name.clone(), Math::matrix(m)].into_iter()));
+    if m.rows().max(m.cols()) <= LARGE {
+        return block;
+    }
+    let summary = line("$@$, a matrix of size $@×@$", [name, Math::count(m.rows()), Math::count(m.cols())]);
+    Block::Details { summary, blocks: vec![block] }
 }

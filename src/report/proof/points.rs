@@ -1,28 +1,80 @@
 //! One section for each examined point: its branches brought together.
 
-use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
+use super::super::document::{Block, Check, Inline, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
 use super::super::words::{addresses, dimension, direction, kind_meaning, mark, point_name, ray_line};
-use super::{cycles, equation, quoted_id};
+use super::{Quoted, cycles, matrix};
 use crate::case::Case;
 use crate::report::figures;
 use crate::shape::{CellKind, word_text};
-use crate::theorem::{BranchReport, Certified, Kind, Outcome, PointReport, Role, Side, Verdict};
+use crate::theorem::{BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
 
 /// So many points are shown enlarged.
 const MAX_PICTURED: usize = 5;
 
-pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport]) -> Vec<Block> {
+/// So many points are shown in full where there are many of them.
+const MAX_FULL: usize = 8;
+
+pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "The points")];
     if found.points.iter().any(|p| p.branches.len() > 1) {
-        blocks.push(quoted_id("joint"));
+        blocks.extend(seen.once_id("joint"));
     }
+    let refuted = found.points.iter().position(|p| p.verdict == Verdict::Refuted);
+    let open = found.points.iter().position(|p| p.verdict == Verdict::Undetermined);
+    let mut rest = Vec::new();
     for (k, point) in found.points.iter().enumerate() {
-        // Points asked for come last, and are shown in any case.
+        // Points asked for come last, and are shown in any case; so is the first witness.
         let asked = found.claims.iter().any(|c| c.asked.as_ref().is_some_and(|(_, index)| *index == k));
-        blocks.extend(one(case, point, listed, k < MAX_PICTURED || asked));
+        let chosen = k < MAX_PICTURED || asked;
+        if chosen || found.points.len() <= MAX_FULL || Some(k) == refuted || Some(k) == open {
+            blocks.extend(one(case, point, listed, chosen));
+        } else {
+            rest.push(point);
+        }
+    }
+    if !rest.is_empty() {
+        blocks.push(Block::heading(3, "The other points"));
+        blocks.push(Block::text(
+            "Their branches end in the same cycles. What was found for a cycle is brought to the point in the same way, by the prefix of the address.",
+            [],
+        ));
+        blocks.push(in_short(&rest));
     }
     blocks
+}
+
+/// Points in a table: addresses, place, lines of the branches, and what follows.
+fn in_short(points: &[&PointReport]) -> Block {
+    let rows = points.iter().map(|point| {
+        let lines: Vec<&Direction> = point.branches.iter().filter_map(tangent_of).collect();
+        let mut shown = Line::new();
+        for (k, d) in lines.iter().enumerate() {
+            if k > 0 {
+                shown.extend(words("; "));
+            }
+            shown.extend(direction(d));
+        }
+        let mut result = vec![mark(point.verdict)];
+        if !point.kind.word().is_empty() && point.kind != Kind::None {
+            result.extend(words(format!(", {}", point.kind.word())));
+        }
+        let place = point.image.as_ref().unwrap_or(&point.position);
+        vec![code(addresses(point).join(" = ")), formula(Math::vector(place)), shown, result]
+    });
+    Block::Table(Table {
+        caption: Line::new(),
+        header: ["addresses", "point", "tangent lines of the branches", "found"].map(words).to_vec(),
+        rows: rows.collect(),
+    })
+}
+
+/// The direction of the tangent line of a branch, where it has one.
+fn tangent_of(branch: &BranchReport) -> Option<&Direction> {
+    match &branch.outcome {
+        Outcome::Line { direction, .. } => Some(direction),
+        _ => None,
+    }
 }
 
 fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: bool) -> Vec<Block> {
@@ -73,11 +125,11 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
     } else {
         text.extend(line(". A direction in the coordinates of $L$ is brought to the point by", []));
         blocks.push(Block::Paragraph(text));
-        blocks.push(equation("G", Math::matrix(&branch.view)));
+        blocks.push(matrix(Math::Letter('G'), &branch.view));
     }
     match &branch.outcome {
         Outcome::Line { direction: d, rays, .. } => {
-            let mut text = line("The tangent line of this branch has the direction $G v$: ", []);
+            let mut text = line("The tangent line of this branch is that of $G v$, of the direction ", []);
             text.extend(direction(d));
             text.extend(words("."));
             blocks.push(Block::Paragraph(text));
@@ -99,21 +151,22 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
         Outcome::NoGerm { reason } => {
             blocks.push(Block::Paragraph(words(format!("There are no secants to look at: {reason}."))));
         }
-        Outcome::Open { reason, .. } => blocks.push(Block::Paragraph(words(format!("Not decided: {reason}.")))),
+        Outcome::Open { reason, at_least, direction: known, .. } => {
+            let mut text = words(format!("Not decided: {reason}."));
+            if let Some(d) = known.as_ref().filter(|_| *at_least > 0) {
+                text.extend(line(" The tangent subspace contains the direction ", []));
+                text.extend(direction(d));
+                text.extend(words("."));
+            }
+            blocks.push(Block::Paragraph(text));
+        }
     }
     blocks
 }
 
 /// Whether the two lines of a joint agree.
 fn agreement(point: &PointReport) -> Option<Block> {
-    let lines: Vec<_> = point
-        .branches
-        .iter()
-        .filter_map(|b| match &b.outcome {
-            Outcome::Line { direction, .. } => Some(direction),
-            _ => None,
-        })
-        .collect();
+    let lines: Vec<_> = point.branches.iter().filter_map(tangent_of).collect();
     let [left, right] = lines[..] else { return None };
     let agree = left.same_line(right).is_some();
     let tone = if agree { Tone::Good } else { Tone::Bad };
@@ -129,15 +182,17 @@ fn conclusion(point: &PointReport) -> Line {
     let no_germ = point.branches.iter().all(|b| matches!(b.outcome, Outcome::NoGerm { .. }));
     let mut out = line("**Conclusion.** ", []);
     out.push(mark(point.verdict));
-    out.extend(words(": "));
     let kind = match (point.verdict, point.kind) {
-        (Verdict::Proved, Kind::None) => "a tangent line exists; its rays are not settled".to_owned(),
-        (Verdict::Refuted, Kind::None) => "no tangent line".to_owned(),
-        (Verdict::Undetermined, _) if no_germ => "there is no tangent question".to_owned(),
-        (Verdict::Undetermined, _) => "not decided".to_owned(),
-        (_, kind) => kind.word().to_owned(),
+        (Verdict::Proved, Kind::None) => "a tangent line exists; its rays are not settled",
+        (Verdict::Refuted, Kind::None) => "no tangent line",
+        (Verdict::Undetermined, _) if no_germ => "there is no tangent question",
+        (Verdict::Undetermined, _) => "",
+        (_, kind) => kind.word(),
     };
-    out.push(Inline::Strong(kind));
+    if !kind.is_empty() {
+        out.extend(words(": "));
+        out.push(Inline::Strong(kind.to_owned()));
+    }
     let meaning = kind_meaning(point.kind);
     if !meaning.is_empty() {
         out.extend(words(format!(" ({meaning})")));
@@ -147,7 +202,7 @@ fn conclusion(point: &PointReport) -> Line {
         out.extend(dimension(point.dimension));
     }
     if let Some(tangent) = &point.tangent {
-        out.extend(words("; tangent line of "));
+        out.extend(words("; the tangent line has the direction "));
         out.extend(direction(tangent));
     }
     let rays = ray_line(point);

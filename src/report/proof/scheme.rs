@@ -2,8 +2,8 @@
 
 use super::super::document::{Block, Check, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
-use super::super::words::{contraction, count, short_bound};
-use super::{equation, quoted_id};
+use super::super::words::{contraction, count, listed, short_bound};
+use super::{Quoted, matrix};
 use crate::case::{Case, Convention};
 use crate::report::figures;
 use crate::shape::{Balls, CellKind, Contraction, End, Frame, Shape, Spaces, word_text};
@@ -13,7 +13,7 @@ use crate::theorem::{BranchReport, Certified, Outcome, Witness};
 const MAX_WORDS: usize = 400;
 
 /// The sections on the operators, contraction, identities and relevant spaces.
-pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
+pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let shape = &case.shape;
     let mut blocks = vec![Block::heading(2, "The scheme")];
     blocks.push(Block::Paragraph(convention(case)));
@@ -23,21 +23,17 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
             blocks.push(Block::Paragraph(state_line(shape, e)));
         }
         for (i, piece) in state.pieces.iter().enumerate() {
-            let name = if shape.states.len() > 1 { format!("T_{{{i}}}^{{@}}") } else { format!("T_{{{i}}}") };
-            let mut values = vec![Math::matrix(&piece.op)];
-            if shape.states.len() > 1 {
-                values.insert(0, Math::Word(state.name.clone()));
-            }
-            blocks.push(Block::Formula(Math::parse(&format!("{name}=@"), &mut values.into_iter())));
+            let of = (shape.states.len() > 1).then(|| state.name.as_str());
+            blocks.push(matrix(operator(i, of), &piece.op));
         }
     }
     if let Some(control) = shape.control.as_ref().filter(|_| shape.frame == Frame::Barycentric) {
         blocks.push(Block::text("The control points are the columns of", []));
-        blocks.push(equation("P", Math::matrix(control)));
+        blocks.push(matrix(Math::Letter('P'), control));
     }
     blocks.push(Block::heading(2, "Contraction"));
     let by_polytopes = matches!(found.contraction, Contraction::Polytopes(_));
-    blocks.push(quoted_id(if by_polytopes { "lemma-1-prime" } else { "lemma-1" }));
+    blocks.extend(seen.once_id(if by_polytopes { "lemma-1-prime" } else { "lemma-1" }));
     let mut result = words("Here contraction is ");
     result.extend(contraction(&found.contraction));
     result.extend(words("."));
@@ -47,9 +43,22 @@ pub(super) fn section(case: &Case, found: &Certified) -> Vec<Block> {
         blocks.extend(identities(shape));
     }
     if !found.states.is_empty() {
-        blocks.extend(spaces(shape, found));
+        blocks.extend(spaces(shape, found, seen));
     }
     blocks
+}
+
+/// `T_i`, with the name of the state above where there are several.
+pub(super) fn operator(letter: usize, state: Option<&str>) -> Math {
+    let mut values = vec![Math::count(letter)];
+    let notation = match state {
+        Some(name) => {
+            values.push(Math::Word(name.to_owned()));
+            "T_@^@"
+        }
+        None => "T_@",
+    };
+    Math::parse(notation, &mut values.into_iter())
 }
 
 /// A number exactly where that is short, otherwise as an upper bound.
@@ -61,13 +70,6 @@ fn bounded(x: &crate::arith::Rational) -> Math {
 }
 
 fn convention(case: &Case) -> Line {
-    let reversed: Vec<String> = case.shape.states[case.shape.start]
-        .pieces
-        .iter()
-        .enumerate()
-        .filter(|(_, p)| p.reversed)
-        .map(|(i, _)| i.to_string())
-        .collect();
     let mut out = match case.convention {
         Convention::Columns => line(
             "The operators act on columns of barycentric coordinates; every column sums to 1. The case gives them in this form.",
@@ -84,8 +86,15 @@ fn convention(case: &Case) -> Line {
             [Math::count(case.shape.states[case.shape.start].dim.saturating_sub(1))],
         ),
     };
-    if !reversed.is_empty() {
-        out.extend(words(format!(" These pieces run backwards: {}.", reversed.join(", "))));
+    // Of an automaton the list of states says so.
+    if let [only] = case.shape.states.as_slice() {
+        let back = only.pieces.iter().enumerate().filter(|(_, p)| p.reversed);
+        let back: Vec<String> = back.map(|(i, _)| i.to_string()).collect();
+        match back.as_slice() {
+            [] => {}
+            [one] => out.extend(words(format!(" Piece {one} runs backwards."))),
+            _ => out.extend(words(format!(" Pieces {} run backwards.", listed(&back)))),
+        }
     }
     out
 }
@@ -93,10 +102,10 @@ fn convention(case: &Case) -> Line {
 fn state_line(shape: &Shape, e: usize) -> Line {
     let state = &shape.states[e];
     let kind = match state.kind {
-        CellKind::Vertex => "vertex",
-        CellKind::Edge => "edge",
-        CellKind::Set => "set",
-        CellKind::Face => "face",
+        CellKind::Vertex => "a vertex",
+        CellKind::Edge => "an edge",
+        CellKind::Set => "a set",
+        CellKind::Face => "a face",
     };
     let pieces: Vec<String> = state
         .pieces
@@ -104,16 +113,16 @@ fn state_line(shape: &Shape, e: usize) -> Line {
         .enumerate()
         .map(|(i, p)| {
             let back = if p.reversed { " backwards" } else { "" };
-            format!("{i} to {}{back}", shape.states[p.target].name)
+            format!("{i} leads to {}{back}", shape.states[p.target].name)
         })
         .collect();
-    let start = if e == shape.start { ", the start" } else { "" };
-    let text = format!(
-        "State {} ({kind}{start}), {}; pieces: {}.",
-        state.name,
-        count(state.dim, "coordinate"),
-        pieces.join(", ")
-    );
+    let start = if e == shape.start { ", where the shape starts," } else { "" };
+    let led = match pieces.as_slice() {
+        [] => String::new(),
+        [one] => format!(": piece {one}"),
+        _ => format!(": piece {}", listed(&pieces)),
+    };
+    let text = format!("State {}{start} is {kind} with {}{led}.", state.name, count(state.dim, "coordinate"));
     words(text)
 }
 
@@ -148,10 +157,12 @@ fn code_words(shape: &Shape, found: &Contraction) -> Option<Block> {
 fn identities(shape: &Shape) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Identities of the curve")];
     blocks.push(Block::text(
-        "Every piece begins where the one before ends; so the attractors of the edge states are curves, and their cells are connected.",
+        "Every piece begins where the one before ends (checked below); so the attractors of the edge states are curves, and their cells are \
+         connected.",
         [],
     ));
     let mut rows = Vec::new();
+    let several = shape.states.len() > 1;
     for e in shape.reachable() {
         let state = &shape.states[e];
         if state.kind != CellKind::Edge {
@@ -162,12 +173,13 @@ fn identities(shape: &Shape) -> Vec<Block> {
                 rows.push(vec![words(what), formula(Math::vector(&point))]);
             }
         };
-        push(format!("start of state {}", state.name), shape.end_point(e, End::Start));
-        push(format!("end of state {}", state.name), shape.end_point(e, End::Finish));
+        let of = if several { format!(" of state {}", state.name) } else { String::new() };
+        push(format!("start{of}"), shape.end_point(e, End::Start));
+        push(format!("end{of}"), shape.end_point(e, End::Finish));
         for j in 1..state.pieces.len() {
             let piece = &state.pieces[j];
             let meeting = shape.end_point(piece.target, End::Start.in_piece(piece)).map(|x| piece.op.apply(&x));
-            push(format!("end of piece {} of state {}, start of piece {j}", j - 1, state.name), meeting);
+            push(format!("end of piece {}{of} = start of piece {j}", j - 1), meeting);
         }
     }
     let header = vec![words("point"), words("barycentric coordinates")];
@@ -205,7 +217,8 @@ fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
 fn vertices<'a>(shape: &Shape, of: impl Fn(usize) -> &'a [Vec<crate::arith::Rational>]) -> Block {
     let row = |(e, vertex): (usize, &Vec<_>)| vec![words(shape.states[e].name.clone()), formula(Math::vector(vertex))];
     let rows = shape.reachable().into_iter().flat_map(|e| of(e).iter().map(move |v| (e, v))).map(row).collect();
-    Block::Table(Table { caption: Line::new(), header: vec![words("state"), words("vertex")], rows })
+    let header = vec![words("state"), words("vertex")];
+    Block::Table(by_state(shape, Table { caption: Line::new(), header, rows }))
 }
 
 fn uses_polygons(branch: &BranchReport) -> bool {
@@ -219,33 +232,62 @@ fn uses_polygons(branch: &BranchReport) -> bool {
     }
 }
 
-fn spaces(shape: &Shape, found: &Certified) -> Vec<Block> {
+/// A table whose first column names states, without that column where there is one state only.
+fn by_state(shape: &Shape, mut table: Table) -> Table {
+    if shape.states.len() == 1 {
+        table.header.remove(0);
+        table.rows.iter_mut().for_each(|row| drop(row.remove(0)));
+    }
+    table
+}
+
+fn spaces(shape: &Shape, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Relevant spaces and enclosures")];
-    blocks.push(Block::text(
-        "$V_e$ is the span of the differences of points of the attractor $A_e$, computed by closing the differences of one point of each \
-         attractor under the operators; the dimension that is seen is that of its image under the control points, after division by what all operators \
-         keep invisible. Each attractor lies in the 1-norm ball around its base point with the radius given.",
-        [],
-    ));
+    let hidden = found.states.iter().any(|s| s.visible < s.relevant);
+    let part = if hidden {
+        " Of its dimensions those are seen that are left after division by what the control points do not show, whatever operators come first."
+    } else {
+        ""
+    };
+    let text = if shape.states.len() > 1 {
+        format!(
+            "The relevant space $V_e$ of a state $e$ is the span of the differences of points of its attractor $A_e$, computed by closing the differences \
+             of one point of each attractor under the operators.{part} Each attractor lies in the 1-norm ball around its base point with the \
+             radius given."
+        )
+    } else {
+        format!(
+            "The relevant space $V$ is the span of the differences of points of the attractor $A$, computed by closing the differences between one \
+             point and its images under the operators.{part} The attractor lies in the 1-norm ball around the base point with the radius given."
+        )
+    };
+    blocks.push(Block::text(&text, []));
     let rows = found.states.iter().map(|s| {
-        vec![
+        let mut row = vec![
             words(shape.states[s.state].name.clone()),
             formula(Math::count(s.relevant)),
-            formula(Math::count(s.visible)),
             formula(Math::vector(&s.base)),
             formula(bounded(&s.radius)),
-        ]
+        ];
+        if hidden {
+            row.insert(2, formula(Math::count(s.visible)));
+        }
+        row
     });
-    let header =
-        vec![words("state"), line("$\\dim V_e$", []), line("$\\dim$ seen", []), words("base point"), words("radius")];
-    blocks.push(Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }));
+    let dimension = if shape.states.len() > 1 { "$\\dim V_e$" } else { "$\\dim V$" };
+    let mut header = vec![words("state"), line(dimension, []), words("base point"), words("radius")];
+    if hidden {
+        header.insert(2, words("of which seen"));
+    }
+    blocks.push(Block::Table(by_state(shape, Table { caption: Line::new(), header, rows: rows.collect() })));
     blocks.extend(polygons(shape, found));
     if let Some(similar) = &found.similarities {
-        blocks.push(quoted_id("similarities"));
+        blocks.extend(seen.once_id("similarities"));
         blocks.push(Block::Checks(vec![Check {
             tone: Tone::Good,
             text: line(
-                "In the basis of $V$ all linear parts satisfy $L_i^T Q L_i = c_i Q$ with the positive definite $Q=@$ and $c=@$.",
+                "The linear parts $L_i$ of the maps $T_i$, in the basis of $V$ given below with the cycles, satisfy $L_i^T Q L_i = c_i Q$ with the \
+                 positive definite $Q=@$ and the squared ratios $c=@$.",
                 [Math::matrix(&similar.gram), Math::vector(&similar.squared_ratios)],
             ),
         }]));

@@ -9,7 +9,7 @@ use super::Quoted;
 use crate::algebraic::Elem;
 use crate::arith::{Interval, Rational};
 use crate::case::Case;
-use crate::jordan::{Chain, Factor};
+use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
 use crate::report::figures;
 use crate::shape::{CellKind, word_text};
@@ -22,12 +22,12 @@ const MAX_CELLS: usize = 400;
 pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
     match &branch.outcome {
         Outcome::Line { statement, .. } => {
-            let mut blocks = seen.once(theorems::of(*statement));
+            let mut blocks = vec![seen.once(theorems::of(*statement))];
             blocks.extend(line_blocks(case, branch, *statement, seen));
             blocks
         }
         Outcome::AtLeast { statement, .. } => {
-            let mut blocks = seen.once(theorems::of(*statement));
+            let mut blocks = vec![seen.once(theorems::of(*statement))];
             blocks.extend(many_blocks(case, branch, *statement));
             blocks
         }
@@ -150,10 +150,7 @@ fn line_blocks(case: &Case, branch: &BranchReport, statement: Statement, seen: &
         conclusion.extend(words("; angular deviation of the secants: "));
         conclusion.extend(rate(speed));
         if case.shape.states[branch.state].kind == CellKind::Edge {
-            conclusion.extend(words(
-                "; local Hölder exponent of this branch in the uniform parameter, in which the pieces of a cell take equal parts of its \
-                 interval: ",
-            ));
+            conclusion.extend(words("; local Hölder exponent: "));
             conclusion.extend(holder(exponent));
         }
     }
@@ -162,8 +159,17 @@ fn line_blocks(case: &Case, branch: &BranchReport, statement: Statement, seen: &
     blocks
 }
 
+/// `the functional $k$ below`, `one of the functionals $k_i$ below`.
+pub(super) fn one_of(letter: char, proof: &RingProof) -> String {
+    if proof.functionals.len() == 1 {
+        format!("the functional ${letter}$ below")
+    } else {
+        format!("one of the functionals ${letter}_i$ below")
+    }
+}
+
 /// `3 cells cover $K$, and on each of them`.
-fn on_cells(number: usize) -> String {
+pub(super) fn on_cells(number: usize) -> String {
     if number == 1 {
         "1 cell covers $K$, and on it".to_owned()
     } else {
@@ -177,11 +183,7 @@ fn vector_blocks(branch: &BranchReport, factor: &Factor, block: usize, functiona
     let Some(chain) = chain_of(&factor.right, block) else { return blocks };
     blocks.push(Block::text("The right eigenvector, in the coordinates of $L$, is $v=@$.", [elems(&chain.vectors[0])]));
     if block > 1 {
-        let rest = chain.vectors[1..].iter().map(|v| elems(v)).collect::<Vec<_>>();
-        blocks.push(Block::text(
-            "It ends the chain of generalised eigenvectors $@$, of which $L-λ$ sends the first to $v$ and each other one to the one before.",
-            [Math::tuple(rest)],
-        ));
+        blocks.push(Block::Paragraph(chain_line(&chain.vectors)));
     }
     blocks.push(functional_block("The left functional is", functional, branch));
     let last = &chain.vectors[block - 1];
@@ -189,13 +191,29 @@ fn vector_blocks(branch: &BranchReport, factor: &Factor, block: usize, functiona
     blocks.push(if block == 1 {
         Block::text("Since $g(v)=@$, the component of $x$ along $v$ is $c(x)=g(x)/g(v)$.", [elem_math(&pairing)])
     } else {
-        let values = [elem_math(&pairing), Math::count(block - 1)];
+        let values = [Math::count(block), elem_math(&pairing), Math::count(block - 1)];
         Block::text(
-            "On the last vector of the chain $g$ has the value $g_0=@$, so that $u(x)=c(x) v$ with $c(x)=λ^{-@} g(x)/g_0$.",
+            "On the last vector $w_@$ of the chain $g$ has the value $g_0=@$, so that the leading coefficient is $u(x)=c(x) v$ with \
+             $c(x)=λ^{-@} g(x)/g_0$.",
             values,
         )
     });
     blocks
+}
+
+/// The generalised eigenvectors `w_2, w_3, …` above the eigenvector `v` of a chain.
+fn chain_line(chain: &[Vec<Elem>]) -> Line {
+    let mut out = line("It ends a Jordan chain of length $@$: $(L-λ)w_2=v$", [Math::count(chain.len())]);
+    for k in 3..=chain.len() {
+        out.extend(line("$, (L-λ)w_@=w_@$", [Math::count(k), Math::count(k - 1)]));
+    }
+    out.extend(words(" with "));
+    for (k, vector) in chain.iter().enumerate().skip(1) {
+        let comma = if k > 1 { "$, w_@=@$" } else { "$w_@=@$" };
+        out.extend(line(comma, [Math::count(k + 1), elems(vector)]));
+    }
+    out.extend(words("."));
+    out
 }
 
 /// The data of the rule for rays.
@@ -218,7 +236,7 @@ fn ray_blocks(case: &Case, branch: &BranchReport, sign: i32, proof: &RingProof, 
     } else {
         facts.extend(on(&[Position::Unordered]).map(|s| format!("$g$ is {s} on the ring")));
     }
-    let mut blocks = seen.once_id("rays");
+    let mut blocks: Vec<Block> = seen.once_id("rays").into_iter().collect();
     let text = format!("For the rays: {}. The rays that follow are listed with the points.", listed(&facts));
     blocks.push(Block::text(&text, []));
     blocks
@@ -246,7 +264,7 @@ fn many_blocks(case: &Case, branch: &BranchReport, statement: Statement) -> Vec<
     let block = factor.blocks[0];
     let mut top =
         line("The longest Jordan blocks of the largest modulus have the size $@$ and belong to ", [Math::count(block)]);
-    top.extend(names(branch, eigenvalues));
+    top.extend(names(&branch.spectrum, eigenvalues));
     if statement == Statement::Corollary {
         top.extend(line(&format!(": {}", pattern(branch, eigenvalues)), []));
     }
@@ -264,9 +282,9 @@ fn many_blocks(case: &Case, branch: &BranchReport, statement: Statement) -> Vec<
     }
     if let Some(proof) = isolation {
         let text = format!(
-            "The branch is isolated: {} one of the functionals $g_i$ below, whose common zeros are the generalised kernel of $L$, has a \
-             constant sign.",
-            on_cells(proof.discharged.len())
+            "The branch is isolated: {} {}, whose common zeros are the generalised kernel of $L$, has a constant sign.",
+            on_cells(proof.discharged.len()),
+            one_of('k', proof)
         );
         checks.push(check(Tone::Good, &text, vec![]));
     }
@@ -277,13 +295,14 @@ fn many_blocks(case: &Case, branch: &BranchReport, statement: Statement) -> Vec<
         checks.push(Check { tone: Tone::Good, text });
     }
     let mut blocks = vec![Block::Checks(checks)];
-    blocks.extend(eigenvector_blocks(branch, eigenvalues, block));
+    blocks.extend(eigenvector_blocks(&branch.spectrum, eigenvalues, block));
     if found.is_some() {
         blocks.extend(witness_blocks(case, branch, factor, r, block));
     }
     if let Some(proof) = isolation {
-        blocks.extend(functional_list("g", &proof.functionals, branch));
-        blocks.push(cell_table(proof));
+        blocks.push(Block::text("The functionals that show that the branch is isolated:", []));
+        blocks.push(functional_list("k", &proof.functionals, &branch.chart));
+        blocks.push(cell_table_of(proof, "k"));
     }
     if let Some(Witness::Crossing { cover, .. }) = found {
         blocks.push(Block::text(
@@ -291,7 +310,7 @@ fn many_blocks(case: &Case, branch: &BranchReport, statement: Statement) -> Vec<
              up to one positive factor; below they are $h_1$ and $h_2$.",
             [],
         ));
-        blocks.extend(functional_list("h", &cover.functionals, branch));
+        blocks.push(functional_list("h", &cover.functionals, &branch.chart));
         blocks.push(cell_table_of(cover, "h"));
     }
     blocks.push(Block::Paragraph(why(*dimension, statement, found.as_ref())));
@@ -307,11 +326,11 @@ fn why(dimension: usize, statement: Statement, found: Option<&Witness>) -> Line 
              $U$, so that"
         }
         (_, Some(Witness::SignChange { .. })) => {
-            "$g$ has a zero on that connected part; the orbit of such a point stays in $F_1$ and is never 0, so that its limit directions lie outside \
-             the line $U⊂D^*$, and"
+            "$g$ has a zero on that connected part; the orbit of such a point stays in $F_1$ and is never 0, so that its limit directions lie in $F_1$, \
+             outside the line $U⊂D^*$, and"
         }
         _ => {
-            "the orbit of the witness stays in $F_1$ and is never 0, so that its limit directions lie outside the line $U⊂D^*$, and"
+            "the orbit of the witness stays in $F_1$ and is never 0, so that its limit directions lie in $F_1$, outside the line $U⊂D^*$, and"
         }
     };
     line(
@@ -321,7 +340,7 @@ fn why(dimension: usize, statement: Statement, found: Option<&Witness>) -> Line 
 }
 
 /// The different eigenvalues, once each.
-fn names(branch: &BranchReport, eigenvalues: &[(usize, usize)]) -> Line {
+pub(super) fn names(spectrum: &Spectrum, eigenvalues: &[(usize, usize)]) -> Line {
     let mut shown: Vec<(usize, usize)> = Vec::new();
     let mut out = Line::new();
     for &(f, r) in eigenvalues {
@@ -332,7 +351,7 @@ fn names(branch: &BranchReport, eigenvalues: &[(usize, usize)]) -> Line {
             out.extend(words(" and "));
         }
         let times = eigenvalues.iter().filter(|&&e| e == (f, r)).count();
-        out.push(Inline::Math(root_math(&branch.spectrum.factors[f].roots[r])));
+        out.push(Inline::Math(root_math(&spectrum.factors[f].roots[r])));
         if times > 1 {
             out.extend(words(format!(" ({times} blocks)")));
         }
@@ -342,7 +361,7 @@ fn names(branch: &BranchReport, eigenvalues: &[(usize, usize)]) -> Line {
 }
 
 /// The eigenvectors that span `U`, by irreducible factor.
-fn eigenvector_blocks(branch: &BranchReport, eigenvalues: &[(usize, usize)], block: usize) -> Vec<Block> {
+pub(super) fn eigenvector_blocks(spectrum: &Spectrum, eigenvalues: &[(usize, usize)], block: usize) -> Vec<Block> {
     let mut done: Vec<usize> = Vec::new();
     let mut blocks = Vec::new();
     for &(f, r) in eigenvalues {
@@ -350,24 +369,20 @@ fn eigenvector_blocks(branch: &BranchReport, eigenvalues: &[(usize, usize)], blo
             continue;
         }
         done.push(f);
-        let factor = &branch.spectrum.factors[f];
+        let factor = &spectrum.factors[f];
         for chain in factor.right.iter().filter(|c| c.vectors.len() == block) {
             let root = &factor.roots[r];
-            let values = [root_math(root), polynomial(&factor.poly, 'x'), elems(&chain.vectors[0])];
-            let text = match (root.rational(), root.is_real()) {
-                (Some(_), _) => "An eigenvector for $λ=@$ (a root of $@$), in the coordinates of $L$, is $@$.",
-                (None, true) => "An eigenvector for $λ=@$, a root of $@$, in the coordinates of $L$, is $@$.",
-                (None, false) => {
-                    "An eigenvector for $λ=@$, a root of $@$, in the coordinates of $L$, is $@$; its real and imaginary parts span a plane."
-                }
+            let mut values = vec![root_math(root)];
+            let of = if root.rational().is_none() {
+                values.push(polynomial(&factor.poly, 'x'));
+                ", a root of $@$"
+            } else {
+                ""
             };
-            blocks.push(Block::text(
-                &text.replace(" (a root of $@$)", ""),
-                match root.rational() {
-                    Some(_) => vec![values[0].clone(), values[2].clone()],
-                    None => values.to_vec(),
-                },
-            ));
+            values.push(elems(&chain.vectors[0]));
+            let plane = if root.is_real() { "" } else { "; its real and imaginary parts span a plane" };
+            let text = format!("An eigenvector for $λ=@${of}, in the coordinates of $L$, is $@${plane}.");
+            blocks.push(Block::text(&text, values));
         }
     }
     blocks
@@ -384,19 +399,36 @@ fn witness_blocks(case: &Case, branch: &BranchReport, factor: &Factor, root: usi
     blocks
 }
 
-fn functional_list(letter: &str, functionals: &[Functional], branch: &BranchReport) -> Vec<Block> {
+/// Functionals on points `x`, each with its number.
+pub(super) fn functional_list(letter: &str, functionals: &[Functional], chart: &Matrix) -> Block {
     let item = |(k, f): (usize, &Functional)| {
-        let part = if f.part == Part::Imaginary { ", imaginary part" } else { "" };
-        line(
-            &format!("${letter}_@(x)=@·(x-q)${part}"),
-            [Math::count(k + 1), elems(&row_on_points(&f.row, &branch.chart))],
-        )
+        let name = if functionals.len() == 1 { letter.to_owned() } else { format!("{letter}_@") };
+        let complex = f.root.as_ref().is_some_and(|r| !r.is_real());
+        let part = match (f.part, complex) {
+            (Part::Imaginary, _) => " is the imaginary part of ",
+            (Part::Real, true) => " is the real part of ",
+            (Part::Real, false) => "",
+        };
+        let row = elems(&row_on_points(&f.row, chart));
+        let mut values = vec![row];
+        if functionals.len() > 1 {
+            values.insert(0, Math::count(k + 1));
+        }
+        let mut out = if part.is_empty() {
+            line(&format!("${name}(x)=@·(x-q)$"), values)
+        } else {
+            line(&format!("${name}(x)${part}$@·(x-q)$"), values)
+        };
+        if let Some(root) = f.root.as_ref().filter(|r| r.rational().is_none()) {
+            out.extend(line(", $λ=@$", [root_math(root)]));
+        }
+        out
     };
-    vec![Block::List(functionals.iter().enumerate().map(item).collect())]
+    Block::List(functionals.iter().enumerate().map(item).collect())
 }
 
 /// The cells on which a functional keeps its sign.
-pub(super) fn cell_table(proof: &RingProof) -> Block {
+fn cell_table(proof: &RingProof) -> Block {
     cell_table_of(proof, "g")
 }
 
@@ -419,7 +451,7 @@ pub(super) fn cell_table_of(proof: &RingProof, letter: &str) -> Block {
     }
     let table = Block::Table(Table { caption: Line::new(), header, rows: rows.collect() });
     let shown = proof.discharged.len().min(MAX_CELLS);
-    let what = if several { "The values of one functional" } else { "The values of $g$" };
+    let what = if several { "The values of one functional".to_owned() } else { format!("The values of ${letter}$") };
     let all = if shown < proof.discharged.len() {
         format!(" (the first {shown} of {})", count(proof.discharged.len(), "cell"))
     } else {

@@ -139,6 +139,24 @@ fn functionals_at(spectrum: &Spectrum, factor: usize, roots: &[usize], vector: &
     }
 }
 
+/// The functionals that read the leading coefficient: the eigenvectors that end the longest left chains of the largest modulus.
+///
+/// None where the spectrum is empty.
+#[must_use]
+pub fn leading_functionals(spectrum: &Spectrum) -> Vec<Functional> {
+    top(spectrum).map(|top| functionals_of(spectrum, &top)).unwrap_or_default()
+}
+
+fn functionals_of(spectrum: &Spectrum, top: &Top) -> Vec<Functional> {
+    let mut out = Vec::new();
+    for (f, roots) in &top.members {
+        for chain in spectrum.factors[*f].left.iter().filter(|c| c.vectors.len() == top.block) {
+            functionals_at(spectrum, *f, roots, &chain.vectors[0], &mut out);
+        }
+    }
+    out
+}
+
 impl Analysis<'_> {
     fn spectrum(&self) -> &Spectrum {
         &self.branch.spectrum
@@ -202,7 +220,7 @@ impl Analysis<'_> {
             let dimension = Dimension { at_least: seen, exact: true };
             return SurfaceOutcome { statement, dimension, at_most: Some(seen), ..base };
         }
-        let functionals = self.leading_functionals(&top);
+        let functionals = functionals_of(self.spectrum(), &top);
         match self.decide_leading(&functionals) {
             (RingAnswer::Holds(proof), _) => self.condition_holds(&top, base, proof),
             (answer, witness) => self.condition_fails(&top, base, answer, witness),
@@ -225,18 +243,6 @@ impl Analysis<'_> {
     /// `G U`: the eigenvectors that end the longest chains.
     fn leading_directions(&self, top: &Top) -> Subspace {
         span_of_ends(self.spectrum(), top, &self.branch.view)
-    }
-
-    /// The functionals of `u`: the eigenvectors that end the longest left chains.
-    fn leading_functionals(&self, top: &Top) -> Vec<Functional> {
-        let mut out = Vec::new();
-        for (f, roots) in &top.members {
-            let factor = &self.spectrum().factors[*f];
-            for chain in factor.left.iter().filter(|c| c.vectors.len() == top.block) {
-                functionals_at(self.spectrum(), *f, roots, &chain.vectors[0], &mut out);
-            }
-        }
-        out
     }
 
     /// Theorem 2 or 3: all limit directions lie in `U`, and span it.

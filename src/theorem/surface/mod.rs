@@ -8,6 +8,7 @@ mod tensor;
 mod verdict;
 mod winding;
 
+pub use branch::leading_functionals;
 pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
 pub use tensor::{factors, product_point};
