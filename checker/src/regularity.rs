@@ -164,7 +164,7 @@ impl<'a> Level<'a> {
             let solution = solved.columns(&[family.rows]);
             family.transpose().times(&solution)?.plus(&Q::one(), &chord)
         };
-        Ok(prefix.scaled(&power(address.prefix.len())).times(&fixed)?)
+        prefix.scaled(&power(address.prefix.len())).times(&fixed)
     }
 
     /// The joint equation: at the first-level joints of all states the derivatives of the two sides agree.
