@@ -1,8 +1,10 @@
 //! Reads the case file itself, so that a proof cannot be about another case.
 
+use crate::json::{Json, Node};
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction};
 use crate::shape::{Address, End, Kind, Op, Piece, Shape, State};
+use crate::{Checked, Rejected};
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 use std::cell::{Cell, RefCell};
@@ -23,21 +25,10 @@ const MAX_BITS: u64 = 1 << 22;
 pub struct Case {
     /// The name.
     pub name: String,
-    /// The shape.
+    /// The shape; unknown entries are 0.
     pub shape: Shape,
-    /// The addresses under `[[examine]]`, as written.
+    /// The addresses under `[[examine]]`, in their normal form.
     pub examine: Vec<Address>,
-}
-
-/// Why a case cannot be read; the text names the key.
-pub type Problem = String;
-
-/// A case with unknown entries, which are 0 in its shape.
-pub struct Open {
-    /// The name.
-    pub name: String,
-    /// The shape.
-    pub shape: Shape,
     /// The unknown entries: by state, first the pieces, then the two boundaries; in each operator by rows.
     pub holes: Vec<Hole>,
 }
@@ -56,54 +47,53 @@ pub struct Hole {
 
 /// Reads the numbers of a case; where entries may be unknown, their places and names are collected.
 struct Reader {
-    bits: Cell<u64>,
+    by_rows: bool,
     open: bool,
-    holes: RefCell<Vec<(Hole, Option<String>)>>,
+    bits: Cell<u64>,
+    holes: RefCell<Vec<(Hole, String)>>,
 }
 
-fn known(table: &DeTable<'_>, keys: &[&str]) -> Result<(), Problem> {
-    match table.keys().find(|k| !keys.contains(&k.get_ref().as_ref())) {
-        Some(key) => Err(format!("unknown key `{}`", key.get_ref())),
-        None => Ok(()),
-    }
-}
-
-fn get<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Option<&'t DeValue<'a>> {
-    table.get(key).map(toml::Spanned::get_ref)
-}
-
-fn need<'t, 'a>(table: &'t DeTable<'a>, key: &str) -> Result<&'t DeValue<'a>, Problem> {
-    get(table, key).ok_or_else(|| format!("the key `{key}` is missing"))
-}
-
-fn text<'t>(value: &'t DeValue<'_>, key: &str) -> Result<&'t str, Problem> {
-    value.as_str().ok_or_else(|| format!("`{key}` must be a text"))
-}
-
-fn array<'t, 'a>(value: &'t DeValue<'a>, key: &str) -> Result<Vec<&'t DeValue<'a>>, Problem> {
+/// A value of a TOML file: numbers keep the text in which they are written.
+fn tree(value: &DeValue<'_>) -> Json {
     match value {
-        DeValue::Array(items) => Ok(items.iter().map(toml::Spanned::get_ref).collect()),
-        _ => Err(format!("`{key}` must be a list")),
+        DeValue::String(text) => Json::Text(text.to_string()),
+        DeValue::Integer(digits) if digits.radix() == 10 => Json::Number(digits.as_str().to_owned()),
+        DeValue::Float(digits) => Json::Number(digits.as_str().to_owned()),
+        DeValue::Boolean(flag) => Json::Flag(*flag),
+        DeValue::Array(items) => Json::List(items.iter().map(|v| tree(v.get_ref())).collect()),
+        DeValue::Table(table) => fields(table),
+        _ => Json::Null,
     }
 }
 
-fn table<'t, 'a>(value: &'t DeValue<'a>, key: &str) -> Result<&'t DeTable<'a>, Problem> {
-    match value {
-        DeValue::Table(table) => Ok(table),
-        _ => Err(format!("`{key}` must be a table")),
+fn fields(table: &DeTable<'_>) -> Json {
+    Json::Object(table.iter().map(|(k, v)| (k.get_ref().to_string(), tree(v.get_ref()))).collect())
+}
+
+/// Reads a TOML file with these keys at its top by a function; what is wrong makes the file unreadable.
+fn file<T>(source: &str, keys: &[&str], read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
+    let unreadable = |place: String, why: String| Rejected { rule: "case".to_owned(), place, why, unreadable: true };
+    let parsed = DeTable::parse(source).map_err(|e| unreadable(String::new(), format!("not TOML: {}", e.message())))?;
+    let value = fields(parsed.get_ref());
+    let node = Node { value: &value, place: "case".to_owned() };
+    node.known(keys).and_then(|()| read(&node)).map_err(|r| unreadable(r.place, r.why))
+}
+
+/// A whole number of a TOML file below a bound.
+fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
+    let digits = if let Json::Number(digits) = node.value { digits.parse::<usize>().ok() } else { None };
+    match digits.filter(|k| *k < bound) {
+        Some(k) => Ok(k),
+        None => node.malformed(&format!("a whole number below {bound} is needed here")),
     }
 }
 
-fn flag(t: &DeTable<'_>, key: &str) -> Result<bool, Problem> {
-    get(t, key).map_or(Ok(false), |v| v.as_bool().ok_or_else(|| format!("`{key}` must be true or false")))
-}
-
-fn index(value: &DeValue<'_>, bound: usize, key: &str) -> Result<usize, Problem> {
-    let digits = match value {
-        DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str().parse::<usize>().ok(),
-        _ => None,
-    };
-    digits.filter(|k| *k < bound).ok_or_else(|| format!("`{key}` must be a whole number below {bound}"))
+fn flag(node: &Node<'_>, key: &str) -> Checked<bool> {
+    match node.get(key).map(|n| (n.value, n)) {
+        None => Ok(false),
+        Some((Json::Flag(flag), _)) => Ok(*flag),
+        Some((_, n)) => n.malformed("true or false is needed here"),
+    }
 }
 
 /// The keys of a case.
@@ -140,116 +130,74 @@ const STATE_KEYS: [&str; 13] = [
     "side02",
 ];
 
-/// The operator that puts coordinate `j` at `points[j]`.
-fn inclusion(points: &DeValue<'_>, (rows, cols): (usize, usize)) -> Result<Matrix, Problem> {
-    let points = array(points, "points")?;
-    if points.len() != cols {
-        return Err(format!("`points` must have {cols} entries"));
-    }
-    let at = points.into_iter().map(|p| index(p, rows, "points")).collect::<Result<Vec<_>, _>>()?;
-    Ok(Matrix::ones(rows, cols, |i, j| at[j] == i))
-}
-
 impl Reader {
-    fn number(&self, value: &DeValue<'_>) -> Result<Q, Problem> {
-        let text = match value {
-            DeValue::String(text) => text.as_ref(),
-            DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str(),
-            DeValue::Float(digits) => digits.as_str(),
-            _ => return Err("a number is needed".to_owned()),
+    fn number(&self, node: &Node<'_>) -> Checked<Q> {
+        let (Json::Text(text) | Json::Number(text)) = node.value else {
+            return node.malformed("a number is needed here");
         };
-        let number = decimal_fraction(text).ok_or("not an exact number")?;
+        let Some(number) = decimal_fraction(text) else { return node.malformed("not an exact number") };
         self.bits.set(self.bits.get().saturating_add(bits(&number)));
-        if self.bits.get() > MAX_BITS { Err("the numbers are too long".to_owned()) } else { Ok(number) }
+        node.need(self.bits.get() <= MAX_BITS, "limit", "the numbers are too long")?;
+        Ok(number)
     }
 
-    fn matrix(&self, value: &DeValue<'_>, key: &str) -> Result<Matrix, Problem> {
-        let mut rows: Vec<Vec<Q>> = Vec::new();
-        for row in array(value, key)? {
-            rows.push(array(row, key)?.into_iter().map(|x| self.number(x)).collect::<Result<_, _>>()?);
-        }
+    fn matrix(&self, node: &Node<'_>) -> Checked<Matrix> {
+        let row = |row: &Node<'_>| row.list()?.iter().map(|x| self.number(x)).collect::<Checked<Vec<Q>>>();
+        let rows = node.list()?.iter().map(row).collect::<Checked<Vec<_>>>()?;
         let cols = rows.first().map_or(0, Vec::len);
         let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
-        if !fits(rows.len()) || !fits(cols) || rows.iter().any(|r| r.len() != cols) {
-            return Err(format!("`{key}` is no matrix of 1 to {MAX_COORDINATES} rows and columns"));
-        }
+        let regular = fits(rows.len()) && fits(cols) && rows.iter().all(|r| r.len() == cols);
+        node.need(regular, "case", &format!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;
         Ok(Matrix::from_rows(cols, &rows))
     }
 
-    /// The name of an unknown entry (`"?"` or `"?name"`), where there may be some.
-    fn unknown<'t>(&self, value: &'t DeValue<'_>) -> Option<&'t str> {
-        value.as_str().filter(|_| self.open).and_then(|text| text.strip_prefix('?'))
-    }
-
-    /// An operator with unknown entries, which are noted and 0.
-    fn open_operator(
-        &self,
-        value: &DeValue<'_>,
-        by_rows: bool,
-        size: (usize, usize),
-        op: Op,
-    ) -> Result<Matrix, Problem> {
-        let all = self.unknown(value).is_some();
-        let mut entries = vec![Q::zero(); size.0 * size.1];
-        let rows = if all { Vec::new() } else { array(value, "matrix")? };
-        let at = |row: usize, col: usize| -> Result<&DeValue<'_>, Problem> {
-            let (i, j) = if by_rows { (col, row) } else { (row, col) };
-            let row = array(rows.get(i).ok_or("an operator has the wrong size")?, "matrix")?;
-            row.get(j).copied().ok_or_else(|| "an operator has the wrong size".to_owned())
+    /// An operator on columns of barycentric coordinates of the given size, all of whose columns sum to 1. Where entries may be
+    /// unknown (`"?"` or `"?name"`, or `"?"` for all), these are noted and 0.
+    fn operator(&self, node: &Node<'_>, size: (usize, usize), op: Op) -> Checked<Matrix> {
+        let name = |n: &Node<'_>| match n.value {
+            Json::Text(text) if self.open => text.strip_prefix('?').map(str::to_owned),
+            _ => None,
         };
-        for (k, entry) in entries.iter_mut().enumerate() {
-            let (row, col) = (k / size.1, k % size.1);
-            let name = if all { Some("") } else { self.unknown(at(row, col)?) };
-            let Some(name) = name else {
-                *entry = self.number(at(row, col)?)?;
+        let (all, noted) = (name(node).is_some(), self.holes.borrow().len());
+        let rows = if all { Vec::new() } else { node.list()?.iter().map(Node::list).collect::<Checked<Vec<_>>>()? };
+        let written = if self.by_rows { (size.1, size.0) } else { size };
+        let fits = all || (rows.len() == written.0 && rows.iter().all(|r| r.len() == written.1));
+        node.need(fits, "case", "the operator has the wrong size")?;
+        let mut entries = Vec::new();
+        for (row, col) in (0..size.0).flat_map(|i| (0..size.1).map(move |j| (i, j))) {
+            let at = if all {
+                node
+            } else if self.by_rows {
+                &rows[col][row]
+            } else {
+                &rows[row][col]
+            };
+            let Some(name) = name(at) else {
+                entries.push(self.number(at)?);
                 continue;
             };
             let mut holes = self.holes.borrow_mut();
-            let name = (!name.is_empty()).then(|| name.to_owned());
-            let known = holes.iter().find(|(_, n)| name.is_some() && *n == name).map(|(h, _)| h.unknown);
+            at.need(holes.len() < MAX_HOLES, "limit", "too many unknown entries")?;
+            let known = holes.iter().find(|(_, n)| !name.is_empty() && *n == name).map(|(h, _)| h.unknown);
             let unknown = known.unwrap_or_else(|| holes.iter().map(|(h, _)| h.unknown + 1).max().unwrap_or(0));
-            if holes.len() >= MAX_HOLES {
-                return Err("too many unknown entries".to_owned());
-            }
             holes.push((Hole { op, row, col, unknown }, name));
+            entries.push(Q::zero());
         }
-        Ok(Matrix::new(size.0, size.1, &entries))
-    }
-
-    /// An operator on columns of barycentric coordinates of the given size; all its columns sum to 1.
-    fn operator(&self, value: &DeValue<'_>, by_rows: bool, size: (usize, usize), op: Op) -> Result<Matrix, Problem> {
-        let has_holes = || {
-            value.as_array().is_some_and(|rows| {
-                rows.iter()
-                    .filter_map(|r| r.get_ref().as_array())
-                    .flatten()
-                    .any(|x| self.unknown(x.get_ref()).is_some())
-            })
-        };
-        if self.unknown(value).is_some() || has_holes() {
-            return self.open_operator(value, by_rows, size, op);
-        }
-        let written = self.matrix(value, "matrix")?;
-        let op = if by_rows { written.transpose() } else { written };
-        if (op.rows, op.cols) != size {
-            return Err(format!("an operator has the wrong size: {} x {}", op.rows, op.cols));
-        }
-        if (0..op.cols).any(|j| (0..op.rows).map(|i| &op.data[i * op.cols + j]).sum::<BigInt>() != op.den) {
-            return Err("a column of an operator does not sum to 1".to_owned());
-        }
-        Ok(op)
+        let matrix = Matrix::new(size.0, size.1, &entries);
+        let sum = |j: usize| (0..size.0).map(|i| &matrix.data[i * size.1 + j]).sum::<BigInt>();
+        let affine = self.holes.borrow().len() > noted || (0..size.1).all(|j| sum(j) == matrix.den);
+        node.need(affine, "case", "a column of an operator does not sum to 1")?;
+        Ok(matrix)
     }
 
     /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
-    fn affine(&self, map: &DeTable<'_>) -> Result<Piece, Problem> {
-        known(map, &["linear", "shift", "reversed"])?;
-        let linear = self.matrix(need(map, "linear")?, "linear")?;
-        let shift: Vec<Q> =
-            array(need(map, "shift")?, "shift")?.into_iter().map(|x| self.number(x)).collect::<Result<_, _>>()?;
+    fn affine(&self, map: &Node<'_>) -> Checked<Piece> {
+        map.known(&["linear", "shift", "reversed"])?;
+        let linear = self.matrix(&map.field("linear")?)?;
+        let shift = map.field("shift")?.list()?.iter().map(|x| self.number(x)).collect::<Checked<Vec<Q>>>()?;
         let d = shift.len();
-        if d >= MAX_COORDINATES || (linear.rows, linear.cols) != (d, d) {
-            return Err("`linear` and `shift` do not fit".to_owned());
-        }
+        let fits = d < MAX_COORDINATES && (linear.rows, linear.cols) == (d, d);
+        map.need(fits, "case", "`linear` and `shift` do not fit")?;
         let image = |i: usize, j: usize| if j == 0 { shift[i].clone() } else { &shift[i] + linear.at(i, j - 1) };
         let entry = |(i, j): (usize, usize)| match i {
             0 => Q::one() - (0..d).map(|i| image(i, j)).sum::<Q>(),
@@ -260,245 +208,210 @@ impl Reader {
         Ok(Piece { target: 0, op, reversed: flag(map, "reversed")? })
     }
 
-    fn automaton(&self, case: &DeTable<'_>, default: Kind, by_rows: bool) -> Result<(Vec<State>, usize), Problem> {
-        let tables: Vec<&DeTable<'_>> =
-            array(need(case, "state")?, "state")?.into_iter().map(|v| table(v, "state")).collect::<Result<_, _>>()?;
-        if tables.is_empty() || tables.len() > MAX_STATES {
-            return Err("too few or too many states".to_owned());
-        }
-        let mut heads: Vec<(&str, Kind, usize)> = Vec::new();
-        for t in &tables {
-            known(t, &STATE_KEYS)?;
-            let name = text(need(t, "name")?, "name")?;
-            let kind = match get(t, "kind").map(|v| text(v, "kind")).transpose()? {
+    fn automaton(&self, tables: &[Node<'_>], default: Kind) -> Checked<(Vec<State>, Vec<String>)> {
+        let mut heads: Vec<(String, Kind, usize)> = Vec::new();
+        for t in tables {
+            t.known(&STATE_KEYS)?;
+            let name = t.field("name")?.text()?;
+            let kind = match t.get("kind").map(|n| n.text()).transpose()? {
                 None => default,
                 Some("edge") => Kind::Edge,
                 Some("vertex") => Kind::Vertex,
                 // No rule uses the boundaries of a face: its claims are about a set.
                 Some("set" | "face") => Kind::Set,
-                Some(_) => return Err("unknown kind of a state".to_owned()),
+                Some(_) => return t.malformed("unknown kind of a state"),
             };
-            let dim = match get(t, "dimension") {
-                Some(v) => index(v, MAX_COORDINATES + 1, "dimension")?,
-                None => {
-                    let pieces = array(need(t, "piece")?, "piece")?;
-                    let first = table(pieces.first().ok_or("a state has no piece")?, "piece")?;
-                    let rows = array(need(first, "matrix")?, "matrix")?;
-                    if by_rows {
-                        rows.first().map_or(Ok(0), |r| array(r, "matrix").map(|r| r.len()))?
-                    } else {
-                        rows.len()
-                    }
+            let dim = match (t.get("dimension"), t.field("piece")?.list()?.first()) {
+                (Some(n), _) => index(&n, MAX_COORDINATES + 1)?,
+                (None, None) => 0,
+                (None, Some(first)) => {
+                    let rows = first.field("matrix")?.list()?;
+                    if self.by_rows { rows.first().map_or(Ok(Vec::new()), Node::list)?.len() } else { rows.len() }
                 }
             };
-            if !(1..=MAX_COORDINATES).contains(&dim) || heads.iter().any(|h| h.0 == name) {
-                return Err("a state without coordinates, or two states of one name".to_owned());
-            }
-            heads.push((name, kind, dim));
+            let new = (1..=MAX_COORDINATES).contains(&dim) && heads.iter().all(|h| h.0 != name);
+            t.need(new, "case", "a state without coordinates, or two states of one name")?;
+            heads.push((name.to_owned(), kind, dim));
         }
-        let find = |value: &DeValue<'_>| -> Result<usize, Problem> {
-            let name = text(value, "to")?;
-            heads.iter().position(|h| h.0 == name).ok_or_else(|| format!("there is no state `{name}`"))
-        };
+        let find = |node: Node<'_>| state_named(&node, heads.iter().map(|h| &h.0));
         let mut states = Vec::new();
-        for (t, &(name, kind, dim)) in tables.iter().zip(&heads) {
+        for (t, &(_, kind, dim)) in tables.iter().zip(&heads) {
             let mut pieces = Vec::new();
-            for piece in array(need(t, "piece")?, "piece")? {
-                let piece = table(piece, "piece")?;
-                known(piece, &["to", "matrix", "reversed", "corners"])?;
-                let target = find(need(piece, "to")?)?;
+            for piece in t.field("piece")?.list()? {
+                piece.known(&["to", "matrix", "reversed", "corners"])?;
+                let (target, reversed) = (find(piece.field("to")?)?, flag(&piece, "reversed")?);
                 let place = Op::Piece(states.len(), pieces.len());
-                let op = self.operator(need(piece, "matrix")?, by_rows, (dim, heads[target].2), place)?;
-                let fits = kind == Kind::Set || heads[target].1 == kind;
-                let reversed = flag(piece, "reversed")?;
-                if !fits || (reversed && kind != Kind::Edge) {
-                    return Err(format!("a piece of state `{name}` is of another kind, or runs backwards in no curve"));
-                }
+                let op = self.operator(&piece.field("matrix")?, (dim, heads[target].2), place)?;
+                let fits = (kind == Kind::Set || heads[target].1 == kind) && (!reversed || kind == Kind::Edge);
+                piece.need(fits, "case", "the piece is of another kind, or runs backwards in no curve")?;
                 pieces.push(Piece { target, op, reversed });
             }
-            let boundary = |key: &str, end: End| -> Result<Option<(usize, Matrix)>, Problem> {
-                let Some(value) = get(t, key) else { return Ok(None) };
-                let b = table(value, key)?;
-                if kind == Kind::Set && get(b, "edge").is_some() {
+            let boundary = |key: &str, end: End| -> Checked<Option<(usize, Matrix)>> {
+                let Some(b) = t.get(key).filter(|b| kind != Kind::Set || b.get("edge").is_none()) else {
                     return Ok(None);
-                }
-                known(b, &["vertex", "matrix", "points"])?;
-                let vertex = find(need(b, "vertex")?)?;
-                if kind != Kind::Edge || heads[vertex].1 != Kind::Vertex {
-                    return Err(format!("`{key}` joins a vertex to an edge"));
-                }
-                let op = match get(b, "points") {
-                    Some(points) if get(b, "matrix").is_none() => inclusion(points, (dim, heads[vertex].2))?,
-                    _ => {
-                        let place = Op::End(states.len(), end);
-                        self.operator(need(b, "matrix")?, by_rows, (dim, heads[vertex].2), place)?
-                    }
+                };
+                b.known(&["vertex", "matrix", "points"])?;
+                let vertex = find(b.field("vertex")?)?;
+                let joins = kind == Kind::Edge && heads[vertex].1 == Kind::Vertex;
+                b.need(joins, "case", "a boundary joins a vertex to an edge")?;
+                let size = (dim, heads[vertex].2);
+                let op = match b.get("points").filter(|_| b.get("matrix").is_none()) {
+                    Some(points) => inclusion(&points, size)?,
+                    None => self.operator(&b.field("matrix")?, size, Op::End(states.len(), end))?,
                 };
                 Ok(Some((vertex, op)))
             };
             let ends = [boundary("left", End::Start)?, boundary("right", End::Finish)?];
             states.push(State { kind, dim, pieces, ends });
         }
-        let start = match get(case, "start") {
-            Some(value) => find(value)?,
-            None if states.len() == 1 => 0,
-            None => return Err("the key `start` is missing".to_owned()),
-        };
-        Ok((states, start))
+        Ok((states, heads.into_iter().map(|h| h.0).collect()))
     }
 
-    fn shape(&self, case: &DeTable<'_>) -> Result<Shape, Problem> {
-        let kind = match get(case, "kind").map(|v| text(v, "kind")).transpose()? {
+    fn shape(&self, case: &Node<'_>) -> Checked<Shape> {
+        let kind = match case.get("kind").map(|n| n.text()).transpose()? {
             None | Some("curve") => Kind::Edge,
             Some("set") => Kind::Set,
-            Some(_) => return Err("unknown kind".to_owned()),
+            Some(_) => return case.malformed("unknown kind"),
         };
-        let convention = get(case, "convention").map(|v| text(v, "convention")).transpose()?;
-        let by_rows = convention == Some("rows");
-        let forms = ["map", "state", "pieces"].into_iter().filter(|k| get(case, k).is_some()).count();
-        if forms != 1 || !matches!(convention, None | Some("rows" | "columns")) {
-            return Err("one of `pieces`, `map` and `state`, and a known convention, are needed".to_owned());
-        }
-        let simple = |pieces: Vec<Piece>| -> Result<State, Problem> {
-            let dim = pieces.first().ok_or("there is no piece")?.op.rows;
-            if pieces.iter().any(|p| p.op.rows != dim) || (kind != Kind::Edge && pieces.iter().any(|p| p.reversed)) {
-                return Err("operators of different sizes, or a set with reversed pieces".to_owned());
-            }
-            Ok(State { kind, dim, pieces, ends: [None, None] })
+        let (maps, pieces, tables) = (case.get("map"), case.get("pieces"), case.get("state"));
+        let none = |keys: &[&str]| {
+            let found = keys.iter().find(|k| case.get(k).is_some());
+            case.need(found.is_none(), "case", &format!("the key {found:?} does not go with this form of a case"))
         };
-        let (states, start) = if let Some(maps) = get(case, "map") {
-            if by_rows || ["start", "reversed", "control"].iter().any(|k| get(case, k).is_some()) {
-                return Err("this key does not go with [[map]]".to_owned());
+        let mut start = 0;
+        let states = match (&maps, &pieces, &tables) {
+            (Some(maps), None, None) => {
+                none(&["start", "reversed", "control"])?;
+                case.need(!self.by_rows, "case", "maps have no convention of rows")?;
+                let pieces = maps.list()?.iter().map(|m| self.affine(m)).collect::<Checked<Vec<_>>>()?;
+                vec![State { kind, dim: pieces.first().map_or(0, |p| p.op.rows), pieces, ends: [None, None] }]
             }
-            let maps = array(maps, "map")?.into_iter().map(|m| self.affine(table(m, "map")?));
-            (vec![simple(maps.collect::<Result<_, _>>()?)?], 0)
-        } else {
-            if convention.is_none() {
-                return Err("the key `convention` is missing".to_owned());
+            (None, Some(list), None) => {
+                none(&["start"])?;
+                let list = list.list()?;
+                let dim = list.first().map_or(Ok(0), |m| Ok(m.list()?.len()))?;
+                let read = |(k, m): (usize, &Node<'_>)| -> Checked<Piece> {
+                    Ok(Piece { target: 0, op: self.operator(m, (dim, dim), Op::Piece(0, k))?, reversed: false })
+                };
+                let mut pieces = list.iter().enumerate().map(read).collect::<Checked<Vec<_>>>()?;
+                for n in case.get("reversed").map_or(Ok(Vec::new()), |n| n.list())? {
+                    pieces[index(&n, list.len())?].reversed = true;
+                }
+                vec![State { kind, dim, pieces, ends: [None, None] }]
             }
-            if get(case, "state").is_some() {
-                if get(case, "reversed").is_some() {
-                    return Err("`reversed` does not go with [[state]]".to_owned());
-                }
-                self.automaton(case, kind, by_rows)?
-            } else {
-                if get(case, "start").is_some() {
-                    return Err("`start` does not go with `pieces`".to_owned());
-                }
-                let mut pieces = Vec::new();
-                for value in array(need(case, "pieces")?, "pieces")? {
-                    let n = self.matrix(value, "pieces")?.rows;
-                    let op = self.operator(value, by_rows, (n, n), Op::Piece(0, pieces.len()))?;
-                    pieces.push(Piece { target: 0, op, reversed: false });
-                }
-                for value in get(case, "reversed").map_or(Ok(Vec::new()), |v| array(v, "reversed"))? {
-                    let k = index(value, pieces.len(), "reversed")?;
-                    pieces[k].reversed = true;
-                }
-                (vec![simple(pieces)?], 0)
+            (None, None, Some(tables)) => {
+                none(&["reversed"])?;
+                let tables = tables.list()?;
+                case.need(tables.len() <= MAX_STATES, "limit", "too many states")?;
+                let (states, names) = self.automaton(&tables, kind)?;
+                start = match case.get("start") {
+                    Some(node) => state_named(&node, names.iter())?,
+                    None => 0,
+                };
+                case.need(case.get("start").is_some() || states.len() == 1, "case", "the key `start` is missing")?;
+                states
             }
+            _ => return case.malformed("one of `pieces`, `map` and `state` is needed"),
         };
+        let fits = |s: &State| {
+            let same = tables.is_some() || s.pieces.iter().all(|p| p.op.rows == s.dim);
+            let backwards = s.kind != Kind::Edge && s.pieces.iter().any(|p| p.reversed);
+            let count = if s.kind == Kind::Vertex { 1..=1 } else { 1..=MAX_PIECES };
+            same && !backwards && (1..=MAX_COORDINATES).contains(&s.dim) && count.contains(&s.pieces.len())
+        };
+        let all = !states.is_empty() && states.iter().all(fits);
+        case.need(all, "case", "a wrong number of pieces or coordinates, or a set with reversed pieces")?;
         let dim = states[start].dim;
-        let view = match get(case, "control") {
-            Some(value) => self.matrix(value, "control")?.transpose(),
-            None if get(case, "map").is_some() => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
+        let view = match case.get("control") {
+            Some(points) => self.matrix(&points)?.transpose(),
+            None if maps.is_some() => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
-        let counts = states.iter().all(|s| (1..=MAX_PIECES).contains(&s.pieces.len()));
-        let vertices = states.iter().all(|s| s.kind != Kind::Vertex || s.pieces.len() == 1);
-        if view.cols != dim || !counts || !vertices {
-            return Err("a wrong number of control points or of pieces".to_owned());
-        }
+        case.need(view.cols == dim, "case", "a wrong number of control points")?;
         Ok(Shape { states, start, view })
     }
 }
 
-/// Reads a case file.
-///
-/// # Errors
-/// What is wrong, in words.
-pub fn read(source: &str) -> Result<Case, Problem> {
-    let (case, _) = read_with(source, false)?;
-    Ok(case)
+/// The number of the state that is named here.
+fn state_named<'n>(node: &Node<'_>, mut names: impl Iterator<Item = &'n String>) -> Checked<usize> {
+    let name = node.text()?;
+    match names.position(|n| n == name) {
+        Some(k) => Ok(k),
+        None => node.malformed("there is no state of this name"),
+    }
 }
 
-/// Reads a case file with unknown entries. Faces and reversals are refused, because the identities of both are not read.
-///
-/// # Errors
-/// What is wrong, in words.
-pub fn read_open(source: &str) -> Result<Open, Problem> {
-    let (case, holes) = read_with(source, true)?;
-    Ok(Open { name: case.name, shape: case.shape, holes })
+/// The operator that puts coordinate `j` at `points[j]`.
+fn inclusion(points: &Node<'_>, (rows, cols): (usize, usize)) -> Checked<Matrix> {
+    let at = points.list()?.iter().map(|p| index(p, rows)).collect::<Checked<Vec<_>>>()?;
+    points.need(at.len() == cols, "case", &format!("{cols} points are needed here"))?;
+    Ok(Matrix::ones(rows, cols, |i, j| at[j] == i))
 }
 
-fn read_with(source: &str, open: bool) -> Result<(Case, Vec<Hole>), Problem> {
-    let parsed = DeTable::parse(source).map_err(|e| format!("not TOML: {}", e.message()))?;
-    let case = parsed.get_ref();
-    known(case, &CASE_KEYS)?;
-    let states = get(case, "state").map_or(Ok(Vec::new()), |v| array(v, "state"))?;
-    let beyond = |s: &&DeValue<'_>| {
-        let has = |key: &str| s.as_table().is_some_and(|t| get(t, key).is_some());
-        has("reversal") || has("layout")
-    };
-    if open && states.iter().any(beyond) {
-        return Err("the identities of faces and reversals are not read".to_owned());
-    }
-    let reader = Reader { bits: Cell::new(0), open, holes: RefCell::default() };
-    let shape = reader.shape(case)?;
-    let mut examine = Vec::new();
-    for entry in get(case, "examine").map_or(Ok(Vec::new()), |v| array(v, "examine"))? {
-        let entry = table(entry, "examine")?;
-        known(entry, &["address"])?;
-        let written = text(need(entry, "address")?, "address")?;
-        let address = Address::parse(written).and_then(|a| a.normalise(&shape, shape.start));
-        examine.push(address.ok_or_else(|| format!("`{written}` is no address of this case"))?);
-    }
-    let holes = reader.holes.into_inner().into_iter().map(|(hole, _)| hole).collect();
-    Ok((Case { name: text(need(case, "name")?, "name")?.to_owned(), shape, examine }, holes))
+/// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both
+/// are not read.
+///
+/// # Errors
+/// What is wrong, and where; `unreadable` is set.
+pub fn read(source: &str, open: bool) -> Checked<Case> {
+    file(source, &CASE_KEYS, |case| {
+        let by_rows = match case.get("convention").map(|n| n.text()).transpose()? {
+            Some("rows") => true,
+            Some("columns") => false,
+            None if case.get("map").is_some() => false,
+            _ => return case.malformed("the convention is rows or columns"),
+        };
+        for state in case.get("state").filter(|_| open).map_or(Ok(Vec::new()), |n| n.list())? {
+            let beyond = state.get("reversal").is_some() || state.get("layout").is_some();
+            state.need(!beyond, "case", "the identities of faces and reversals are not read")?;
+        }
+        let reader = Reader { by_rows, open, bits: Cell::new(0), holes: RefCell::default() };
+        let shape = reader.shape(case)?;
+        let mut examine = Vec::new();
+        for entry in case.get("examine").map_or(Ok(Vec::new()), |n| n.list())? {
+            let [address] = entry.fields(["address"])?;
+            match Address::parse(address.text()?).and_then(|a| a.normalise(&shape, shape.start)) {
+                Some(normal) => examine.push(normal),
+                None => return address.malformed("this is no address of the case"),
+            }
+        }
+        let holes = reader.holes.into_inner().into_iter().map(|(hole, _)| hole).collect();
+        Ok(Case { name: case.field("name")?.text()?.to_owned(), shape, examine, holes })
+    })
 }
 
 /// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
-pub fn matrix_list(text: &str) -> Result<crate::radius::System, Problem> {
-    let parsed = DeTable::parse(text).map_err(|e| e.message().to_owned())?;
-    let file = parsed.get_ref();
-    known(file, &["name", "matrices", "states", "arrows"])?;
-    let reader = Reader { bits: Cell::new(0), open: false, holes: RefCell::default() };
-    let mut matrices: Vec<Matrix> = Vec::new();
-    for item in array(need(file, "matrices")?, "matrices")? {
-        if let DeValue::Array(rows) = item {
-            let entries = rows.iter().filter_map(|r| r.get_ref().as_array()).flatten();
-            if entries.into_iter().any(|x| matches!(x.get_ref(), DeValue::Float(_))) {
-                return Err("numbers of matrices are integers or texts".to_owned());
+pub fn matrix_list(source: &str) -> Checked<crate::radius::System> {
+    file(source, &["name", "matrices", "states", "arrows"], |node| {
+        let reader = Reader { by_rows: false, open: false, bits: Cell::new(0), holes: RefCell::default() };
+        let mut matrices: Vec<Matrix> = Vec::new();
+        for item in node.field("matrices")?.list()? {
+            for x in item.list()?.iter().map(Node::list).collect::<Checked<Vec<_>>>()?.iter().flatten() {
+                let whole = |text: &String| text.bytes().all(|b| b.is_ascii_digit() || b == b'-' || b == b'+');
+                let exact = if let Json::Number(text) = x.value { whole(text) } else { true };
+                x.need(exact, "case", "numbers of matrices are integers or texts")?;
             }
+            matrices.push(reader.matrix(&item)?);
         }
-        matrices.push(reader.matrix(item, "matrices")?);
-    }
-    let name = get(file, "name").map(text_of).transpose()?.unwrap_or_default();
-    let (dims, arrows) = match (get(file, "states"), get(file, "arrows")) {
-        (None, None) => {
-            let dim = matrices.first().map(|m| m.rows).ok_or("no matrix")?;
-            (vec![dim], (0..matrices.len()).map(|k| (0, 0, matrices[k].clone())).collect::<Vec<_>>())
-        }
-        (states, arrows) => {
-            let states = array(states.ok_or("`states` is missing")?, "states")?;
-            let dims = states.iter().map(|v| index(v, MAX_COORDINATES + 1, "states")).collect::<Result<Vec<_>, _>>()?;
+        let name = node.get("name").map(|n| n.text()).transpose()?.unwrap_or_default().to_owned();
+        let (dims, arrows) = if node.get("states").is_none() && node.get("arrows").is_none() {
+            let dim = matrices.first().map_or(0, |m| m.rows);
+            (vec![dim], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
+        } else {
+            let states = node.field("states")?.list()?;
+            let dims = states.iter().map(|v| index(v, MAX_COORDINATES + 1)).collect::<Checked<Vec<_>>>()?;
             let mut list = Vec::new();
-            for arrow in array(arrows.ok_or("`arrows` is missing")?, "arrows")? {
-                let parts = array(arrow, "arrows")?;
-                let [from, to, matrix] = parts[..] else { return Err("an arrow is [from, to, matrix]".to_owned()) };
-                let (from, to) = (index(from, dims.len(), "arrows")?, index(to, dims.len(), "arrows")?);
-                list.push((from, to, matrices[index(matrix, matrices.len(), "arrows")?].clone()));
+            for arrow in node.field("arrows")?.list()? {
+                let parts = arrow.list()?;
+                let [from, to, matrix] = &parts[..] else { return arrow.malformed("an arrow is [from, to, matrix]") };
+                let matrix = &matrices[index(matrix, matrices.len())?];
+                list.push((index(from, dims.len())?, index(to, dims.len())?, matrix.clone()));
             }
             (dims, list)
-        }
-    };
-    let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
-    if arrows.is_empty() || !arrows.iter().all(fits) {
-        return Err("no arrow, or a matrix of the wrong size".to_owned());
-    }
-    Ok(crate::radius::System { name, dims, arrows })
-}
-
-fn text_of(value: &DeValue<'_>) -> Result<String, Problem> {
-    text(value, "name").map(str::to_owned)
+        };
+        let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
+        let all = !arrows.is_empty() && arrows.iter().all(fits);
+        node.need(all, "case", "no arrow, or a matrix of the wrong size")?;
+        Ok(crate::radius::System { name, dims, arrows })
+    })
 }

@@ -8,7 +8,7 @@ use crate::points::{Place, Point, complete};
 use crate::ring::Model;
 use crate::shape::{Address, End, Kind};
 use crate::spectrum::positive_definite;
-use crate::{Accepted, Rejected, Verdict, at, need, reject};
+use crate::{Accepted, Checked, Verdict, at, need, reject};
 use num_traits::Signed;
 
 /// What a case asks.
@@ -41,7 +41,7 @@ fn questions(case: &Case) -> Vec<Question> {
 }
 
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
-fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Result<Question, Rejected> {
+fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     if item.tag("question")? == "any point" && last {
         return Ok(Question::AnyPoint);
     }
@@ -61,7 +61,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Resu
 }
 
 /// Checks the proof of a certificate of the kind `certify`.
-pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
+pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, points, answers] = node.fields(["contraction", "points", "answers"])?;
     let model = Model::read(&case.shape, &contraction)?;
     at(&contraction.place, case.shape.check_curves(&model.reachable))?;
@@ -106,7 +106,7 @@ struct Claims<'a> {
 
 impl Claims<'_> {
     /// Checks the answer to a question.
-    fn answer(&mut self, node: &Node<'_>, question: &Question) -> Result<Verdict, Rejected> {
+    fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
         let (what, verdict, found) = match question {
             Question::Ends => {
                 let [what, verdict, points] = node.fields(["question", "verdict", "points"])?;
@@ -139,8 +139,7 @@ impl Claims<'_> {
                     self.used[k] = true;
                 }
                 self.lines.push(format!("{}: {}", found.verdict.word(), found.claim));
-                let verdict = Node { value: node.field("verdict")?, place: format!("{}.verdict", node.place) };
-                (node.tag("question")? == "every point", verdict, found.verdict)
+                (node.tag("question")? == "every point", node.field("verdict")?, found.verdict)
             }
             Question::AnyPoint => {
                 let [what, verdict, products] = node.fields(["question", "verdict", "products"])?;
@@ -160,16 +159,16 @@ impl Claims<'_> {
     }
 
     /// The points with the indices given.
-    fn select(&mut self, node: &Node<'_>) -> Result<Vec<usize>, Rejected> {
+    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<usize>> {
         let items = node.list()?;
-        let indices = items.iter().map(|n| n.index(self.points.len())).collect::<Result<Vec<_>, _>>()?;
+        let indices = items.iter().map(|n| n.index(self.points.len())).collect::<Checked<Vec<_>>>()?;
         node.refuse(indices.windows(2).any(|w| w[0] >= w[1]), "answers", "indices must ascend")?;
         indices.iter().for_each(|&k| self.used[k] = true);
         Ok(indices)
     }
 
     /// The verdict on "all these places have a tangent line" from some of them.
-    fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Result<Verdict, Rejected> {
+    fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Checked<Verdict> {
         let chosen = self.select(node)?;
         node.refuse(
             chosen.iter().any(|&k| !places.contains(&self.points[k].place)),
@@ -185,7 +184,7 @@ impl Claims<'_> {
     }
 
     /// The joints: refuted by one of them; proved by Theorem 5 or 5′.
-    fn joints(&mut self, theorem: &Node<'_>, points: &Node<'_>, upstairs: &Node<'_>) -> Result<Verdict, Rejected> {
+    fn joints(&mut self, theorem: &Node<'_>, points: &Node<'_>, upstairs: &Node<'_>) -> Checked<Verdict> {
         let chosen = self.select(points)?;
         let theorem_name = theorem.text()?;
         let items = upstairs.list()?;
@@ -226,7 +225,7 @@ impl Claims<'_> {
     }
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
-    fn injective(&self, with_view: bool) -> Result<(), Rejected> {
+    fn injective(&self, with_view: bool) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         for &e in &self.model.reachable {
             for piece in &shape.states[e].pieces {
@@ -242,7 +241,7 @@ impl Claims<'_> {
     }
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
-    fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Result<(), Rejected> {
+    fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         let mut listed = Vec::new();
         let mut spans = vec![Matrix::empty(0); shape.states.len()];
@@ -283,7 +282,7 @@ impl Claims<'_> {
     }
 
     /// All maps are similarities for some scalar products on the relevant spaces, of dimension at least 2.
-    fn similarities(&self, node: &Node<'_>) -> Result<(), Rejected> {
+    fn similarities(&self, node: &Node<'_>) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
         let items = node.list()?;
         node.refuse(

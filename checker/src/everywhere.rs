@@ -9,7 +9,7 @@ use crate::rate::Bounds;
 use crate::ring::Model;
 use crate::rules::Leading;
 use crate::shape::{End, Kind};
-use crate::{Rejected, Verdict, at, reject};
+use crate::{Checked, Verdict, at, reject};
 use num_traits::{Signed, Zero};
 
 /// Longest window, and most words of one window without a positive factor.
@@ -38,7 +38,7 @@ struct Cones<'a> {
 }
 
 /// Checks `{"question": "every point", …}`.
-pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Answer, Rejected> {
+pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<Answer> {
     let [_, _, cones, maps, view, window, slow, rate, together, witness] =
         node.fields(["question", "verdict", "cones", "maps", "view", "window", "slow", "rate", "joints", "witness"])?;
     let start = &model.shape.states[model.shape.start];
@@ -78,7 +78,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<Ans
 }
 
 /// The index of a point at which the tangent does not exist or does not turn continuously.
-fn refuting(points: &[Point], node: &Node<'_>) -> Result<Option<usize>, Rejected> {
+fn refuting(points: &[Point], node: &Node<'_>) -> Checked<Option<usize>> {
     let items = node.list()?;
     let [item] = &items[..] else {
         return if items.is_empty() { Ok(None) } else { node.malformed("at most one point is needed here") };
@@ -90,11 +90,11 @@ fn refuting(points: &[Point], node: &Node<'_>) -> Result<Option<usize>, Rejected
 
 /// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state, or as a listed
 /// point through a map that is injective on that quotient.
-fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Result<(), Rejected> {
+fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<()> {
     let (mut listed, start) = (Vec::new(), model.shape.start);
     for item in node.list()? {
         let own;
-        let (point, root) = if item.field("listed").is_ok() {
+        let (point, root) = if item.get("listed").is_some() {
             let [state, index] = item.fields(["state", "listed"])?;
             let point = &points[index.index(points.len())?];
             let e = state.index(model.shape.states.len())?;
@@ -114,7 +114,7 @@ fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Resul
 }
 
 /// Whether a point is a joint of a state, and the map along its path to where it is looked at is injective on the quotient.
-fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<bool, Rejected> {
+fn injective(model: &Model<'_>, point: &Point, e: usize) -> Checked<bool> {
     let Place::Joint { path, .. } = &point.place else { return Ok(false) };
     let (op, end) = model.shape.product(model.shape.start, path)?;
     let space = model.spaces.of(e)?;
@@ -123,14 +123,14 @@ fn injective(model: &Model<'_>, point: &Point, e: usize) -> Result<bool, Rejecte
 }
 
 /// Reads a matrix of the given size, by rows.
-fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Result<Matrix, Rejected> {
+fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Checked<Matrix> {
     let found = node.matrix(cols)?;
     if found.rows == rows { Ok(found) } else { node.malformed(&format!("{rows} rows are needed here")) }
 }
 
 impl<'a> Cones<'a> {
     /// The cones are pointed, span the relevant spaces, hold the chords, and are mapped into each other.
-    fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Result<Self, Rejected> {
+    fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
         let shape = model.shape;
         let (own, images) = (cones.list()?, maps.list()?);
         cones.refuse(
@@ -166,7 +166,7 @@ impl<'a> Cones<'a> {
         Ok(Self { model, rays, maps: all })
     }
 
-    fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Result<Matrix, Rejected> {
+    fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Checked<Matrix> {
         let [rays, functional, chord] = node.fields(["rays", "functional", "chord"])?;
         let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
         node.refuse(
@@ -197,7 +197,7 @@ impl<'a> Cones<'a> {
     }
 
     /// Whether a functional is given that is positive on the cone of the start as it is looked at.
-    fn seen(&self, cones: &Node<'_>, view: &Node<'_>) -> Result<bool, Rejected> {
+    fn seen(&self, cones: &Node<'_>, view: &Node<'_>) -> Checked<bool> {
         if view.is_null() {
             return Ok(false);
         }
@@ -211,7 +211,7 @@ impl<'a> Cones<'a> {
     }
 
     /// All words of `length` letters whose factors have no positive product, by state and then by letters, with the state.
-    fn idle_words(&self, length: usize) -> Result<Vec<(usize, Vec<usize>)>, Rejected> {
+    fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
         let shape = self.model.shape;
         let mut words: Vec<(usize, usize, Vec<usize>)> = self.model.reachable.iter().map(|&e| (e, e, vec![])).collect();
         for _ in 0..length {
@@ -233,7 +233,7 @@ impl<'a> Cones<'a> {
     }
 
     /// Whether no end of a word has a positive product.
-    fn idle(&self, from: usize, word: &[usize]) -> Result<bool, Rejected> {
+    fn idle(&self, from: usize, word: &[usize]) -> Checked<bool> {
         let states = self.model.shape.path(from, word).unwrap_or_default();
         let mut product: Option<Matrix> = None;
         for (&e, &letter) in states.iter().zip(word).rev() {
@@ -251,7 +251,7 @@ impl<'a> Cones<'a> {
     }
 
     /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
-    fn shrink(&self, window: usize, slow: &Node<'_>) -> Result<(), Rejected> {
+    fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
         slow.refuse(window == 0, "slow", "the window must be positive")?;
         let cycles = self.idle_cycles(&self.idle_words(window)?)?;
         let items = slow.list()?;
@@ -265,7 +265,7 @@ impl<'a> Cones<'a> {
     }
 
     /// The cycles of the graph of overlapping words, which must not meet; each from its first word on.
-    fn idle_cycles(&self, words: &[(usize, Vec<usize>)]) -> Result<Vec<(usize, Vec<usize>)>, Rejected> {
+    fn idle_cycles(&self, words: &[(usize, Vec<usize>)]) -> Checked<Vec<(usize, Vec<usize>)>> {
         let shape = self.model.shape;
         let n = words.len();
         let follows = |(e, a): &(usize, Vec<usize>), (f, b): &(usize, Vec<usize>)| {
@@ -302,7 +302,7 @@ impl<'a> Cones<'a> {
 
     /// The cycle has one positive leading eigenvalue with one longest chain; each ray has a positive leading coefficient, or
     /// is the ray to which the others are pulled.
-    fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Result<(), Rejected> {
+    fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Checked<()> {
         let [state, letters, top, functional] = node.fields(["state", "word", "top", "functional"])?;
         node.refuse(
             state.index(usize::MAX)? != e || letters.word()? != word,
@@ -344,7 +344,7 @@ impl<'a> Cones<'a> {
     }
 
     /// Products of `length` letters have cross-ratios of at most `cross_ratio`; says what follows.
-    fn rate(&self, node: &Node<'_>) -> Result<String, Rejected> {
+    fn rate(&self, node: &Node<'_>) -> Checked<String> {
         if node.is_null() {
             return Ok(String::new());
         }

@@ -3,7 +3,7 @@
 use crate::matrix::Matrix;
 use crate::ring::Model;
 use crate::shape::{Address, Kind};
-use crate::{Rejected, need, reject};
+use crate::{Checked, need, reject};
 
 /// Where a piece of the ring lies with respect to the germ's point, in the order of the germ's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,7 +59,7 @@ pub struct Germ {
 
 impl Germ {
     /// Computes the germ of a branch.
-    pub fn new(model: &Model<'_>, root: &Root, address: &Address) -> Result<Self, Rejected> {
+    pub fn new(model: &Model<'_>, root: &Root, address: &Address) -> Checked<Self> {
         let shape = model.shape;
         let (prefix, state) = shape.product(root.state, &address.prefix)?;
         let (cycle, back) = shape.product(state, &address.cycle)?;
@@ -88,12 +88,12 @@ impl Germ {
     }
 
     /// The coordinates of a point of the attractor of the germ's state.
-    pub fn coordinates(&self, point: &Matrix) -> Result<Matrix, Rejected> {
+    pub fn coordinates(&self, point: &Matrix) -> Checked<Matrix> {
         self.chart.times(&point.minus(&self.fixed))
     }
 
     /// The standard ring of the cycle without repeated pieces of sets, copies of `q`, and pieces that collapse (Lemma 2).
-    fn ring_of(&self, model: &Model<'_>, cycle: &[usize]) -> Result<Vec<RingPiece>, Rejected> {
+    fn ring_of(&self, model: &Model<'_>, cycle: &[usize]) -> Checked<Vec<RingPiece>> {
         let falls = self.linear.power(self.dim())?.times(&self.chart)?;
         let mut kept: Vec<RingPiece> = Vec::new();
         let mut product = Matrix::identity(model.shape.states[self.state].dim);

@@ -6,7 +6,7 @@ use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction, spend};
 use crate::poly::{Field, has_root_near};
 use crate::spectrum::chain;
-use crate::{Accepted, Rejected, Verdict, at, need, reject};
+use crate::{Accepted, Checked, Rejected, Verdict, at, need, reject};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::rc::Rc;
@@ -48,7 +48,7 @@ impl Disc {
 }
 
 /// Reads `n` and then `n` rows of numbers; `#` starts a comment.
-fn plain(source: &str) -> Result<Matrix, Rejected> {
+fn plain(source: &str) -> Checked<Matrix> {
     let words = source.lines().flat_map(|line| line.split('#').next().unwrap_or("").split_ascii_whitespace());
     let mut words = words.map(decimal_fraction);
     let size = words.next().flatten().and_then(|n| if n.is_integer() { n.numer().to_usize() } else { None });
@@ -62,7 +62,7 @@ fn plain(source: &str) -> Result<Matrix, Rejected> {
 }
 
 /// Checks the proof of a certificate of the kind `spectrum` about the text of a case or of a matrix.
-pub fn check(source: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
+pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let [spectra] = node.fields(["spectra"])?;
     let items = spectra.list()?;
     let mut operators: Vec<(String, Matrix, Option<(usize, usize)>)> = Vec::new();
@@ -70,7 +70,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
     match items.first().map(|item| item.fields(["operator", "factors", "modulus", "classes"])) {
         Some(Ok([operator, ..])) if operator.is_null() => operators.push((name.clone(), plain(source)?, None)),
         _ => {
-            let case = case::read(source).or_else(|why| reject("case", "", why))?;
+            let case = case::read(source, false).map_err(|r| Rejected { unreadable: false, ..r })?;
             for (e, state) in case.shape.states.into_iter().enumerate() {
                 for (k, piece) in state.pieces.into_iter().enumerate().filter(|(_, p)| p.target == e) {
                     operators.push((format!("operator {k} of state {e}"), piece.op, Some((e, k))));
@@ -100,7 +100,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
 }
 
 /// Rules `roots` and `chains`: discs that hold one root each of the factors, and a Jordan basis over `Q[x]/(factor)`.
-fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Result<(Discs, Vec<String>), Rejected> {
+fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Checked<(Discs, Vec<String>)> {
     let (mut numbers, mut factors, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     let mut basis = Matrix::empty(matrix.rows);
     for item in node.list()? {
@@ -155,7 +155,7 @@ fn text(p: &[Q]) -> String {
 }
 
 /// Whether the determinant is a unit modulo a number: elimination finds invertible pivots. The number need not be prime.
-fn invertible(basis: &Matrix, modulus: &Node<'_>) -> Result<bool, Rejected> {
+fn invertible(basis: &Matrix, modulus: &Node<'_>) -> Checked<bool> {
     let (n, p) = (basis.rows, modulus.index(MAX_MODULUS)? as u64);
     if p < 2 {
         return Ok(false);
@@ -186,13 +186,13 @@ fn inverse(a: u64, p: u64) -> Option<u64> {
 }
 
 /// Rule `moduli`: classes of equal modulus, the largest first, with radii that separate them.
-fn moduli(discs: &Discs, node: &Node<'_>) -> Result<String, Rejected> {
+fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
     let (mut listed, mut sizes) = (vec![false; discs.list.len()], Vec::new());
     let mut above: Option<Q> = None;
     let items = node.list()?;
     for (k, item) in items.iter().enumerate() {
         let [members, square, below] = item.fields(["members", "square", "below"])?;
-        let chosen = members.list()?.iter().map(|m| m.index(listed.len())).collect::<Result<Vec<_>, _>>()?;
+        let chosen = members.list()?.iter().map(|m| m.index(listed.len())).collect::<Checked<Vec<_>>>()?;
         members.need(!chosen.is_empty(), "moduli", "a class is not empty")?;
         for &m in &chosen {
             members.need(!std::mem::replace(&mut listed[m], true), "moduli", "a root stands in two classes")?;
@@ -204,10 +204,10 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Result<String, Rejected> {
             item.need(inside && outside, "moduli", "the radii do not separate the classes")?;
         }
         let equal = if square.is_null() {
-            chosen[1..].iter().map(|&m| discs.opposite(chosen[0], m)).collect::<Result<Vec<_>, _>>()?
+            chosen[1..].iter().map(|&m| discs.opposite(chosen[0], m)).collect::<Checked<Vec<_>>>()?
         } else {
             let s = square.rational()?;
-            chosen.iter().map(|&m| discs.inverted(m, &s)).collect::<Result<Vec<_>, _>>()?
+            chosen.iter().map(|&m| discs.inverted(m, &s)).collect::<Checked<Vec<_>>>()?
         };
         item.need(equal.iter().all(|e| *e), "moduli", "the roots of a class are not seen to have one modulus")?;
         sizes.push(chosen.iter().map(|&m| if discs.list[m].y.is_zero() { 1 } else { 2 }).sum::<usize>());
@@ -219,7 +219,7 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Result<String, Rejected> {
 
 impl Discs {
     /// Whether the modulus of the root of disc `m` lies above the radius (`side = 1`) or below it (`side = -1`).
-    fn beyond(&self, m: usize, radius: &Q, side: i64) -> Result<bool, Rejected> {
+    fn beyond(&self, m: usize, radius: &Q, side: i64) -> Checked<bool> {
         spend(16, self.bits + bits(radius))?;
         let disc = &self.list[m];
         let (r, e) = (radius.numer() * &self.den, &disc.error * radius.denom());
@@ -230,7 +230,7 @@ impl Discs {
 
     /// Whether the root of disc `b` is minus that of disc `a`, or minus its mirror image: the factor of `b` is `±p(−x)`, and
     /// of its discs only `b` meets the reflected disc.
-    fn opposite(&self, a: usize, b: usize) -> Result<bool, Rejected> {
+    fn opposite(&self, a: usize, b: usize) -> Checked<bool> {
         let (p, q) = (&self.list[a].factor, &self.list[b].factor);
         let sign = |k: usize| if (p.cols - 1 - k).is_multiple_of(2) { 1 } else { -1 };
         let reflected = p.cols == q.cols && (0..p.cols).all(|k| &q.data[k] * &p.den == &p.data[k] * &q.den * sign(k));
@@ -240,7 +240,7 @@ impl Discs {
     }
 
     /// Whether the other discs of the factor of disc `m` miss a disc that may move by at most `slack`.
-    fn others_miss(&self, disc: &Disc, m: usize, slack: &(BigInt, BigInt)) -> Result<bool, Rejected> {
+    fn others_miss(&self, disc: &Disc, m: usize, slack: &(BigInt, BigInt)) -> Checked<bool> {
         spend(8 * self.list.len(), self.bits + slack.0.bits().max(slack.1.bits()))?;
         let mut all =
             self.list.iter().enumerate().filter(|(k, d)| *k != m && Rc::ptr_eq(&d.factor, &self.list[m].factor));
@@ -249,7 +249,7 @@ impl Discs {
 
     /// Whether the root `λ` of disc `m` has `|λ|² = s`: the roots of its factor are closed under `λ -> s/λ`, and `s/conj(λ)`,
     /// which is the multiple `s/|λ|²` of `λ`, is nearer to `λ` than the other roots.
-    fn inverted(&self, m: usize, s: &Q) -> Result<bool, Rejected> {
+    fn inverted(&self, m: usize, s: &Q) -> Checked<bool> {
         let disc = &self.list[m];
         let (p, d) = (&disc.factor, disc.factor.cols - 1);
         spend(4 * p.cols, p.bits() + bits(s) * d as u64)?;

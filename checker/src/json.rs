@@ -2,7 +2,7 @@
 
 use crate::matrix::Matrix;
 use crate::number::{Q, canonical};
-use crate::{Rejected, reject};
+use crate::{Checked, reject};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
 /// A JSON value as certificates use it.
@@ -14,6 +14,10 @@ pub enum Json {
     Index(u64),
     /// A string.
     Text(String),
+    /// The text of a number of a case file; certificates have none.
+    Number(String),
+    /// A truth value of a case file.
+    Flag(bool),
     /// A list.
     List(Vec<Json>),
     /// An object with its fields in order.
@@ -73,17 +77,17 @@ pub struct Node<'a> {
 
 impl<'a> Node<'a> {
     /// A rejection of this value by the rules of the format.
-    pub fn malformed<T>(&self, why: &str) -> Result<T, Rejected> {
+    pub fn malformed<T>(&self, why: &str) -> Checked<T> {
         reject("format", &self.place, why)
     }
 
     /// A rejection of this value unless a premise holds.
-    pub fn need(&self, holds: bool, rule: &str, why: &str) -> Result<(), Rejected> {
+    pub fn need(&self, holds: bool, rule: &str, why: &str) -> Checked<()> {
         if holds { Ok(()) } else { reject(rule, &self.place, why) }
     }
 
     /// A rejection of this value where something holds.
-    pub fn refuse(&self, holds: bool, rule: &str, why: impl Into<String>) -> Result<(), Rejected> {
+    pub fn refuse(&self, holds: bool, rule: &str, why: impl Into<String>) -> Checked<()> {
         if holds { reject(rule, &self.place, why) } else { Ok(()) }
     }
 
@@ -93,7 +97,7 @@ impl<'a> Node<'a> {
     }
 
     /// The values of an object with exactly these fields in this order.
-    pub fn fields<const K: usize>(&self, names: [&str; K]) -> Result<[Node<'a>; K], Rejected> {
+    pub fn fields<const K: usize>(&self, names: [&str; K]) -> Checked<[Node<'a>; K]> {
         let Json::Object(fields) = self.value else { return self.malformed("an object is needed here") };
         if !fields.iter().map(|(k, _)| k.as_str()).eq(names) {
             return self.malformed(&format!("the fields must be exactly {names:?}, in this order"));
@@ -102,7 +106,7 @@ impl<'a> Node<'a> {
     }
 
     /// The text of the first field, which must have the given name: the tag that says which fields follow.
-    pub fn tag(&self, name: &str) -> Result<&'a str, Rejected> {
+    pub fn tag(&self, name: &str) -> Checked<&'a str> {
         match self.value {
             Json::Object(fields) => match fields.first() {
                 Some((key, Json::Text(text))) if key == name => Ok(text),
@@ -112,26 +116,36 @@ impl<'a> Node<'a> {
         }
     }
 
+    /// The value of a field, where there is one.
+    pub fn get(&self, name: &str) -> Option<Node<'a>> {
+        let Json::Object(fields) = self.value else { return None };
+        let (_, value) = fields.iter().find(|(key, _)| key == name)?;
+        Some(Node { value, place: format!("{}.{name}", self.place) })
+    }
+
     /// The value of a field.
-    pub fn field(&self, name: &str) -> Result<&'a Json, Rejected> {
-        match self.value {
-            Json::Object(fields) => match fields.iter().find(|(key, _)| key == name) {
-                Some((_, value)) => Ok(value),
-                None => self.malformed(&format!("the field {name:?} is missing")),
-            },
-            _ => self.malformed("an object is needed here"),
+    pub fn field(&self, name: &str) -> Checked<Node<'a>> {
+        self.get(name).map_or_else(|| self.malformed(&format!("the field {name:?} is missing")), Ok)
+    }
+
+    /// Whether this is an object with no other keys than these.
+    pub fn known(&self, names: &[&str]) -> Checked<()> {
+        let Json::Object(fields) = self.value else { return self.malformed("a table is needed here") };
+        match fields.iter().find(|(key, _)| !names.contains(&key.as_str())) {
+            Some((key, _)) => self.malformed(&format!("unknown key `{key}`")),
+            None => Ok(()),
         }
     }
 
     /// The elements of a list.
-    pub fn list(&self) -> Result<Vec<Node<'a>>, Rejected> {
+    pub fn list(&self) -> Checked<Vec<Node<'a>>> {
         let Json::List(items) = self.value else { return self.malformed("a list is needed here") };
         let item = |(k, value)| Node { value, place: format!("{}[{k}]", self.place) };
         Ok(items.iter().enumerate().map(item).collect())
     }
 
     /// A text.
-    pub fn text(&self) -> Result<&'a str, Rejected> {
+    pub fn text(&self) -> Checked<&'a str> {
         match self.value {
             Json::Text(text) => Ok(text),
             _ => self.malformed("a text is needed here"),
@@ -139,7 +153,7 @@ impl<'a> Node<'a> {
     }
 
     /// A natural number below `bound`.
-    pub fn index(&self, bound: usize) -> Result<usize, Rejected> {
+    pub fn index(&self, bound: usize) -> Checked<usize> {
         match self.value {
             Json::Index(k) if usize::try_from(*k).is_ok_and(|k| k < bound) => Ok(*k as usize),
             _ => self.malformed(&format!("a natural number below {bound} is needed here")),
@@ -147,7 +161,7 @@ impl<'a> Node<'a> {
     }
 
     /// A rational number in its canonical form.
-    pub fn rational(&self) -> Result<Q, Rejected> {
+    pub fn rational(&self) -> Checked<Q> {
         match canonical(self.text()?) {
             Some(number) => Ok(number),
             None => self.malformed("not a rational number in lowest terms, such as \"-3/4\" or \"2\""),
@@ -155,7 +169,7 @@ impl<'a> Node<'a> {
     }
 
     /// A list of exactly `count` rational numbers.
-    pub fn vector(&self, count: usize) -> Result<Vec<Q>, Rejected> {
+    pub fn vector(&self, count: usize) -> Checked<Vec<Q>> {
         let items = self.list()?;
         if items.len() != count {
             return self.malformed(&format!("{count} numbers are needed here"));
@@ -164,13 +178,13 @@ impl<'a> Node<'a> {
     }
 
     /// A matrix as a list of its rows, of which each has `cols` entries.
-    pub fn matrix(&self, cols: usize) -> Result<Matrix, Rejected> {
-        let rows = self.list()?.iter().map(|row| row.vector(cols)).collect::<Result<Vec<_>, _>>()?;
+    pub fn matrix(&self, cols: usize) -> Checked<Matrix> {
+        let rows = self.list()?.iter().map(|row| row.vector(cols)).collect::<Checked<Vec<_>>>()?;
         Ok(Matrix::from_rows(cols, &rows))
     }
 
     /// A word: a list of at most 1000 letters below 64.
-    pub fn word(&self) -> Result<Vec<usize>, Rejected> {
+    pub fn word(&self) -> Checked<Vec<usize>> {
         let items = self.list()?;
         self.refuse(items.len() > crate::MAX_LETTERS, "limit", "the word is too long")?;
         items.iter().map(|n| n.index(crate::case::MAX_PIECES)).collect()

@@ -97,17 +97,20 @@ impl fmt::Display for Rejected {
 
 impl std::error::Error for Rejected {}
 
-fn reject<T>(rule: &str, place: &str, why: impl Into<String>) -> Result<T, Rejected> {
+/// What holds, or why it is not seen to.
+pub type Checked<T> = Result<T, Rejected>;
+
+fn reject<T>(rule: &str, place: &str, why: impl Into<String>) -> Checked<T> {
     Err(Rejected { rule: rule.to_owned(), place: place.to_owned(), why: why.into(), unreadable: false })
 }
 
 /// A rejection without a place unless a premise holds.
-fn need(holds: bool, rule: &str, why: &str) -> Result<(), Rejected> {
+fn need(holds: bool, rule: &str, why: &str) -> Checked<()> {
     if holds { Ok(()) } else { reject(rule, "", why) }
 }
 
 /// Gives a rejection that has no place yet one.
-fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
+fn at<T>(place: &str, result: Checked<T>) -> Checked<T> {
     result.map_err(|r| if r.place.is_empty() { Rejected { place: place.to_owned(), ..r } } else { r })
 }
 
@@ -121,7 +124,7 @@ fn at<T>(place: &str, result: Result<T, Rejected>) -> Result<T, Rejected> {
 ///
 /// # Cost
 /// Bounded: the files by [`MAX_BYTES`], the nesting by 128, the numbers by 10000 digits, the arithmetic by a budget.
-pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
+pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
     let unreadable =
         |rule: &str, why: String| Err(Rejected { rule: rule.to_owned(), place: String::new(), why, unreadable: true });
     if case.len() > MAX_BYTES || certificate.len() > MAX_BYTES {
@@ -140,15 +143,9 @@ pub fn check(case: &str, certificate: &str) -> Result<Accepted, Rejected> {
     }
     let proof = json::Node { place: "proof".to_owned(), ..proof };
     let found = match kind.text()? {
-        kind @ ("certify" | "regularity") => match case::read(case) {
-            Ok(case) if kind == "certify" => claims::check(&case, &proof)?,
-            Ok(case) => regularity::check(&case, &proof)?,
-            Err(why) => return unreadable("case", why),
-        },
-        "solve" => match case::read_open(case) {
-            Ok(open) => solve::check(open, &proof)?,
-            Err(why) => return unreadable("case", why),
-        },
+        "certify" => claims::check(&case::read(case, false)?, &proof)?,
+        "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
+        "solve" => solve::check(case::read(case, true)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),

@@ -1,6 +1,6 @@
 //! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
 
-use crate::Rejected;
+use crate::Checked;
 use crate::number::{Q, charge, gcd, lcm, ratio, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -97,7 +97,7 @@ impl Matrix {
     }
 
     /// The product.
-    pub fn times(&self, other: &Self) -> Result<Self, Rejected> {
+    pub fn times(&self, other: &Self) -> Checked<Self> {
         spend(self.rows * self.cols * other.cols, self.bits().max(other.bits()))?;
         let mut data = Vec::with_capacity(self.rows * other.cols);
         for i in 0..self.rows {
@@ -145,7 +145,7 @@ impl Matrix {
     }
 
     /// The nonzero rows of the reduced row echelon form, and the columns of their leading ones.
-    pub fn echelon(&self) -> Result<(Self, Vec<usize>), Rejected> {
+    pub fn echelon(&self) -> Checked<(Self, Vec<usize>)> {
         let mut rows: Vec<Vec<BigInt>> = (0..self.rows).map(|i| primitive(self.integers(i).to_vec())).collect();
         let mut pivots = Vec::new();
         for j in 0..self.cols {
@@ -173,13 +173,13 @@ impl Matrix {
     }
 
     /// The rank.
-    pub fn rank(&self) -> Result<usize, Rejected> {
+    pub fn rank(&self) -> Checked<usize> {
         Ok(self.echelon()?.1.len())
     }
 
     /// The smallest row space, in echelon form, that holds these rows and is closed under multiplication by `matrix` from
     /// the right.
-    pub fn hull(&self, matrix: &Self) -> Result<(Self, Vec<usize>), Rejected> {
+    pub fn hull(&self, matrix: &Self) -> Checked<(Self, Vec<usize>)> {
         let (mut rows, mut pivots) = self.echelon()?;
         while let Some(grown) = rows.joined(&rows.times(matrix)?)? {
             (rows, pivots) = grown;
@@ -188,7 +188,7 @@ impl Matrix {
     }
 
     /// The echelon form of these rows, which are in that form, and of others; `None` where the others are combinations.
-    pub fn joined(&self, others: &Self) -> Result<Option<(Self, Vec<usize>)>, Rejected> {
+    pub fn joined(&self, others: &Self) -> Checked<Option<(Self, Vec<usize>)>> {
         let leading = |i: usize| self.integers(i).iter().position(|x| !x.is_zero());
         let pivots: Vec<usize> = (0..self.rows).filter_map(leading).collect();
         if pivots.len() == self.cols || others.columns(&pivots).times(self)? == *others {
@@ -198,12 +198,12 @@ impl Matrix {
     }
 
     /// The power with a natural exponent.
-    pub fn power(&self, exponent: usize) -> Result<Self, Rejected> {
+    pub fn power(&self, exponent: usize) -> Checked<Self> {
         (0..exponent).try_fold(Self::identity(self.rows), |p, _| p.times(self))
     }
 
     /// The point with coordinate sum 1 that spans the kernel of `self − 1`, if the kernel is a line and there is one.
-    pub fn fixed_point(&self) -> Result<Option<Self>, Rejected> {
+    pub fn fixed_point(&self) -> Checked<Option<Self>> {
         let n = self.rows;
         let (rows, pivots) = self.minus(&Self::identity(n)).echelon()?;
         let Some(free) = (0..n).find(|j| !pivots.contains(j)).filter(|_| pivots.len() + 1 == n) else {
@@ -227,7 +227,7 @@ impl Matrix {
     }
 
     /// The coefficients of the characteristic polynomial `det(x − self)` as a row, lowest first (Faddeev and LeVerrier).
-    pub fn characteristic(&self) -> Result<Self, Rejected> {
+    pub fn characteristic(&self) -> Checked<Self> {
         let n = self.rows;
         let (mut coefficients, mut m) = (vec![Q::one()], Self::identity(n));
         for k in 1..=n {

@@ -1,6 +1,6 @@
 //! Rational numbers, how they are read, and the budget that keeps the work finite.
 
-use crate::Rejected;
+use crate::Checked;
 use num_bigint::BigInt;
 use num_integer::Integer;
 pub use num_rational::BigRational as Q;
@@ -29,7 +29,7 @@ pub fn charge(count: usize, bits: u64) -> bool {
 }
 
 /// The same; an empty budget rejects the certificate.
-pub fn spend(count: usize, bits: u64) -> Result<(), Rejected> {
+pub fn spend(count: usize, bits: u64) -> Checked<()> {
     if charge(count, bits) {
         Ok(())
     } else {

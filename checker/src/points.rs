@@ -7,7 +7,7 @@ use crate::poly::{Field, MAX_DEGREE};
 use crate::ring::Model;
 use crate::rules::{self, Found, Line};
 use crate::shape::{Address, End, Kind};
-use crate::{Rejected, Verdict, at, need, reject};
+use crate::{Checked, Verdict, at, need, reject};
 
 /// Where a point sits.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,7 +51,7 @@ pub struct Point {
 
 impl Place {
     /// Reads a place.
-    pub fn read(node: &Node<'_>) -> Result<Self, Rejected> {
+    pub fn read(node: &Node<'_>) -> Checked<Self> {
         Ok(match node.tag("at")? {
             "left end" => {
                 node.fields(["at"])?;
@@ -79,7 +79,7 @@ impl Place {
     }
 
     /// The branches of the point: for a curve through the outermost pieces that are more than a point.
-    fn branches(&self, model: &Model<'_>, root: &Root) -> Result<Vec<(Side, Address)>, Rejected> {
+    fn branches(&self, model: &Model<'_>, root: &Root) -> Checked<Vec<(Side, Address)>> {
         match self {
             Self::End(end) => {
                 let side = if *end == End::Start { Side::Right } else { Side::Left };
@@ -110,7 +110,7 @@ impl Place {
     }
 
     /// The place of the point with a normalised address: an end, a joint, a point inside, or a point of a set.
-    pub fn of_address(model: &Model<'_>, address: &Address) -> Result<Self, Rejected> {
+    pub fn of_address(model: &Model<'_>, address: &Address) -> Checked<Self> {
         let shape = model.shape;
         let unknown = || reject("word", "", "a letter of an address does not exist");
         let Some(states) = shape.path(shape.start, &address.prefix) else { return unknown() };
@@ -152,12 +152,7 @@ pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
 }
 
 /// Whether all first-level joints of all reachable states are among these (state and two pieces).
-pub fn complete(
-    model: &Model<'_>,
-    listed: &[(usize, usize, usize)],
-    node: &Node<'_>,
-    rule: &str,
-) -> Result<(), Rejected> {
+pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
     for &e in &model.reachable {
         for (left, right) in joints(model, e) {
             let why = || format!("the joint of the pieces {left} and {right} of state {e} is missing");
@@ -167,7 +162,7 @@ pub fn complete(
     Ok(())
 }
 
-fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Result<Address, Rejected> {
+fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
     let skip = |e: usize, letter: usize| model.spaces.is_point(e, letter);
     match model.shape.end_address(state, end, &skip) {
         Some(address) => Ok(Address { prefix: [path, &address.prefix].concat(), ..address }),
@@ -198,7 +193,7 @@ impl Point {
     }
 
     /// Reads `{"state", "point"}`: a first-level joint, seen in the visible quotient of its own state, which is returned.
-    pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Result<(usize, Self), Rejected> {
+    pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Checked<(usize, Self)> {
         let [state, point] = node.fields(["state", "point"])?;
         let e = state.index(model.shape.states.len())?;
         let space = at(&state.place, model.spaces.of(e))?;
@@ -209,7 +204,7 @@ impl Point {
     }
 
     /// Reads a point and checks what its certificate says.
-    pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Result<Self, Rejected> {
+    pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Checked<Self> {
         let [place_node, verdict, kind, rule, common, branches] =
             node.fields(["place", "verdict", "kind", "rule", "common", "branches"])?;
         let place = Place::read(&place_node)?;
@@ -243,7 +238,7 @@ fn conclude(
     common: &Node<'_>,
     dimension: usize,
     found: &[(Side, Option<Found>)],
-) -> Result<Point, Rejected> {
+) -> Checked<Point> {
     let (mut lines, mut directions, mut planes): (Vec<(Side, &Line)>, Vec<&Line>, _) = (Vec::new(), Vec::new(), 0);
     for (side, result) in found {
         match result {
@@ -286,11 +281,7 @@ fn conclude(
 /// For each line the ray on which a common vector lies, as a sign; the vector is returned where it is rational. Of a single
 /// line `common` may be `null`; otherwise it is a rational vector, or a list with one algebraic number for each coordinate,
 /// each the root of a polynomial in an interval, as elements of the fields of the lines.
-fn relations(
-    common: &Node<'_>,
-    dimension: usize,
-    lines: &[(Side, &Line)],
-) -> Result<(Vec<i32>, Option<Matrix>), Rejected> {
+fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Checked<(Vec<i32>, Option<Matrix>)> {
     let shared = |ray: Option<i32>| match ray {
         Some(sign) => Ok(sign),
         None => reject("line", &common.place, "the lines are not seen to have this vector in common"),
@@ -302,7 +293,7 @@ fn relations(
     if items.iter().all(|item| item.text().is_ok()) {
         let vector = Matrix::new(dimension, 1, &common.vector(dimension)?);
         let along = |(_, line): &(Side, &Line)| shared(line.along(&line.field.embedded(&vector))?);
-        return Ok((lines.iter().map(along).collect::<Result<_, _>>()?, Some(vector)));
+        return Ok((lines.iter().map(along).collect::<Checked<_>>()?, Some(vector)));
     }
     common.need(items.len() == dimension, "format", "one number for each coordinate is needed here")?;
     let mut vectors: Vec<Matrix> = lines.iter().map(|(_, line)| Matrix::empty(line.field.degree())).collect();
@@ -319,7 +310,7 @@ fn relations(
         }
     }
     let along = |((_, line), vector): (&(Side, &Line), &Matrix)| shared(line.along(vector)?);
-    Ok((lines.iter().zip(&vectors).map(along).collect::<Result<_, _>>()?, None))
+    Ok((lines.iter().zip(&vectors).map(along).collect::<Checked<_>>()?, None))
 }
 
 fn add_rays(side: Side, line: &Line, factor: i32, left: &mut Vec<i32>, right: &mut Vec<i32>) {

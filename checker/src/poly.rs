@@ -1,6 +1,6 @@
 //! Real number fields with a chosen embedding, interval enclosures, and the count of roots in a disc.
 
-use crate::Rejected;
+use crate::Checked;
 use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
 use crate::number::{Q, spend};
@@ -80,7 +80,7 @@ impl Enclosed {
 
 /// Enclosures of the values on a rectangle (its real and its imaginary side) of the polynomials whose coefficients, lowest
 /// first, are the rows of a matrix: real and imaginary parts over one denominator (Horner's scheme, in integers).
-pub fn values(rows: &Matrix, x: &Interval, y: &Interval) -> Result<[Enclosed; 2], Rejected> {
+pub fn values(rows: &Matrix, x: &Interval, y: &Interval) -> Checked<[Enclosed; 2]> {
     let ends = Matrix::new(2, 2, &[x.lo.clone(), x.hi.clone(), y.lo.clone(), y.hi.clone()]);
     spend(8 * rows.data.len() * rows.cols * rows.cols, rows.bits() + ends.bits())?;
     let side = |k: usize| [ends.data[2 * k].clone(), ends.data[2 * k + 1].clone()];
@@ -106,7 +106,7 @@ pub fn values(rows: &Matrix, x: &Interval, y: &Interval) -> Result<[Enclosed; 2]
 
 /// Whether a polynomial of degree `n` (a row) is seen to have a root within `error` of a point `z` of the plane: some root is
 /// nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`.
-pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Result<bool, Rejected> {
+pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Checked<bool> {
     let slope = p.data.iter().enumerate().skip(1).map(|(k, c)| c * k).chain([BigInt::zero()]).collect();
     let both = p.stack(&Matrix { data: slope, ..p.clone() });
     let [re, im] = values(&both, &Interval::point(&z[0]), &Interval::point(&z[1]))?;
@@ -133,7 +133,7 @@ impl Field {
     }
 
     /// Reads `polynomial` (monic; it need not be irreducible) and `interval` and checks that there is one root in it.
-    pub fn read(polynomial: &Node<'_>, interval: &Node<'_>) -> Result<Self, Rejected> {
+    pub fn read(polynomial: &Node<'_>, interval: &Node<'_>) -> Checked<Self> {
         let m = Self::monic(polynomial, MAX_DEGREE)?;
         let d = m.len() - 1;
         let ends = interval.vector(2)?;
@@ -153,7 +153,7 @@ impl Field {
     }
 
     /// Reads a monic polynomial of a degree from 1 on, lowest coefficient first.
-    pub fn monic(node: &Node<'_>, most: usize) -> Result<Vec<Q>, Rejected> {
+    pub fn monic(node: &Node<'_>, most: usize) -> Checked<Vec<Q>> {
         let m = node.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
         let monic = (2..=most + 1).contains(&m.len()) && m.last().is_some_and(Q::is_one);
         node.need(monic, "field", &format!("a monic polynomial of degree 1 to {most} is needed"))?;
@@ -172,19 +172,19 @@ impl Field {
     }
 
     /// Reads a vector of `count` elements.
-    pub fn vector(&self, node: &Node<'_>, count: usize) -> Result<Matrix, Rejected> {
+    pub fn vector(&self, node: &Node<'_>, count: usize) -> Checked<Matrix> {
         Self::coordinates(self.degree(), node, count)
     }
 
     /// Reads `count` elements, polynomials of degree below `degree`, as rows of coefficients.
-    pub fn coordinates(degree: usize, node: &Node<'_>, count: usize) -> Result<Matrix, Rejected> {
+    pub fn coordinates(degree: usize, node: &Node<'_>, count: usize) -> Checked<Matrix> {
         let items = node.list()?;
         node.need(items.len() == count, "format", "a vector of another length is needed here")?;
-        let entries = items.iter().map(|item| Self::coefficients(degree, item)).collect::<Result<Vec<_>, _>>()?;
+        let entries = items.iter().map(|item| Self::coefficients(degree, item)).collect::<Checked<Vec<_>>>()?;
         Ok(Matrix::from_rows(degree, &entries))
     }
 
-    fn coefficients(degree: usize, node: &Node<'_>) -> Result<Vec<Q>, Rejected> {
+    fn coefficients(degree: usize, node: &Node<'_>) -> Checked<Vec<Q>> {
         let mut element = node.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
         let fits = element.len() <= degree && element.last().is_none_or(|c| !c.is_zero());
         node.need(fits, "format", "an element is a polynomial of lower degree without leading zeros")?;
@@ -193,12 +193,12 @@ impl Field {
     }
 
     /// Reads an element.
-    pub fn element(&self, node: &Node<'_>) -> Result<Matrix, Rejected> {
+    pub fn element(&self, node: &Node<'_>) -> Checked<Matrix> {
         Ok(Matrix::new(1, self.degree(), &Self::coefficients(self.degree(), node)?))
     }
 
     /// Whether an element is the root of `m` by which `number` is generated: it is a root, and lies in the interval of that.
-    pub fn is_root(&self, m: &[Q], number: &Self, x: &Matrix) -> Result<bool, Rejected> {
+    pub fn is_root(&self, m: &[Q], number: &Self, x: &Matrix) -> Checked<bool> {
         let constant = |c: &Q| self.embedded(&Matrix::new(1, 1, std::slice::from_ref(c)));
         let mut value = constant(&Q::zero());
         for c in m.iter().rev() {
@@ -219,7 +219,7 @@ impl Field {
     }
 
     /// The element `Σ a_k b_k`.
-    pub fn dot(&self, a: &Matrix, b: &Matrix) -> Result<Matrix, Rejected> {
+    pub fn dot(&self, a: &Matrix, b: &Matrix) -> Checked<Matrix> {
         let products = a.transpose().times(b)?;
         let d = self.degree();
         let mut sum = Matrix::ones(1, d, |_, _| false);
@@ -234,25 +234,25 @@ impl Field {
     }
 
     /// Enclosures of the entries of a vector at `θ`.
-    pub fn enclose(&self, vector: &Matrix) -> Result<Enclosed, Rejected> {
+    pub fn enclose(&self, vector: &Matrix) -> Checked<Enclosed> {
         Self::real(vector, &self.interval)
     }
 
     /// Enclosures of real values.
-    fn real(rows: &Matrix, x: &Interval) -> Result<Enclosed, Rejected> {
+    fn real(rows: &Matrix, x: &Interval) -> Checked<Enclosed> {
         let [re, _] = values(rows, x, &Interval::point(&Q::zero()))?;
         Ok(re)
     }
 
     /// The sign of an element at `θ`, 0 where it is not seen.
-    pub fn sign(&self, element: &Matrix) -> Result<i32, Rejected> {
+    pub fn sign(&self, element: &Matrix) -> Checked<i32> {
         Ok(self.enclose(element)?.sign(0))
     }
 }
 
 /// The number of roots of `p` in the open unit disc, with multiplicity, where the recursion of Schur and Cohn is regular;
 /// then no root lies on the circle. `None` where it is not.
-pub fn roots_in_disc(p: &[BigInt]) -> Result<Option<usize>, Rejected> {
+pub fn roots_in_disc(p: &[BigInt]) -> Checked<Option<usize>> {
     let n = p.len().saturating_sub(1);
     let (Some(low), Some(high)) = (p.first(), p.last()) else { return Ok(None) };
     if n == 0 {

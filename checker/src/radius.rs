@@ -21,12 +21,7 @@ pub struct System {
 
 /// Checks the proof of a certificate of the kind `jsr`.
 pub fn check(text: &str, node: &Node<'_>) -> Result<Accepted, Rejected> {
-    let system = match matrix_list(text) {
-        Ok(system) => system,
-        Err(why) => {
-            return Err(Rejected { rule: "matrices".to_owned(), place: String::new(), why, unreadable: true });
-        }
-    };
+    let system = matrix_list(text)?;
     let found = bounds(&system, node)?;
     let text = if found.lower == found.upper {
         format!("proved: the joint spectral radius is {}", found.lower)

@@ -1,7 +1,7 @@
 //! Products of nonnegative matrices in rounded numbers: bounds of their cross-ratios from both sides, without the long
 //! fractions of the exact products.
 
-use crate::Rejected;
+use crate::Checked;
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, charge, spend};
 use num_bigint::BigInt;
@@ -30,7 +30,7 @@ impl Bounds {
     }
 
     /// Of the product: bounds of factors that are not negative give bounds of the product.
-    pub fn times(&self, other: &Self) -> Result<Self, Rejected> {
+    pub fn times(&self, other: &Self) -> Checked<Self> {
         let longest = self.hi.iter().chain(&other.hi).map(BigInt::bits).max().unwrap_or(0);
         spend(2 * self.rows * self.cols * other.cols, longest)?;
         let entry = |a: &[BigInt], b: &[BigInt], i: usize, j: usize| -> BigInt {
@@ -44,7 +44,7 @@ impl Bounds {
     }
 
     /// Whether every matrix between the bounds is positive, with `b_ij b_kl <= D b_kj b_il` for all entries.
-    pub fn within(&self, bound: &Q) -> Result<bool, Rejected> {
+    pub fn within(&self, bound: &Q) -> Checked<bool> {
         let longest = self.hi.iter().map(BigInt::bits).max().unwrap_or(0) + bits(bound);
         spend(4 * self.rows * self.rows * self.cols * self.cols, longest)?;
         if self.lo.iter().any(|x| !x.is_positive()) {

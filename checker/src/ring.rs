@@ -6,7 +6,7 @@ use crate::matrix::Matrix;
 use crate::number::{Q, bits, spend};
 use crate::poly::Field;
 use crate::shape::{Shape, Spaces};
-use crate::{Rejected, at, need, reject};
+use crate::{Checked, at, need, reject};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -59,7 +59,7 @@ impl<'a> Model<'a> {
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
     /// all of them polytopes (Lemma 1′).
-    pub fn read(shape: &'a Shape, node: &Node<'_>) -> Result<Self, Rejected> {
+    pub fn read(shape: &'a Shape, node: &Node<'_>) -> Checked<Self> {
         let reachable = shape.reachable();
         let spaces = at(&node.place, Spaces::new(shape, &reachable))?;
         let items = node.list()?;
@@ -93,11 +93,7 @@ impl<'a> Model<'a> {
     /// Reads the hulls of all states, and the images of their vertices. With `shrinking` they prove contraction (Lemma 1′): the
     /// vertices of each state span its space, all images under a piece have a vertex of positive weight in common, and the
     /// vertices lie in the ball of the state.
-    fn polytopes<'n>(
-        &mut self,
-        hulls: impl Iterator<Item = (usize, &'n Node<'n>)>,
-        shrinking: bool,
-    ) -> Result<(), Rejected> {
+    fn polytopes<'n>(&mut self, hulls: impl Iterator<Item = (usize, &'n Node<'n>)>, shrinking: bool) -> Checked<()> {
         let mut entries = Vec::new();
         for (e, hull) in hulls {
             let [points, images] = hull.fields(["points", "images"])?;
@@ -126,7 +122,7 @@ impl<'a> Model<'a> {
 
     /// Rule `hull`: the image of each vertex of the target's hull under each piece is a convex combination of vertices, so
     /// that the hulls, mapped into themselves by a contracting system, hold the attractors.
-    fn hull_maps_into(&self, e: usize, images: &Node<'_>, shrinking: bool) -> Result<(), Rejected> {
+    fn hull_maps_into(&self, e: usize, images: &Node<'_>, shrinking: bool) -> Checked<()> {
         let (own, images, pieces) = (&self.hulls[e], images.list()?, &self.shape.states[e].pieces);
         let sums = Matrix::ones(1, own.rows, |_, _| true).times(own)?;
         let affine = sums == Matrix::ones(1, own.cols, |_, _| true);
@@ -159,7 +155,7 @@ impl<'a> Model<'a> {
     }
 
     /// Checks a tree below a word from `from` to `end` with its product.
-    fn contracts(&self, from: usize, end: usize, product: &Matrix, tree: &Json) -> Result<(), Rejected> {
+    fn contracts(&self, from: usize, end: usize, product: &Matrix, tree: &Json) -> Checked<()> {
         match tree {
             Json::List(children) if children.len() == self.shape.states[end].pieces.len() => {
                 for (piece, child) in self.shape.states[end].pieces.iter().zip(children) {
@@ -182,7 +178,7 @@ impl<'a> Model<'a> {
     }
 
     /// Functionals on the germ's quotient, given over a number field, as rows on points.
-    pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Result<Functionals, Rejected> {
+    pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Checked<Functionals> {
         let (mut middles, mut errors) = (Matrix::empty(germ.dim()), Vec::new());
         for row in rows {
             let values = field.enclose(row)?;
@@ -196,14 +192,14 @@ impl<'a> Model<'a> {
     }
 
     /// Rational functionals on the germ's quotient, given as rows.
-    pub fn rows(&self, germ: &Germ, on_quotient: &Matrix, errors: Vec<Q>) -> Result<Functionals, Rejected> {
+    pub fn rows(&self, germ: &Germ, on_quotient: &Matrix, errors: Vec<Q>) -> Checked<Functionals> {
         let rows = on_quotient.times(&germ.chart)?;
         let at_fixed = rows.times(&germ.fixed)?;
         Ok(Functionals { rows: rows.minus(&at_fixed.times(&Matrix::ones(1, rows.cols, |_, _| true))?), errors })
     }
 
     /// Whether a functional, given by its row on the points of a state, keeps a sign on the attractor of the state.
-    fn keeps(&self, rows: &Matrix, k: usize, error: &Q, state: usize, sign: i32) -> Result<bool, Rejected> {
+    fn keeps(&self, rows: &Matrix, k: usize, error: &Q, state: usize, sign: i32) -> Checked<bool> {
         let (row, base, radius) = (rows.integers(k), &self.spaces.of(state)?.base, &self.radius[state]);
         let hull = &self.hulls[state];
         spend(row.len() * (2 + hull.cols), rows.bits().max(base.bits()).max(hull.bits()) + bits(radius) + bits(error))?;
@@ -228,7 +224,7 @@ impl<'a> Model<'a> {
         functionals: &Functionals,
         part: Option<Position>,
         node: &Node<'_>,
-    ) -> Result<Vec<Cell>, Rejected> {
+    ) -> Checked<Vec<Cell>> {
         let items = node.list()?;
         let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
         let all = items.len() == pieces.len();
@@ -254,7 +250,7 @@ impl<'a> Model<'a> {
         state: usize,
         tree: &Json,
         found: &mut dyn FnMut(usize, i32),
-    ) -> Result<(), Rejected> {
+    ) -> Checked<()> {
         match tree {
             Json::List(children) if children.len() == self.shape.states[state].pieces.len() => {
                 for (piece, child) in self.shape.states[state].pieces.iter().zip(children) {

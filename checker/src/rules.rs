@@ -8,7 +8,7 @@ use crate::poly::{Enclosed, Field};
 use crate::ring::{Cell, Model};
 use crate::shape::Address;
 use crate::spectrum::{Chain, Top, residual, span_a_plane};
-use crate::{Rejected, at, need, reject};
+use crate::{Checked, at, need, reject};
 use num_traits::Zero;
 
 /// A proved tangent line, or a line in the tangent subspace.
@@ -36,7 +36,7 @@ pub enum Found {
 }
 
 /// Reads an address as an object with prefix and cycle.
-pub fn read_address(node: &Node<'_>) -> Result<Address, Rejected> {
+pub fn read_address(node: &Node<'_>) -> Checked<Address> {
     let [prefix, cycle] = node.fields(["prefix", "cycle"])?;
     let address = Address { prefix: prefix.word()?, cycle: cycle.word()? };
     if address.cycle.is_empty() { cycle.malformed("the cycle of an address is not empty") } else { Ok(address) }
@@ -48,7 +48,7 @@ struct Branch<'a> {
 }
 
 /// Checks the certificate of the branch with this address.
-pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Result<Found, Rejected> {
+pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Checked<Found> {
     let germ = at(&node.place, Germ::new(model, root, address))?;
     let branch = Branch { model, germ };
     at(
@@ -78,7 +78,7 @@ pub struct Leading {
 
 impl Leading {
     /// Reads and checks a top of this form.
-    pub fn read(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let Top::Real { field, chains } = Top::read(node, linear)? else {
             return reject("leading", &node.place, "a real top is needed here");
         };
@@ -101,13 +101,13 @@ impl Leading {
     }
 
     /// `g L − λ g` for a row over the field.
-    fn residual(&self, linear: &Matrix, row: &Matrix) -> Result<Matrix, Rejected> {
+    fn residual(&self, linear: &Matrix, row: &Matrix) -> Checked<Matrix> {
         residual(&self.field.by_root, &linear.transpose(), self.chains[self.longest].sign, row)
     }
 
     /// Rule `leading`: a row `g` with `g L = λ g` that reads the coefficient of the last vector of the longest chain, up to
     /// a factor whose sign is returned.
-    pub fn row(&self, linear: &Matrix, node: &Node<'_>) -> Result<(Matrix, i32), Rejected> {
+    pub fn row(&self, linear: &Matrix, node: &Node<'_>) -> Checked<(Matrix, i32)> {
         let row = self.field.vector(node, linear.rows)?;
         let left = self.residual(linear, &row)?.is_zero();
         node.need(left, "leading", "the row is no left eigenvector")?;
@@ -126,12 +126,12 @@ impl Leading {
 }
 
 impl Branch<'_> {
-    fn leading(&self, node: &Node<'_>) -> Result<Leading, Rejected> {
+    fn leading(&self, node: &Node<'_>) -> Checked<Leading> {
         Leading::read(node, &self.germ.linear)
     }
 
     /// Theorems 2 and 3.
-    fn line(&self, node: &Node<'_>, rule: &str) -> Result<Found, Rejected> {
+    fn line(&self, node: &Node<'_>, rule: &str) -> Checked<Found> {
         let [_, top, functional, cover] = node.fields(["rule", "top", "functional", "cover"])?;
         let top = self.leading(&top)?;
         let length = top.vectors().len();
@@ -163,7 +163,7 @@ impl Branch<'_> {
         (left, right)
     }
 
-    fn found_line(&self, field: &Field, v: &Matrix, left: Vec<i32>, right: Vec<i32>) -> Result<Found, Rejected> {
+    fn found_line(&self, field: &Field, v: &Matrix, left: Vec<i32>, right: Vec<i32>) -> Checked<Found> {
         let vector = self.germ.view.times(v)?;
         let values = field.enclose(&vector)?;
         need(values.is_nonzero(), "line", "the direction is not seen to be nonzero")?;
@@ -171,33 +171,33 @@ impl Branch<'_> {
     }
 
     /// The corollary on a line: `dim Y = 1` and `L ≠ 0`; the rays stay open.
-    fn whole_line(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn whole_line(&self, node: &Node<'_>) -> Checked<Found> {
         node.fields(["rule"])?;
         let fits = self.germ.dim() == 1 && !self.germ.linear.is_zero();
         need(fits, "corollary-line", "the visible quotient is no line, or L is 0")?;
         self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1), Vec::new(), Vec::new())
     }
 
-    fn plane(rule: &str, vectors: &[Enclosed]) -> Result<Found, Rejected> {
+    fn plane(rule: &str, vectors: &[Enclosed]) -> Checked<Found> {
         need(span_a_plane(vectors), rule, "the directions are not seen to span a plane")?;
         Ok(Found::Plane)
     }
 
     /// The corollary: `U ⊂ D*` and `dim G U ≥ 2`.
-    fn corollary(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn corollary(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top] = node.fields(["rule", "top"])?;
         let top = Top::read(&top, &self.germ.linear)?;
         Self::plane("corollary", &top.directions(&self.germ.view)?)
     }
 
     /// `G` is injective on `Y`.
-    fn injective(&self, rule: &str) -> Result<(), Rejected> {
+    fn injective(&self, rule: &str) -> Checked<()> {
         let injective = self.germ.view.rank()? == self.germ.dim();
         need(injective, rule, "the map into the space where the shape is looked at is not injective on the quotient")
     }
 
     /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
-    fn ring_point(&self, node: &Node<'_>) -> Result<(Matrix, Position), Rejected> {
+    fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix, Position)> {
         let address = read_address(node)?;
         let letters = self.germ.ring.iter().map(|p| p.word.len()).max().unwrap_or(0);
         let word: Vec<usize> = (0..letters).map(|k| address.letter(k)).collect();
@@ -215,7 +215,7 @@ impl Branch<'_> {
         row: &Matrix,
         positive: &Node<'_>,
         negative: &Node<'_>,
-    ) -> Result<Position, Rejected> {
+    ) -> Checked<Position> {
         let mut parts = Vec::new();
         for (node, wanted) in [(positive, 1), (negative, -1)] {
             let (y, part) = self.ring_point(node)?;
@@ -229,7 +229,7 @@ impl Branch<'_> {
     }
 
     /// Theorem 4 with a point of the ring at which the leading functional vanishes.
-    fn null_point(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn null_point(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, address] = node.fields(["rule", "top", "functional", "address"])?;
         let top = self.leading(&top)?;
         need(top.vectors().len() == 1, "null-point", "a simple eigenvalue is needed")?;
@@ -244,7 +244,7 @@ impl Branch<'_> {
     }
 
     /// Theorem 4 with two points of one connected part of the ring at which the leading functional has opposite signs.
-    fn sign_change(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn sign_change(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, isolation, positive, negative] =
             node.fields(["rule", "top", "functional", "isolation", "positive", "negative"])?;
         let top = self.leading(&top)?;
@@ -260,7 +260,7 @@ impl Branch<'_> {
     }
 
     /// Lower bound from the orbit of one point of the ring: its own leading directions and those of the corollary.
-    fn orbit(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, address, own] = node.fields(["rule", "top", "address", "own"])?;
         let top = Top::read(&top, &self.germ.linear)?;
         let (y, _) = self.ring_point(&address)?;
@@ -275,7 +275,7 @@ impl Branch<'_> {
 
     /// Section 6: one real block of length 2, and a connected part of the ring on which `c_2` takes both signs while `c_1` has
     /// one sign wherever `c_2` vanishes.
-    fn crossing(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn crossing(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, second, first, positive, negative, cover] =
             node.fields(["rule", "top", "second", "first", "positive", "negative", "cover"])?;
         let top = self.leading(&top)?;
@@ -292,11 +292,11 @@ impl Branch<'_> {
         let same = signs.windows(2).all(|s| s[0] == s[1]);
         cover.need(same, "crossing", "g_1 takes both signs where g_2 may vanish")?;
         let vectors = top.vectors().iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
-        Self::plane("crossing", &vectors.collect::<Result<Vec<_>, _>>()?)
+        Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }
 
     /// The corollary for one direction: `G v_1` lies in `D*`.
-    fn direction(&self, node: &Node<'_>) -> Result<Found, Rejected> {
+    fn direction(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top] = node.fields(["rule", "top"])?;
         let top = self.leading(&top)?;
         Ok(match self.found_line(&top.field, &top.vectors()[0], Vec::new(), Vec::new())? {
@@ -308,7 +308,7 @@ impl Branch<'_> {
 
 impl Line {
     /// Whether a vector over the field of the line lies on it: `1` and `-1` for its two rays.
-    pub fn along(&self, w: &Matrix) -> Result<Option<i32>, Rejected> {
+    pub fn along(&self, w: &Matrix) -> Checked<Option<i32>> {
         for i in 0..w.rows {
             for j in 0..i {
                 let product = |i, j| self.field.dot(&self.vector.row(i), &w.row(j));

@@ -2,7 +2,7 @@
 
 use crate::matrix::Matrix;
 use crate::number::{Q, charge, spend};
-use crate::{MAX_LETTERS, Rejected, need, reject};
+use crate::{Checked, MAX_LETTERS, need, reject};
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -164,7 +164,7 @@ impl Shape {
     }
 
     /// The product of the operators of a word and the state where it ends.
-    pub fn product(&self, from: usize, word: &[usize]) -> Result<(Matrix, usize), Rejected> {
+    pub fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
         let mut state = from;
         let mut product = Matrix::identity(self.states[from].dim);
         for &letter in word {
@@ -184,7 +184,7 @@ impl Shape {
     }
 
     /// The point with an address whose cycle returns to its state.
-    pub fn point(&self, from: usize, address: &Address) -> Result<Matrix, Rejected> {
+    pub fn point(&self, from: usize, address: &Address) -> Checked<Matrix> {
         let (prefix, state) = self.product(from, &address.prefix)?;
         let (cycle, back) = self.product(state, &address.cycle)?;
         need(
@@ -221,7 +221,7 @@ impl Shape {
     }
 
     /// An end point of the curve of a state.
-    pub fn end_point(&self, state: usize, end: End) -> Result<Matrix, Rejected> {
+    pub fn end_point(&self, state: usize, end: End) -> Checked<Matrix> {
         match self.end_address(state, end, &|_, _| false) {
             Some(address) => self.point(state, &address),
             None => reject("curve", "", "a state without pieces"),
@@ -229,7 +229,7 @@ impl Shape {
     }
 
     /// Rule `curve`: in every reachable edge state each piece begins where the one before ends, and the identities hold.
-    pub fn check_curves(&self, reachable: &[usize]) -> Result<(), Rejected> {
+    pub fn check_curves(&self, reachable: &[usize]) -> Checked<()> {
         for &e in reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
             for (j, pair) in self.states[e].pieces.windows(2).enumerate() {
                 let end = |p: &Piece, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
@@ -246,7 +246,7 @@ impl Shape {
 
     /// The identities `a b = c d` of an edge state, where it has boundary operators: of incidence at the start and at the
     /// finish, then of adjacency.
-    pub fn identities(&self, e: usize) -> Result<Vec<[Op; 4]>, Rejected> {
+    pub fn identities(&self, e: usize) -> Checked<Vec<[Op; 4]>> {
         let pieces = &self.states[e].pieces;
         let vertex = |state: usize, end: End| self.states[state].ends[end as usize].as_ref().map(|b| b.0);
         let inner = |k: usize, end: End| {
@@ -319,7 +319,7 @@ pub struct Spaces {
 
 impl Spaces {
     /// The space of a reachable state.
-    pub fn of(&self, state: usize) -> Result<&Space, Rejected> {
+    pub fn of(&self, state: usize) -> Checked<&Space> {
         match self.all.get(state) {
             Some(Some(space)) => Ok(space),
             _ => reject("word", "", "a state that cannot be reached"),
@@ -327,7 +327,7 @@ impl Spaces {
     }
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
-    pub fn new(shape: &Shape, reachable: &[usize]) -> Result<Self, Rejected> {
+    pub fn new(shape: &Shape, reachable: &[usize]) -> Checked<Self> {
         let none = |e: usize| Matrix::empty(shape.states[e].dim);
         let mut base: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
         for &e in reachable {
@@ -356,13 +356,13 @@ impl Spaces {
         }
         for &e in reachable {
             let is_point = |p: &Piece| Ok(p.op.times(&spaces.of(p.target)?.basis)?.is_zero());
-            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Result<_, _>>()?;
+            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
         }
         Ok(spaces)
     }
 
     /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
-    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Result<Matrix, Rejected> {
+    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Checked<Matrix> {
         self.of(to)?.reading.times(&op.times(&self.of(from)?.basis)?)
     }
 
@@ -372,7 +372,7 @@ impl Spaces {
     }
 
     /// The map between visible quotients that a piece of a state induces.
-    pub fn on_visible(&self, state: usize, piece: &Piece) -> Result<Matrix, Rejected> {
+    pub fn on_visible(&self, state: usize, piece: &Piece) -> Checked<Matrix> {
         let (own, target) = (self.of(state)?, self.of(piece.target)?);
         let onto = own.visible.times(&self.linear(&piece.op, state, piece.target)?)?;
         // Rows of `onto` are combinations of the echelon rows of the target; the leading columns give the coefficients.
@@ -389,8 +389,8 @@ pub fn close(
     reachable: &[usize],
     family: &mut [Matrix],
     ends: impl Fn(usize, &Piece) -> (usize, usize),
-    images: impl Fn(&Matrix, &Piece) -> Result<Matrix, Rejected>,
-) -> Result<(), Rejected> {
+    images: impl Fn(&Matrix, &Piece) -> Checked<Matrix>,
+) -> Checked<()> {
     loop {
         let mut grown = false;
         for &e in reachable {

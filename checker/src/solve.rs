@@ -1,11 +1,11 @@
 //! Certificates of the kind `solve`: the unknown entries of a case, from the identities of its curves and the column sums.
 
-use crate::case::{Hole, Open};
+use crate::case::{Case, Hole};
 use crate::json::Node;
 use crate::matrix::Matrix;
 use crate::number::{Q, spend};
 use crate::shape::{Op, Shape};
-use crate::{Accepted, Rejected, Verdict, need, reject};
+use crate::{Accepted, Checked, Verdict, need, reject};
 use num_traits::{One, Zero};
 
 /// Most unknowns.
@@ -21,8 +21,8 @@ struct Equations {
 impl Equations {
     /// All equations are affine, because no product has two factors with unknown entries; so they are known from their values
     /// at 0 and at the unit vectors.
-    fn of(open: Open) -> Result<Self, Rejected> {
-        let Open { mut shape, holes, .. } = open;
+    fn of(case: Case) -> Checked<Self> {
+        let Case { mut shape, holes, .. } = case;
         let unknowns = holes.iter().map(|h| h.unknown + 1).max().unwrap_or(0);
         need(unknowns > 0, "solve", "no entry is unknown")?;
         need(unknowns <= MAX_UNKNOWNS, "limit", "too many unknowns")?;
@@ -60,7 +60,7 @@ impl Equations {
     }
 
     /// The rank of the equations of some sources, without and with their right sides.
-    fn ranks(&self, chosen: impl Iterator<Item = usize>) -> Result<(usize, usize), Rejected> {
+    fn ranks(&self, chosen: impl Iterator<Item = usize>) -> Checked<(usize, usize)> {
         let all = chosen.fold(Matrix::empty(self.unknowns + 1), |all, k| all.stack(&self.sources[k]));
         let pivots = all.echelon()?.1;
         Ok((pivots.iter().filter(|j| **j < self.unknowns).count(), pivots.len()))
@@ -68,7 +68,7 @@ impl Equations {
 }
 
 /// What should be 0: the entries of the differences of two products, and of column sums and 1.
-fn residuals(shape: &Shape, identities: &[[Op; 4]], sums: &[Op]) -> Result<Vec<Matrix>, Rejected> {
+fn residuals(shape: &Shape, identities: &[[Op; 4]], sums: &[Op]) -> Checked<Vec<Matrix>> {
     let mut all = Vec::new();
     for [a, b, c, d] in identities {
         let difference = shape.op(*a).times(shape.op(*b))?.minus(&shape.op(*c).times(shape.op(*d))?);
@@ -84,13 +84,13 @@ fn residuals(shape: &Shape, identities: &[[Op; 4]], sums: &[Op]) -> Result<Vec<M
 }
 
 /// Checks the proof of a certificate of the kind `solve`.
-pub fn check(open: Open, node: &Node<'_>) -> Result<Accepted, Rejected> {
+pub fn check(open: Case, node: &Node<'_>) -> Checked<Accepted> {
     let [solutions, values, directions, conflict] = node.fields(["solutions", "values", "directions", "conflict"])?;
     let case = open.name.clone();
     let equations = Equations::of(open)?;
     let (n, count) = (equations.unknowns, equations.sources.len());
     let (rank, extended) = equations.ranks(0..count)?;
-    let chosen = conflict.list()?.iter().map(|k| k.index(count)).collect::<Result<Vec<_>, _>>()?;
+    let chosen = conflict.list()?.iter().map(|k| k.index(count)).collect::<Checked<Vec<_>>>()?;
     let (verdict, claim) = match solutions.text()? {
         "none" => {
             let empty = values.is_null() && directions.list()?.is_empty();

@@ -4,7 +4,7 @@ use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
 use crate::number::{Q, bits, spend, whole};
 use crate::poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, roots_in_disc, values};
-use crate::{Rejected, reject};
+use crate::{Checked, reject};
 use num_bigint::BigInt;
 use num_traits::{Signed, pow};
 
@@ -37,7 +37,7 @@ pub enum Top {
 }
 
 /// The radius, and how many roots of the characteristic polynomial have a larger modulus; none has this one.
-fn outside(chi: &Matrix, radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
+fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
     let (r, n) = (radius.rational()?, chi.cols - 1);
     radius.need(r.is_positive(), "disc", "the radius must be positive")?;
     spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
@@ -50,18 +50,12 @@ fn outside(chi: &Matrix, radius: &Node<'_>) -> Result<(Q, usize), Rejected> {
 }
 
 /// `M v − s θ v` for a vector over `Q[x]/(m)`, given by the matrix that multiplies by the root of `m`.
-pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Result<Matrix, Rejected> {
+pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Checked<Matrix> {
     Ok(matrix.times(v)?.plus(&whole(-i64::from(sign)), &v.times(by_root)?))
 }
 
 /// Reads the vectors of a Jordan chain of the eigenvalue `s θ`.
-pub fn chain(
-    list: &Node<'_>,
-    matrix: &Matrix,
-    by_root: &Matrix,
-    sign: i32,
-    rule: &str,
-) -> Result<Vec<Matrix>, Rejected> {
+pub fn chain(list: &Node<'_>, matrix: &Matrix, by_root: &Matrix, sign: i32, rule: &str) -> Checked<Vec<Matrix>> {
     let mut vectors: Vec<Matrix> = Vec::new();
     for item in list.list()? {
         let v = Field::coordinates(by_root.rows, &item, matrix.rows)?;
@@ -76,7 +70,7 @@ pub fn chain(
 
 impl Top {
     /// Reads and checks the evidence for the top of the spectrum of `linear`.
-    pub fn read(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let read = match node.tag("top")? {
             "real" => Self::real(node, linear),
             "pair" => Self::pair(node, linear),
@@ -86,7 +80,7 @@ impl Top {
         crate::at(&node.place, read)
     }
 
-    fn real(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    fn real(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let [_, radius, polynomial, interval, list] =
             node.fields(["top", "radius", "polynomial", "interval", "chains"])?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
@@ -107,7 +101,7 @@ impl Top {
         list.need(all, "top-real", &format!("{count} eigenvalues lie outside the disc"))?;
         for s in [1, -1] {
             let starts = chains.iter().filter(|c| c.sign == s).map(|c| field.enclose(&c.vectors[0]));
-            let independent = match &starts.collect::<Result<Vec<_>, _>>()?[..] {
+            let independent = match &starts.collect::<Checked<Vec<_>>>()?[..] {
                 [] => true,
                 [v] => v.is_nonzero(),
                 [v, w] => v.not_parallel(w),
@@ -118,7 +112,7 @@ impl Top {
         Ok(Self::Real { field, chains })
     }
 
-    fn pair(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    fn pair(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let [_, radius, polynomial, centre, error, list] =
             node.fields(["top", "radius", "polynomial", "centre", "error", "vectors"])?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
@@ -137,7 +131,7 @@ impl Top {
         Ok(Self::Pair { value, vector })
     }
 
-    fn conformal(node: &Node<'_>, linear: &Matrix) -> Result<Self, Rejected> {
+    fn conformal(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let [_, radius, basis, gram, square] = node.fields(["top", "radius", "basis", "gram", "square"])?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let e = basis.matrix(linear.rows)?;
@@ -155,7 +149,7 @@ impl Top {
     }
 
     /// Enclosures of real vectors that span the image under `view` of the eigenvectors that end the longest chains.
-    pub fn directions(&self, view: &Matrix) -> Result<Vec<Enclosed>, Rejected> {
+    pub fn directions(&self, view: &Matrix) -> Checked<Vec<Enclosed>> {
         match self {
             Self::Real { field, chains } => {
                 let longest = chains.iter().map(|c| c.vectors.len()).max();
@@ -172,7 +166,7 @@ impl Top {
 }
 
 /// Reads a symmetric matrix whose elimination without exchanges has positive pivots only.
-pub fn positive_definite(node: &Node<'_>, n: usize) -> Result<Matrix, Rejected> {
+pub fn positive_definite(node: &Node<'_>, n: usize) -> Checked<Matrix> {
     let matrix = node.matrix(n)?;
     node.need(matrix.rows == n && matrix.transpose() == matrix, "gram", "a symmetric matrix is needed")?;
     let mut rest = matrix.clone();
