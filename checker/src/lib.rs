@@ -146,7 +146,6 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         "certify" => claims::check(&case::read(case, false)?, &proof)?,
         "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
         "solve" => solve::check(case::read(case, true)?, &proof)?,
-        "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
