@@ -23,7 +23,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
             blocks.push(Block::Paragraph(state_line(shape, e)));
         }
         for (i, piece) in state.pieces.iter().enumerate() {
-            let of = (shape.states.len() > 1).then(|| state.name.as_str());
+            let of = (shape.states.len() > 1).then_some(state.name.as_str());
             blocks.push(matrix(operator(i, of), &piece.op));
         }
     }
