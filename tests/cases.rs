@@ -48,7 +48,7 @@ fn compare(case: &Case, found: &Certified) -> Vec<String> {
         wrong.push(format!("verdict {} instead of {:?} {reasons:?}", found.verdict.word(), expect.verdict));
     }
     let contraction = match found.contraction {
-        Contraction::Proved(_) | Contraction::Polytopes(_) => "proved",
+        Contraction::Proved(_) | Contraction::Polytopes(_) | Contraction::Product(_) => "proved",
         Contraction::Refuted { .. } => "refuted",
         Contraction::Undetermined { .. } => "undetermined",
     };

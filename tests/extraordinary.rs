@@ -196,6 +196,15 @@ fn rings_that_are_no_splines() {
     let slow = tension(ratio(1, 100));
     assert_eq!(slow.smooth, Verdict::Undetermined);
     assert!(slow.reason.contains("Lemma 4"), "{}", slow.reason);
+    // Long fractions leave room for short words only, which are enough.
+    assert_eq!(tension(ratio(513, 8192)).smooth, Verdict::Proved);
+    // These do not converge at regular vertices (eigenvalue 1/2 − 6w), or hardly: nothing is claimed.
+    for (w, n) in [(ratio(-1, 4), 5), (ratio(-1, 10), 7), (ratio(6, 179), 8), (ratio(163, 1468), 3)] {
+        let found = at(&MeshRule::Butterfly { w, modified: true }, n);
+        assert_eq!((found.smooth, found.plane), (Verdict::Undetermined, Verdict::Undetermined), "{}", found.reason);
+    }
+    let found = at(&MeshRule::Butterfly { w: ratio(1, 5), modified: false }, 6);
+    assert_eq!(found.injective(), None);
 }
 
 #[test]

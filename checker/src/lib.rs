@@ -144,8 +144,8 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
     let proof = json::Node { place: "proof".to_owned(), ..proof };
     let found = match kind.text()? {
         "certify" => claims::check(&case::read(case, false)?, &proof)?,
-        "solve" => solve::check(case::read(case, true)?, &proof)?,
         "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
+        "solve" => solve::check(case::read(case, true)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),

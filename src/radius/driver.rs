@@ -3,7 +3,7 @@
 
 use super::balanced::{self, Balanced};
 use super::blocks::{Block, Step, flag};
-use super::exact::{LeadingVector, closes, exact_points, grid, rational};
+use super::exact::{LeadingVector, closes, exact_points, grid, polished, rational};
 use super::float::Floats;
 use super::grow::{Grown, Origin, Task, Vertex, grow, missing_axes};
 use super::leading::{Eigenvector, Lower};
@@ -368,6 +368,9 @@ fn by_quadratic(result: &mut BlockProof, square: Option<&Rational>, own: &[&Lowe
     true
 }
 
+/// Relative excess of a bound over the radius up to which the data of a polytope are not computed again with more places.
+const SHARP: f64 = 1e-9;
+
 /// Tries to close the polytope at the radius itself.
 fn at_radius(result: &mut BlockProof, best: &Best, options: &Options) -> Result<(), Vec<usize>> {
     let system = result.block.system.clone();
@@ -403,7 +406,7 @@ fn settle(result: &mut BlockProof, grown: &Grown, best: &Best) {
     let value = best.lower.rational();
     let exact = value.as_ref().and_then(|r| exact_points(system, grown, &result.roots, r));
     let radius = value.clone().unwrap_or_else(|| best.lower.enclosure(64).hi);
-    let polytope = rational(system, grown, &radius, exact.as_deref());
+    let mut polytope = rational(system, grown, &radius, exact.as_deref());
     result.bound = polytope.bound(system);
     let closed = grown.excess <= 1.0;
     result.attains = closed
@@ -411,6 +414,15 @@ fn settle(result: &mut BlockProof, grown: &Grown, best: &Best) {
             Some(r) => result.bound.as_ref() == Some(r),
             None => result.bound.is_some() && closes(system, grown, &polytope, &result.roots, &best.lower),
         };
+    let sharp = result.bound.as_ref().is_some_and(|b| to_f64(b) <= best.float * (1.0 + SHARP));
+    if closed && !sharp && grown.body == Body::Symmetric {
+        // In a thin polytope the rounding of floats costs much.
+        let finer = polished(system, grown, &result.roots, &best.lower);
+        let bound = finer.bound(system);
+        if bound.is_some() && (result.bound.is_none() || bound < result.bound) {
+            (result.bound, polytope) = (bound, finer);
+        }
+    }
     result.proof = Some(Proof::Polytope(polytope));
 }
 
@@ -505,4 +517,41 @@ fn axis_seeds(system: &System, axes: &[(usize, usize)], exponent: u32) -> Vec<Ve
         point: super::exact::axis_point(system.dims[state], axis, exponent).iter().map(to_f64).collect(),
     };
     axes.iter().map(seed).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+    use crate::linalg::Matrix;
+
+    /// The fallback never starts again, and its bounds hold whatever words were found before.
+    #[test]
+    fn norms_only_give_true_bounds() {
+        let matrix = |rows: [[i64; 2]; 2]| {
+            Matrix::from_rows(2, rows.iter().map(|r| r.iter().map(|x| ratio(*x, 1)).collect()).collect())
+        };
+        // The golden pair, once with all its words and once with a word that is not the best; and a pair of radius 1.
+        let golden = [matrix([[1, 1], [0, 1]]), matrix([[1, 0], [1, 1]])];
+        let nilpotent = [matrix([[0, 1], [0, 0]]), matrix([[0, 0], [1, 0]])];
+        for (matrices, path, radius) in [
+            (&golden, vec![0, 1], 1.618_033_988_749),
+            (&golden, vec![0], 1.618_033_988_749),
+            (&nilpotent, vec![0, 1], 1.0),
+        ] {
+            let system = System::plain(matrices).unwrap();
+            let parts: Vec<Block> = flag(&system).into_iter().filter_map(|s| s.block).collect();
+            let value = Floats::of(&system.product(&path)).radius().powf(1.0 / path.len() as f64);
+            let found = vec![vec![Candidate { path: path.clone(), value }]];
+            let answer = without_restart(&system, &parts, &found);
+            let lower = answer.lower.unwrap();
+            assert_eq!(lower.path, path);
+            assert!(to_f64(&lower.enclosure(64).lo) <= radius + 1e-9);
+            let upper = to_f64(&answer.upper.unwrap());
+            assert!((radius - 1e-9..1.6 * radius).contains(&upper), "{path:?}: {upper}");
+            // A claim of equality only where it is true.
+            assert!(!answer.exact || (value - radius).abs() < 1e-9);
+        }
+        assert!(without_restart(&System::plain(&golden).unwrap(), &[], &[]).lower.is_none());
+    }
 }

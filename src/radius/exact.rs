@@ -62,6 +62,56 @@ pub(super) fn rational(system: &System, grown: &Grown, radius: &Rational, exact:
     polytope
 }
 
+/// Binary places of polished polytopes.
+const FINE: u64 = 128;
+
+/// The same symmetric polytope with points and coefficients in many places: points follow their words from exact eigenvectors,
+/// coefficients solve for the points that the floats chose.
+pub(super) fn polished(system: &System, grown: &Grown, roots: &[LeadingVector], radius: &Lower) -> Polytope {
+    let fine = |x: &Rational| Interval::point(x.clone()).outward(FINE).lo;
+    let radius = fine(&radius.enclosure(FINE).hi) + Rational::from(1) / Rational::from(Integer::from(1) << FINE);
+    let mut points: Vec<Point> = Vec::new();
+    let mut inclusions: Vec<Inclusion> = Vec::new();
+    for (k, v) in grown.vertices.iter().enumerate() {
+        let coordinates = match &v.origin {
+            Origin::Root(k) => {
+                roots[*k].vector.enclosure(&roots[*k].lower.root, FINE + 40).iter().map(|x| fine(&x.mid())).collect()
+            }
+            Origin::Axis { axis, exponent } => axis_point(system.dims[v.state], *axis, *exponent),
+            Origin::Image { parent, arrow } => {
+                inclusions.push(Inclusion { point: *parent, arrow: *arrow, terms: vec![(k, radius.clone())] });
+                let image = system.arrows[*arrow].matrix.apply(&points[*parent].coordinates);
+                image.iter().map(|x| fine(&(x / &radius))).collect()
+            }
+        };
+        points.push(Point { state: v.state, coordinates });
+    }
+    for inside in &grown.inside {
+        let image = system.arrows[inside.arrow].matrix.apply(&points[inside.vertex].coordinates);
+        let terms = nearest(&points, &image, &inside.combination).map_or_else(
+            || inside.combination.terms.iter().map(|(k, c)| (*k, grid(*c) * &radius)).collect(),
+            |terms| terms.iter().map(|(k, c)| (*k, fine(c))).collect(),
+        );
+        inclusions.push(Inclusion { point: inside.vertex, arrow: inside.arrow, terms });
+    }
+    let axes = system.dims.iter().enumerate().map(|(state, &dim)| {
+        let solved = solved_axes(grown, &points, state, dim).unwrap_or_default();
+        let short = |unit: Vec<(usize, Rational)>| unit.into_iter().map(|(k, c)| (k, fine(&c))).collect();
+        solved.into_iter().map(short).collect()
+    });
+    let axes = axes.collect();
+    Polytope { body: grown.body, points, inclusions, axes }
+}
+
+/// The combination of the points that floats chose which comes nearest to the image; they may be fewer than coordinates.
+fn nearest(points: &[Point], image: &[Rational], found: &Combination) -> Option<Vec<(usize, Rational)>> {
+    let columns: Vec<Vec<Rational>> = found.terms.iter().map(|(k, _)| points[*k].coordinates.clone()).collect();
+    let a = Matrix::from_columns(image.len(), &columns);
+    let right = &a.transpose() * &Matrix::from_columns(image.len(), &[image.to_vec()]);
+    let c = (&a.transpose() * &a).solve(&right)?.column(0);
+    Some(found.terms.iter().map(|t| t.0).zip(c).collect())
+}
+
 fn include(
     system: &System,
     body: Body,

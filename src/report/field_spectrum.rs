@@ -99,7 +99,11 @@ pub fn text(s: &FieldSpectrum) -> String {
         for e in &class.members {
             let f = s.factor(*e);
             let value = eigenvalue(&s.field, f, e.root);
-            let _ = writeln!(out, "       {value}, multiplicity {}, {}", f.multiplicity, blocks_text(&f.blocks));
+            let shown = format!("       {value}, multiplicity {}, {}", f.multiplicity, blocks_text(&f.blocks));
+            // Long lines go on under the value.
+            let long = shown.chars().count() > super::text::WIDTH;
+            out.push_str(&if long { shown.replacen(" (root", "\n         (root", 1) } else { shown });
+            out.push('\n');
         }
     }
     if s.size > MAX_TEXT_SIZE {

@@ -2,7 +2,7 @@
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
 use super::math::Math;
-use super::mathml::math_element;
+use super::mathml::{inline_elements, math_element};
 use crate::picture;
 
 const STYLE: &str = include_str!("style.css");
@@ -139,14 +139,13 @@ pub fn inline(text: &[Inline]) -> String {
                 out.push_str(&format!("<strong class=\"{}\">{}</strong>", tone_class(*tone), escaped(t)));
             }
             Inline::Math(m) => {
-                let formula = math_element(m, false);
+                let mut pieces = inline_elements(m);
                 let stop = following_stop(text.get(k + 1));
                 taken = stop.len();
-                if stop.is_empty() {
-                    out.push_str(&formula);
-                } else {
-                    out.push_str(&format!("<span class=\"nb\">{formula}{stop}</span>"));
+                if let Some(last) = pieces.last_mut().filter(|_| !stop.is_empty()) {
+                    *last = format!("<span class=\"nb\">{last}{stop}</span>");
                 }
+                out.push_str(&pieces.join(" "));
             }
         }
     }
@@ -197,6 +196,10 @@ mod tests {
     fn a_stop_keeps_to_its_formula() {
         let text = inline(&line("so $x$, and $y$ then", []));
         assert!(text.contains("</math>,</span> and <math>") && text.ends_with("</math> then"), "{text}");
+        // Long tuples may be broken after commas.
+        let tuple = Math::tuple((1..9).map(Math::count).collect());
+        let text = inline(&line("$q=@$.", [tuple]));
+        assert!(text.matches("</math> ").count() == 7 && text.ends_with("</math>.</span>"), "{text}");
     }
 
     #[test]

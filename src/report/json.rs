@@ -169,6 +169,10 @@ fn contraction(c: &Contraction) -> Value {
             "vertices": proof.count(),
             "constant": proof.constant.to_string(),
         }),
+        Contraction::Product(proof) => json!({
+            "verdict": "proved",
+            "factors": proof.factors.iter().map(contraction).collect::<Vec<_>>(),
+        }),
         Contraction::Refuted { state, word } => {
             json!({ "verdict": "refuted", "state": state, "word": word_text(word) })
         }

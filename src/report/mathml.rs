@@ -10,6 +10,30 @@ pub fn math_element(math: &Math, block: bool) -> String {
     format!("<math{display}>{}</math>", element(math))
 }
 
+/// Tuples with at least so many commas may be broken over lines.
+const MANY: usize = 5;
+
+/// A formula within a line, as one element, or as several that end with commas where it is a long tuple.
+#[must_use]
+pub fn inline_elements(math: &Math) -> Vec<String> {
+    let mut parts = Vec::new();
+    flatten(math, &mut parts);
+    let comma = |m: &&Math| matches!(m, Math::Symbol(','));
+    if parts.iter().filter(|m| comma(m)).count() < MANY {
+        return vec![math_element(math, false)];
+    }
+    let pieces = parts.split_inclusive(comma);
+    pieces.map(|piece| format!("<math><mrow>{}</mrow></math>", row(piece))).collect()
+}
+
+/// The parts of rows within rows.
+fn flatten<'a>(math: &'a Math, out: &mut Vec<&'a Math>) {
+    match math {
+        Math::Row(parts) => parts.iter().for_each(|part| flatten(part, out)),
+        other => out.push(other),
+    }
+}
+
 fn element(math: &Math) -> String {
     match math {
         Math::Number(x) => number(x),
@@ -17,7 +41,7 @@ fn element(math: &Math) -> String {
         Math::Letter(c) => format!("<mi>{}</mi>", escaped(&c.to_string())),
         Math::Word(word) => format!("<mi mathvariant=\"normal\">{}</mi>", escaped(word)),
         Math::Symbol(c) => symbol(*c),
-        Math::Row(parts) => format!("<mrow>{}</mrow>", row(parts)),
+        Math::Row(parts) => format!("<mrow>{}</mrow>", row(&parts.iter().collect::<Vec<_>>())),
         Math::Script { base, sub, sup } => {
             let base = element(base);
             match (sub, sup) {
@@ -38,7 +62,7 @@ fn element(math: &Math) -> String {
 }
 
 /// The parts of a row: signs are told from operations, and names such as `dim` keep a distance.
-fn row(parts: &[Math]) -> String {
+fn row(parts: &[&Math]) -> String {
     let kind = |m: &Math| match m {
         Math::Symbol(c) => spacing(*c),
         _ => Spacing::Tight,
@@ -49,8 +73,8 @@ fn row(parts: &[Math]) -> String {
         _ => false,
     };
     let mut out = String::new();
-    for (k, part) in parts.iter().enumerate() {
-        let before = k.checked_sub(1).map(|j| &parts[j]);
+    for (k, &part) in parts.iter().enumerate() {
+        let before = k.checked_sub(1).map(|j| parts[j]);
         // Names keep a distance from what follows, and from a number before them.
         let after_number = name(part) && matches!(before, Some(Math::Digits(_) | Math::Number(_)));
         if before.is_some_and(name) && !matches!(part, Math::Symbol(_)) || after_number {

@@ -125,8 +125,8 @@ pub fn regularity(r: &Regularity) -> String {
 fn condition(out: &mut String, arity: usize) {
     let _ = writeln!(
         out,
-        "condition   JSR < {arity}^-m on the differences of order m+1 gives C^m (for arity 2 that of Levin and Levin: \
-         JSR < 2^-m for C^m)"
+        "condition   JSR < {arity}^-m on the differences of order m+1 gives C^m\n            \
+         (for arity 2 that of Levin and Levin: JSR < 2^-m for C^m)"
     );
 }
 
@@ -161,28 +161,35 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
         out.push_str("note        this is about the curve before the projection by the control points\n");
     }
     condition(&mut out, r.pieces);
-    out.push_str("k   dimensions   JSR on the differences of derivatives   bound      joint equation   C^k   word\n");
+    out.push_str("k   dims      JSR on differences of derivatives  bound    joints  C^k    word\n");
+    let mut notes = String::new();
     for o in &r.orders {
         let radius = o.enclosure.as_ref().map_or_else(|| "-".to_owned(), interval);
         let joint = match &o.joints {
             None => "-".to_owned(),
             Some(JointEquation::Holds) => "holds".to_owned(),
-            Some(JointEquation::Fails { state, right, .. }) if shape.states.len() > 1 => {
-                format!("fails before piece {right} of state {}", shape.states[*state].name)
+            Some(JointEquation::Fails { state, right, .. }) => {
+                let of = if shape.states.len() > 1 {
+                    format!(" of state {}", shape.states[*state].name)
+                } else {
+                    String::new()
+                };
+                let _ = writeln!(notes, "joints      the equation of order {} fails before piece {right}{of}", o.order);
+                "fail".to_owned()
             }
-            Some(JointEquation::Fails { right, .. }) => format!("fails before piece {right}"),
         };
         let word = match o.smooth {
             Some(true) => "yes",
             Some(false) => "no",
-            None => "not by this condition",
+            None => "open",
         };
         let letters = o.radius.as_ref().and_then(|r| r.lower.as_ref()).map(|l| l.word.clone());
         let letters = letters.map_or_else(|| "-".to_owned(), |w| word_text(&w));
         let dims = format!("{:?}", o.dims);
         let threshold = o.threshold.to_string();
-        let _ = writeln!(out, "{:<3} {dims:<12} {radius:<39} {threshold:<10} {joint:<16} {word:<5} {letters}", o.order);
+        let _ = writeln!(out, "{:<3} {dims:<9} {radius:<34} {threshold:<8} {joint:<7} {word:<6} {letters}", o.order);
     }
+    out.push_str(&notes);
     let k = r.smoothness();
     if r.polynomial {
         out.push_str("smoothness  the curve is a polynomial in the parameter\n");

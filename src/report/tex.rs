@@ -18,7 +18,7 @@ pub fn math_tex(math: &Math) -> String {
         Math::Digits(text) => text.replace('−', "-").replace('…', "\\ldots ").replace('½', "\\tfrac12 "),
         Math::Letter('|') | Math::Symbol('|') => "\\vert ".to_owned(),
         Math::Letter(c) | Math::Symbol(c) => latex(*c).map_or_else(|| plain(*c), spaced),
-        Math::Word(word) if matches!(word.as_str(), "dim" | "ln" | "max" | "min" | "ker" | "det") => {
+        Math::Word(word) if matches!(word.as_str(), "dim" | "ln" | "max" | "min" | "ker" | "det" | "cos") => {
             format!("\\{word} ")
         }
         Math::Word(word) => {

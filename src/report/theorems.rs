@@ -265,7 +265,7 @@ pub const THEOREMS: &[Theorem] = &[
     },
     Theorem {
         id: "lemma-4",
-        name: "Lemma 4 (limits of schemes that are no splines)",
+        name: "Lemma 4 (limits of schemes without Bézier patches)",
         body: "Let a rule on a regular lattice make it $N$ times finer with each step, keep linear functions, and be symmetric under half a turn. Let $Ω$ be \
                the points that determine a cell and its parts, $T_s$ the map of nets on $Ω$ to the part $s$, which lies upside down if $σ_s=-1$, $F p$ the slopes of \
                the linear fit of a net $p$ at the corners, and $D(p)$ the largest absolute second difference of $p$ in $Ω$. If for some $k$ the number \
@@ -282,7 +282,7 @@ pub const THEOREMS: &[Theorem] = &[
         body: "Let $λ≠0$ be real, alone in the largest modulus below 1 with Jordan blocks as long as its longest, and let it have exactly one of \
                them in each of the Fourier blocks 1 and $n-1$, $n≥3$. If the Jacobian determinant of the characteristic map $Ψ$ has one strict sign on the \
                ring $K$, and a functional is positive on the image of a sector, then for almost all control points the surface is a C¹ \
-               manifold at the vertex, and $Ψ$ is injective. (The scheme is symmetric, with spline rings that are C¹.)",
+               manifold at the vertex, and $Ψ$ is injective. (The scheme is symmetric, with rings of C¹ functions that form a space of finite dimension: splines, or by Lemma 4.)",
         proof: "In ring $m$ the surface is $p+C(m,ℓ) λ^{m-ℓ}(AΨ+o(1))$ with $A$ injective and $o(1)$ in C¹, so the normals converge. The \
                 projection to the limit plane is a local homeomorphism of the late rings that avoids $p$, and proper, hence a covering of a punctured disc; its degree is \
                 the winding number of a boundary, 1 by Lemma 3. So the surface is a graph over its tangent plane.",

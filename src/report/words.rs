@@ -368,6 +368,14 @@ pub fn contraction(c: &Contraction) -> Line {
             ),
             [short_bound(&proof.constant)],
         ),
+        Contraction::Product(proof) => {
+            let mut text = words("proved for both curves whose tensor product the surface is: ");
+            for (k, factor) in proof.factors.iter().enumerate() {
+                text.extend(words(["the first: ", "; the second: "][k.min(1)]));
+                text.extend(contraction(factor));
+            }
+            text
+        }
         Contraction::Refuted { word, .. } => {
             line(&format!("refuted: the cycle `{}` has spectral radius at least 1", word_text(word)), [])
         }

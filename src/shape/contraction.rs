@@ -27,6 +27,17 @@ pub struct Contracting {
     pub constant: Rational,
 }
 
+/// Why a tensor product of two curves contracts, and where its attractor lies.
+#[derive(Debug, Clone)]
+pub struct ProductContraction {
+    /// The findings on the two curves.
+    pub factors: Box<[Contraction; 2]>,
+    /// A point of the attractor.
+    pub centre: Vec<Rational>,
+    /// The attractor lies within this distance of it in the 1-norm.
+    pub radius: Rational,
+}
+
 /// The answer to the question whether a system contracts.
 #[derive(Debug, Clone)]
 pub enum Contraction {
@@ -34,6 +45,8 @@ pub enum Contraction {
     Proved(Contracting),
     /// It does, by polytopes.
     Polytopes(Polytopes),
+    /// It does, because both curves do whose tensor product it is.
+    Product(ProductContraction),
     /// It does not: a cycle whose linear part has spectral radius at least 1.
     Refuted {
         /// The state of the cycle.
@@ -140,7 +153,7 @@ impl Contraction {
     /// Whether the system was proved to contract.
     #[must_use]
     pub fn is_proved(&self) -> bool {
-        matches!(self, Self::Proved(_) | Self::Polytopes(_))
+        matches!(self, Self::Proved(_) | Self::Polytopes(_) | Self::Product(_))
     }
 }
 

@@ -27,6 +27,13 @@ impl Balls {
                 }
                 Some(Self { radius, hulls: Some(proof.vertices.clone()), simplex: false })
             }
+            Contraction::Product(proof) => {
+                let mut radius = vec![Rational::from(0); shape.states.len()];
+                for e in shape.reachable() {
+                    radius[e] = round_up(&(&proof.radius + norm1(&difference(&spaces.of(e).base, &proof.centre))));
+                }
+                Some(Self { radius, hulls: None, simplex: false })
+            }
             Contraction::Refuted { .. } | Contraction::Undetermined { .. } => None,
         }
     }

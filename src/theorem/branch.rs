@@ -127,11 +127,23 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
 
 /// Marks the pieces that fall into `q` as a whole (Lemma 2).
 fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
-    let falls = &power(linear, linear.rows()) * chart;
+    let falls = &invertible_rows(linear) * chart;
     for piece in ring {
         let space = cx.spaces.of(piece.end);
         let point = falls.apply(&difference(&piece.op.apply(&space.base), fixed));
         piece.collapses = point.iter().all(|x| *x == 0) && (&falls * &(&piece.op * &space.basis)).is_zero();
+    }
+}
+
+/// The reduced rows of all large powers: a vector is in the generalised kernel where they vanish on it.
+fn invertible_rows(m: &Matrix) -> Matrix {
+    let mut rows = Matrix::identity(m.rows());
+    loop {
+        let next = (&rows * m).echelon().rows;
+        if next.rows() == rows.rows() {
+            return rows;
+        }
+        rows = next;
     }
 }
 
@@ -459,7 +471,7 @@ impl Analysis<'_> {
 
 /// The rows that vanish on the generalised kernel of `linear` (theory §3, Isolation): all coordinates where it is invertible.
 pub(super) fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
-    let rows = power(linear, linear.rows()).echelon().rows;
+    let rows = invertible_rows(linear);
     (0..rows.rows()).map(|k| Functional::rational(rows.row(k))).collect()
 }
 

@@ -283,3 +283,19 @@ fn determinant(m: &Matrix) -> Rational {
     }
     det
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::to_f64;
+
+    /// The polytopes of db8 and db9 are so thin that coefficients of 50 places bound nothing well.
+    #[test]
+    fn thin_polytopes_are_computed_with_more_places() {
+        for (moments, exponent) in [(8, 2.760_818_386_681), (9, 3.073_614_880_692)] {
+            let found = wavelet(moments, &Options::default()).unwrap();
+            assert!((to_f64(&found.exponent.lo) - exponent).abs() < 1e-9, "{moments}: {}", to_f64(&found.exponent.lo));
+            assert!(to_f64(&found.exponent.width()) < 1e-9, "{moments}: {}", to_f64(&found.exponent.width()));
+        }
+    }
+}

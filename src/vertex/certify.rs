@@ -5,6 +5,7 @@ use super::cosine::{gcd, minimal_polynomial};
 use super::field::{Enclosures, Field, Fixed};
 use super::limit::{self, Ring};
 use super::net::{Net, Signs};
+use super::regular::Regular;
 use super::ring::{self, Values, jacobian, patches};
 use super::top::{Top, TopError, leading_value, leading_values, top};
 use super::turning::{Rotation, Turning};
@@ -84,7 +85,9 @@ impl AtValence {
     #[must_use]
     pub fn injective(&self) -> Option<bool> {
         match (self.regular(), self.frequency, self.winding) {
-            (_, Some(k), _) if k != 1 => Some(false),
+            // A pair of blocks other than 1 and n − 1; in the blocks 0 and n/2 there is no characteristic map.
+            (_, Some(k), _) if k > 1 && 2 * k < self.valence => Some(false),
+            (_, Some(k), _) if k != 1 => None,
             (Some(false), _, _) => Some(false),
             (Some(true), Some(1), Some(1)) => Some(true),
             _ => None,
@@ -158,6 +161,11 @@ impl Judge<'_> {
             self.no_limit(lo >= 1 || hi <= -1);
             return;
         }
+        if !self.found.polynomial && Regular::of(&self.vertex.rule).is_none() {
+            "whether the scheme converges away from the vertex is not known: no bounds of its regular rule were found (Lemma 4)"
+                .clone_into(&mut self.found.reason);
+            return;
+        }
         let (length, dimension) = self.top.longest(n);
         let leading: Vec<(usize, bool)> = self.top.leading(n).iter().map(|m| (m.frequency, m.negative)).collect();
         let name = if length > 1 { format!("{length}×{length} Jordan blocks") } else { "eigenvectors".to_owned() };
@@ -188,16 +196,16 @@ impl Judge<'_> {
         self.found.reason = reason;
     }
 
-    /// An eigenvalue beside the simple 1 that is not smaller: the theorems ask for rings that shrink to a point.
+    /// An eigenvalue besides 1, counted once, that is not smaller: the theorems ask for rings that shrink to a point.
     fn no_limit(&mut self, certain: bool) {
         if certain {
             self.refute(
-                "an eigenvalue beside the simple 1 has modulus 1 or more: for almost all control points the rings do not \
+                "besides 1, counted once, an eigenvalue has modulus 1 or more: for almost all control points the rings do not \
                  shrink to a point (theory §10.1)"
                     .to_owned(),
             );
         } else {
-            "an eigenvalue beside the simple 1 is not proved to be smaller than 1 in modulus"
+            "besides 1, counted once, an eigenvalue is not proved to be smaller than 1 in modulus"
                 .clone_into(&mut self.found.reason);
         }
     }
@@ -237,7 +245,7 @@ impl Judge<'_> {
         self.found.plane = Verdict::Undetermined;
     }
 
-    /// The ring of the leading eigenvector of block `k` for a scheme that is no spline.
+    /// The ring of the leading eigenvector of block `k` for a scheme without Bézier patches.
     fn ring(&self, k: usize, bits: u64) -> Option<Ring> {
         let (field, values) = self.values(k, bits)?;
         Ring::new(self.vertex, &field, &values, &leading_value(self.vertex, self.blocks, self.top, k, bits)?)
@@ -344,7 +352,7 @@ impl Judge<'_> {
         self.known(signs)
     }
 
-    /// The same for a scheme that is no spline, from enclosures.
+    /// The same for a scheme without Bézier patches, from enclosures.
     fn enclosed(&mut self, k: usize, bits: u64) -> bool {
         let Some(ring) = self.ring(k, bits) else { return false };
         let field = Enclosures::of_angle(k, self.vertex.valence, bits);

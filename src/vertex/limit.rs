@@ -1,4 +1,4 @@
-//! The ring of a scheme that is no spline: enclosures of the limit and its derivatives on cells that are divided until
+//! The ring of a scheme without Bézier patches: enclosures of the limit and its derivatives on cells that are divided until
 //! signs are certain (docs/theory.md, Lemma 4).
 //!
 //! The ring of a sector are the cells at distances `r` to `N r` from the centre; their points lie at distance 1 and more,

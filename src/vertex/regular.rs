@@ -1,4 +1,4 @@
-//! Schemes that are no splines on a regular mesh: how far a limit and its derivatives can be from the control points of a
+//! Schemes without Bézier patches on a regular mesh (butterfly and √3 are no splines; 4-8 is treated like them): how far a limit and its derivatives can be from the control points of a
 //! cell (docs/theory.md, Lemma 4).
 //!
 //! A cell is a triangle or a square of the lattice; its points are those that decide the surface above it. One step (or
@@ -410,51 +410,56 @@ impl<'a> Bounds<'a> {
         (0..by_column[0].len()).map(|f| by_column.iter().map(|c| c[f]).collect()).collect()
     }
 
-    /// Bounds for slope and value, in units of `2^-BOUND_PLACES`, rounded up.
-    fn found(&self) -> Option<(i128, i128)> {
+    /// How much the words of one length shrink second differences, and how far slopes and values move by them: all in the
+    /// units of [`Self::norm`], products of steps being too large by `unit`, and by `size` beside.
+    fn measure(&self, words: &[Word], unit: i128, size: i128) -> Option<[Integer; 3]> {
         let r = self.regular;
         let start = self.first();
         let slopes = Self::along(&start, |v| r.slopes(v).to_vec());
         let fit = Self::along(&start, |v| r.fit(v));
         let (slope_scale, value_scale) = r.scales();
-        let mut words = vec![start];
+        let ratio = value_scale / slope_scale;
+        let second = |v: &[i128]| r.differences.iter().map(|[a, b, c, d]| v[*a] - v[*b] - v[*c] + v[*d]).collect();
+        let change = |new: &[Vec<i128>], old: &[Vec<i128>], sign: i128| -> Vec<Vec<i128>> {
+            let row =
+                |(new, old): (&Vec<i128>, &Vec<i128>)| new.iter().zip(old).map(|(x, y)| sign * x - unit * y).collect();
+            new.iter().zip(old).map(row).collect()
+        };
+        let mut worst = [0, 0, 0].map(Integer::from);
+        for word in words {
+            let at = |corner: &Place| {
+                let p = place(&(word.origin, word.sign), *corner);
+                let (x, y) = (i128::from(p.0) * ratio, i128::from(p.1) * ratio);
+                (0..r.points.len()).map(|j| size * fit[0][j] + x * slopes[0][j] + y * slopes[1][j]).collect()
+            };
+            let old: Vec<Vec<i128>> = r.corners().iter().map(at).collect();
+            let sets = [
+                Self::along(word, second),
+                change(&Self::along(word, |v| r.slopes(v).to_vec()), &slopes, i128::from(word.sign)),
+                change(&Self::along(word, |v| r.fit(v)), &old, 1),
+            ];
+            for (worst, rows) in worst.iter_mut().zip(sets) {
+                *worst = self.worst(rows)?.max(worst.clone());
+            }
+        }
+        Some(worst)
+    }
+
+    /// Bounds for slope and value, in units of `2^-BOUND_PLACES`, rounded up.
+    fn found(&self) -> Option<(i128, i128)> {
+        let r = self.regular;
+        let (slope_scale, value_scale) = r.scales();
+        let mut words = vec![self.first()];
         let (mut unit, mut size) = (1_i128, 1_i128);
         let mut best = None;
         let mut most = MAX_WORDS[1];
         while words.len() * r.parts.len() <= most {
             let longer: Option<Vec<Vec<Word>>> = words.iter().map(|w| self.longer(w)).collect();
-            words = longer?.into_iter().flatten().collect();
-            // Products are too large by the factor `unit`, and by N^length beside; the latter belongs to slopes.
-            unit = unit.checked_mul(r.denominator).filter(|u| u.unsigned_abs() >> MAX_BITS == 0)?;
-            size = size.checked_mul(i128::from(r.factor))?;
-            let (mut shrink, mut slope, mut value) = (Integer::from(0), Integer::from(0), Integer::from(0));
-            for word in &words {
-                let second = |v: &[i128]| {
-                    r.differences.iter().map(|[a, b, c, d]| v[*a] - v[*b] - v[*c] + v[*d]).collect::<Vec<_>>()
-                };
-                shrink = shrink.max(self.worst(Self::along(word, second))?);
-                let sign = i128::from(word.sign);
-                let moved = Self::along(word, |v| r.slopes(v).to_vec());
-                slope = slope.max(
-                    self.worst(
-                        moved
-                            .iter()
-                            .zip(&slopes)
-                            .map(|(new, old)| new.iter().zip(old).map(|(x, y)| sign * x - unit * y).collect()),
-                    )?,
-                );
-                let at = |corner: &Place| {
-                    let p = place(&(word.origin, word.sign), *corner);
-                    let ratio = value_scale / slope_scale;
-                    let (x, y) = (i128::from(p.0) * ratio, i128::from(p.1) * ratio);
-                    (0..r.points.len()).map(|j| size * fit[0][j] + x * slopes[0][j] + y * slopes[1][j]).collect()
-                };
-                let moved = Self::along(word, |v| r.fit(v));
-                let old: Vec<Vec<i128>> = r.corners().iter().map(at).collect();
-                value = value.max(self.worst(
-                    moved.iter().zip(&old).map(|(new, old)| new.iter().zip(old).map(|(x, y)| x - unit * y).collect()),
-                )?);
-            }
+            let product = unit.checked_mul(r.denominator).filter(|u| u.unsigned_abs() >> MAX_BITS == 0);
+            let (Some(longer), Some(product)) = (longer, product) else { break };
+            words = longer.into_iter().flatten().collect();
+            (unit, size) = (product, size * i128::from(r.factor));
+            let Some([shrink, slope, value]) = self.measure(&words, unit, size) else { break };
             let part = |x: &Integer, by: i128| {
                 Rational::from(x) / Rational::from(Integer::from(unit) << PLACES) / Rational::from(Integer::from(by))
             };

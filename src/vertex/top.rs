@@ -362,7 +362,7 @@ fn tied(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], guesses: &[Guess], 
     };
     let value = simplest_near(&from_float(mean), &ratio(1, 100_000));
     let others = from_float(f64::midpoint(mean, next));
-    if value <= 0 || value >= 1 {
+    if value <= 0 || value >= 1 || others >= value {
         return Err(open());
     }
     let mut counts = vec![[0_usize; 2]; blocks.len()];

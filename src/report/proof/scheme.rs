@@ -23,7 +23,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
             blocks.push(Block::Paragraph(state_line(shape, e)));
         }
         for (i, piece) in state.pieces.iter().enumerate() {
-            let of = (shape.states.len() > 1).then(|| state.name.as_str());
+            let of = (shape.states.len() > 1).then_some(state.name.as_str());
             blocks.push(matrix(operator(i, of), &piece.op));
         }
     }
@@ -32,8 +32,11 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
         blocks.push(matrix(Math::Letter('P'), control));
     }
     blocks.push(Block::heading(2, "Contraction"));
-    let by_polytopes = matches!(found.contraction, Contraction::Polytopes(_));
-    blocks.extend(seen.once_id(if by_polytopes { "lemma-1-prime" } else { "lemma-1" }));
+    let by = |c: &Contraction| if matches!(c, Contraction::Polytopes(_)) { "lemma-1-prime" } else { "lemma-1" };
+    match &found.contraction {
+        Contraction::Product(proof) => proof.factors.iter().for_each(|c| blocks.extend(seen.once_id(by(c)))),
+        one => blocks.extend(seen.once_id(by(one))),
+    }
     let mut result = words("Here contraction is ");
     result.extend(contraction(&found.contraction));
     result.extend(words("."));

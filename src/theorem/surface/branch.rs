@@ -33,6 +33,8 @@ pub struct Setting<'a> {
     pub complex: &'a Complex,
     /// Their parameters, where the complex has them.
     pub chart: Option<&'a Chart<'a>>,
+    /// Whether the theorem on products decides as well, so that large patches get a smaller budget here.
+    pub quick: bool,
 }
 
 /// Examines the branch `address` from the root state.
@@ -175,14 +177,19 @@ impl Analysis<'_> {
         }
     }
 
+    /// How many rows may be carried to cells.
+    fn rows(&self) -> usize {
+        if self.setting.quick { MAX_ROWS / 16 } else { MAX_ROWS }
+    }
+
     fn decide(&self, functionals: &[Functional]) -> RingAnswer {
-        let answer = self.ring().decide(functionals, MAX_ROWS);
+        let answer = self.ring().decide(functionals, self.rows());
         if self.branch.relevant > 2 || !matches!(answer, RingAnswer::Open { .. }) {
             return answer;
         }
         let cx = &self.setting.cx;
         match cx.hulls.get_or_init(|| cx.balls.with_hulls(cx.shape, cx.spaces)) {
-            Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, MAX_ROWS),
+            Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, self.rows()),
             None => answer,
         }
     }
@@ -445,6 +452,8 @@ impl Analysis<'_> {
                 let ring = Ring { pieces: &pieces, ..self.ring() };
                 ring.sign_change_on_piece(only, SIGN_CELLS).map(SurfaceWitness::SignChange)
             }
+            // The theorem on products needs no path.
+            [_, _] if self.setting.quick => None,
             [a, b] => {
                 let pair = [a.clone(), b.clone()];
                 winding(chart, self.setting.complex, &self.ring(), &pair).map(SurfaceWitness::Winding)

@@ -20,9 +20,12 @@ use super::{
     Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, decide_contraction, state_report,
     without_contraction,
 };
-use crate::shape::{Address, Balls, CellKind, Complex, Spaces};
+use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};
 use branch::{Setting, examine};
 use place::Chart;
+
+/// Products of more coordinates have a smaller budget for the general ring condition.
+const LARGE_PRODUCT: usize = 16;
 
 /// Certifies a surface: the tangent plane at the vertices of the first level, at the addresses, and at a dense set.
 ///
@@ -42,7 +45,10 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     }
     shape.check()?;
     complex.check()?;
-    let (contraction, norm) = decide_contraction(shape)?;
+    let product = tensor::Product::of(complex);
+    let (words, norm) = decide_contraction(shape)?;
+    let by_factors = product.as_ref().map(|p| Contraction::Product(p.contraction()));
+    let contraction = if words.is_proved() { words } else { by_factors.unwrap_or(words) };
     if !contraction.is_proved() {
         return Ok(without_contraction(&contraction, norm));
     }
@@ -54,7 +60,8 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     let hulls = std::cell::OnceCell::new();
     let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
     let chart = Chart::new(complex);
-    let setting = Setting { cx, complex, chart: chart.as_ref().ok() };
+    let quick = product.is_some() && shape.states[shape.start].dim > LARGE_PRODUCT;
+    let setting = Setting { cx, complex, chart: chart.as_ref().ok(), quick };
     let mut asked = Vec::new();
     for address in addresses {
         asked.push(address.normalise(shape, shape.start)?);
@@ -69,7 +76,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     };
     let start_is_face = shape.states[shape.start].kind == CellKind::Face;
     if start_is_face && let Ok(chart) = &chart {
-        parametrised(&setting, chart, &asked, &mut surface, &mut found.claims);
+        parametrised(&setting, chart, product.as_ref(), &asked, &mut surface, &mut found.claims);
     } else {
         branches_only(&setting, &asked, &mut surface, &mut found.claims);
     }
@@ -79,22 +86,28 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
 }
 
 /// The claims on a patch with parameters: the vertices of the first level, the dense set, and the addresses.
-fn parametrised(setting: &Setting, chart: &Chart, asked: &[Address], surface: &mut Surface, claims: &mut Vec<Claim>) {
+fn parametrised(
+    setting: &Setting,
+    chart: &Chart,
+    product: Option<&tensor::Product>,
+    asked: &[Address],
+    surface: &mut Surface,
+    claims: &mut Vec<Claim>,
+) {
     let start = setting.cx.root;
-    let product = tensor::Product::of(setting.complex);
     let mut vertices = Vec::new();
     for param in chart.nodes(start, 1) {
-        vertices.extend(add_point(setting, chart, &param, None, product.as_ref(), surface));
+        vertices.extend(add_point(setting, chart, &param, None, product, surface));
     }
     claims.push(together(
         "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)",
         &vertices,
         surface,
     ));
-    dense::claim(setting, chart, product.as_ref(), surface, claims);
+    dense::claim(setting, chart, product, surface, claims);
     for address in asked {
         let Some(param) = chart.locate(start, address) else { continue };
-        if let Some(index) = add_point(setting, chart, &param, Some(address), product.as_ref(), surface) {
+        if let Some(index) = add_point(setting, chart, &param, Some(address), product, surface) {
             let text = format!("the parametrised surface has a tangent plane at the address {address}");
             claims.push(claim(text, &surface.points[index], (address, index)));
         }

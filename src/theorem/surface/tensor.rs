@@ -6,7 +6,7 @@ use super::verdict::{ProductEvidence, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::shape::{Address, Balls, CellKind, Complex, Layout, Shape, Spaces};
+use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{Context, Dimension, Direction, PointReport, Statement, Verdict, decide_contraction, point};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 /// A curve ready for examining points, with those examined so far.
 struct Factor {
     shape: Shape,
+    contraction: Contraction,
     spaces: Spaces,
     balls: Balls,
     hulls: OnceCell<Option<Balls>>,
@@ -29,7 +30,20 @@ impl Factor {
         let spaces = Spaces::new(shape)?;
         let moves = shape.reachable().into_iter().all(|e| spaces.of(e).basis.cols() > 0);
         let balls = Balls::of(shape, &spaces, &found)?;
-        moves.then(|| Self { shape: shape.clone(), spaces, balls, hulls: OnceCell::new(), known: RefCell::default() })
+        moves.then(|| Self {
+            shape: shape.clone(),
+            contraction: found,
+            spaces,
+            balls,
+            hulls: OnceCell::new(),
+            known: RefCell::default(),
+        })
+    }
+
+    /// A point of the curve, its 1-norm, and the radius of a ball about it that holds the curve.
+    fn ball(&self) -> (&[Rational], Rational, &Rational) {
+        let base = &self.spaces.of(self.shape.start).base;
+        (base, norm1(base), self.balls.radius(self.shape.start))
     }
 
     fn point(&self, address: &Address) -> Option<PointReport> {
@@ -57,6 +71,16 @@ impl Product {
     pub fn of(complex: &Complex) -> Option<Self> {
         let (first, second) = factors(complex)?;
         Some(Self { first: Factor::new(&first)?, second: Factor::new(&second)? })
+    }
+
+    /// Why the product contracts, and a ball that holds it: `|x ⊗ y − a ⊗ b| ≤ |x − a| |y| + |a| |y − b|`.
+    pub fn contraction(&self) -> ProductContraction {
+        let ((a, size, r), (b, other, s)) = (self.first.ball(), self.second.ball());
+        ProductContraction {
+            factors: Box::new([self.first.contraction.clone(), self.second.contraction.clone()]),
+            centre: a.iter().flat_map(|x| b.iter().map(move |y| x * y)).collect(),
+            radius: r * (other + s) + size * s,
+        }
     }
 
     /// The theorem at the point with an address; `view` is the matrix of the control points (or the identity).
