@@ -6,7 +6,8 @@ use assert_cmd::Command;
 use corpus::case_files;
 use secant::arith::{Rational, ratio};
 use secant::case::{Case, ExpectSolve};
-use secant::shape::{Complex, Family, OpName, Solution};
+use secant::certificate::solve_certificate;
+use secant::shape::{Complex, Family, OpName, Problem, Solution};
 use std::path::Path;
 
 fn root() -> &'static Path {
@@ -22,7 +23,9 @@ fn every_case_is_solved_as_its_file_expects() {
         let case = Case::read_open(&path).unwrap();
         let expect = case.expect.as_ref().and_then(|e| e.solve.as_ref()).unwrap();
         let problem = case.unknowns().unwrap();
-        match problem.solve().unwrap() {
+        let solution = problem.solve().unwrap();
+        certified(&case, &problem, &solution);
+        match solution {
             Solution::None(conflict) => {
                 let found: Vec<String> = conflict.iter().map(|s| case.complex().source_text(s)).collect();
                 assert_eq!((expect.solutions.as_str(), expect.conflict.as_ref()), ("none", Some(&found)), "{path:?}");
@@ -40,6 +43,23 @@ fn every_case_is_solved_as_its_file_expects() {
             }
         }
     }
+}
+
+/// The checker comes to the same solutions; of faces there is no certificate.
+fn certified(case: &Case, problem: &Problem, solution: &Solution) {
+    let certificate = match solve_certificate(case, problem, solution) {
+        Ok(certificate) => certificate.text(),
+        Err(error) => return assert!(!case.complex().faces.is_empty(), "{}: {error}", case.name),
+    };
+    let accepted = secant_check::check(&case.text.text, &certificate).unwrap_or_else(|r| panic!("{}: {r}", case.name));
+    let (word, tail) = match solution {
+        Solution::None(_) => ("refuted", "contradict each other".to_owned()),
+        Solution::One(_) => ("proved", "they are determined".to_owned()),
+        Solution::Family(f) => ("proved", format!("they form a family of {} parameters", f.parameters.len())),
+    };
+    assert!(accepted.verdict.word() == word && accepted.claims[0].ends_with(&tail), "{:?}", accepted.claims);
+    let other = certificate.replacen("\"one\"", "\"family\"", 1).replacen("\"none\"", "\"one\"", 1);
+    assert!(other == certificate || secant_check::check(&case.text.text, &other).is_err(), "{}", case.name);
 }
 
 fn forced(family: &Family, expect: &ExpectSolve, operators: &[OpName]) {
@@ -87,6 +107,12 @@ fn a_solution_is_written_and_can_be_certified() {
     let settings = ["--set", "p1=-1/4", "--set", "p2=1/2", "--output", file];
     let (out, _) = secant(&[&["solve", "cases/solve/curve-3-2.toml"][..], &settings[..]].concat(), 0);
     assert!(out.contains("2 free parameters") && out.contains("p1 = T_0[v](1,0)") && out.contains("1-p1"), "{out}");
+    // The certificate is about all members, whichever is written.
+    let certificate = dir.path().join("curve.json");
+    secant(&["solve", "cases/solve/curve-3-2.toml", "--quiet", "--certificate", certificate.to_str().unwrap()], 0);
+    assert!(std::fs::read_to_string(certificate).unwrap().contains("\"solutions\": \"family\""));
+    let (_, error) = secant(&["solve", "cases/solve/bicubic-face.toml", "--certificate", file], 2);
+    assert!(error.contains("faces"), "{error}");
     let (out, _) = secant(&["certify", file], 0);
     assert!(out.contains("cusp"), "{out}");
     let case = Case::read(&path).unwrap();

@@ -1,7 +1,7 @@
 //! A strict JSON reader: no floats, no negative integers, no repeated keys, and the fields of every object in their order.
 
 use crate::matrix::Matrix;
-use crate::number::{Q, canonical};
+use crate::number::{Q, canonical, charge};
 use crate::{Checked, reject};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
@@ -30,6 +30,14 @@ impl<'de> Deserialize<'de> for Json {
     }
 }
 
+/// Most fields of an object; none in the format has more.
+const MAX_FIELDS: usize = 16;
+
+/// A certificate has at most a million values, as each takes its share of the budget.
+fn room<E: Error>() -> Result<(), E> {
+    if charge(250, 0) { Ok(()) } else { Err(E::custom("too many values")) }
+}
+
 struct Reader;
 
 impl<'de> Visitor<'de> for Reader {
@@ -50,6 +58,7 @@ impl<'de> Visitor<'de> for Reader {
     fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Json, A::Error> {
         let mut list = Vec::new();
         while let Some(item) = items.next_element()? {
+            room()?;
             list.push(item);
         }
         Ok(Json::List(list))
@@ -60,6 +69,10 @@ impl<'de> Visitor<'de> for Reader {
             if fields.iter().any(|(k, _)| *k == key) {
                 return Err(A::Error::custom(format!("the key {key:?} is repeated")));
             }
+            if fields.len() == MAX_FIELDS {
+                return Err(A::Error::custom("too many fields"));
+            }
+            room()?;
             fields.push((key, value));
         }
         Ok(Json::Object(fields))

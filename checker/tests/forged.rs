@@ -528,6 +528,14 @@ fn long_numbers_do_not_run_away() {
     // A polynomial and a scalar product with many different long denominators.
     let many: Vec<Value> = (0..40).map(|k| json!(long(k))).chain([json!("1")]).collect();
     assert_eq!(rule("koch-2", &[("/points/0/branches/0/top/polynomial", json!(many))]), "limit");
+    // Millions of values.
+    let (case, text) = stored("trisection");
+    let zeros = format!("[{}0]", "0,".repeat(4_000_000));
+    let found = secant_check::check(&case, &text.replacen("[0,1]", &zeros, 1)).unwrap_err();
+    assert_eq!(found.rule, "json", "{found}");
+    let keys: String = (0..1_000_000).map(|k| format!("\"{k}\":0,")).collect();
+    let found = secant_check::check(&case, &text.replacen("[0,1]", &format!("{{{keys}\"x\":0}}"), 1)).unwrap_err();
+    assert_eq!(found.rule, "json", "{found}");
     assert!(begin.elapsed().as_secs() < 60, "{:?}", begin.elapsed());
 }
 
