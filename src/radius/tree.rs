@@ -22,11 +22,29 @@ impl Tree {
     /// The bound that the words prove, rounded upwards; `None` where a code is not complete or a weight not positive.
     #[must_use]
     pub fn bound(&self, system: &System) -> Option<Rational> {
+        self.bound_near(system, &Rational::from(0))
+    }
+
+    /// The bound that the words prove for all matrices whose entries differ from the system's by at most `error`.
+    #[must_use]
+    pub fn bound_near(&self, system: &System, error: &Rational) -> Option<Rational> {
         let fits = self.weights.len() == system.dims.len()
             && self.weights.iter().zip(&system.dims).all(|(w, d)| w.len() == *d && w.iter().all(|x| *x > 0));
         if !fits || self.codes.len() != system.dims.len() {
             return None;
         }
+        // In these norms one matrix changes by at most `change`, and a product of l by (largest + change)^l − largest^l.
+        let short = |x: Rational| Interval::point(x).outward(96).hi;
+        let all = || self.weights.iter().flatten();
+        let spread = all().max()? / all().min()?;
+        let size = Rational::from(*system.dims.iter().max()? as u64);
+        let change = short(size * error * spread);
+        let norm_of = |a: &super::Arrow| weighted_norm(&a.matrix, &self.weights[a.from], &self.weights[a.to]);
+        let largest = short(system.arrows.iter().map(norm_of).max()?);
+        let drift = |length: usize| {
+            let power = |x: &Rational| (0..length).fold(Rational::from(1), |p, _| p * x);
+            if *error == 0 { Rational::from(0) } else { power(&(&largest + &change)) - power(&largest) }
+        };
         let mut bound = Rational::from(0);
         for (state, code) in self.codes.iter().enumerate() {
             if !complete(system, state, code) {
@@ -35,7 +53,7 @@ impl Tree {
             for word in code {
                 let (from, to) = (system.arrows[word[0]].from, system.arrows[word[word.len() - 1]].to);
                 let norm = weighted_norm(&system.product(word), &self.weights[from], &self.weights[to]);
-                bound = bound.max(root_of(&Interval::point(norm), word.len(), 64).hi);
+                bound = bound.max(root_of(&Interval::point(norm + drift(word.len())), word.len(), 64).hi);
             }
         }
         Some(bound)
@@ -160,5 +178,32 @@ impl PartialOrd for Leaf {
 impl Ord for Leaf {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
         self.value.total_cmp(&other.value).then_with(|| other.path.cmp(&self.path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+
+    /// The bound for matrices near the system's holds for the farthest of them, and is the plain one where none may differ.
+    #[test]
+    fn bounds_for_matrices_nearby() {
+        let system = |e: &Rational| {
+            let entry = |p: i64| ratio(p, 5) + e;
+            let matrix = |v: [i64; 4]| {
+                Matrix::from_rows(2, vec![vec![entry(v[0]), entry(v[1])], vec![entry(v[2]), entry(v[3])]])
+            };
+            System::plain(&[matrix([2, 1, 0, 3]), matrix([1, 2, 2, 1])]).unwrap()
+        };
+        let own = system(&ratio(0, 1));
+        let tree = find(&own, 0.7, 40);
+        let plain = tree.bound(&own).unwrap();
+        assert_eq!(tree.bound_near(&own, &ratio(0, 1)), Some(plain.clone()));
+        for error in [ratio(1, 1000), ratio(1, 20)] {
+            let near = tree.bound_near(&own, &error).unwrap();
+            assert!(near > plain && near >= tree.bound(&system(&error)).unwrap(), "{error}");
+            assert!(near < &plain + ratio(40, 1) * &error, "{error}");
+        }
     }
 }

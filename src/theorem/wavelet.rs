@@ -136,7 +136,11 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
                 let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(|z| abs(&z.0) + abs(&z.1))).max()?;
                 (size, p.interior(&part.block.system, 0)?)
             }
-            Proof::Quadratic(_) | Proof::Tree(_) => return None,
+            Proof::Tree(tree) => {
+                largest = largest.max(tree.bound_near(&part.block.system, error)?);
+                continue;
+            }
+            Proof::Quadratic(_) => return None,
         };
         let n = Rational::from(part.block.system.dims[0] as u64);
         // ‖E q‖_1 <= n · n · error · max|q|.
