@@ -124,6 +124,9 @@ fn write_table(out: &mut String, table: &Table) {
     out.push_str("</tbody></table></div>\n");
 }
 
+/// Formulas of more characters get a scroll bar of their own instead of widening the page.
+const LONG: usize = 80;
+
 /// A line as HTML.
 #[must_use]
 pub fn inline(text: &[Inline]) -> String {
@@ -145,11 +148,19 @@ pub fn inline(text: &[Inline]) -> String {
                 if let Some(last) = pieces.last_mut().filter(|_| !stop.is_empty()) {
                     *last = format!("<span class=\"nb\">{last}{stop}</span>");
                 }
+                for piece in pieces.iter_mut().filter(|p| shown_length(p) > LONG) {
+                    *piece = format!("<span class=\"long\">{piece}</span>");
+                }
                 out.push_str(&pieces.join(" "));
             }
         }
     }
     out
+}
+
+/// How many characters of markup are shown.
+fn shown_length(markup: &str) -> usize {
+    markup.split('<').map(|part| part.rsplit('>').next().unwrap_or_default().chars().count()).sum()
 }
 
 /// The stop or comma after a formula, which must not begin a line.
