@@ -1,7 +1,7 @@
 //! Mesh rules: how one step of a subdivision scheme divides a mesh and where it puts the new points.
 
 use super::SchemeError;
-use super::mesh::{Centre, Mesh, Row};
+use super::mesh::{Centre, Mesh, Row, Sector};
 use crate::arith::{Rational, ratio};
 use std::collections::BTreeMap;
 
@@ -132,6 +132,15 @@ impl MeshRule {
             Self::Butterfly { .. } => "butterfly",
             Self::FourEight => "4-8",
             Self::QuadTriangle => "quad/triangle",
+        }
+    }
+
+    /// The faces around a vertex where they are all of one kind.
+    #[must_use]
+    pub fn sector(&self) -> Sector {
+        match self {
+            Self::Loop(_) | Self::Sqrt3(_) | Self::Butterfly { .. } => Sector::Triangles,
+            _ => Sector::Quads,
         }
     }
 

@@ -36,10 +36,7 @@ pub struct SectorStencils {
 /// # Errors
 /// As for [`super::local_matrix`].
 pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<SectorStencils, SchemeError> {
-    let sector = match rule {
-        MeshRule::Loop(_) | MeshRule::Sqrt3(_) | MeshRule::Butterfly { .. } => Sector::Triangles,
-        _ => Sector::Quads,
-    };
+    let sector = rule.sector();
     if valence > super::MAX_VALENCE {
         return Err(SchemeError::Large { what: "valence", size: valence, limit: super::MAX_VALENCE });
     }

@@ -38,10 +38,7 @@ pub struct LocalMatrix {
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
 pub fn local_matrix(rule: &MeshRule, valence: usize, rings: usize) -> Result<LocalMatrix, SchemeError> {
-    let kind = match rule {
-        MeshRule::Loop(_) | MeshRule::Sqrt3(_) | MeshRule::Butterfly { .. } => Sector::Triangles,
-        _ => Sector::Quads,
-    };
+    let kind = rule.sector();
     if valence > MAX_VALENCE {
         return Err(SchemeError::Large { what: "valence", size: valence, limit: MAX_VALENCE });
     }

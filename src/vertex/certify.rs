@@ -253,7 +253,7 @@ impl Judge<'_> {
 
     /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary or its innermost cells.
     fn signs_of_function(&self, k: usize) -> Option<(Signs, Signs)> {
-        if ring::spline(&self.vertex.rule).is_none() {
+        if !self.found.polynomial {
             let ring = self.ring(k, BITS[0])?;
             let functional = (1, if k == 0 { 1 } else { -1 });
             return Some((ring.functional(functional, false), ring.functional(functional, true)));
@@ -335,7 +335,7 @@ impl Judge<'_> {
 
     /// Examines the characteristic map; whether nothing was left open.
     fn characteristic(&mut self, k: usize, bits: u64) -> bool {
-        if ring::spline(&self.vertex.rule).is_none() {
+        if !self.found.polynomial {
             return self.enclosed(k, bits);
         }
         let Some((field, values)) = self.values(k, bits) else { return false };

@@ -6,7 +6,7 @@
 
 use crate::arith::{Integer, Natural, Rational, ratio};
 use crate::linalg::Matrix;
-use crate::scheme::{MeshRule, SectorStencils, sector_stencils};
+use crate::scheme::{MeshRule, Sector, SectorStencils, sector_stencils};
 use malachite_base::num::arithmetic::traits::{Abs, Ceiling, Lcm};
 use malachite_base::num::conversion::traits::RoundingFrom;
 use malachite_base::rounding_modes::RoundingMode;
@@ -209,7 +209,7 @@ pub fn place((corner, sign): &Cell, point: Place) -> Place {
 
 /// The mask, read from the stencils around a regular vertex; whether the mesh has triangles, and `N`.
 fn mask(rule: &MeshRule) -> Option<(bool, i64, Mask)> {
-    let triangles = matches!(rule, MeshRule::Butterfly { .. } | MeshRule::Sqrt3(_));
+    let triangles = rule.sector() == Sector::Triangles;
     let factor = if matches!(rule, MeshRule::Sqrt3(_)) { 3 } else { 2 };
     let stencils = sector_stencils(rule, if triangles { 6 } else { 4 }, RINGS).ok()?;
     let mut mask = Mask::new();

@@ -47,8 +47,10 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     complex.check()?;
     let product = tensor::Product::of(complex);
     let (words, norm) = decide_contraction(shape)?;
-    let by_factors = product.as_ref().map(|p| Contraction::Product(p.contraction()));
-    let contraction = if words.is_proved() { words } else { by_factors.unwrap_or(words) };
+    let contraction = match &product {
+        Some(product) if !words.is_proved() => Contraction::Product(product.contraction()),
+        _ => words,
+    };
     if !contraction.is_proved() {
         return Ok(without_contraction(&contraction, norm));
     }
