@@ -45,8 +45,9 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         let (n, smooth, plane) = at(&item.place, case.valence(&item))?;
         item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
         listed.push(n);
-        claims.push(format!("{}: at valence {n} the surface is C1 for almost all control points", smooth.word()));
-        claims.push(format!("{}: at valence {n} it has a tangent plane for almost all control points", plane.word()));
+        for (verdict, what) in [(smooth, "the surface is C1"), (plane, "it has a tangent plane")] {
+            claims.push(format!("{} for almost all control points: at valence {n} {what}", verdict.word()));
+        }
         together = Some(together.map_or(smooth, |t: Verdict| t.and(smooth)));
     }
     let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));

@@ -62,13 +62,13 @@ fn statement(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> V
         if list.is_empty() {
             continue;
         }
-        let how = match verdict {
-            Verdict::Proved => "",
-            Verdict::Refuted => "it is false that ",
-            Verdict::Undetermined => "whether ",
+        let said = match verdict {
+            Verdict::Proved => claim.to_owned(),
+            Verdict::Refuted => claim.replace(" is a ", " is not a "),
+            Verdict::Undetermined => format!("whether {claim}"),
         };
         let mut item = vec![mark(verdict)];
-        item.extend(words(format!(": {how}{claim}, at {}", ranges(&list))));
+        item.extend(words(format!(": {said}, at {}", ranges(&list))));
         items.push(item);
     }
     blocks.push(Block::List(items));
