@@ -605,7 +605,10 @@ fn moved(from: &str, to: &str, changes: &[(&str, Value)]) -> String {
 #[test]
 fn extraordinary_vertices() {
     // e^(4πi/5), e^(-2πi/5) and 1 are other roots of unity.
-    let second = json!(["-809016994374947424102293/1000000000000000000000000", "293892626146236564584353/500000000000000000000000"]);
+    let second = json!([
+        "-809016994374947424102293/1000000000000000000000000",
+        "293892626146236564584353/500000000000000000000000"
+    ]);
     let short = |x: &str, y: &str| json!([x, y]);
     let at = |k: usize, rest: &str| format!("/valences/{k}{rest}");
     let of = |rest: &str| at(1, rest);

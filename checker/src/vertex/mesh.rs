@@ -85,9 +85,7 @@ impl Mesh {
         let n = powers.len();
         let fits = match &centre {
             Centre::Vertex(weights) => weights.iter().sum::<Q>().is_one(),
-            Centre::Face(w) => {
-                w.len() == n && w.iter().sum::<Q>().is_one() && (1..n).all(|j| w[j] == w[n - j])
-            }
+            Centre::Face(w) => w.len() == n && w.iter().sum::<Q>().is_one() && (1..n).all(|j| w[j] == w[n - j]),
             Centre::Frequency(f) => f % n != 0,
             Centre::Loop => true,
         };

@@ -27,7 +27,8 @@ pub fn vertex_document(case: &VertexCase, found: &[AtValence], every: Option<&Ev
     blocks.extend(summary_by_valence(case, found, every));
     blocks.extend(evidence_by_valence(case, found));
     blocks.push(Block::heading(2, "Certificate"));
-    let mut facts = vec![("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes())))];
+    let mut facts =
+        vec![("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes())))];
     match crate::certificate::vertex_certificate(case, found) {
         Some(certificate) => {
             facts.push(("certificate, SHA-256".to_owned(), code(crate::certificate::sha256(certificate.text()))));
