@@ -74,7 +74,7 @@ fn read_valences(node: &Node<'_>) -> Checked<Option<Vec<usize>>> {
         let (low, high) = part.split_once("..").unwrap_or((part, part));
         let bound = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n <= MAX_VALENCE);
         match (bound(low), bound(high.trim_start_matches('='))) {
-            (Some(low), Some(high)) => all.extend(low..=high),
+            (Some(low), Some(high)) if 3 <= low && low <= high => all.extend(low..=high),
             _ => return node.malformed("valences are numbers and ranges"),
         }
     }
