@@ -3,9 +3,9 @@
 use crate::json::{Json, Node};
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction};
+use crate::radius::System;
 use crate::shape::{Address, End, Kind, Op, Piece, Shape, State};
-use crate::{Checked, Rejected};
-use num_bigint::BigInt;
+use crate::{Checked, Rejected, need};
 use num_traits::{One, Zero};
 use std::cell::{Cell, RefCell};
 use toml::de::{DeTable, DeValue};
@@ -45,13 +45,10 @@ pub struct Hole {
     pub unknown: usize,
 }
 
-/// Reads the numbers of a case; where entries may be unknown, their places and names are collected.
-struct Reader {
-    by_rows: bool,
-    open: bool,
-    bits: Cell<u64>,
-    holes: RefCell<Vec<(Hole, String)>>,
-}
+/// The keys of a case, of a state (those of the boundaries of faces and of reversals are not read), and of a file of matrices.
+const CASE: &str = "name title source kind convention pieces reversed map start state control examine expect";
+const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
+const MATRICES: &str = "name matrices states arrows";
 
 /// A value of a TOML file: numbers keep the text in which they are written.
 fn tree(value: &DeValue<'_>) -> Json {
@@ -71,7 +68,7 @@ fn fields(table: &DeTable<'_>) -> Json {
 }
 
 /// Reads a TOML file with these keys at its top by a function; what is wrong makes the file unreadable.
-fn file<T>(source: &str, keys: &[&str], read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
+fn file<T>(source: &str, keys: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
     let unreadable = |place: String, why: String| Rejected { rule: "case".to_owned(), place, why, unreadable: true };
     let parsed = DeTable::parse(source).map_err(|e| unreadable(String::new(), format!("not TOML: {}", e.message())))?;
     let value = fields(parsed.get_ref());
@@ -82,72 +79,65 @@ fn file<T>(source: &str, keys: &[&str], read: impl FnOnce(&Node<'_>) -> Checked<
 /// A whole number of a TOML file below a bound.
 fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
     let digits = if let Json::Number(digits) = node.value { digits.parse::<usize>().ok() } else { None };
-    match digits.filter(|k| *k < bound) {
-        Some(k) => Ok(k),
-        None => node.malformed(&format!("a whole number below {bound} is needed here")),
-    }
+    node.some(digits.filter(|k| *k < bound), "format", format_args!("a whole number below {bound} is needed here"))
 }
 
 fn flag(node: &Node<'_>, key: &str) -> Checked<bool> {
     match node.get(key).map(|n| (n.value, n)) {
         None => Ok(false),
         Some((Json::Flag(flag), _)) => Ok(*flag),
-        Some((_, n)) => n.malformed("true or false is needed here"),
+        Some((_, n)) => n.reject("format", "true or false is needed here"),
     }
 }
 
-/// The keys of a case.
-const CASE_KEYS: [&str; 13] = [
-    "name",
-    "title",
-    "source",
-    "kind",
-    "convention",
-    "pieces",
-    "reversed",
-    "map",
-    "start",
-    "state",
-    "control",
-    "examine",
-    "expect",
-];
+/// A text that may be left out.
+fn word<'a>(node: &Node<'a>, key: &str) -> Checked<Option<&'a str>> {
+    node.get(key).map(|n| n.text()).transpose()
+}
 
-/// The keys of a state; those of the boundaries of faces and of reversals are allowed and not read.
-const STATE_KEYS: [&str; 13] = [
-    "name",
-    "kind",
-    "dimension",
-    "left",
-    "right",
-    "piece",
-    "reversal",
-    "layout",
-    "bottom",
-    "top",
-    "side01",
-    "side12",
-    "side02",
-];
+/// A list that may be left out.
+fn items<'a>(node: &Node<'a>, key: &str) -> Checked<Vec<Node<'a>>> {
+    node.get(key).map_or(Ok(Vec::new()), |n| n.list())
+}
+
+/// What must be known of all states before their pieces are read.
+struct Head<'a> {
+    name: &'a str,
+    kind: Kind,
+    dim: usize,
+    pieces: Vec<Node<'a>>,
+}
+
+/// The number of the state that is named here.
+fn state_named(node: &Node<'_>, heads: &[Head<'_>]) -> Checked<usize> {
+    let name = node.text()?;
+    node.some(heads.iter().position(|h| h.name == name), "format", "there is no state of this name")
+}
+
+/// Reads the numbers of a case; where entries may be unknown, their places and names are collected.
+#[derive(Default)]
+struct Reader {
+    by_rows: bool,
+    open: bool,
+    bits: Cell<u64>,
+    holes: RefCell<Vec<(Hole, String)>>,
+}
 
 impl Reader {
     fn number(&self, node: &Node<'_>) -> Checked<Q> {
-        let (Json::Text(text) | Json::Number(text)) = node.value else {
-            return node.malformed("a number is needed here");
-        };
-        let Some(number) = decimal_fraction(text) else { return node.malformed("not an exact number") };
+        let text = if let Json::Text(text) | Json::Number(text) = node.value { Some(text) } else { None };
+        let number = node.some(text.and_then(|t| decimal_fraction(t)), "format", "an exact number is needed here")?;
         self.bits.set(self.bits.get().saturating_add(bits(&number)));
         node.need(self.bits.get() <= MAX_BITS, "limit", "the numbers are too long")?;
         Ok(number)
     }
 
     fn matrix(&self, node: &Node<'_>) -> Checked<Matrix> {
-        let row = |row: &Node<'_>| row.list()?.iter().map(|x| self.number(x)).collect::<Checked<Vec<Q>>>();
-        let rows = node.list()?.iter().map(row).collect::<Checked<Vec<_>>>()?;
+        let rows = node.each(|row| row.each(|x| self.number(x)))?;
         let cols = rows.first().map_or(0, Vec::len);
         let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
         let regular = fits(rows.len()) && fits(cols) && rows.iter().all(|r| r.len() == cols);
-        node.need(regular, "case", &format!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;
+        node.need(regular, "case", format_args!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;
         Ok(Matrix::from_rows(cols, &rows))
     }
 
@@ -159,19 +149,14 @@ impl Reader {
             _ => None,
         };
         let (all, noted) = (name(node).is_some(), self.holes.borrow().len());
-        let rows = if all { Vec::new() } else { node.list()?.iter().map(Node::list).collect::<Checked<Vec<_>>>()? };
+        let rows = if all { Vec::new() } else { node.each(Node::list)? };
         let written = if self.by_rows { (size.1, size.0) } else { size };
         let fits = all || (rows.len() == written.0 && rows.iter().all(|r| r.len() == written.1));
         node.need(fits, "case", "the operator has the wrong size")?;
         let mut entries = Vec::new();
         for (row, col) in (0..size.0).flat_map(|i| (0..size.1).map(move |j| (i, j))) {
-            let at = if all {
-                node
-            } else if self.by_rows {
-                &rows[col][row]
-            } else {
-                &rows[row][col]
-            };
+            let (i, j) = if self.by_rows { (col, row) } else { (row, col) };
+            let at = if all { node } else { &rows[i][j] };
             let Some(name) = name(at) else {
                 entries.push(self.number(at)?);
                 continue;
@@ -184,147 +169,138 @@ impl Reader {
             entries.push(Q::zero());
         }
         let matrix = Matrix::new(size.0, size.1, &entries);
-        let sum = |j: usize| (0..size.0).map(|i| &matrix.data[i * size.1 + j]).sum::<BigInt>();
-        let affine = self.holes.borrow().len() > noted || (0..size.1).all(|j| sum(j) == matrix.den);
+        let affine = self.holes.borrow().len() > noted || matrix.is_affine();
         node.need(affine, "case", "a column of an operator does not sum to 1")?;
         Ok(matrix)
     }
 
     /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
-    fn affine(&self, map: &Node<'_>) -> Checked<Piece> {
-        map.known(&["linear", "shift", "reversed"])?;
+    fn affine(&self, map: &Node<'_>) -> Checked<Matrix> {
+        map.known("linear shift reversed")?;
         let linear = self.matrix(&map.field("linear")?)?;
-        let shift = map.field("shift")?.list()?.iter().map(|x| self.number(x)).collect::<Checked<Vec<Q>>>()?;
+        let shift = map.field("shift")?.each(|x| self.number(x))?;
         let d = shift.len();
         let fits = d < MAX_COORDINATES && (linear.rows, linear.cols) == (d, d);
         map.need(fits, "case", "`linear` and `shift` do not fit")?;
-        let image = |i: usize, j: usize| if j == 0 { shift[i].clone() } else { &shift[i] + linear.at(i, j - 1) };
-        let entry = |(i, j): (usize, usize)| match i {
-            0 => Q::one() - (0..d).map(|i| image(i, j)).sum::<Q>(),
-            _ => image(i - 1, j),
-        };
-        let places = (0..=d).flat_map(|i| (0..=d).map(move |j| (i, j)));
-        let op = Matrix::new(d + 1, d + 1, &places.map(entry).collect::<Vec<_>>());
-        Ok(Piece { target: 0, op, reversed: flag(map, "reversed")? })
+        // Column j is the image of e_j; its first entry makes the sum 1.
+        let shift = Matrix::new(d, 1, &shift);
+        let images = shift.beside(&linear.plus(&Q::one(), &shift.times(&Matrix::row_of_ones(d))?));
+        let first = Matrix::row_of_ones(d + 1).minus(&Matrix::row_of_ones(d).times(&images)?);
+        Ok(first.stack(&images))
     }
 
-    fn automaton(&self, tables: &[Node<'_>], default: Kind) -> Checked<(Vec<State>, Vec<String>)> {
-        let mut heads: Vec<(String, Kind, usize)> = Vec::new();
-        for t in tables {
-            t.known(&STATE_KEYS)?;
-            let name = t.field("name")?.text()?;
-            let kind = match t.get("kind").map(|n| n.text()).transpose()? {
-                None => default,
-                Some("edge") => Kind::Edge,
-                Some("vertex") => Kind::Vertex,
-                // No rule uses the boundaries of a face: its claims are about a set.
-                Some("set" | "face") => Kind::Set,
-                Some(_) => return t.malformed("unknown kind of a state"),
-            };
-            let dim = match (t.get("dimension"), t.field("piece")?.list()?.first()) {
-                (Some(n), _) => index(&n, MAX_COORDINATES + 1)?,
-                (None, None) => 0,
-                (None, Some(first)) => {
-                    let rows = first.field("matrix")?.list()?;
-                    if self.by_rows { rows.first().map_or(Ok(Vec::new()), Node::list)?.len() } else { rows.len() }
+    /// The pieces of a state: affine maps, plain operators (of the only state), or tables that name their targets.
+    fn pieces(&self, e: usize, heads: &[Head<'_>], form: Form) -> Checked<Vec<Piece>> {
+        let Head { kind, dim, pieces, .. } = &heads[e];
+        let mut read = Vec::new();
+        for (k, piece) in pieces.iter().enumerate() {
+            let (target, op, reversed) = match form {
+                Form::Maps => (0, self.affine(piece)?, flag(piece, "reversed")?),
+                Form::Pieces => (0, self.operator(piece, (*dim, *dim), Op::Piece(e, k))?, false),
+                Form::States => {
+                    piece.known("to matrix reversed corners")?;
+                    let (target, reversed) = (state_named(&piece.field("to")?, heads)?, flag(piece, "reversed")?);
+                    let size = (*dim, heads[target].dim);
+                    (target, self.operator(&piece.field("matrix")?, size, Op::Piece(e, k))?, reversed)
                 }
             };
-            let new = (1..=MAX_COORDINATES).contains(&dim) && heads.iter().all(|h| h.0 != name);
-            t.need(new, "case", "a state without coordinates, or two states of one name")?;
-            heads.push((name.to_owned(), kind, dim));
+            let same_kind = *kind == Kind::Set || heads[target].kind == *kind;
+            let fits = same_kind && op.rows == *dim && (!reversed || *kind == Kind::Edge);
+            piece.need(fits, "case", "the piece is of another kind or size, or runs backwards in no curve")?;
+            read.push(Piece { target, op, reversed });
         }
-        let find = |node: Node<'_>| state_named(&node, heads.iter().map(|h| &h.0));
-        let mut states = Vec::new();
-        for (t, &(_, kind, dim)) in tables.iter().zip(&heads) {
-            let mut pieces = Vec::new();
-            for piece in t.field("piece")?.list()? {
-                piece.known(&["to", "matrix", "reversed", "corners"])?;
-                let (target, reversed) = (find(piece.field("to")?)?, flag(&piece, "reversed")?);
-                let place = Op::Piece(states.len(), pieces.len());
-                let op = self.operator(&piece.field("matrix")?, (dim, heads[target].2), place)?;
-                let fits = (kind == Kind::Set || heads[target].1 == kind) && (!reversed || kind == Kind::Edge);
-                piece.need(fits, "case", "the piece is of another kind, or runs backwards in no curve")?;
-                pieces.push(Piece { target, op, reversed });
+        let most = if *kind == Kind::Vertex { 1 } else { MAX_PIECES };
+        let count = (1..=most).contains(&read.len()) && (1..=MAX_COORDINATES).contains(dim);
+        need(count, "case", format_args!("a wrong number of pieces or coordinates of state {e}"))?;
+        Ok(read)
+    }
+
+    fn head<'a>(&self, table: &Node<'a>, default: Kind) -> Checked<Head<'a>> {
+        table.known(STATE)?;
+        let pieces = table.field("piece")?.list()?;
+        let kind = match word(table, "kind")? {
+            None => default,
+            Some("edge") => Kind::Edge,
+            Some("vertex") => Kind::Vertex,
+            // No rule uses the boundaries of a face: its claims are about a set.
+            Some("set" | "face") => Kind::Set,
+            Some(_) => return table.reject("format", "unknown kind of a state"),
+        };
+        let dim = match (table.get("dimension"), pieces.first()) {
+            (Some(n), _) => index(&n, MAX_COORDINATES + 1)?,
+            (None, None) => 0,
+            (None, Some(first)) => {
+                let rows = first.field("matrix")?.list()?;
+                if self.by_rows { rows.first().map_or(Ok(Vec::new()), Node::list)?.len() } else { rows.len() }
             }
-            let boundary = |key: &str, end: End| -> Checked<Option<(usize, Matrix)>> {
-                let Some(b) = t.get(key).filter(|b| kind != Kind::Set || b.get("edge").is_none()) else {
-                    return Ok(None);
-                };
-                b.known(&["vertex", "matrix", "points"])?;
-                let vertex = find(b.field("vertex")?)?;
-                let joins = kind == Kind::Edge && heads[vertex].1 == Kind::Vertex;
-                b.need(joins, "case", "a boundary joins a vertex to an edge")?;
-                let size = (dim, heads[vertex].2);
-                let op = match b.get("points").filter(|_| b.get("matrix").is_none()) {
-                    Some(points) => inclusion(&points, size)?,
-                    None => self.operator(&b.field("matrix")?, size, Op::End(states.len(), end))?,
-                };
-                Ok(Some((vertex, op)))
-            };
-            let ends = [boundary("left", End::Start)?, boundary("right", End::Finish)?];
-            states.push(State { kind, dim, pieces, ends });
-        }
-        Ok((states, heads.into_iter().map(|h| h.0).collect()))
+        };
+        Ok(Head { name: table.field("name")?.text()?, kind, dim, pieces })
+    }
+
+    /// A boundary operator of an edge, where the state has it.
+    fn boundary(&self, e: usize, heads: &[Head<'_>], table: &Node<'_>, end: End) -> Checked<Option<(usize, Matrix)>> {
+        let key = if end == End::Start { "left" } else { "right" };
+        let kind = heads[e].kind;
+        let Some(b) = table.get(key).filter(|b| kind != Kind::Set || b.get("edge").is_none()) else { return Ok(None) };
+        b.known("vertex matrix points")?;
+        let vertex = state_named(&b.field("vertex")?, heads)?;
+        let joins = kind == Kind::Edge && heads[vertex].kind == Kind::Vertex;
+        b.need(joins, "case", "a boundary joins a vertex to an edge")?;
+        let (rows, cols) = (heads[e].dim, heads[vertex].dim);
+        let op = match b.get("points").filter(|_| b.get("matrix").is_none()) {
+            None => self.operator(&b.field("matrix")?, (rows, cols), Op::End(e, end))?,
+            Some(points) => {
+                // Coordinate j is put at points[j].
+                let at = points.each(|p| index(p, rows))?;
+                points.need(at.len() == cols, "case", format_args!("{cols} points are needed here"))?;
+                Matrix::ones(rows, cols, |i, j| at[j] == i)
+            }
+        };
+        Ok(Some((vertex, op)))
     }
 
     fn shape(&self, case: &Node<'_>) -> Checked<Shape> {
-        let kind = match case.get("kind").map(|n| n.text()).transpose()? {
+        let kind = match word(case, "kind")? {
             None | Some("curve") => Kind::Edge,
             Some("set") => Kind::Set,
-            Some(_) => return case.malformed("unknown kind"),
+            Some(_) => return case.reject("format", "unknown kind"),
         };
-        let (maps, pieces, tables) = (case.get("map"), case.get("pieces"), case.get("state"));
-        let none = |keys: &[&str]| {
-            let found = keys.iter().find(|k| case.get(k).is_some());
-            case.need(found.is_none(), "case", &format!("the key {found:?} does not go with this form of a case"))
+        let (form, list, without) = match (case.get("map"), case.get("pieces"), case.get("state")) {
+            (Some(maps), None, None) => (Form::Maps, maps.list()?, "start reversed control"),
+            (None, Some(pieces), None) => (Form::Pieces, pieces.list()?, "start"),
+            (None, None, Some(tables)) => (Form::States, tables.list()?, "reversed"),
+            _ => return case.reject("format", "one of `pieces`, `map` and `state` is needed"),
         };
-        let mut start = 0;
-        let states = match (&maps, &pieces, &tables) {
-            (Some(maps), None, None) => {
-                none(&["start", "reversed", "control"])?;
-                case.need(!self.by_rows, "case", "maps have no convention of rows")?;
-                let pieces = maps.list()?.iter().map(|m| self.affine(m)).collect::<Checked<Vec<_>>>()?;
-                vec![State { kind, dim: pieces.first().map_or(0, |p| p.op.rows), pieces, ends: [None, None] }]
+        let fits = without.split(' ').all(|key| case.get(key).is_none());
+        case.need(fits, "case", format_args!("the keys {without} do not go with this form of a case"))?;
+        let heads = match (form, list.first()) {
+            (Form::States, _) => list.iter().map(|t| self.head(t, kind)).collect::<Checked<Vec<_>>>()?,
+            (Form::Maps, Some(map)) => {
+                vec![Head { name: "", kind, dim: 1 + map.field("shift")?.list()?.len(), pieces: list.clone() }]
             }
-            (None, Some(list), None) => {
-                none(&["start"])?;
-                let list = list.list()?;
-                let dim = list.first().map_or(Ok(0), |m| Ok(m.list()?.len()))?;
-                let read = |(k, m): (usize, &Node<'_>)| -> Checked<Piece> {
-                    Ok(Piece { target: 0, op: self.operator(m, (dim, dim), Op::Piece(0, k))?, reversed: false })
-                };
-                let mut pieces = list.iter().enumerate().map(read).collect::<Checked<Vec<_>>>()?;
-                for n in case.get("reversed").map_or(Ok(Vec::new()), |n| n.list())? {
-                    pieces[index(&n, list.len())?].reversed = true;
-                }
-                vec![State { kind, dim, pieces, ends: [None, None] }]
-            }
-            (None, None, Some(tables)) => {
-                none(&["reversed"])?;
-                let tables = tables.list()?;
-                case.need(tables.len() <= MAX_STATES, "limit", "too many states")?;
-                let (states, names) = self.automaton(&tables, kind)?;
-                start = match case.get("start") {
-                    Some(node) => state_named(&node, names.iter())?,
-                    None => 0,
-                };
-                case.need(case.get("start").is_some() || states.len() == 1, "case", "the key `start` is missing")?;
-                states
-            }
-            _ => return case.malformed("one of `pieces`, `map` and `state` is needed"),
+            (_, Some(op)) => vec![Head { name: "", kind, dim: op.list()?.len(), pieces: list.clone() }],
+            _ => Vec::new(),
         };
-        let fits = |s: &State| {
-            let same = tables.is_some() || s.pieces.iter().all(|p| p.op.rows == s.dim);
-            let backwards = s.kind != Kind::Edge && s.pieces.iter().any(|p| p.reversed);
-            let count = if s.kind == Kind::Vertex { 1..=1 } else { 1..=MAX_PIECES };
-            same && !backwards && (1..=MAX_COORDINATES).contains(&s.dim) && count.contains(&s.pieces.len())
-        };
-        let all = !states.is_empty() && states.iter().all(fits);
-        case.need(all, "case", "a wrong number of pieces or coordinates, or a set with reversed pieces")?;
+        let new = |k: usize| heads[..k].iter().all(|h| h.name != heads[k].name);
+        let count = (1..=MAX_STATES).contains(&heads.len()) && (0..heads.len()).all(new);
+        case.need(count, "case", "no state, too many, or two of one name")?;
+        let mut states = Vec::new();
+        for (e, head) in heads.iter().enumerate() {
+            let pieces = self.pieces(e, &heads, form)?;
+            let boundary = |end| if form == Form::States { self.boundary(e, &heads, &list[e], end) } else { Ok(None) };
+            let ends = [boundary(End::Start)?, boundary(End::Finish)?];
+            states.push(State { kind: head.kind, dim: head.dim, pieces, ends });
+        }
+        for n in items(case, "reversed")? {
+            states[0].pieces[index(&n, list.len())?].reversed = true;
+            n.need(kind == Kind::Edge, "case", "only pieces of curves run backwards")?;
+        }
+        let start = case.get("start").map(|node| state_named(&node, &heads)).transpose()?;
+        let start = case.some(start.or((states.len() == 1).then_some(0)), "case", "the key `start` is missing")?;
         let dim = states[start].dim;
         let view = match case.get("control") {
             Some(points) => self.matrix(&points)?.transpose(),
-            None if maps.is_some() => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
+            None if form == Form::Maps => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
         case.need(view.cols == dim, "case", "a wrong number of control points")?;
@@ -332,20 +308,12 @@ impl Reader {
     }
 }
 
-/// The number of the state that is named here.
-fn state_named<'n>(node: &Node<'_>, mut names: impl Iterator<Item = &'n String>) -> Checked<usize> {
-    let name = node.text()?;
-    match names.position(|n| n == name) {
-        Some(k) => Ok(k),
-        None => node.malformed("there is no state of this name"),
-    }
-}
-
-/// The operator that puts coordinate `j` at `points[j]`.
-fn inclusion(points: &Node<'_>, (rows, cols): (usize, usize)) -> Checked<Matrix> {
-    let at = points.list()?.iter().map(|p| index(p, rows)).collect::<Checked<Vec<_>>>()?;
-    points.need(at.len() == cols, "case", &format!("{cols} points are needed here"))?;
-    Ok(Matrix::ones(rows, cols, |i, j| at[j] == i))
+/// The three forms of a case.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Maps,
+    Pieces,
+    States,
 }
 
 /// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both
@@ -354,26 +322,24 @@ fn inclusion(points: &Node<'_>, (rows, cols): (usize, usize)) -> Checked<Matrix>
 /// # Errors
 /// What is wrong, and where; `unreadable` is set.
 pub fn read(source: &str, open: bool) -> Checked<Case> {
-    file(source, &CASE_KEYS, |case| {
-        let by_rows = match case.get("convention").map(|n| n.text()).transpose()? {
-            Some("rows") => true,
+    file(source, CASE, |case| {
+        let by_rows = match word(case, "convention")? {
+            Some("rows") if case.get("map").is_none() => true,
             Some("columns") => false,
             None if case.get("map").is_some() => false,
-            _ => return case.malformed("the convention is rows or columns"),
+            _ => return case.reject("format", "the convention is rows or columns"),
         };
-        for state in case.get("state").filter(|_| open).map_or(Ok(Vec::new()), |n| n.list())? {
+        for state in if open { items(case, "state")? } else { Vec::new() } {
             let beyond = state.get("reversal").is_some() || state.get("layout").is_some();
             state.need(!beyond, "case", "the identities of faces and reversals are not read")?;
         }
-        let reader = Reader { by_rows, open, bits: Cell::new(0), holes: RefCell::default() };
+        let reader = Reader { by_rows, open, ..Reader::default() };
         let shape = reader.shape(case)?;
         let mut examine = Vec::new();
-        for entry in case.get("examine").map_or(Ok(Vec::new()), |n| n.list())? {
+        for entry in items(case, "examine")? {
             let [address] = entry.fields(["address"])?;
-            match Address::parse(address.text()?).and_then(|a| a.normalise(&shape, shape.start)) {
-                Some(normal) => examine.push(normal),
-                None => return address.malformed("this is no address of the case"),
-            }
+            let normal = Address::parse(address.text()?).and_then(|a| a.normalise(&shape, shape.start));
+            examine.push(address.some(normal, "format", "this is no address of the case")?);
         }
         let holes = reader.holes.into_inner().into_iter().map(|(hole, _)| hole).collect();
         Ok(Case { name: case.field("name")?.text()?.to_owned(), shape, examine, holes })
@@ -381,37 +347,34 @@ pub fn read(source: &str, open: bool) -> Checked<Case> {
 }
 
 /// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
-pub fn matrix_list(source: &str) -> Checked<crate::radius::System> {
-    file(source, &["name", "matrices", "states", "arrows"], |node| {
-        let reader = Reader { by_rows: false, open: false, bits: Cell::new(0), holes: RefCell::default() };
+pub fn matrix_list(source: &str) -> Checked<System> {
+    file(source, MATRICES, |node| {
+        let reader = Reader::default();
         let mut matrices: Vec<Matrix> = Vec::new();
         for item in node.field("matrices")?.list()? {
-            for x in item.list()?.iter().map(Node::list).collect::<Checked<Vec<_>>>()?.iter().flatten() {
-                let whole = |text: &String| text.bytes().all(|b| b.is_ascii_digit() || b == b'-' || b == b'+');
-                let exact = if let Json::Number(text) = x.value { whole(text) } else { true };
-                x.need(exact, "case", "numbers of matrices are integers or texts")?;
+            for x in item.each(Node::list)?.iter().flatten() {
+                let floats = matches!(x.value, Json::Number(text) if text.contains(['.', 'e', 'E', 'n']));
+                x.need(!floats, "case", "numbers of matrices are integers or texts")?;
             }
             matrices.push(reader.matrix(&item)?);
         }
-        let name = node.get("name").map(|n| n.text()).transpose()?.unwrap_or_default().to_owned();
+        let name = word(node, "name")?.unwrap_or_default().to_owned();
         let (dims, arrows) = if node.get("states").is_none() && node.get("arrows").is_none() {
             let dim = matrices.first().map_or(0, |m| m.rows);
             (vec![dim], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
         } else {
-            let states = node.field("states")?.list()?;
-            let dims = states.iter().map(|v| index(v, MAX_COORDINATES + 1)).collect::<Checked<Vec<_>>>()?;
-            let mut list = Vec::new();
-            for arrow in node.field("arrows")?.list()? {
-                let parts = arrow.list()?;
-                let [from, to, matrix] = &parts[..] else { return arrow.malformed("an arrow is [from, to, matrix]") };
-                let matrix = &matrices[index(matrix, matrices.len())?];
-                list.push((index(from, dims.len())?, index(to, dims.len())?, matrix.clone()));
-            }
-            (dims, list)
+            let dims = node.field("states")?.each(|v| index(v, MAX_COORDINATES + 1))?;
+            let arrow = |arrow: &Node<'_>| {
+                let parts = arrow.exactly(3, "format")?;
+                let matrix = &matrices[index(&parts[2], matrices.len())?];
+                Ok((index(&parts[0], dims.len())?, index(&parts[1], dims.len())?, matrix.clone()))
+            };
+            let arrows = node.field("arrows")?.each(arrow)?;
+            (dims, arrows)
         };
         let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
         let all = !arrows.is_empty() && arrows.iter().all(fits);
         node.need(all, "case", "no arrow, or a matrix of the wrong size")?;
-        Ok(crate::radius::System { name, dims, arrows })
+        Ok(System { name, dims, arrows })
     })
 }

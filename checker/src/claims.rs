@@ -6,9 +6,10 @@ use crate::json::Node;
 use crate::matrix::Matrix;
 use crate::points::{Place, Point, complete};
 use crate::ring::Model;
-use crate::shape::{Address, End, Kind};
+use crate::rules::read_address;
+use crate::shape::{Address, End, Kind, Piece, Way, close};
 use crate::spectrum::positive_definite;
-use crate::{Accepted, Checked, Verdict, at, need, reject};
+use crate::{Accepted, Checked, Verdict, need};
 use num_traits::Signed;
 
 /// What a case asks.
@@ -42,21 +43,17 @@ fn questions(case: &Case) -> Vec<Question> {
 
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
 fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
-    if item.tag("question")? == "any point" && last {
-        return Ok(Question::AnyPoint);
-    }
-    if item.tag("question")? == "every point" && !asked.contains(&Question::EveryPoint) {
-        return Ok(Question::EveryPoint);
+    match item.tag("question")? {
+        "any point" if last => return Ok(Question::AnyPoint),
+        "every point" if !asked.contains(&Question::EveryPoint) => return Ok(Question::EveryPoint),
+        _ => {}
     }
     let [_, of, _, _] = item.fields(["question", "address", "verdict", "points"])?;
-    let address = crate::rules::read_address(&of)?;
-    let normal = address.normalise(&case.shape, case.shape.start);
-    let question = Question::Address(address.clone());
-    of.refuse(
-        normal.as_ref() != Some(&address) || asked.contains(&question),
-        "answers",
-        "the address is not in its normal form, or was asked for before",
-    )?;
+    let address = read_address(&of)?;
+    let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
+    let question = Question::Address(address);
+    let new = normal && !asked.contains(&question);
+    of.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
     Ok(question)
 }
 
@@ -64,37 +61,30 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, points, answers] = node.fields(["contraction", "points", "answers"])?;
     let model = Model::read(&case.shape, &contraction)?;
-    at(&contraction.place, case.shape.check_curves(&model.reachable))?;
+    contraction.at(case.shape.check_curves(&model.reachable))?;
     let root = Root { state: case.shape.start, view: case.shape.view.clone() };
-    let mut checked = Vec::new();
+    let mut checked: Vec<Point> = Vec::new();
     for item in points.list()? {
         let point = Point::check(&model, &root, &item)?;
-        item.refuse(checked.iter().any(|p: &Point| p.place == point.place), "points", "the same point twice")?;
+        item.need(checked.iter().all(|p| p.place != point.place), "points", "the same point twice")?;
         checked.push(point);
     }
     let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], lines: Vec::new() };
     let (items, mut asked) = (answers.list()?, questions(case));
-    if items.len() < asked.len() {
-        return reject("answers", &answers.place, format!("{} questions are asked", asked.len()));
-    }
+    answers.need(items.len() >= asked.len(), "answers", format_args!("{} questions are asked", asked.len()))?;
     for (k, item) in items.iter().enumerate().skip(asked.len()) {
         asked.push(further(case, item, &asked, k + 1 == items.len())?);
     }
-    let mut together = None;
+    let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
-        let found = at(&item.place, claims.answer(item, question))?;
-        if *question == Question::EveryPoint {
-            continue;
-        }
-        together = Some(together.map_or(found, |t: Verdict| t.and(found)));
+        let verdict = item.at(claims.answer(item, question))?;
+        found.extend((*question != Question::EveryPoint).then_some(verdict));
     }
-    if let Some(k) = claims.used.iter().position(|used| !used) {
-        return reject("points", &points.place, format!("point {k} answers no question"));
-    }
-    let together = together.unwrap_or(Verdict::Undetermined);
-    let claims = claims.lines;
+    points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
+    let verdict = found.into_iter().reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     let line = |p: &Point| format!("{}: {:?}, {}", p.verdict.word(), p.place, p.kind);
-    Ok(Accepted { case: case.name.clone(), verdict: together, claims, points: checked.iter().map(line).collect() })
+    let points = checked.iter().map(line).collect();
+    Ok(Accepted { case: case.name.clone(), verdict, claims: claims.lines, points })
 }
 
 struct Claims<'a> {
@@ -104,124 +94,91 @@ struct Claims<'a> {
     lines: Vec<String>,
 }
 
-impl Claims<'_> {
+impl<'a> Claims<'a> {
     /// Checks the answer to a question.
     fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
-        let (what, verdict, found) = match question {
+        let (what, stated, verdict, claim) = match question {
             Question::Ends => {
-                let [what, verdict, points] = node.fields(["question", "verdict", "points"])?;
-                let ends = [Place::End(End::Start), Place::End(End::Finish)];
-                let found = self.all(&points, &ends)?;
-                self.lines.push(format!("{}: the curve has a tangent line at both end points", found.word()));
-                (what.text()? == "ends", verdict, found)
+                let [_, stated, points] = node.fields(["question", "verdict", "points"])?;
+                let found = self.all(&points, &[Place::End(End::Start), Place::End(End::Finish)])?;
+                ("ends", stated, found, "the curve has a tangent line at both end points".to_owned())
             }
             Question::Address(address) => {
-                let [what, of, verdict, points] = node.fields(["question", "address", "verdict", "points"])?;
-                of.refuse(
-                    crate::rules::read_address(&of)? != *address,
-                    "answers",
-                    "the case asks for another address here",
-                )?;
+                let [_, of, stated, points] = node.fields(["question", "address", "verdict", "points"])?;
+                of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
-                let text = format!("a tangent line at the address {:?} ({:?})", address.prefix, address.cycle);
-                self.lines.push(format!("{}: the shape has {text}", found.word()));
-                (what.text()? == "address", verdict, found)
+                let place = format!("the address {:?} ({:?})", address.prefix, address.cycle);
+                ("address", stated, found, format!("the shape has a tangent line at {place}"))
             }
             Question::Joints => {
-                let [what, verdict, theorem, points, upstairs] =
+                let [_, stated, theorem, points, upstairs] =
                     node.fields(["question", "verdict", "theorem", "points", "upstairs"])?;
-                let found = self.joints(&theorem, &points, &upstairs)?;
-                (what.text()? == "joints", verdict, found)
+                let (found, places) = self.joints(&theorem, &points, &upstairs)?;
+                ("joints", stated, found, format!("the curve has a tangent line at {places}"))
             }
             Question::EveryPoint => {
                 let found = crate::everywhere::check(self.model, self.points, node)?;
-                if let Some(k) = found.witness {
-                    self.used[k] = true;
-                }
-                self.lines.push(format!("{}: {}", found.verdict.word(), found.claim));
-                (node.tag("question")? == "every point", node.field("verdict")?, found.verdict)
+                found.witness.into_iter().for_each(|k| self.used[k] = true);
+                ("every point", node.field("verdict")?, found.verdict, found.claim)
             }
             Question::AnyPoint => {
-                let [what, verdict, products] = node.fields(["question", "verdict", "products"])?;
+                let [_, stated, products] = node.fields(["question", "verdict", "products"])?;
                 self.similarities(&products)?;
-                self.lines.push("refuted: some point of the shape has a tangent line".to_owned());
-                (what.text()? == "any point", verdict, Verdict::Refuted)
+                ("any point", stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
             }
         };
-        if !what || verdict.text()? != found.word() {
-            return reject(
-                "answers",
-                &node.place,
-                format!("another question, or what follows is \"{}\"", found.word()),
-            );
-        }
-        Ok(found)
+        let asked = node.tag("question")? == what && stated.text()? == verdict.word();
+        node.need(asked, "answers", format_args!("another question, or what follows is \"{}\"", verdict.word()))?;
+        self.lines.push(format!("{}: {claim}", verdict.word()));
+        Ok(verdict)
     }
 
     /// The points with the indices given.
-    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<usize>> {
-        let items = node.list()?;
-        let indices = items.iter().map(|n| n.index(self.points.len())).collect::<Checked<Vec<_>>>()?;
-        node.refuse(indices.windows(2).any(|w| w[0] >= w[1]), "answers", "indices must ascend")?;
+    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<&'a Point>> {
+        let indices = node.indices(self.points.len())?;
+        node.need(indices.windows(2).all(|w| w[0] < w[1]), "answers", "indices must ascend")?;
         indices.iter().for_each(|&k| self.used[k] = true);
-        Ok(indices)
+        Ok(indices.iter().map(|&k| &self.points[k]).collect())
     }
 
     /// The verdict on "all these places have a tangent line" from some of them.
     fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Checked<Verdict> {
         let chosen = self.select(node)?;
-        node.refuse(
-            chosen.iter().any(|&k| !places.contains(&self.points[k].place)),
-            "answers",
-            "a point that is not asked for",
-        )?;
-        let together = chosen.iter().map(|&k| self.points[k].verdict).reduce(Verdict::and);
-        Ok(match together {
+        let asked = chosen.iter().all(|p| places.contains(&p.place));
+        node.need(asked, "answers", "a point that is not asked for")?;
+        Ok(match chosen.iter().map(|p| p.verdict).reduce(Verdict::and) {
             Some(Verdict::Proved) if chosen.len() < places.len() => Verdict::Undetermined,
-            Some(verdict) => verdict,
-            None => Verdict::Undetermined,
+            found => found.unwrap_or(Verdict::Undetermined),
         })
     }
 
-    /// The joints: refuted by one of them; proved by Theorem 5 or 5′.
-    fn joints(&mut self, theorem: &Node<'_>, points: &Node<'_>, upstairs: &Node<'_>) -> Checked<Verdict> {
+    /// The joints: refuted by one of them; proved by Theorem 5 or 5′. Says at which joints.
+    fn joints(
+        &mut self,
+        theorem: &Node<'_>,
+        points: &Node<'_>,
+        upstairs: &Node<'_>,
+    ) -> Checked<(Verdict, &'static str)> {
+        let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
         let chosen = self.select(points)?;
-        let theorem_name = theorem.text()?;
-        let items = upstairs.list()?;
-        upstairs.refuse(!items.is_empty() && theorem_name != "5'", "joints", "only Theorem 5' uses joints upstairs")?;
-        let place = |&k: &usize| self.points[k].joint(self.model, self.model.shape.start);
-        let Some(listed) = chosen.iter().map(place).collect::<Option<Vec<_>>>() else {
-            return reject("joints", &points.place, "a point that is no joint");
-        };
-        let mut verdict = chosen.iter().map(|&k| self.points[k].verdict).reduce(Verdict::and);
-        let text = match (theorem_name, verdict) {
-            ("none", Some(Verdict::Refuted)) => "every joint of every level",
-            ("none", _) => {
-                verdict = Some(Verdict::Undetermined);
-                "every joint of every level"
-            }
-            ("5" | "5'", Some(Verdict::Proved)) => {
-                complete(self.model, &listed, points, "joints")?;
-                points.need(!listed.is_empty(), "joints", "there is no joint")?;
-                at(&theorem.place, self.injective(theorem_name == "5"))?;
-                if theorem_name == "5" {
-                    "every joint of every level, a dense set"
-                } else {
-                    self.upstairs(&items, upstairs)?;
-                    "the joints listed and every joint whose line upstairs is not killed, a dense set"
-                }
-            }
-            _ => {
-                return reject(
-                    "joints",
-                    &theorem.place,
-                    "a theorem proves that joints have tangents; \"none\" otherwise",
-                );
-            }
-        };
-        let verdict = verdict.unwrap_or(Verdict::Undetermined);
-        self.lines.push(format!("{}: the curve has a tangent line at {text}", verdict.word()));
-        Ok(verdict)
+        upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
+        let listed: Option<Vec<_>> = chosen.iter().map(|p| p.place.joint(model, model.shape.start)).collect();
+        let listed = points.some(listed, "joints", "a point that is no joint")?;
+        let together = chosen.iter().map(|p| p.verdict).reduce(Verdict::and);
+        if name == "none" {
+            let refuted = together == Some(Verdict::Refuted);
+            let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };
+            return Ok((verdict, "every joint of every level"));
+        }
+        let fits = matches!(name, "5" | "5'") && together == Some(Verdict::Proved);
+        theorem.need(fits, "joints", "a theorem proves that joints have tangents; \"none\" otherwise")?;
+        complete(model, &listed, points, "joints")?;
+        theorem.at(self.injective(name == "5"))?;
+        if name == "5" {
+            return Ok((Verdict::Proved, "every joint of every level, a dense set"));
+        }
+        self.upstairs(&items, upstairs)?;
+        Ok((Verdict::Proved, "the joints listed and every joint whose line upstairs is not killed, a dense set"))
     }
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
@@ -230,9 +187,8 @@ impl Claims<'_> {
         for &e in &self.model.reachable {
             for piece in &shape.states[e].pieces {
                 let map = spaces.on_visible(e, piece)?;
-                if map.rank()? != map.cols {
-                    return reject("joints", "", format!("an operator of state {e} is not injective"));
-                }
+                let injective = map.rank()? == map.cols;
+                need(injective, "joints", format_args!("an operator of state {e} is not injective"))?;
             }
         }
         let start = spaces.of(shape.start)?;
@@ -242,59 +198,34 @@ impl Claims<'_> {
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
     fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Checked<()> {
-        let (shape, spaces) = (self.model.shape, &self.model.spaces);
-        let mut listed = Vec::new();
-        let mut spans = vec![Matrix::empty(0); shape.states.len()];
-        for &e in &self.model.reachable {
+        let Model { shape, reachable, spaces, .. } = self.model;
+        let (mut listed, mut spans) = (Vec::new(), shape.no_rows());
+        for &e in reachable {
             spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
         }
         for item in items {
             let (e, point) = Point::in_own_state(self.model, item, "joints")?;
-            let joint = point.joint(self.model, e).filter(|j| !listed.contains(j));
+            let joint = point.place.joint(self.model, e).filter(|j| !listed.contains(j));
             let new = point.verdict == Verdict::Proved && joint.is_some();
             item.need(new, "joints", "each first-level joint is proved once, in its own state")?;
             listed.extend(joint);
-            if let Some(vector) = point.common {
-                spans[e] = spans[e].stack(&vector.transpose()).echelon()?.0;
-            }
+            spans[e] = point.common.iter().fold(spans[e].clone(), |span, vector| span.stack(&vector.transpose()));
         }
         complete(self.model, &listed, node, "joints")?;
-        let images = |span: &Matrix, e: usize, k: usize| {
-            span.times(&spaces.on_visible(e, &shape.states[e].pieces[k])?.transpose())
-        };
-        loop {
-            let before: usize = spans.iter().map(|s| s.rows).sum();
-            for &e in &self.model.reachable {
-                for (k, piece) in shape.states[e].pieces.iter().enumerate() {
-                    spans[e] = spans[e].stack(&images(&spans[piece.target], e, k)?).echelon()?.0;
-                }
-            }
-            if spans.iter().map(|s| s.rows).sum::<usize>() == before {
-                break;
-            }
-        }
-        node.refuse(
-            self.model.reachable.iter().any(|&e| spans[e].rows < spans[e].cols),
-            "joints",
-            "the tangent lines are not seen to span the visible quotients",
-        )?;
-        Ok(())
+        let image = |e, p: &Piece, span: &Matrix| span.times(&spaces.on_visible(e, p)?.transpose());
+        let spans = close(shape, reachable, spans, Way::Up, image)?;
+        let all = reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
+        node.need(all, "joints", "the tangent lines are not seen to span the visible quotients")
     }
 
     /// All maps are similarities for some scalar products on the relevant spaces, of dimension at least 2.
     fn similarities(&self, node: &Node<'_>) -> Checked<()> {
-        let (shape, spaces) = (self.model.shape, &self.model.spaces);
-        let items = node.list()?;
-        node.refuse(
-            items.len() != self.model.reachable.len(),
-            "similarities",
-            "one scalar product for each reachable state is needed",
-        )?;
-        let mut products: Vec<Matrix> = (0..shape.states.len()).map(|_| Matrix::identity(0)).collect();
-        for (item, &e) in items.iter().zip(&self.model.reachable) {
+        let Model { shape, spaces, .. } = self.model;
+        let mut products = shape.no_rows();
+        for (e, item) in self.model.for_states(node, "similarities")? {
             let n = spaces.of(e)?.basis.cols;
-            item.refuse(n < 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
-            products[e] = positive_definite(item, n)?;
+            item.need(n >= 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
+            products[e] = positive_definite(&item, n)?;
         }
         for &e in &self.model.reachable {
             for piece in &shape.states[e].pieces {
@@ -303,7 +234,7 @@ impl Claims<'_> {
                 let own = &products[piece.target];
                 let ratio = pulled.at(0, 0) / own.at(0, 0);
                 let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
-                node.need(similar, "similarities", &format!("a map of state {e} is no similarity"))?;
+                node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
             }
         }
         let start = spaces.of(shape.start)?;

@@ -7,10 +7,10 @@ use crate::number::whole;
 use crate::points::{Place, Point, complete, joints};
 use crate::rate::Bounds;
 use crate::ring::Model;
-use crate::rules::Leading;
+use crate::rules::{Leading, Line};
 use crate::shape::{End, Kind};
-use crate::{Checked, Verdict, at, reject};
-use num_traits::{Signed, Zero};
+use crate::{Checked, Verdict, need};
+use num_traits::Signed;
 
 /// Longest window, and most words of one window without a positive factor.
 const MAX_WINDOW: usize = 8;
@@ -44,63 +44,52 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<An
     let start = &model.shape.states[model.shape.start];
     node.need(start.kind == Kind::Edge, "every-point", "only of a curve it is asked whether it is G¹")?;
     let witness = refuting(points, &witness)?;
-    let named = |verdict, claim: &str| Ok(Answer { verdict, witness, claim: claim.to_owned() });
+    let answer = |verdict, claim: String| Ok(Answer { verdict, witness, claim });
     if cones.list()?.is_empty() {
         let empty = [&maps, &slow, &together].into_iter().all(|n| n.list().is_ok_and(|l| l.is_empty()));
-        node.refuse(
-            !empty || !view.is_null() || !rate.is_null() || window.index(1)? != 0 || witness.is_none(),
-            "every-point",
-            "without cones only a point can refute",
-        )?;
-        return named(Verdict::Refuted, "the curve is G¹");
+        let nothing = empty && view.is_null() && rate.is_null() && window.index(1)? == 0;
+        node.need(nothing && witness.is_some(), "every-point", "without cones only a point can refute")?;
+        return answer(Verdict::Refuted, "the curve is G¹".to_owned());
     }
-    let found = at(&cones.place, Cones::read(model, &cones, &maps))?;
-    let first = at(&view.place, found.seen(&cones, &view))?;
-    at(&slow.place, found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
-    let exponent = at(&rate.place, found.rate(&rate))?;
+    let found = cones.at(Cones::read(model, &cones, &maps))?;
+    let seen = view.at(found.seen(&cones, &view))?;
+    slow.at(found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
+    let rate = rate.at(found.rate(&rate))?;
     let agree = !together.list()?.is_empty() || model.reachable.iter().all(|&e| joints(model, e).is_empty());
     if agree {
-        at(&together.place, regular_joints(model, points, &together))?;
+        together.at(regular_joints(model, points, &together))?;
     }
-    let half = if first {
-        "both half-tangents exist at every point"
-    } else {
-        "before the projection both half-tangents exist at every point"
-    };
-    match (witness, first && agree) {
-        (Some(_), _) => named(Verdict::Refuted, &format!("the curve is G¹; but {half}")),
-        (None, true) => named(
-            Verdict::Proved,
-            &format!("the curve is G¹: a tangent at every point, which turns continuously{exponent}"),
-        ),
-        (None, false) => named(Verdict::Undetermined, &format!("the curve is G¹; but {half}")),
+    if witness.is_none() && seen && agree {
+        let claim = format!("the curve is G¹: a tangent at every point, which turns continuously{rate}");
+        return answer(Verdict::Proved, claim);
     }
+    let verdict = if witness.is_some() { Verdict::Refuted } else { Verdict::Undetermined };
+    let before = if seen { "" } else { "before the projection " };
+    answer(verdict, format!("the curve is G¹; but {before}both half-tangents exist at every point"))
 }
 
 /// The index of a point at which the tangent does not exist or does not turn continuously.
 fn refuting(points: &[Point], node: &Node<'_>) -> Checked<Option<usize>> {
-    let items = node.list()?;
-    let [item] = &items[..] else {
-        return if items.is_empty() { Ok(None) } else { node.malformed("at most one point is needed here") };
-    };
-    let k = item.index(points.len())?;
-    let broken = points[k].verdict == Verdict::Refuted || matches!(points[k].kind, "cusp" | "oscillating");
-    if broken { Ok(Some(k)) } else { reject("every-point", &item.place, "the point has a tangent like any other") }
+    let listed = node.indices(points.len())?;
+    node.need(listed.len() <= 1, "format", "at most one point is needed here")?;
+    let broken = |&k: &usize| points[k].verdict == Verdict::Refuted || matches!(points[k].kind, "cusp" | "oscillating");
+    let why = "the point has a tangent like any other";
+    node.list()?.iter().try_for_each(|item| item.need(listed.iter().all(broken), "every-point", why))?;
+    Ok(listed.first().copied())
 }
 
 /// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state, or as a listed
 /// point through a map that is injective on that quotient.
 fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<()> {
-    let (mut listed, start) = (Vec::new(), model.shape.start);
+    let mut listed = Vec::new();
     for item in node.list()? {
         let own;
         let (point, root) = if item.get("listed").is_some() {
             let [state, index] = item.fields(["state", "listed"])?;
             let point = &points[index.index(points.len())?];
-            let e = state.index(model.shape.states.len())?;
-            let sees = injective(model, point, e)?;
+            let sees = injective(model, point, state.index(model.shape.states.len())?)?;
             item.need(sees, "every-point", "the joint of another state, or directions are lost where it is looked at")?;
-            (point, start)
+            (point, model.shape.start)
         } else {
             let (e, point) = Point::in_own_state(model, &item, "every-point")?;
             own = point;
@@ -108,7 +97,7 @@ fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Check
         };
         let regular = point.verdict == Verdict::Proved && point.kind == "regular";
         item.need(regular, "every-point", "the joint must be regular")?;
-        listed.extend(point.joint(model, root));
+        listed.extend(point.place.joint(model, root));
     }
     complete(model, &listed, node, "every-point")
 }
@@ -122,44 +111,27 @@ fn injective(model: &Model<'_>, point: &Point, e: usize) -> Checked<bool> {
     Ok(end == e && seen.times(&space.basis)?.rank()? == space.visible.rows)
 }
 
-/// Reads a matrix of the given size, by rows.
-fn matrix(node: &Node<'_>, rows: usize, cols: usize) -> Checked<Matrix> {
-    let found = node.matrix(cols)?;
-    if found.rows == rows { Ok(found) } else { node.malformed(&format!("{rows} rows are needed here")) }
-}
-
 impl<'a> Cones<'a> {
     /// The cones are pointed, span the relevant spaces, hold the chords, and are mapped into each other.
     fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
         let shape = model.shape;
-        let (own, images) = (cones.list()?, maps.list()?);
-        cones.refuse(
-            own.len() != model.reachable.len() || images.len() != own.len(),
-            "cone",
-            "one cone for each reachable state is needed, breadth first",
-        )?;
-        let mut rays: Vec<Matrix> = shape.states.iter().map(|s| Matrix::empty(s.dim)).collect();
-        for (item, &e) in own.iter().zip(&model.reachable) {
-            rays[e] = at(&item.place, Self::cone(model, e, item))?;
+        let (own, images) = (model.for_states(cones, "cone")?, model.for_states(maps, "format")?);
+        let mut rays = shape.no_rows();
+        for (e, item) in own {
+            rays[e] = item.at(Self::cone(model, e, &item))?;
         }
         let mut all: Vec<Vec<Matrix>> = shape.states.iter().map(|_| Vec::new()).collect();
-        for (item, &e) in images.iter().zip(&model.reachable) {
-            let items = item.list()?;
-            if items.len() != shape.states[e].pieces.len() {
-                return item.malformed("one matrix for each piece is needed here");
-            }
-            for (item, piece) in items.iter().zip(&shape.states[e].pieces) {
-                let b = matrix(item, rays[e].rows, rays[piece.target].rows)?;
-                let zero = (0..b.cols).any(|j| b.columns(&[j]).is_zero());
-                item.refuse(
-                    zero || b.data.iter().any(Signed::is_negative),
-                    "cone",
-                    "coefficients are not negative, and no column is 0",
-                )?;
+        for (e, list) in images {
+            let pieces = &shape.states[e].pieces;
+            for (item, piece) in list.exactly(pieces.len(), "format")?.iter().zip(pieces) {
+                let b = item.matrix(rays[piece.target].rows)?;
+                item.need(b.rows == rays[e].rows, "format", "one row for each ray is needed here")?;
+                let fits = !b.has_negative() && (0..b.cols).all(|j| !b.columns(&[j]).is_zero());
+                item.need(fits, "cone", "coefficients are not negative, and no column is 0")?;
                 let turned = whole(if piece.reversed { -1 } else { 1 });
                 let image = piece.op.times(&rays[piece.target].transpose())?;
-                let combined = rays[e].transpose().times(&b)?;
-                item.refuse(image != combined.scaled(&turned), "cone", "the images of the rays are other vectors")?;
+                let combined = rays[e].transpose().times(&b)?.scaled(&turned);
+                item.need(image == combined, "cone", "the images of the rays are other vectors")?;
                 all[e].push(b);
             }
         }
@@ -169,30 +141,18 @@ impl<'a> Cones<'a> {
     fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Checked<Matrix> {
         let [rays, functional, chord] = node.fields(["rays", "functional", "chord"])?;
         let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
-        node.refuse(
-            state.kind != Kind::Edge || space.basis.cols == 0,
-            "cone",
-            "only curves that are more than a point have cones",
-        )?;
-        let rows = matrix(&rays, rays.list()?.len(), state.dim)?;
-        let coordinates = space.reading.times(&rows.transpose())?;
-        rays.refuse(
-            space.basis.times(&coordinates)? != rows.transpose() || rows.rank()? != space.basis.cols,
-            "cone",
-            "the rays do not span the relevant space",
-        )?;
+        let curve = state.kind == Kind::Edge && space.basis.cols > 0;
+        node.need(curve, "cone", "only curves that are more than a point have cones")?;
+        let rows = rays.matrix(state.dim)?;
+        let held = space.basis.times(&space.reading.times(&rows.transpose())?)? == rows.transpose();
+        let spans = held && rows.rank()? == space.basis.cols;
+        rays.need(spans, "cone", "the rays do not span the relevant space")?;
         let values = rows.times(&Matrix::new(state.dim, 1, &functional.vector(state.dim)?))?;
-        if let Some(k) = values.data.iter().position(|x| !x.is_positive()) {
-            return reject("cone", &functional.place, format!("the functional is not positive on ray {k}"));
-        }
+        functional.need(all_positive(&values), "cone", "the functional is not positive on every ray")?;
         let y = Matrix::new(rows.rows, 1, &chord.vector(rows.rows)?);
-        let end = |end: End| model.shape.end_point(e, end);
-        let difference = end(End::Finish)?.minus(&end(End::Start)?);
-        chord.refuse(
-            y.is_zero() || y.data.iter().any(Signed::is_negative) || rows.transpose().times(&y)? != difference,
-            "cone",
-            "the chord is no such combination of the rays",
-        )?;
+        let difference = model.shape.end_point(e, End::Finish)?.minus(&model.shape.end_point(e, End::Start)?);
+        let combines = !y.is_zero() && !y.has_negative() && rows.transpose().times(&y)? == difference;
+        chord.need(combines, "cone", "the chord is no such combination of the rays")?;
         Ok(rows)
     }
 
@@ -201,13 +161,10 @@ impl<'a> Cones<'a> {
         if view.is_null() {
             return Ok(false);
         }
-        let start = self.model.shape.start;
-        let images = self.model.shape.view.times(&self.rays[start].transpose())?;
+        let images = self.model.shape.view.times(&self.rays[self.model.shape.start].transpose())?;
         let values = Matrix::new(1, images.rows, &view.vector(images.rows)?).times(&images)?;
-        match values.data.iter().position(|x| !x.is_positive()) {
-            Some(k) => reject("cone", &cones.place, format!("the functional of the view is not positive on ray {k}")),
-            None => Ok(true),
-        }
+        cones.need(all_positive(&values), "cone", "the functional of the view is not positive on every ray")?;
+        Ok(true)
     }
 
     /// All words of `length` letters whose factors have no positive product, by state and then by letters, with the state.
@@ -224,9 +181,7 @@ impl<'a> Cones<'a> {
                     }
                 }
             }
-            if longer.len() > MAX_WORDS {
-                return reject("limit", "", "too many words without a positive factor");
-            }
+            need(longer.len() <= MAX_WORDS, "limit", "too many words without a positive factor")?;
             words = longer;
         }
         Ok(words.into_iter().map(|(from, _, word)| (from, word)).collect())
@@ -234,32 +189,23 @@ impl<'a> Cones<'a> {
 
     /// Whether no end of a word has a positive product.
     fn idle(&self, from: usize, word: &[usize]) -> Checked<bool> {
-        let states = self.model.shape.path(from, word).unwrap_or_default();
-        let mut product: Option<Matrix> = None;
+        let states = self.model.shape.path(from, word)?;
+        let mut product = Matrix::identity(self.rays[states[word.len()]].rows);
         for (&e, &letter) in states.iter().zip(word).rev() {
-            let step = pattern(&self.maps[e][letter]);
-            let next = match product {
-                None => step,
-                Some(p) => pattern(&step.times(&p)?),
-            };
-            if next.data.iter().all(Signed::is_positive) {
+            product = pattern(&pattern(&self.maps[e][letter]).times(&product)?);
+            if all_positive(&product) {
                 return Ok(false);
             }
-            product = Some(next);
         }
         Ok(true)
     }
 
     /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
     fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
-        slow.refuse(window == 0, "slow", "the window must be positive")?;
+        slow.need(window > 0, "slow", "the window must be positive")?;
         let cycles = self.idle_cycles(&self.idle_words(window)?)?;
-        let items = slow.list()?;
-        if items.len() != cycles.len() {
-            return reject("slow", &slow.place, format!("there are {} cycles without positive products", cycles.len()));
-        }
-        for (item, (e, word)) in items.iter().zip(&cycles) {
-            at(&item.place, self.pulls(item, *e, word))?;
+        for (item, (e, word)) in slow.exactly(cycles.len(), "slow")?.iter().zip(&cycles) {
+            item.at(self.pulls(item, *e, word))?;
         }
         Ok(())
     }
@@ -284,9 +230,8 @@ impl<'a> Cones<'a> {
         }
         let (mut cycles, mut seen) = (Vec::new(), vec![false; n]);
         for k in (0..n).filter(|&k| reach[k][k]) {
-            if next[k].iter().filter(|&&j| reach[j][k]).count() != 1 {
-                return reject("slow", "", "two cycles without positive products meet");
-            }
+            let successors = next[k].iter().filter(|&&j| reach[j][k]).count();
+            need(successors == 1, "slow", "two cycles without positive products meet")?;
             let (mut at, mut word) = (k, Vec::new());
             while !seen[at] {
                 seen[at] = true;
@@ -304,41 +249,25 @@ impl<'a> Cones<'a> {
     /// is the ray to which the others are pulled.
     fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Checked<()> {
         let [state, letters, top, functional] = node.fields(["state", "word", "top", "functional"])?;
-        node.refuse(
-            state.index(usize::MAX)? != e || letters.word()? != word,
-            "slow",
-            format!("the cycle {word:?} of state {e} is expected here"),
-        )?;
+        let same = state.index(usize::MAX)? == e && letters.word()? == word;
+        node.need(same, "slow", format_args!("the cycle {word:?} of state {e} is expected here"))?;
         let model = self.model;
         let (product, _) = model.shape.product(e, word)?;
-        let turn = whole(i64::from(model.shape.orientation(e, word)));
+        let turn = whole(i64::from(model.shape.orientation(e, word)?));
         let linear = model.spaces.linear(&product, e, e)?.scaled(&turn);
-        let top_node = top;
-        let top = Leading::read(&top_node, &linear)?;
-        top_node.refuse(top.eigenvalue_sign() <= 0, "slow", "the leading eigenvalue must be positive")?;
-        let (row, pairing) = top.row(&linear, &functional)?;
-        let (field, v) = (&top.field, &top.vectors()[0]);
+        let leading = Leading::read(&top, &linear)?;
+        top.need(leading.eigenvalue_sign() > 0, "slow", "the leading eigenvalue must be positive")?;
+        let (row, pairing) = leading.row(&linear, &functional)?;
+        let (field, v) = (&leading.field, &leading.vectors()[0]);
         let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
         for k in 0..rays.rows {
             let ray = rays.row(k);
-            if field.sign(&ray.times(&row)?)? > 0 {
-                continue;
+            if field.sign(&ray.times(&row)?)? <= 0 {
+                // The others tend to this ray, and this one must be it already.
+                let limit = Line::new(field, v.scaled(&whole(i64::from(pairing))))?;
+                let there = limit.along(&field.embedded(&ray.transpose()))? == Some(1);
+                functional.need(there, "slow", format_args!("ray {k} is not pulled to the ray of the cycle"))?;
             }
-            // The others tend to `pairing · v_1`; this one must be a positive multiple of it.
-            let ray = ray.entries();
-            let parallel = |i: usize| (0..i).all(|j| v.row(j).scaled(&ray[i]) == v.row(i).scaled(&ray[j]));
-            if !(0..ray.len()).all(parallel) {
-                let why = format!("the leading coefficient of ray {k} is not positive");
-                return reject("slow", &functional.place, why);
-            }
-            let values = field.enclose(v)?;
-            let along = (0..ray.len()).map(|i| values.sign(i) * if ray[i].is_negative() { -1 } else { 1 });
-            let along = along.zip(&ray).find(|(s, x)| *s != 0 && !x.is_zero()).map_or(0, |(s, _)| s);
-            functional.refuse(
-                along != pairing,
-                "slow",
-                format!("ray {k} is not the one to which the others are pulled"),
-            )?;
         }
         Ok(())
     }
@@ -370,6 +299,10 @@ impl<'a> Cones<'a> {
         }
         Ok(format!(" (cones shrink by (√D − 1)/(√D + 1) with every {length} letters, D = {most})"))
     }
+}
+
+fn all_positive(m: &Matrix) -> bool {
+    m.data.iter().all(Signed::is_positive)
 }
 
 /// 1 where an entry is positive, otherwise 0.

@@ -6,7 +6,7 @@ use crate::matrix::Matrix;
 use crate::number::{Q, bits, decimal_fraction, spend};
 use crate::poly::{Field, has_root_near};
 use crate::spectrum::chain;
-use crate::{Accepted, Checked, Rejected, Verdict, at, need, reject};
+use crate::{Accepted, Checked, Rejected, Verdict, need, some};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::rc::Rc;
@@ -36,12 +36,12 @@ impl Disc {
         &self.x * &self.x + &self.y * &self.y
     }
 
-    /// Whether the disc, moved by at most a fraction `slack.0 / slack.1`, misses another one and its mirror image.
-    fn misses(&self, other: &Self, slack: &(BigInt, BigInt)) -> bool {
-        let far = (&self.error + &other.error) * &slack.1 + &slack.0;
-        let x = (&self.x - &other.x) * &slack.1;
+    /// Whether the disc, moved by at most `slack` (over the denominator of the discs), misses another one and its mirror image.
+    fn misses(&self, other: &Self, slack: &Q) -> bool {
+        let far = (&self.error + &other.error) * slack.denom() + slack.numer();
+        let x = (&self.x - &other.x) * slack.denom();
         [&self.y - &other.y, &self.y + &other.y].into_iter().all(|y| {
-            let y = y * &slack.1;
+            let y = y * slack.denom();
             &x * &x + &y * &y > &far * &far
         })
     }
@@ -52,49 +52,44 @@ fn plain(source: &str) -> Checked<Matrix> {
     let words = source.lines().flat_map(|line| line.split('#').next().unwrap_or("").split_ascii_whitespace());
     let mut words = words.map(decimal_fraction);
     let size = words.next().flatten().and_then(|n| if n.is_integer() { n.numer().to_usize() } else { None });
-    let Some(n) = size.filter(|n| (1..=MAX_SIZE).contains(n)) else {
-        return reject("matrix", "", "the size of a matrix is needed first");
-    };
-    match words.collect::<Option<Vec<Q>>>() {
-        Some(entries) if entries.len() == n * n => Ok(Matrix::new(n, n, &entries)),
-        _ => reject("matrix", "", "n rows of n exact numbers are needed after the size"),
-    }
+    let n = some(size.filter(|n| (1..=MAX_SIZE).contains(n)), "matrix", "the size of a matrix is needed first")?;
+    let entries = words.collect::<Option<Vec<Q>>>().filter(|entries| entries.len() == n * n);
+    Ok(Matrix::new(n, n, &some(entries, "matrix", "n rows of n exact numbers are needed after the size")?))
 }
 
 /// Checks the proof of a certificate of the kind `spectrum` about the text of a case or of a matrix.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let [spectra] = node.fields(["spectra"])?;
-    let items = spectra.list()?;
+    let items = spectra.each(|item| item.fields(["operator", "factors", "modulus", "classes"]));
     let mut operators: Vec<(String, Matrix, Option<(usize, usize)>)> = Vec::new();
     let mut name = "matrix".to_owned();
-    match items.first().map(|item| item.fields(["operator", "factors", "modulus", "classes"])) {
-        Some(Ok([operator, ..])) if operator.is_null() => operators.push((name.clone(), plain(source)?, None)),
-        _ => {
-            let case = case::read(source, false).map_err(|r| Rejected { unreadable: false, ..r })?;
-            for (e, state) in case.shape.states.into_iter().enumerate() {
-                for (k, piece) in state.pieces.into_iter().enumerate().filter(|(_, p)| p.target == e) {
-                    operators.push((format!("operator {k} of state {e}"), piece.op, Some((e, k))));
-                }
+    if items.as_ref().is_ok_and(|items| items.first().is_some_and(|[operator, ..]| operator.is_null())) {
+        operators.push((name.clone(), plain(source)?, None));
+    } else {
+        let case = case::read(source, false).map_err(|r| Rejected { unreadable: false, ..r })?;
+        for (e, state) in case.shape.states.into_iter().enumerate() {
+            for (k, piece) in state.pieces.into_iter().enumerate().filter(|(_, p)| p.target == e) {
+                operators.push((format!("operator {k} of state {e}"), piece.op, Some((e, k))));
             }
-            name = case.name;
         }
+        name = case.name;
     }
+    let items = items?;
     let all = items.len() == operators.len() && !items.is_empty();
     spectra.need(all, "spectrum", "one item for each operator is needed")?;
     let mut claims = Vec::new();
-    for (item, (of, matrix, place)) in items.iter().zip(&operators) {
-        let [operator, factors, modulus, classes] = item.fields(["operator", "factors", "modulus", "classes"])?;
-        if let Some((e, k)) = place {
-            let [state, piece] = operator.fields(["state", "piece"])?;
-            let same = (state.index(case::MAX_STATES)?, piece.index(case::MAX_PIECES)?) == (*e, *k);
-            operator.need(same, "spectrum", &format!("{of} is expected here"))?;
-        } else {
-            operator.need(operator.is_null(), "spectrum", "a file has one matrix")?;
-        }
-        let (discs, lines) = at(&factors.place, roots_and_chains(matrix, &factors, &modulus))?;
-        claims.extend(lines.into_iter().map(|line| format!("{of}: {line}")));
-        let line = at(&classes.place, moduli(&discs, &classes))?;
-        claims.push(format!("{of}: {line}"));
+    for ([operator, factors, modulus, classes], (of, matrix, place)) in items.iter().zip(&operators) {
+        let same = match place {
+            None => operator.is_null(),
+            Some(place) => {
+                let [state, piece] = operator.fields(["state", "piece"])?;
+                (state.index(case::MAX_STATES)?, piece.index(case::MAX_PIECES)?) == *place
+            }
+        };
+        operator.need(same, "spectrum", format_args!("{of} is expected here"))?;
+        let (discs, lines) = factors.at(roots_and_chains(matrix, factors, modulus))?;
+        let classes = classes.at(moduli(&discs, classes))?;
+        claims.extend(lines.into_iter().chain([classes]).map(|line| format!("{of}: {line}")));
     }
     Ok(Accepted { case: name, verdict: Verdict::Proved, claims, points: Vec::new() })
 }
@@ -139,11 +134,11 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
     let discs = Discs { list, bits: all.bits(), den: all.den };
     for (k, a) in discs.list.iter().enumerate() {
         spend(8 * k, discs.bits)?;
-        let apart = discs.list[..k].iter().all(|b| a.misses(b, &(BigInt::zero(), BigInt::one())));
+        let apart = discs.list[..k].iter().all(|b| a.misses(b, &Q::zero()));
         need(apart, "roots", "two discs meet")?;
     }
-    let why = format!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows);
-    node.need(basis.rows == matrix.rows, "chains", &why)?;
+    let why = format_args!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows);
+    node.need(basis.rows == matrix.rows, "chains", why)?;
     let independent = invertible(&basis, modulus)?;
     modulus.need(independent, "chains", "the vectors are not seen to be independent for this modulus")?;
     Ok((discs, lines))
@@ -192,7 +187,7 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
     let items = node.list()?;
     for (k, item) in items.iter().enumerate() {
         let [members, square, below] = item.fields(["members", "square", "below"])?;
-        let chosen = members.list()?.iter().map(|m| m.index(listed.len())).collect::<Checked<Vec<_>>>()?;
+        let chosen = members.indices(listed.len())?;
         members.need(!chosen.is_empty(), "moduli", "a class is not empty")?;
         for &m in &chosen {
             members.need(!std::mem::replace(&mut listed[m], true), "moduli", "a root stands in two classes")?;
@@ -203,13 +198,12 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
             let outside = below.as_ref().map_or(Ok(true), |b| discs.beyond(m, b, 1))?;
             item.need(inside && outside, "moduli", "the radii do not separate the classes")?;
         }
-        let equal = if square.is_null() {
-            chosen[1..].iter().map(|&m| discs.opposite(chosen[0], m)).collect::<Checked<Vec<_>>>()?
-        } else {
-            let s = square.rational()?;
-            chosen.iter().map(|&m| discs.inverted(m, &s)).collect::<Checked<Vec<_>>>()?
-        };
-        item.need(equal.iter().all(|e| *e), "moduli", "the roots of a class are not seen to have one modulus")?;
+        let square = if square.is_null() { None } else { Some(square.rational()?) };
+        // The first member has the modulus of the class, which where no square is given is its own.
+        for &m in &chosen[usize::from(square.is_none())..] {
+            let equal = square.as_ref().map_or_else(|| discs.opposite(chosen[0], m), |s| discs.inverted(m, s))?;
+            item.need(equal, "moduli", "the roots of a class are not seen to have one modulus")?;
+        }
         sizes.push(chosen.iter().map(|&m| if discs.list[m].y.is_zero() { 1 } else { 2 }).sum::<usize>());
         above = below;
     }
@@ -236,15 +230,15 @@ impl Discs {
         let reflected = p.cols == q.cols && (0..p.cols).all(|k| &q.data[k] * &p.den == &p.data[k] * &q.den * sign(k));
         let Disc { x, y, error, .. } = &self.list[a];
         let mirror = Disc { factor: Rc::clone(q), x: -x, y: y.clone(), error: error.clone() };
-        Ok(reflected && self.others_miss(&mirror, b, &(BigInt::zero(), BigInt::one()))?)
+        Ok(reflected && self.others_miss(&mirror, b, &Q::zero())?)
     }
 
     /// Whether the other discs of the factor of disc `m` miss a disc that may move by at most `slack`.
-    fn others_miss(&self, disc: &Disc, m: usize, slack: &(BigInt, BigInt)) -> Checked<bool> {
-        spend(8 * self.list.len(), self.bits + slack.0.bits().max(slack.1.bits()))?;
-        let mut all =
-            self.list.iter().enumerate().filter(|(k, d)| *k != m && Rc::ptr_eq(&d.factor, &self.list[m].factor));
-        Ok(all.all(|(_, d)| disc.misses(d, slack)))
+    fn others_miss(&self, disc: &Disc, m: usize, slack: &Q) -> Checked<bool> {
+        spend(8 * self.list.len(), self.bits + bits(slack))?;
+        let factor = &self.list[m].factor;
+        let mut others = self.list.iter().enumerate().filter(|(k, d)| *k != m && Rc::ptr_eq(&d.factor, factor));
+        Ok(others.all(|(_, d)| disc.misses(d, slack)))
     }
 
     /// Whether the root `λ` of disc `m` has `|λ|² = s`: the roots of its factor are closed under `λ -> s/λ`, and `s/conj(λ)`,
@@ -268,6 +262,6 @@ impl Discs {
         // | s - |c|^2 | + 2 (|x| + |y|) e + e^2 over the least modulus.
         let apart = s.numer() * &self.den * &self.den - disc.modulus_squared() * s.denom();
         let moved = apart.abs() + ((x + y) * e * 2 + e * e) * s.denom();
-        self.others_miss(disc, m, &(moved, least * s.denom()))
+        self.others_miss(disc, m, &Q::new_raw(moved, least * s.denom()))
     }
 }

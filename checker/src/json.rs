@@ -2,8 +2,9 @@
 
 use crate::matrix::Matrix;
 use crate::number::{Q, canonical, charge};
-use crate::{Checked, reject};
+use crate::{Checked, MAX_LETTERS, Rejected, need, reject, some};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
+use std::fmt::{Display, Formatter};
 
 /// A JSON value as certificates use it.
 #[derive(Debug)]
@@ -43,7 +44,7 @@ struct Reader;
 impl<'de> Visitor<'de> for Reader {
     type Value = Json;
 
-    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+    fn expecting(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
         f.write_str("null, a natural number, a string, a list or an object")
     }
     fn visit_unit<E: Error>(self) -> Result<Json, E> {
@@ -66,20 +67,18 @@ impl<'de> Visitor<'de> for Reader {
     fn visit_map<A: MapAccess<'de>>(self, mut items: A) -> Result<Json, A::Error> {
         let mut fields: Vec<(String, Json)> = Vec::new();
         while let Some((key, value)) = items.next_entry::<String, Json>()? {
-            if fields.iter().any(|(k, _)| *k == key) {
-                return Err(A::Error::custom(format!("the key {key:?} is repeated")));
-            }
-            if fields.len() == MAX_FIELDS {
-                return Err(A::Error::custom("too many fields"));
-            }
             room()?;
+            if fields.len() == MAX_FIELDS || fields.iter().any(|(k, _)| *k == key) {
+                return Err(A::Error::custom(format!("the key {key:?} is repeated, or one too many")));
+            }
             fields.push((key, value));
         }
         Ok(Json::Object(fields))
     }
 }
 
-/// A value of the certificate with the place where it stands.
+/// A value of the certificate with the place where it stands. What a rule demands of it is stated by [`Node::need`],
+/// [`Node::some`] and [`Node::reject`]; the readers below demand what the format says (rule `format`).
 #[derive(Clone)]
 pub struct Node<'a> {
     /// The value.
@@ -89,19 +88,34 @@ pub struct Node<'a> {
 }
 
 impl<'a> Node<'a> {
-    /// A rejection of this value by the rules of the format.
-    pub fn malformed<T>(&self, why: &str) -> Checked<T> {
-        reject("format", &self.place, why)
+    /// Gives a rejection that has no place yet this one.
+    pub fn at<T>(&self, result: Checked<T>) -> Checked<T> {
+        result.map_err(|r| if r.place.is_empty() { Rejected { place: self.place.clone(), ..r } } else { r })
     }
 
     /// A rejection of this value unless a premise holds.
-    pub fn need(&self, holds: bool, rule: &str, why: &str) -> Checked<()> {
-        if holds { Ok(()) } else { reject(rule, &self.place, why) }
+    pub fn need(&self, holds: bool, rule: &str, why: impl Display) -> Checked<()> {
+        self.at(need(holds, rule, why))
     }
 
-    /// A rejection of this value where something holds.
-    pub fn refuse(&self, holds: bool, rule: &str, why: impl Into<String>) -> Checked<()> {
-        if holds { reject(rule, &self.place, why) } else { Ok(()) }
+    /// What must exist; a rejection of this value if it does not.
+    pub fn some<T>(&self, found: Option<T>, rule: &str, why: impl Display) -> Checked<T> {
+        self.at(some(found, rule, why))
+    }
+
+    /// A rejection of this value.
+    pub fn reject<T>(&self, rule: &str, why: impl Display) -> Checked<T> {
+        self.at(reject(rule, why))
+    }
+
+    /// What the format has here.
+    fn form<T>(&self, found: Option<T>, what: &str) -> Checked<T> {
+        self.some(found, "format", format_args!("{what} is needed here"))
+    }
+
+    /// Demands that this text is the one that follows.
+    pub fn follows(&self, rule: &str, word: &str) -> Checked<()> {
+        self.need(self.text()? == word, rule, format_args!("what follows is {word:?}"))
     }
 
     /// Whether this is `null`.
@@ -109,97 +123,102 @@ impl<'a> Node<'a> {
         matches!(self.value, Json::Null)
     }
 
+    fn object(&self) -> Checked<&'a [(String, Json)]> {
+        self.form(if let Json::Object(fields) = self.value { Some(fields.as_slice()) } else { None }, "an object")
+    }
+
+    fn child(&self, (name, value): &'a (String, Json)) -> Node<'a> {
+        Node { value, place: format!("{}.{name}", self.place) }
+    }
+
     /// The values of an object with exactly these fields in this order.
     pub fn fields<const K: usize>(&self, names: [&str; K]) -> Checked<[Node<'a>; K]> {
-        let Json::Object(fields) = self.value else { return self.malformed("an object is needed here") };
-        if !fields.iter().map(|(k, _)| k.as_str()).eq(names) {
-            return self.malformed(&format!("the fields must be exactly {names:?}, in this order"));
-        }
-        Ok(std::array::from_fn(|k| Node { value: &fields[k].1, place: format!("{}.{}", self.place, names[k]) }))
+        let fields = self.object()?;
+        let same = fields.iter().map(|(key, _)| key.as_str()).eq(names);
+        self.need(same, "format", format_args!("the fields must be exactly {names:?}, in this order"))?;
+        Ok(std::array::from_fn(|k| self.child(&fields[k])))
     }
 
     /// The text of the first field, which must have the given name: the tag that says which fields follow.
     pub fn tag(&self, name: &str) -> Checked<&'a str> {
-        match self.value {
-            Json::Object(fields) => match fields.first() {
-                Some((key, Json::Text(text))) if key == name => Ok(text),
-                _ => self.malformed(&format!("the first field must be the text {name:?}")),
-            },
-            _ => self.malformed("an object is needed here"),
+        match self.object()?.first() {
+            Some((key, Json::Text(text))) if key == name => Ok(text),
+            _ => self.reject("format", format_args!("the first field must be the text {name:?}")),
         }
     }
 
     /// The value of a field, where there is one.
     pub fn get(&self, name: &str) -> Option<Node<'a>> {
-        let Json::Object(fields) = self.value else { return None };
-        let (_, value) = fields.iter().find(|(key, _)| key == name)?;
-        Some(Node { value, place: format!("{}.{name}", self.place) })
+        self.object().ok()?.iter().find(|(key, _)| key == name).map(|field| self.child(field))
     }
 
     /// The value of a field.
     pub fn field(&self, name: &str) -> Checked<Node<'a>> {
-        self.get(name).map_or_else(|| self.malformed(&format!("the field {name:?} is missing")), Ok)
+        self.form(self.get(name), &format!("the field {name:?}"))
     }
 
-    /// Whether this is an object with no other keys than these.
-    pub fn known(&self, names: &[&str]) -> Checked<()> {
-        let Json::Object(fields) = self.value else { return self.malformed("a table is needed here") };
-        match fields.iter().find(|(key, _)| !names.contains(&key.as_str())) {
-            Some((key, _)) => self.malformed(&format!("unknown key `{key}`")),
-            None => Ok(()),
-        }
+    /// Demands an object with no other keys than these (separated by spaces).
+    pub fn known(&self, names: &str) -> Checked<()> {
+        let unknown = self.object()?.iter().find(|(key, _)| names.split(' ').all(|name| name != key));
+        self.need(unknown.is_none(), "format", format_args!("unknown key {:?}", unknown.map(|(key, _)| key)))
     }
 
     /// The elements of a list.
     pub fn list(&self) -> Checked<Vec<Node<'a>>> {
-        let Json::List(items) = self.value else { return self.malformed("a list is needed here") };
+        let Json::List(items) = self.value else { return self.reject("format", "a list is needed here") };
         let item = |(k, value)| Node { value, place: format!("{}[{k}]", self.place) };
         Ok(items.iter().enumerate().map(item).collect())
     }
 
+    /// The elements of a list of this length.
+    pub fn exactly(&self, count: usize, rule: &str) -> Checked<Vec<Node<'a>>> {
+        let items = self.list()?;
+        self.need(items.len() == count, rule, format_args!("{count} items are needed here"))?;
+        Ok(items)
+    }
+
+    /// What is read from each element of a list.
+    pub fn each<T>(&self, read: impl FnMut(&Node<'a>) -> Checked<T>) -> Checked<Vec<T>> {
+        self.list()?.iter().map(read).collect()
+    }
+
     /// A text.
     pub fn text(&self) -> Checked<&'a str> {
-        match self.value {
-            Json::Text(text) => Ok(text),
-            _ => self.malformed("a text is needed here"),
-        }
+        self.form(if let Json::Text(text) = self.value { Some(text.as_str()) } else { None }, "a text")
     }
 
     /// A natural number below `bound`.
     pub fn index(&self, bound: usize) -> Checked<usize> {
         match self.value {
             Json::Index(k) if usize::try_from(*k).is_ok_and(|k| k < bound) => Ok(*k as usize),
-            _ => self.malformed(&format!("a natural number below {bound} is needed here")),
+            _ => self.reject("format", format_args!("a natural number below {bound} is needed here")),
         }
+    }
+
+    /// A list of natural numbers below `bound`.
+    pub fn indices(&self, bound: usize) -> Checked<Vec<usize>> {
+        self.each(|item| item.index(bound))
     }
 
     /// A rational number in its canonical form.
     pub fn rational(&self) -> Checked<Q> {
-        match canonical(self.text()?) {
-            Some(number) => Ok(number),
-            None => self.malformed("not a rational number in lowest terms, such as \"-3/4\" or \"2\""),
-        }
+        self.form(canonical(self.text()?), "a rational number in lowest terms, such as \"-3/4\" or \"2\",")
     }
 
     /// A list of exactly `count` rational numbers.
     pub fn vector(&self, count: usize) -> Checked<Vec<Q>> {
-        let items = self.list()?;
-        if items.len() != count {
-            return self.malformed(&format!("{count} numbers are needed here"));
-        }
-        items.iter().map(Node::rational).collect()
+        self.exactly(count, "format")?.iter().map(Node::rational).collect()
     }
 
     /// A matrix as a list of its rows, of which each has `cols` entries.
     pub fn matrix(&self, cols: usize) -> Checked<Matrix> {
-        let rows = self.list()?.iter().map(|row| row.vector(cols)).collect::<Checked<Vec<_>>>()?;
-        Ok(Matrix::from_rows(cols, &rows))
+        Ok(Matrix::from_rows(cols, &self.each(|row| row.vector(cols))?))
     }
 
     /// A word: a list of at most 1000 letters below 64.
     pub fn word(&self) -> Checked<Vec<usize>> {
-        let items = self.list()?;
-        self.refuse(items.len() > crate::MAX_LETTERS, "limit", "the word is too long")?;
-        items.iter().map(|n| n.index(crate::case::MAX_PIECES)).collect()
+        let letters = self.indices(crate::case::MAX_PIECES)?;
+        self.need(letters.len() <= MAX_LETTERS, "limit", "the word is too long")?;
+        Ok(letters)
     }
 }

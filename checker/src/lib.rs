@@ -100,18 +100,23 @@ impl std::error::Error for Rejected {}
 /// What holds, or why it is not seen to.
 pub type Checked<T> = Result<T, Rejected>;
 
-fn reject<T>(rule: &str, place: &str, why: impl Into<String>) -> Checked<T> {
-    Err(Rejected { rule: rule.to_owned(), place: place.to_owned(), why: why.into(), unreadable: false })
+fn reject<T>(rule: &str, why: impl fmt::Display) -> Checked<T> {
+    Err(Rejected { rule: rule.to_owned(), place: String::new(), why: why.to_string(), unreadable: false })
 }
 
-/// A rejection without a place unless a premise holds.
-fn need(holds: bool, rule: &str, why: &str) -> Checked<()> {
-    if holds { Ok(()) } else { reject(rule, "", why) }
+/// A rejection, which has no place yet, unless a premise holds.
+fn need(holds: bool, rule: &str, why: impl fmt::Display) -> Checked<()> {
+    if holds { Ok(()) } else { reject(rule, why) }
 }
 
-/// Gives a rejection that has no place yet one.
-fn at<T>(place: &str, result: Checked<T>) -> Checked<T> {
-    result.map_err(|r| if r.place.is_empty() { Rejected { place: place.to_owned(), ..r } } else { r })
+/// The same for something that must exist.
+fn some<T>(found: Option<T>, rule: &str, why: impl fmt::Display) -> Checked<T> {
+    found.map_or_else(|| reject(rule, why), Ok)
+}
+
+/// Marks a rejection as that of a text that cannot be read.
+fn unreadable<T>(read: Checked<T>) -> Checked<T> {
+    read.map_err(|r| Rejected { unreadable: true, ..r })
 }
 
 /// Checks a certificate (JSON) against the text of what it is about (a case, in TOML, where its kind is `certify`).
@@ -125,37 +130,25 @@ fn at<T>(place: &str, result: Checked<T>) -> Checked<T> {
 /// # Cost
 /// Bounded: the files by [`MAX_BYTES`], the nesting by 128, the numbers by 10000 digits, the arithmetic by a budget.
 pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
-    let unreadable =
-        |rule: &str, why: String| Err(Rejected { rule: rule.to_owned(), place: String::new(), why, unreadable: true });
-    if case.len() > MAX_BYTES || certificate.len() > MAX_BYTES {
-        return unreadable("limit", "a file is too large".to_owned());
-    }
+    unreadable(need(case.len().max(certificate.len()) <= MAX_BYTES, "limit", "a file is too large"))?;
     number::refill();
-    let tree: json::Json = match serde_json::from_str(certificate) {
-        Ok(tree) => tree,
-        Err(error) => return unreadable("json", error.to_string()),
-    };
+    let tree: json::Json = unreadable(serde_json::from_str(certificate).or_else(|error| reject("json", error)))?;
     let node = json::Node { value: &tree, place: "certificate".to_owned() };
     let [format, version, kind, name, verdict, proof] =
         node.fields(["format", "version", "kind", "case", "verdict", "proof"])?;
-    if format.text()? != "secant certificate" || version.index(usize::MAX)? != VERSION {
-        return reject("format", &version.place, format!("this checker reads version {VERSION} only"));
-    }
+    let known = format.text()? == "secant certificate" && version.index(usize::MAX)? == VERSION;
+    version.need(known, "format", format_args!("this checker reads version {VERSION} only"))?;
     let proof = json::Node { place: "proof".to_owned(), ..proof };
     let found = match kind.text()? {
         "certify" => claims::check(&case::read(case, false)?, &proof)?,
         "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
-        "solve" => solve::check(case::read(case, true)?, &proof)?,
+        "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
-        _ => return kind.malformed("unknown kind of certificate"),
+        _ => return kind.reject("format", "unknown kind of certificate"),
     };
     number::spend(0, 0)?;
-    if name.text()? != found.case {
-        return reject("case", &name.place, format!("the case is `{}`", found.case));
-    }
-    if verdict.text()? != found.verdict.word() {
-        return reject("verdict", &verdict.place, format!("what follows is \"{}\"", found.verdict.word()));
-    }
+    name.need(name.text()? == found.case, "case", format_args!("the case is `{}`", found.case))?;
+    verdict.follows("verdict", found.verdict.word())?;
     Ok(found)
 }

@@ -4,6 +4,7 @@ use crate::Checked;
 use crate::number::{Q, charge, gcd, lcm, ratio, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
+use std::ops::Range;
 
 /// A matrix, stored by rows; a point is a matrix with one column.
 #[derive(Debug, Clone)]
@@ -49,9 +50,19 @@ impl Matrix {
         Self::ones(n, n, |i, j| i == j)
     }
 
+    /// The matrix with 0 everywhere.
+    pub fn zeros(rows: usize, cols: usize) -> Self {
+        Self::ones(rows, cols, |_, _| false)
+    }
+
+    /// The row of `n` ones.
+    pub fn row_of_ones(n: usize) -> Self {
+        Self::ones(1, n, |_, _| true)
+    }
+
     /// The matrix with no rows.
     pub fn empty(cols: usize) -> Self {
-        Self::ones(0, cols, |_, _| false)
+        Self::zeros(0, cols)
     }
 
     /// The entry in row `i` and column `j`.
@@ -84,6 +95,28 @@ impl Matrix {
     pub fn transpose(&self) -> Self {
         let data = (0..self.data.len()).map(|k| self.data[k % self.rows * self.cols + k / self.rows].clone());
         Self { rows: self.cols, cols: self.rows, data: data.collect(), den: self.den.clone() }
+    }
+
+    /// The submatrix of these ranges of rows and columns.
+    pub fn part(&self, rows: Range<usize>, cols: Range<usize>) -> Self {
+        let data = rows.clone().flat_map(|i| self.integers(i)[cols.clone()].to_vec()).collect();
+        Self { rows: rows.len(), cols: cols.len(), data, den: self.den.clone() }
+    }
+
+    /// The sum of the absolute values of all entries.
+    pub fn norm(&self) -> Q {
+        ratio(self.data.iter().map(Signed::abs).sum(), self.den.clone())
+    }
+
+    /// Whether every column adds up to 1.
+    pub fn is_affine(&self) -> bool {
+        let sum = |j: usize| (0..self.rows).map(|i| &self.data[i * self.cols + j]).sum::<BigInt>();
+        (0..self.cols).all(|j| sum(j) == self.den)
+    }
+
+    /// Whether some entry is negative.
+    pub fn has_negative(&self) -> bool {
+        self.data.iter().any(Signed::is_negative)
     }
 
     /// Whether all entries are 0.
@@ -142,6 +175,28 @@ impl Matrix {
         let (a, b) = (&den / &self.den, &den / &below.den);
         let data = self.data.iter().map(|x| x * &a).chain(below.data.iter().map(|x| x * &b)).collect();
         Self { rows: self.rows + below.rows, cols: self.cols, data, den }
+    }
+
+    /// The columns of `self` followed by those of `right`.
+    pub fn beside(&self, right: &Self) -> Self {
+        self.transpose().stack(&right.transpose()).transpose()
+    }
+
+    /// Whether a symmetric matrix is positive definite, or only semidefinite where `strictly` is false: elimination without
+    /// exchanges.
+    pub fn is_positive(&self, strictly: bool) -> Checked<bool> {
+        let mut a = self.data.clone();
+        for n in (1..=self.rows).rev() {
+            spend(2 * n * n, a.iter().map(BigInt::bits).max().unwrap_or(0))?;
+            if a[0].is_negative() || a[0].is_zero() && (strictly || a[..n].iter().any(|x| !x.is_zero())) {
+                return Ok(false);
+            }
+            // The row and the column of a pivot 0 are 0.
+            let pivot = if a[0].is_zero() { BigInt::one() } else { a[0].clone() };
+            let rest = (1..n).flat_map(|i| (1..n).map(move |j| (i, j)));
+            a = primitive(rest.map(|(i, j)| &pivot * &a[i * n + j] - &a[i * n] * &a[j]).collect());
+        }
+        Ok(true)
     }
 
     /// The nonzero rows of the reduced row echelon form, and the columns of their leading ones.

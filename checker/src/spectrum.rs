@@ -1,10 +1,10 @@
 //! The part of a spectrum with the largest modulus, proved without factorisation.
 
+use crate::Checked;
 use crate::json::Node;
 use crate::matrix::{Matrix, primitive};
 use crate::number::{Q, bits, spend, whole};
 use crate::poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, roots_in_disc, values};
-use crate::{Checked, reject};
 use num_bigint::BigInt;
 use num_traits::{Signed, pow};
 
@@ -43,10 +43,9 @@ fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
     spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
     // Multiples of a_k r^k: a_k p^k q^(n - k).
     let scaled = |(k, a): (usize, &BigInt)| a * pow(r.numer().clone(), k) * pow(r.denom().clone(), n - k);
-    match roots_in_disc(&primitive(chi.data.iter().enumerate().map(scaled).collect()))? {
-        Some(inside) => Ok((r, n - inside)),
-        None => reject("disc", &radius.place, "the recursion of Schur and Cohn is not regular for this radius"),
-    }
+    let inside = roots_in_disc(&primitive(chi.data.iter().enumerate().map(scaled).collect()))?;
+    let inside = radius.some(inside, "disc", "the recursion of Schur and Cohn is not regular for this radius")?;
+    Ok((r, n - inside))
 }
 
 /// `M v − s θ v` for a vector over `Q[x]/(m)`, given by the matrix that multiplies by the root of `m`.
@@ -75,9 +74,9 @@ impl Top {
             "real" => Self::real(node, linear),
             "pair" => Self::pair(node, linear),
             "conformal" => Self::conformal(node, linear),
-            _ => node.malformed("unknown kind of top"),
+            _ => node.reject("format", "unknown kind of top"),
         };
-        crate::at(&node.place, read)
+        node.at(read)
     }
 
     fn real(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
@@ -85,7 +84,7 @@ impl Top {
             node.fields(["top", "radius", "polynomial", "interval", "chains"])?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let field = Field::read(&polynomial, &interval)?;
-        let beyond = field.interval.lo > r || field.interval.hi < -&r;
+        let beyond = field.interval[0] > r || field.interval[1] < -&r;
         interval.need(beyond, "top-real", "the eigenvalue must lie outside the disc")?;
         let mut chains = Vec::new();
         for item in list.list()? {
@@ -93,12 +92,12 @@ impl Top {
             let sign = match sign.text()? {
                 "+" => 1,
                 "-" => -1,
-                _ => return sign.malformed("a sign is \"+\" or \"-\""),
+                _ => return sign.reject("format", "a sign is \"+\" or \"-\""),
             };
             chains.push(Chain { sign, vectors: chain(&vectors, linear, &field.by_root, sign, "top-real")? });
         }
         let all = chains.iter().map(|c| c.vectors.len()).sum::<usize>() == count;
-        list.need(all, "top-real", &format!("{count} eigenvalues lie outside the disc"))?;
+        list.need(all, "top-real", format_args!("{count} eigenvalues lie outside the disc"))?;
         for s in [1, -1] {
             let starts = chains.iter().filter(|c| c.sign == s).map(|c| field.enclose(&c.vectors[0]));
             let independent = match &starts.collect::<Checked<Vec<_>>>()?[..] {
@@ -123,11 +122,11 @@ impl Top {
         let near = has_root_near(&Matrix::new(1, m.len(), &m), &c, &e)?;
         error.need(near, "top-pair", "no root is seen to lie within this distance of the centre")?;
         let vectors = chain(&list, linear, &Field::companion(&m), 1, "top-pair")?;
-        let around = |v: &Q| Interval { lo: v - &e, hi: v + &e };
+        let around = |v: &Q| [v - &e, v + &e];
         let (value, vector) = ([around(x), around(y)], vectors[0].clone());
         let [re, im] = values(&vector, &value[0], &value[1])?;
         let all = 2 * vectors.len() == count && (re.is_nonzero() || im.is_nonzero());
-        list.need(all, "top-pair", &format!("{count} eigenvalues lie outside the disc, or the vector may be 0"))?;
+        list.need(all, "top-pair", format_args!("{count} eigenvalues lie outside the disc, or the vector may be 0"))?;
         Ok(Self::Pair { value, vector })
     }
 
@@ -137,7 +136,7 @@ impl Top {
         let e = basis.matrix(linear.rows)?;
         let (echelon, pivots) = e.echelon()?;
         let fits = echelon == e && e.rows == count;
-        basis.need(fits, "top-conformal", &format!("{count} rows in reduced echelon form are needed"))?;
+        basis.need(fits, "top-conformal", format_args!("{count} rows in reduced echelon form are needed"))?;
         let images = e.times(&linear.transpose())?;
         // Rows are images of basis vectors: this is the transpose of L on the space.
         let inner = images.columns(&pivots);
@@ -169,15 +168,7 @@ impl Top {
 pub fn positive_definite(node: &Node<'_>, n: usize) -> Checked<Matrix> {
     let matrix = node.matrix(n)?;
     node.need(matrix.rows == n && matrix.transpose() == matrix, "gram", "a symmetric matrix is needed")?;
-    let mut rest = matrix.clone();
-    while rest.rows > 0 {
-        node.need(rest.data[0].is_positive(), "gram", "the matrix is not positive definite")?;
-        let lower: Vec<usize> = (1..rest.rows).collect();
-        let column = rest.columns(&[0]);
-        let schur = rest.scaled(&rest.at(0, 0)).minus(&column.times(&column.transpose())?);
-        rest = schur.transpose().columns(&lower).transpose().columns(&lower);
-        rest.data = primitive(rest.data);
-    }
+    node.need(matrix.is_positive(true)?, "gram", "the matrix is not positive definite")?;
     Ok(matrix)
 }
 
