@@ -169,35 +169,25 @@ impl<'a> Cones<'a> {
 
     /// All words of `length` letters whose factors have no positive product, by state and then by letters, with the state.
     fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
-        let shape = self.model.shape;
-        let mut words: Vec<(usize, usize, Vec<usize>)> = self.model.reachable.iter().map(|&e| (e, e, vec![])).collect();
+        // With each word where it ends, and where the products of its ends are positive.
+        let none = |&e: &usize| (e, e, Vec::new(), Vec::new());
+        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> = self.model.reachable.iter().map(none).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
-            for (from, to, word) in words {
-                for (letter, piece) in shape.states[to].pieces.iter().enumerate() {
-                    let word = [word.as_slice(), &[letter]].concat();
-                    if self.idle(from, &word)? {
-                        longer.push((from, piece.target, word));
+            for (from, to, word, ends) in words {
+                for (letter, piece) in self.model.shape.states[to].pieces.iter().enumerate() {
+                    let step = pattern(&self.maps[to][letter]);
+                    let next = ends.iter().map(|end| Ok(pattern(&end.times(&step)?))).chain([Ok(step.clone())]);
+                    let next = next.collect::<Checked<Vec<_>>>()?;
+                    if !next.iter().any(all_positive) {
+                        longer.push((from, piece.target, [word.as_slice(), &[letter]].concat(), next));
                     }
                 }
             }
             need(longer.len() <= MAX_WORDS, "limit", "too many words without a positive factor")?;
             words = longer;
         }
-        Ok(words.into_iter().map(|(from, _, word)| (from, word)).collect())
-    }
-
-    /// Whether no end of a word has a positive product.
-    fn idle(&self, from: usize, word: &[usize]) -> Checked<bool> {
-        let states = self.model.shape.path(from, word)?;
-        let mut product = Matrix::identity(self.rays[states[word.len()]].rows);
-        for (&e, &letter) in states.iter().zip(word).rev() {
-            product = pattern(&pattern(&self.maps[e][letter]).times(&product)?);
-            if all_positive(&product) {
-                return Ok(false);
-            }
-        }
-        Ok(true)
+        Ok(words.into_iter().map(|(from, _, word, _)| (from, word)).collect())
     }
 
     /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
@@ -218,16 +208,16 @@ impl<'a> Cones<'a> {
             shape.states[*e].pieces[a[0]].target == *f && a[1..] == b[..b.len() - 1]
         };
         let next: Vec<Vec<usize>> = words.iter().map(|a| (0..n).filter(|&k| follows(a, &words[k])).collect()).collect();
-        let mut reach = vec![vec![false; n]; n];
-        for (k, row) in reach.iter_mut().enumerate() {
-            let mut open = next[k].clone();
+        let reached = |k: usize| {
+            let (mut row, mut open) = (vec![false; n], next[k].clone());
             while let Some(j) = open.pop() {
-                if !row[j] {
-                    row[j] = true;
+                if !std::mem::replace(&mut row[j], true) {
                     open.extend(&next[j]);
                 }
             }
-        }
+            row
+        };
+        let reach: Vec<Vec<bool>> = (0..n).map(reached).collect();
         let (mut cycles, mut seen) = (Vec::new(), vec![false; n]);
         for k in (0..n).filter(|&k| reach[k][k]) {
             let successors = next[k].iter().filter(|&&j| reach[j][k]).count();

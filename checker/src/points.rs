@@ -3,7 +3,7 @@
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
-use crate::poly::{Field, MAX_DEGREE};
+use crate::poly::Field;
 use crate::ring::Model;
 use crate::rules::{self, Found, Line, read_address};
 use crate::shape::{Address, End, Kind};
@@ -213,24 +213,24 @@ fn conclude(
     dimension: usize,
     found: &[(Side, Option<Found>)],
 ) -> Checked<Point> {
-    let (mut lines, mut directions, mut planes): (Vec<(Side, &Line)>, Vec<&Line>, _) = (Vec::new(), Vec::new(), 0);
-    for (side, result) in found {
-        match result {
-            Some(Found::Line(line)) => lines.push((*side, line)),
-            Some(Found::Direction(line)) => directions.push(line),
-            Some(Found::Plane) => planes += 1,
-            None => {}
+    let planes = found.iter().filter(|(_, found)| matches!(found, Some(Found::Plane))).count();
+    let (mut lines, mut contained) = (Vec::new(), Vec::new());
+    for (side, found) in found {
+        if let Some(Found::Line(line)) = found {
+            lines.push((*side, line));
+        }
+        if let Some(Found::Line(line) | Found::Direction(line)) = found {
+            contained.push(line);
         }
     }
     let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
     match rule {
         "plane" => {
-            let alone = planes == 1 && lines.is_empty() && directions.is_empty() && common.is_null();
+            let alone = planes == 1 && contained.is_empty() && common.is_null();
             need(alone, "plane", "one branch with a plane, and nothing else, is needed")?;
             refuted(place, "none")
         }
         "differ" => {
-            let contained: Vec<&Line> = lines.iter().map(|(_, line)| *line).chain(directions).collect();
             let ([a, b], true) = (&contained[..], common.is_null() && found.len() == 2) else {
                 return reject("differ", "two branches with a line each, and nothing else, are needed");
             };
@@ -261,27 +261,27 @@ fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Ch
     if common.is_null() {
         return Ok((vec![shared((lines.len() == 1).then_some(1))?], None));
     }
-    let items = common.list()?;
-    if items.iter().all(|item| item.text().is_ok()) {
-        let vector = Matrix::new(dimension, 1, &common.vector(dimension)?);
-        let along = |(_, line): &(Side, &Line)| shared(line.along(&line.field.embedded(&vector))?);
-        return Ok((lines.iter().map(along).collect::<Checked<_>>()?, Some(vector)));
-    }
     let mut vectors: Vec<Matrix> = lines.iter().map(|(_, line)| Matrix::empty(line.field.degree())).collect();
-    for item in common.exactly(dimension, "format")? {
+    let rational = if common.list()?.iter().all(|item| item.text().is_ok()) {
+        Some(Matrix::new(dimension, 1, &common.vector(dimension)?))
+    } else {
+        None
+    };
+    for item in if rational.is_none() { common.exactly(dimension, "format")? } else { Vec::new() } {
         let [polynomial, interval, elements] = item.fields(["polynomial", "interval", "elements"])?;
-        let m = Field::monic(&polynomial, MAX_DEGREE)?;
         let number = Field::read(&polynomial, &interval)?;
-        for ((vector, element), (_, line)) in
-            vectors.iter_mut().zip(elements.exactly(lines.len(), "format")?).zip(lines)
-        {
+        let elements = elements.exactly(lines.len(), "format")?;
+        for ((vector, element), (_, line)) in vectors.iter_mut().zip(elements).zip(lines) {
             let x = line.field.element(&element)?;
-            element.need(line.field.is_root(&m, &number, &x)?, "line", "the element is not this root")?;
+            element.need(line.field.is_root(&number, &x)?, "line", "the element is not this root")?;
             *vector = vector.stack(&x);
         }
     }
-    let along = |((_, line), vector): (&(Side, &Line), &Matrix)| shared(line.along(vector)?);
-    Ok((lines.iter().zip(&vectors).map(along).collect::<Checked<_>>()?, None))
+    let mut signs = Vec::new();
+    for ((_, line), vector) in lines.iter().zip(vectors) {
+        signs.push(shared(line.along(&rational.as_ref().map_or(vector, |v| line.field.embedded(v)))?)?);
+    }
+    Ok((signs, rational))
 }
 
 /// The kind from the rays of the two sides.

@@ -189,17 +189,18 @@ impl Field {
         Ok(Matrix::new(1, self.degree(), &Self::coefficients(self.degree(), node)?))
     }
 
-    /// Whether an element is the root of `m` by which `number` is generated: it is a root, and lies in the interval of that.
-    pub fn is_root(&self, m: &[Q], number: &Self, x: &Matrix) -> Checked<bool> {
-        let constant = |c: &Q| self.embedded(&Matrix::new(1, 1, std::slice::from_ref(c)));
-        let mut value = Matrix::zeros(1, self.degree());
-        for c in m.iter().rev() {
-            value = self.dot(&value, x)?.plus(&Q::one(), &constant(c));
+    /// Whether an element is the root by which another number is generated: a root of its polynomial, in its interval.
+    pub fn is_root(&self, number: &Self, x: &Matrix) -> Checked<bool> {
+        let (d, one) = (number.degree(), self.embedded(&Matrix::identity(1)));
+        // The last row of the companion matrix holds the coefficients but for the sign.
+        let mut value = one.clone();
+        for k in (0..d).rev() {
+            value = self.dot(&value, x)?.plus(&-number.by_root.at(d - 1, k), &one);
         }
         let ([lo, hi], at) = (&number.interval, self.enclose(x)?);
         let inside = *lo <= at.lo.at(0, 0) && at.hi.at(0, 0) <= *hi;
         // Of a polynomial of degree 1 there is no other root.
-        Ok(value.is_zero() && (inside || m.len() == 2))
+        Ok(value.is_zero() && (inside || d == 1))
     }
 
     /// The vector of these rational numbers (a column) in the field.

@@ -68,7 +68,8 @@ pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
         let diagonal = |(from, to, m): &(usize, usize, Matrix)| {
             (*from, *to, m.part(start[*from]..used[*from], start[*to]..used[*to]))
         };
-        lines.push(norm.at(Block { arrows: arrows.iter().map(diagonal).collect(), dims }.check(&norm, &bound))?);
+        let block = System { name: String::new(), arrows: arrows.iter().map(diagonal).collect(), dims };
+        lines.push(norm.at(block.check(&norm, &bound))?);
     }
     blocks.need(used == system.dims, "block", "the blocks do not fill the spaces")?;
     upper.need(lo <= hi, "block", "the bounds contradict each other")?;
@@ -123,12 +124,6 @@ fn modulus(re: &Q, im: &Q) -> Checked<Q> {
     let scale = BigInt::one() << 100u32;
     let scaled = (square * Q::from_integer(&scale * &scale)).ceil().to_integer();
     Ok(Q::new(scaled.sqrt() + BigInt::one(), scale))
-}
-
-/// A diagonal block: the matrices of all arrows between its parts of the states.
-struct Block {
-    dims: Vec<usize>,
-    arrows: Vec<(usize, usize, Matrix)>,
 }
 
 /// A vector in a state. Scalars are real (`width` 1) or complex (`width` 2); a vector has a column for the real and one for the
@@ -214,7 +209,8 @@ impl Polytope {
     }
 }
 
-impl Block {
+/// A diagonal block: the arrows between its parts of the states.
+impl System {
     /// Checks that the norm shows that products of `k` matrices are at most a constant times `bound^k`; says so.
     fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<String> {
         let kind = node.tag("norm")?;
@@ -320,7 +316,7 @@ impl Block {
 
 /// Prefix codes of paths through a block, with the weights of the norms in all states.
 struct Code<'a> {
-    block: &'a Block,
+    block: &'a System,
     weights: Vec<Vec<Q>>,
     bound: &'a Q,
 }
@@ -334,11 +330,7 @@ impl Code<'_> {
             let column = |j: usize| (0..product.rows).map(|i| weighed(i, j)).sum::<Q>() / &self.weights[at][j];
             let most = power(self.bound, depth)?;
             let within = words.len() == 1 && (0..product.cols).all(|j| column(j) <= most);
-            return need(
-                within,
-                "tree",
-                format_args!("the norm of {:?} is too large, or a word begins with it", words[0]),
-            );
+            return need(within, "tree", format_args!("{:?} is too long, or a word begins with it", words[0]));
         }
         if product.is_zero() && depth > 0 {
             // What follows is 0, whatever the code says about it.

@@ -6,59 +6,47 @@ use crate::matrix::Matrix;
 use crate::number::{Q, bits, charge, spend};
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::Signed;
+use num_traits::{One, Signed};
 
 /// Binary places behind the point.
 const PLACES: u64 = 192;
 
-/// A matrix whose entries lie between `lo` and `hi`, as multiples of `2^-PLACES`.
+/// A lower and an upper bound of a matrix without negative entries, as multiples of `2^-PLACES`.
 #[derive(Clone)]
-pub struct Bounds {
-    rows: usize,
-    cols: usize,
-    lo: Vec<BigInt>,
-    hi: Vec<BigInt>,
-}
+pub struct Bounds([Matrix; 2]);
 
 impl Bounds {
-    /// Of a matrix without negative entries.
+    /// Rounds bounds downwards and upwards.
+    fn rounded([lo, hi]: [Matrix; 2]) -> Self {
+        charge(2 * lo.data.len(), lo.bits().max(hi.bits()) + PLACES);
+        let round = |m: &Matrix, to: fn(&BigInt, &BigInt) -> BigInt| {
+            let data = m.data.iter().map(|x| to(&(x << PLACES), &m.den)).collect();
+            Matrix { data, den: BigInt::one() << PLACES, ..*m }
+        };
+        Self([round(&lo, Integer::div_floor), round(&hi, Integer::div_ceil)])
+    }
+
+    /// Of a matrix.
     pub fn of(m: &Matrix) -> Self {
-        charge(2 * m.data.len(), m.bits() + PLACES);
-        let lo = m.data.iter().map(|x| (x << PLACES).div_floor(&m.den)).collect();
-        let hi = m.data.iter().map(|x| (x << PLACES).div_ceil(&m.den)).collect();
-        Self { rows: m.rows, cols: m.cols, lo, hi }
+        Self::rounded([m.clone(), m.clone()])
     }
 
     /// Of the product: bounds of factors that are not negative give bounds of the product.
     pub fn times(&self, other: &Self) -> Checked<Self> {
-        let longest = self.hi.iter().chain(&other.hi).map(BigInt::bits).max().unwrap_or(0);
-        spend(2 * self.rows * self.cols * other.cols, longest)?;
-        let entry = |a: &[BigInt], b: &[BigInt], i: usize, j: usize| -> BigInt {
-            (0..self.cols).map(|k| &a[i * self.cols + k] * &b[k * other.cols + j]).sum()
-        };
-        let places = || (0..self.rows).flat_map(|i| (0..other.cols).map(move |j| (i, j)));
-        // A shift to the right rounds down, also of negative numbers.
-        let lo = places().map(|(i, j)| entry(&self.lo, &other.lo, i, j) >> PLACES).collect();
-        let hi = places().map(|(i, j)| -(-entry(&self.hi, &other.hi, i, j) >> PLACES)).collect();
-        Ok(Self { rows: self.rows, cols: other.cols, lo, hi })
+        Ok(Self::rounded([self.0[0].times(&other.0[0])?, self.0[1].times(&other.0[1])?]))
     }
 
     /// Whether every matrix between the bounds is positive, with `b_ij b_kl <= D b_kj b_il` for all entries.
     pub fn within(&self, bound: &Q) -> Checked<bool> {
-        let longest = self.hi.iter().map(BigInt::bits).max().unwrap_or(0) + bits(bound);
-        spend(4 * self.rows * self.rows * self.cols * self.cols, longest)?;
-        if self.lo.iter().any(|x| !x.is_positive()) {
-            return Ok(false);
-        }
-        let at = |i: usize, j: usize| i * self.cols + j;
+        let Self([lo, hi]) = self;
+        spend(4 * hi.data.len() * hi.data.len(), hi.bits() + bits(bound))?;
+        let entry = |m: &Matrix, i: usize, j: usize| m.data[i * m.cols + j].clone();
         let pair = |i: usize, k: usize, j: usize, l: usize| {
-            bound.denom() * &self.hi[at(i, j)] * &self.hi[at(k, l)]
-                <= bound.numer() * &self.lo[at(k, j)] * &self.lo[at(i, l)]
+            bound.denom() * entry(hi, i, j) * entry(hi, k, l) <= bound.numer() * entry(lo, k, j) * entry(lo, i, l)
         };
-        Ok((0..self.rows).all(|i| {
-            (i + 1..self.rows)
-                .all(|k| (0..self.cols).all(|j| (0..self.cols).filter(|l| *l != j).all(|l| pair(i, k, j, l))))
-        }))
+        let columns = || (0..lo.cols).flat_map(|j| (0..lo.cols).filter(move |l| *l != j).map(move |l| (j, l)));
+        let mut rows = (0..lo.rows).flat_map(|k| (0..k).map(move |i| (i, k)));
+        Ok(lo.data.iter().all(Signed::is_positive) && rows.all(|(i, k)| columns().all(|(j, l)| pair(i, k, j, l))))
     }
 }
 
@@ -81,7 +69,7 @@ mod tests {
         assert!(b.within(&above(4, 1)).unwrap() && !b.within(&below(4, 1)).unwrap());
         assert!(square.within(&above(25, 16)).unwrap() && !square.within(&below(25, 16)).unwrap());
         assert!(!Bounds::of(&matrix([[2, 0], [1, 2]], 3)).within(&above(100, 1)).unwrap());
-        for (lo, hi) in square.lo.iter().zip(&square.hi) {
+        for (lo, hi) in square.0[0].data.iter().zip(&square.0[1].data) {
             assert!(lo <= hi && hi - lo < BigInt::from(100));
         }
     }

@@ -283,18 +283,17 @@ pub struct Space {
     pub visible: Matrix,
     /// The columns of their leading ones.
     pub leading: Vec<usize>,
+    /// By letter, whether the piece is a single point.
+    points: Vec<bool>,
 }
 
 /// The spaces of all reachable states.
-pub struct Spaces {
-    all: Vec<Option<Space>>,
-    points: Vec<Vec<bool>>,
-}
+pub struct Spaces(Vec<Option<Space>>);
 
 impl Spaces {
     /// The space of a reachable state.
     pub fn of(&self, state: usize) -> Checked<&Space> {
-        some(self.all.get(state).and_then(Option::as_ref), "word", "a state that cannot be reached")
+        some(self.0.get(state).and_then(Option::as_ref), "word", "a state that cannot be reached")
     }
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
@@ -313,19 +312,16 @@ impl Spaces {
         let spans = close(shape, reachable, offsets, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
         rows[shape.start] = shape.view.clone();
         let rows = close(shape, reachable, rows, Way::Down, |_, p, row| row.times(&p.op))?;
-        let count = shape.states.len();
-        let mut spaces = Self { all: vec![None; count], points: vec![Vec::new(); count] };
+        let mut spaces = vec![None; shape.states.len()];
         for &e in reachable {
             let (basis, pivots) = spans[e].echelon()?;
             let (basis, reading) = (basis.transpose(), Matrix::ones(pivots.len(), basis.cols, |i, j| pivots[i] == j));
             let (visible, leading) = rows[e].times(&basis)?.echelon()?;
-            spaces.all[e] = Some(Space { base: base[e].clone(), basis, reading, visible, leading });
+            let is_point = |p: &Piece| Ok(p.op.times(&spans[p.target].transpose())?.is_zero());
+            let points = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
+            spaces[e] = Some(Space { base: base[e].clone(), basis, reading, visible, leading, points });
         }
-        for &e in reachable {
-            let is_point = |p: &Piece| Ok(p.op.times(&spaces.of(p.target)?.basis)?.is_zero());
-            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
-        }
-        Ok(spaces)
+        Ok(Self(spaces))
     }
 
     /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
@@ -335,7 +331,7 @@ impl Spaces {
 
     /// Whether a piece of a reachable state is a single point.
     pub fn is_point(&self, state: usize, letter: usize) -> bool {
-        self.points[state].get(letter).is_none_or(|p| *p)
+        self.of(state).ok().and_then(|space| space.points.get(letter)).is_none_or(|point| *point)
     }
 
     /// The map between visible quotients that a piece of a state induces.
