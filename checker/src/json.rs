@@ -159,7 +159,7 @@ impl<'a> Node<'a> {
 
     /// Demands an object with no other keys than these (separated by spaces).
     pub fn known(&self, names: &str) -> Checked<()> {
-        let unknown = self.object()?.iter().find(|(key, _)| names.split(' ').all(|name| name != key));
+        let unknown = self.object()?.iter().find(|(key, _)| names.split_ascii_whitespace().all(|name| name != key));
         self.need(unknown.is_none(), "format", format_args!("unknown key {:?}", unknown.map(|(key, _)| key)))
     }
 

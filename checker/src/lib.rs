@@ -21,6 +21,7 @@ mod rules;
 pub mod shape;
 mod solve;
 mod spectrum;
+mod vertex;
 
 use std::fmt;
 
@@ -145,6 +146,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
+        "vertex" => vertex::check(case, &proof)?,
         _ => return kind.reject("format", "unknown kind of certificate"),
     };
     number::spend(0, 0)?;
