@@ -337,7 +337,7 @@ pub fn read(source: &str, open: bool) -> Checked<Case> {
         let shape = reader.shape(case)?;
         let mut examine = Vec::new();
         for entry in items(case, "examine")? {
-            let [address] = entry.fields(["address"])?;
+            let [address] = entry.fields("address")?;
             let normal = Address::parse(address.text()?).and_then(|a| a.normalise(&shape, shape.start));
             examine.push(address.some(normal, "format", "this is no address of the case")?);
         }
@@ -373,8 +373,7 @@ pub fn matrix_list(source: &str) -> Checked<System> {
             (dims, arrows)
         };
         let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
-        let all = !arrows.is_empty() && arrows.iter().all(fits);
-        node.need(all, "case", "no arrow, or a matrix of the wrong size")?;
+        node.need(!arrows.is_empty() && arrows.iter().all(fits), "case", "no arrow, or a matrix of the wrong size")?;
         Ok(System { name, dims, arrows })
     })
 }

@@ -48,7 +48,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
         "every point" if !asked.contains(&Question::EveryPoint) => return Ok(Question::EveryPoint),
         _ => {}
     }
-    let [_, of, _, _] = item.fields(["question", "address", "verdict", "points"])?;
+    let [_, of, _, _] = item.fields("question address verdict points")?;
     let address = read_address(&of)?;
     let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
     let question = Question::Address(address);
@@ -59,7 +59,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
 
 /// Checks the proof of a certificate of the kind `certify`.
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
-    let [contraction, points, answers] = node.fields(["contraction", "points", "answers"])?;
+    let [contraction, points, answers] = node.fields("contraction points answers")?;
     let model = Model::read(&case.shape, &contraction)?;
     contraction.at(case.shape.check_curves(&model.reachable))?;
     let root = Root { state: case.shape.start, view: case.shape.view.clone() };
@@ -81,7 +81,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         found.extend((*question != Question::EveryPoint).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
-    let verdict = found.into_iter().reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    let verdict = found.into_iter().min().unwrap_or(Verdict::Undetermined);
     let line = |p: &Point| format!("{}: {:?}, {}", p.verdict.word(), p.place, p.kind);
     let points = checked.iter().map(line).collect();
     Ok(Accepted { case: case.name.clone(), verdict, claims: claims.lines, points })
@@ -99,20 +99,19 @@ impl<'a> Claims<'a> {
     fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
         let (what, stated, verdict, claim) = match question {
             Question::Ends => {
-                let [_, stated, points] = node.fields(["question", "verdict", "points"])?;
+                let [_, stated, points] = node.fields("question verdict points")?;
                 let found = self.all(&points, &[Place::End(End::Start), Place::End(End::Finish)])?;
                 ("ends", stated, found, "the curve has a tangent line at both end points".to_owned())
             }
             Question::Address(address) => {
-                let [_, of, stated, points] = node.fields(["question", "address", "verdict", "points"])?;
+                let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
                 let place = format!("the address {:?} ({:?})", address.prefix, address.cycle);
                 ("address", stated, found, format!("the shape has a tangent line at {place}"))
             }
             Question::Joints => {
-                let [_, stated, theorem, points, upstairs] =
-                    node.fields(["question", "verdict", "theorem", "points", "upstairs"])?;
+                let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
                 let (found, places) = self.joints(&theorem, &points, &upstairs)?;
                 ("joints", stated, found, format!("the curve has a tangent line at {places}"))
             }
@@ -122,7 +121,7 @@ impl<'a> Claims<'a> {
                 ("every point", node.field("verdict")?, found.verdict, found.claim)
             }
             Question::AnyPoint => {
-                let [_, stated, products] = node.fields(["question", "verdict", "products"])?;
+                let [_, stated, products] = node.fields("question verdict products")?;
                 self.similarities(&products)?;
                 ("any point", stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
             }
@@ -146,7 +145,7 @@ impl<'a> Claims<'a> {
         let chosen = self.select(node)?;
         let asked = chosen.iter().all(|p| places.contains(&p.place));
         node.need(asked, "answers", "a point that is not asked for")?;
-        Ok(match chosen.iter().map(|p| p.verdict).reduce(Verdict::and) {
+        Ok(match chosen.iter().map(|p| p.verdict).min() {
             Some(Verdict::Proved) if chosen.len() < places.len() => Verdict::Undetermined,
             found => found.unwrap_or(Verdict::Undetermined),
         })
@@ -164,7 +163,7 @@ impl<'a> Claims<'a> {
         upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
         let listed: Option<Vec<_>> = chosen.iter().map(|p| p.place.joint(model, model.shape.start)).collect();
         let listed = points.some(listed, "joints", "a point that is no joint")?;
-        let together = chosen.iter().map(|p| p.verdict).reduce(Verdict::and);
+        let together = chosen.iter().map(|p| p.verdict).min();
         if name == "none" {
             let refuted = together == Some(Verdict::Refuted);
             let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };

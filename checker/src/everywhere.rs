@@ -40,7 +40,7 @@ struct Cones<'a> {
 /// Checks `{"question": "every point", …}`.
 pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<Answer> {
     let [_, _, cones, maps, view, window, slow, rate, together, witness] =
-        node.fields(["question", "verdict", "cones", "maps", "view", "window", "slow", "rate", "joints", "witness"])?;
+        node.fields("question verdict cones maps view window slow rate joints witness")?;
     let start = &model.shape.states[model.shape.start];
     node.need(start.kind == Kind::Edge, "every-point", "only of a curve it is asked whether it is G¹")?;
     let witness = refuting(points, &witness)?;
@@ -85,7 +85,7 @@ fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Check
     for item in node.list()? {
         let own;
         let (point, root) = if item.get("listed").is_some() {
-            let [state, index] = item.fields(["state", "listed"])?;
+            let [state, index] = item.fields("state listed")?;
             let point = &points[index.index(points.len())?];
             let sees = injective(model, point, state.index(model.shape.states.len())?)?;
             item.need(sees, "every-point", "the joint of another state, or directions are lost where it is looked at")?;
@@ -139,14 +139,13 @@ impl<'a> Cones<'a> {
     }
 
     fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Checked<Matrix> {
-        let [rays, functional, chord] = node.fields(["rays", "functional", "chord"])?;
+        let [rays, functional, chord] = node.fields("rays functional chord")?;
         let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
         let curve = state.kind == Kind::Edge && space.basis.cols > 0;
         node.need(curve, "cone", "only curves that are more than a point have cones")?;
         let rows = rays.matrix(state.dim)?;
         let held = space.basis.times(&space.reading.times(&rows.transpose())?)? == rows.transpose();
-        let spans = held && rows.rank()? == space.basis.cols;
-        rays.need(spans, "cone", "the rays do not span the relevant space")?;
+        rays.need(held && rows.rank()? == space.basis.cols, "cone", "the rays do not span the relevant space")?;
         let values = rows.times(&Matrix::new(state.dim, 1, &functional.vector(state.dim)?))?;
         functional.need(all_positive(&values), "cone", "the functional is not positive on every ray")?;
         let y = Matrix::new(rows.rows, 1, &chord.vector(rows.rows)?);
@@ -238,7 +237,7 @@ impl<'a> Cones<'a> {
     /// The cycle has one positive leading eigenvalue with one longest chain; each ray has a positive leading coefficient, or
     /// is the ray to which the others are pulled.
     fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Checked<()> {
-        let [state, letters, top, functional] = node.fields(["state", "word", "top", "functional"])?;
+        let [state, letters, top, functional] = node.fields("state word top functional")?;
         let same = state.index(usize::MAX)? == e && letters.word()? == word;
         node.need(same, "slow", format_args!("the cycle {word:?} of state {e} is expected here"))?;
         let model = self.model;
@@ -267,7 +266,7 @@ impl<'a> Cones<'a> {
         if node.is_null() {
             return Ok(String::new());
         }
-        let [length, bound] = node.fields(["length", "cross_ratio"])?;
+        let [length, bound] = node.fields("length cross_ratio")?;
         let (length, most) = (length.index(MAX_RATE.0 + 1)?, bound.rational()?);
         bound.need(most >= whole(1), "rate", "no cross-ratio is smaller than 1 together with its inverse")?;
         let rounded: Vec<Vec<Bounds>> = self.maps.iter().map(|maps| maps.iter().map(Bounds::of).collect()).collect();

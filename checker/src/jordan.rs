@@ -59,8 +59,8 @@ fn plain(source: &str) -> Checked<Matrix> {
 
 /// Checks the proof of a certificate of the kind `spectrum` about the text of a case or of a matrix.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
-    let [spectra] = node.fields(["spectra"])?;
-    let items = spectra.each(|item| item.fields(["operator", "factors", "modulus", "classes"]));
+    let [spectra] = node.fields("spectra")?;
+    let items = spectra.each(|item| item.fields::<4>("operator factors modulus classes"));
     let mut operators: Vec<(String, Matrix, Option<(usize, usize)>)> = Vec::new();
     let mut name = "matrix".to_owned();
     if items.as_ref().is_ok_and(|items| items.first().is_some_and(|[operator, ..]| operator.is_null())) {
@@ -82,7 +82,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         let same = match place {
             None => operator.is_null(),
             Some(place) => {
-                let [state, piece] = operator.fields(["state", "piece"])?;
+                let [state, piece] = operator.fields("state piece")?;
                 (state.index(case::MAX_STATES)?, piece.index(case::MAX_PIECES)?) == *place
             }
         };
@@ -99,12 +99,12 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
     let (mut numbers, mut factors, mut lines) = (Vec::new(), Vec::new(), Vec::new());
     let mut basis = Matrix::empty(matrix.rows);
     for item in node.list()? {
-        let [polynomial, roots, chains] = item.fields(["polynomial", "roots", "chains"])?;
+        let [polynomial, roots, chains] = item.fields("polynomial roots chains")?;
         let p = Field::monic(&polynomial, matrix.rows)?;
         let factor = Rc::new(Matrix::new(1, p.len(), &p));
         let mut counted = 0;
         for root in roots.list()? {
-            let [centre, error] = root.fields(["centre", "error"])?;
+            let [centre, error] = root.fields("centre error")?;
             let (c, e) = (centre.vector(2)?, error.rational()?);
             let placed = !e.is_negative() && (c[1].is_zero() || c[1] > e);
             root.need(placed, "roots", "a disc is centred on the real axis or lies above it")?;
@@ -134,8 +134,7 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
     let discs = Discs { list, bits: all.bits(), den: all.den };
     for (k, a) in discs.list.iter().enumerate() {
         spend(8 * k, discs.bits)?;
-        let apart = discs.list[..k].iter().all(|b| a.misses(b, &Q::zero()));
-        need(apart, "roots", "two discs meet")?;
+        need(discs.list[..k].iter().all(|b| a.misses(b, &Q::zero())), "roots", "two discs meet")?;
     }
     let why = format_args!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows);
     node.need(basis.rows == matrix.rows, "chains", why)?;
@@ -186,7 +185,7 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
     let mut above: Option<Q> = None;
     let items = node.list()?;
     for (k, item) in items.iter().enumerate() {
-        let [members, square, below] = item.fields(["members", "square", "below"])?;
+        let [members, square, below] = item.fields("members square below")?;
         let chosen = members.indices(listed.len())?;
         members.need(!chosen.is_empty(), "moduli", "a class is not empty")?;
         for &m in &chosen {

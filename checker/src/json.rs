@@ -131,10 +131,10 @@ impl<'a> Node<'a> {
         Node { value, place: format!("{}.{name}", self.place) }
     }
 
-    /// The values of an object with exactly these fields in this order.
-    pub fn fields<const K: usize>(&self, names: [&str; K]) -> Checked<[Node<'a>; K]> {
+    /// The values of an object with exactly these fields (separated by spaces) in this order.
+    pub fn fields<const K: usize>(&self, names: &str) -> Checked<[Node<'a>; K]> {
         let fields = self.object()?;
-        let same = fields.iter().map(|(key, _)| key.as_str()).eq(names);
+        let same = fields.len() == K && fields.iter().map(|(key, _)| key.as_str()).eq(names.split(' '));
         self.need(same, "format", format_args!("the fields must be exactly {names:?}, in this order"))?;
         Ok(std::array::from_fn(|k| self.child(&fields[k])))
     }

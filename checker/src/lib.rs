@@ -32,34 +32,22 @@ pub const MAX_BYTES: usize = 16 << 20;
 /// Longest word of a certificate or address of a case.
 pub const MAX_LETTERS: usize = 1_000;
 
-/// What follows for a question.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What follows for a question; of several questions together the least.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// The answer is yes.
-    Proved,
     /// The answer is no.
     Refuted,
     /// The certificate does not say.
     Undetermined,
+    /// The answer is yes.
+    Proved,
 }
 
 impl Verdict {
     /// `proved`, `refuted` or `undetermined`.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            Self::Proved => "proved",
-            Self::Refuted => "refuted",
-            Self::Undetermined => "undetermined",
-        }
-    }
-
-    fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Refuted, _) | (_, Self::Refuted) => Self::Refuted,
-            (Self::Proved, Self::Proved) => Self::Proved,
-            _ => Self::Undetermined,
-        }
+        ["refuted", "undetermined", "proved"][self as usize]
     }
 }
 
@@ -135,8 +123,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
     number::refill();
     let tree: json::Json = unreadable(serde_json::from_str(certificate).or_else(|error| reject("json", error)))?;
     let node = json::Node { value: &tree, place: "certificate".to_owned() };
-    let [format, version, kind, name, verdict, proof] =
-        node.fields(["format", "version", "kind", "case", "verdict", "proof"])?;
+    let [format, version, kind, name, verdict, proof] = node.fields("format version kind case verdict proof")?;
     let known = format.text()? == "secant certificate" && version.index(usize::MAX)? == VERSION;
     version.need(known, "format", format_args!("this checker reads version {VERSION} only"))?;
     let proof = json::Node { place: "proof".to_owned(), ..proof };

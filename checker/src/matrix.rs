@@ -257,21 +257,18 @@ impl Matrix {
         (0..exponent).try_fold(Self::identity(self.rows), |p, _| p.times(self))
     }
 
-    /// The point with coordinate sum 1 that spans the kernel of `self − 1`, if the kernel is a line and there is one.
+    /// The only solution `X` of `self X = right`, if there is exactly one.
+    pub fn solve(&self, right: &Self) -> Checked<Option<Self>> {
+        let n = self.cols;
+        let (rows, pivots) = self.beside(right).echelon()?;
+        Ok(pivots.into_iter().eq(0..n).then(|| rows.part(0..n, n..n + right.cols)))
+    }
+
+    /// The only point with coordinate sum 1 that is mapped to itself, if there is exactly one.
     pub fn fixed_point(&self) -> Checked<Option<Self>> {
         let n = self.rows;
-        let (rows, pivots) = self.minus(&Self::identity(n)).echelon()?;
-        let Some(free) = (0..n).find(|j| !pivots.contains(j)).filter(|_| pivots.len() + 1 == n) else {
-            return Ok(None);
-        };
-        let mut v = vec![rows.den.clone(); n];
-        for (i, &pivot) in pivots.iter().enumerate() {
-            v[pivot] = -&rows.integers(i)[free];
-        }
-        let sum: BigInt = v.iter().sum();
-        let sign = sum.signum();
-        v.iter_mut().for_each(|x| *x *= &sign);
-        Ok(if sum.is_zero() { None } else { Some(Self { rows: n, cols: 1, data: v, den: sum.abs() }.reduced()) })
+        let equations = self.minus(&Self::identity(n)).stack(&Self::row_of_ones(n));
+        Ok(equations.solve(&Self::ones(n + 1, 1, |i, _| i == n))?.map(Self::reduced))
     }
 
     /// The same matrix over its least denominator.

@@ -53,15 +53,15 @@ impl Place {
     /// Reads a place.
     pub fn read(node: &Node<'_>) -> Checked<Self> {
         Ok(match node.tag("at")? {
-            "left end" => node.fields(["at"]).map(|_| Self::End(End::Start))?,
-            "right end" => node.fields(["at"]).map(|_| Self::End(End::Finish))?,
+            "left end" => node.fields("at").map(|[_]| Self::End(End::Start))?,
+            "right end" => node.fields("at").map(|[_]| Self::End(End::Finish))?,
             "joint" => {
-                let [_, path, left, right] = node.fields(["at", "path", "left", "right"])?;
+                let [_, path, left, right] = node.fields("at path left right")?;
                 let pieces = crate::case::MAX_PIECES;
                 Self::Joint { path: path.word()?, left: left.index(pieces)?, right: right.index(pieces)? }
             }
-            "inside" => node.fields(["at", "address"]).and_then(|[_, a]| Ok(Self::Inside(read_address(&a)?)))?,
-            "of set" => node.fields(["at", "address"]).and_then(|[_, a]| Ok(Self::OfSet(read_address(&a)?)))?,
+            "inside" => node.fields("at address").and_then(|[_, a]| Ok(Self::Inside(read_address(&a)?)))?,
+            "of set" => node.fields("at address").and_then(|[_, a]| Ok(Self::OfSet(read_address(&a)?)))?,
             _ => return node.reject("format", "unknown place of a point"),
         })
     }
@@ -177,7 +177,7 @@ fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> bool {
 impl Point {
     /// Reads `{"state", "point"}`: a first-level joint, seen in the visible quotient of its own state, which is returned.
     pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Checked<(usize, Self)> {
-        let [state, point] = node.fields(["state", "point"])?;
+        let [state, point] = node.fields("state point")?;
         let e = state.index(model.shape.states.len())?;
         let space = state.at(model.spaces.of(e))?;
         let point = Self::check(model, &Root { state: e, view: space.visible.times(&space.reading)? }, &point)?;
@@ -188,8 +188,7 @@ impl Point {
 
     /// Reads a point and checks what its certificate says.
     pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Checked<Self> {
-        let [at, verdict, kind, rule, common, branches] =
-            node.fields(["place", "verdict", "kind", "rule", "common", "branches"])?;
+        let [at, verdict, kind, rule, common, branches] = node.fields("place verdict kind rule common branches")?;
         let place = Place::read(&at)?;
         let addresses = at.at(place.branches(model, root))?;
         let mut found: Vec<(Side, Option<Found>)> = Vec::new();
@@ -268,7 +267,7 @@ fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Ch
         None
     };
     for item in if rational.is_none() { common.exactly(dimension, "format")? } else { Vec::new() } {
-        let [polynomial, interval, elements] = item.fields(["polynomial", "interval", "elements"])?;
+        let [polynomial, interval, elements] = item.fields("polynomial interval elements")?;
         let number = Field::read(&polynomial, &interval)?;
         let elements = elements.exactly(lines.len(), "format")?;
         for ((vector, element), (_, line)) in vectors.iter_mut().zip(elements).zip(lines) {

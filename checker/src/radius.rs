@@ -41,7 +41,7 @@ pub struct Bounds {
 
 /// Checks `{"lower", "upper", "bases", "blocks"}` for a system.
 pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
-    let [lower, upper, bases, blocks] = node.fields(["lower", "upper", "bases", "blocks"])?;
+    let [lower, upper, bases, blocks] = node.fields("lower upper bases blocks")?;
     let lo = if lower.is_null() { Q::zero() } else { lower.at(below(system, &lower))? };
     let hi = upper.rational()?;
     // The matrices in the bases.
@@ -52,7 +52,7 @@ pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
     }
     let (mut lines, mut used) = (Vec::new(), vec![0_usize; system.dims.len()]);
     for item in blocks.list()? {
-        let [dims, bound, norm] = item.fields(["dims", "bound", "norm"])?;
+        let [dims, bound, norm] = item.fields("dims bound norm")?;
         let (dims, bound) = (dims.indices(usize::MAX)?, bound.rational()?);
         let fits = dims.len() == used.len() && !bound.is_negative() && bound <= hi;
         item.need(fits, "block", "one size for each state, and a bound up to the upper one, are needed")?;
@@ -82,9 +82,8 @@ fn read_bases(system: &System, node: &Node<'_>) -> Checked<Vec<(Matrix, Matrix)>
     for (item, &dim) in node.exactly(system.dims.len(), "format")?.iter().zip(&system.dims) {
         let basis = item.matrix(dim)?.transpose();
         item.need(basis.cols == dim, "format", format_args!("{dim} vectors are needed here"))?;
-        let (solved, pivots) = basis.beside(&Matrix::identity(dim)).echelon()?;
-        item.need(pivots.into_iter().eq(0..dim), "block", "the vectors are no basis")?;
-        bases.push((basis, solved.part(0..dim, dim..2 * dim)));
+        let inverse = item.some(basis.solve(&Matrix::identity(dim))?, "block", "the vectors are no basis")?;
+        bases.push((basis, inverse));
     }
     Ok(bases)
 }
@@ -92,7 +91,7 @@ fn read_bases(system: &System, node: &Node<'_>) -> Checked<Vec<(Matrix, Matrix)>
 /// A closed path and a disc around `z` in which its product has an eigenvalue, because `n |χ(z)| <= error |χ'(z)|`; the modulus is
 /// at least `|z| − error >= bound^length`.
 fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
-    let [word, centre, error, bound] = node.fields(["word", "centre", "error", "bound"])?;
+    let [word, centre, error, bound] = node.fields("word centre error bound")?;
     let word = word.indices(system.arrows.len())?;
     let (centre, e, bound) = (centre.vector(2)?, error.rational()?, bound.rational()?);
     let fits = (1..=MAX_LETTERS).contains(&word.len()) && !e.is_negative() && !bound.is_negative();
@@ -101,8 +100,11 @@ fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
     let closed = (0..word.len()).all(|k| arrow(k).1 == arrow((k + 1) % word.len()).0);
     need(closed, "word", "the arrows form no closed path")?;
     let product = (1..word.len()).try_fold(arrow(0).2.clone(), |p, k| p.times(&arrow(k).2))?;
-    let near = has_root_near(&product.characteristic()?, &centre, &e)?;
-    error.need(near, "word", "no eigenvalue is seen in this disc")?;
+    error.need(
+        has_root_near(&product.characteristic()?, &centre, &e)?,
+        "word",
+        "no eigenvalue is seen in this disc",
+    )?;
     let reach = power(&bound, word.len())? + &e;
     let above = &reach * &reach <= &centre[0] * &centre[0] + &centre[1] * &centre[1];
     need(above, "word", "the bound is above the eigenvalue")?;
@@ -150,7 +152,7 @@ struct Rest {
 impl Polytope {
     fn read(node: &Node<'_>, width: usize, dims: &[usize]) -> Checked<Self> {
         let read = |item: &Node<'_>| {
-            let [state, coordinates] = item.fields(["state", "coordinates"])?;
+            let [state, coordinates] = item.fields("state coordinates")?;
             let state = state.index(dims.len())?;
             let scalar = |x: &Node<'_>| if width == 2 { x.vector(2) } else { Ok(vec![x.rational()?]) };
             let entries =
@@ -184,7 +186,7 @@ impl Polytope {
     fn interiors(&self, node: &Node<'_>, dims: &[usize]) -> Checked<Vec<Q>> {
         let mut found: Vec<Option<Q>> = dims.iter().map(|d| (*d == 0).then(Q::zero)).collect();
         for item in node.list()? {
-            let [state, units] = item.fields(["state", "units"])?;
+            let [state, units] = item.fields("state units")?;
             let s = state.index(dims.len())?;
             let units = units.list()?;
             item.need(units.len() == dims[s], "interior", "one combination for each axis is needed")?;
@@ -216,7 +218,7 @@ impl System {
         let kind = node.tag("norm")?;
         match kind {
             "zero" => {
-                node.fields(["norm"])?;
+                let [_] = node.fields("norm")?;
                 need(self.arrows.iter().all(|a| a.2.is_zero()), "zero", "a matrix of the block is not 0")?;
             }
             "symmetric" | "monotone" | "balanced" => self.polytope(node, kind, bound)?,
@@ -230,7 +232,7 @@ impl System {
     /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,
     /// everything being nonnegative.
     fn polytope(&self, node: &Node<'_>, kind: &str, bound: &Q) -> Checked<()> {
-        let [_, points, inclusions, axes] = node.fields(["norm", "points", "inclusions", "axes"])?;
+        let [_, points, inclusions, axes] = node.fields("norm points inclusions axes")?;
         let monotone = kind == "monotone";
         let hull = Polytope::read(&points, if kind == "balanced" { 2 } else { 1 }, &self.dims)?;
         let interior = if monotone {
@@ -242,11 +244,10 @@ impl System {
         };
         let mut seen = vec![vec![false; self.arrows.len()]; hull.points.len()];
         for item in inclusions.list()? {
-            let [point, arrow, terms] = item.fields(["point", "arrow", "terms"])?;
+            let [point, arrow, terms] = item.fields("point arrow terms")?;
             let (k, a) = (point.index(hull.points.len())?, arrow.index(self.arrows.len())?);
             let (from, to, matrix) = &self.arrows[a];
-            let ends = *to == hull.points[k].state;
-            item.need(ends, "inclusion", "the arrow does not end in the state of the point")?;
+            item.need(*to == hull.points[k].state, "inclusion", "the arrow does not end in the state of the point")?;
             let Rest { vector, total, negative } = hull.rest(matrix.times(&hull.points[k].vector)?, &terms, *from)?;
             let far = if monotone {
                 let under = !negative && !vector.data.iter().any(Signed::is_positive);
@@ -269,11 +270,11 @@ impl System {
 
     /// Positive definite forms with `Tᵗ P T <= square P`, `square <= bound²`.
     fn quadratic(&self, node: &Node<'_>, bound: &Q) -> Checked<()> {
-        let [_, forms, square] = node.fields(["norm", "forms", "square"])?;
+        let [_, forms, square] = node.fields("norm forms square")?;
         let square = square.rational()?;
         let mut read: Vec<Matrix> = self.dims.iter().map(|d| Matrix::identity(*d)).collect();
         for item in forms.list()? {
-            let [state, form] = item.fields(["state", "form"])?;
+            let [state, form] = item.fields("state form")?;
             let s = state.index(self.dims.len())?;
             read[s] = positive_definite(&form, self.dims[s])?;
         }
@@ -288,11 +289,11 @@ impl System {
 
     /// Complete prefix codes of words whose norms are at most `bound^length`, for weighted sums of absolute values.
     fn tree(&self, node: &Node<'_>, bound: &Q) -> Checked<()> {
-        let [_, codes] = node.fields(["norm", "codes"])?;
+        let [_, codes] = node.fields("norm codes")?;
         let mut weights: Vec<Option<Vec<Q>>> = self.dims.iter().map(|d| (*d == 0).then(Vec::new)).collect();
         let mut words: Vec<Vec<Vec<usize>>> = vec![Vec::new(); self.dims.len()];
         for item in codes.list()? {
-            let [state, w, list] = item.fields(["state", "weights", "words"])?;
+            let [state, w, list] = item.fields("state weights words")?;
             let s = state.index(self.dims.len())?;
             let w = w.vector(self.dims[s])?;
             item.need(w.iter().all(Signed::is_positive), "tree", "weights are positive")?;

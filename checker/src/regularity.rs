@@ -30,14 +30,14 @@ struct Level<'a> {
 
 /// Checks the proof of a certificate of the kind `regularity`.
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
-    let [contraction, orders] = node.fields(["contraction", "orders"])?;
+    let [contraction, orders] = node.fields("contraction orders")?;
     let model = Model::read(&case.shape, &contraction)?;
     contraction.at(case.shape.check_curves(&model.reachable))?;
     let mut level = node.at(Level::first(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
     for (k, item) in items.iter().enumerate() {
-        let [order, dims, radius, joints] = item.fields(["order", "dims", "radius", "joints"])?;
+        let [order, dims, radius, joints] = item.fields("order dims radius joints")?;
         order.need(order.index(MAX_ORDERS)? == k, "orders", "the orders come one after the other")?;
         if k > 0 {
             level = item.at(level.next())?;
@@ -86,8 +86,7 @@ impl<'a> Level<'a> {
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
     fn radius(&self, node: &Node<'_>) -> Checked<(Q, Q)> {
         if node.is_null() {
-            let empty = self.families.iter().all(|f| f.rows == 0);
-            node.need(empty, "orders", "bounds of a radius are needed here")?;
+            node.need(self.families.iter().all(|f| f.rows == 0), "orders", "bounds of a radius are needed here")?;
             return Ok((Q::zero(), Q::zero()));
         }
         let place = |e: usize| self.reachable.iter().position(|r| *r == e).unwrap_or(0);
@@ -148,10 +147,10 @@ impl<'a> Level<'a> {
         let (cycle, _) = self.shape.product(home, &address.cycle)?;
         let shifted = cycle.scaled(&power(address.cycle.len())).minus(&Matrix::identity(cycle.rows));
         let (chord, family) = (self.chord(home), self.families[home].transpose());
-        let n = family.cols;
-        let (solved, pivots) = shifted.times(&family.beside(&chord.scaled(&-Q::one())))?.echelon()?;
-        need(pivots.into_iter().eq(0..n), "orders", "the derivative at an end is not unique")?;
-        let fixed = family.times(&solved.part(0..n, n..n + 1))?.plus(&Q::one(), &chord);
+        // c + F y is fixed.
+        let y = shifted.times(&family)?.solve(&shifted.times(&chord.scaled(&-Q::one()))?)?;
+        let y = some(y, "orders", "the derivative at an end is not unique")?;
+        let fixed = family.times(&y)?.plus(&Q::one(), &chord);
         prefix.scaled(&power(address.prefix.len())).times(&fixed)
     }
 

@@ -64,7 +64,7 @@ impl<'a> Model<'a> {
         let mut model = Self { shape, reachable, spaces, radius, hulls };
         let mut entries = Vec::new();
         for (e, item) in model.for_states(node, "contraction")? {
-            let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;
+            let [state, bound, code, hull] = item.fields("state radius code hull")?;
             state.need(state.index(shape.states.len())? == e, "contraction", "states come breadth first")?;
             code.need(!matches!(code.value, Json::Text(_)), "contraction", "the empty word does not contract")?;
             model.radius[e] = bound.rational()?;
@@ -134,7 +134,7 @@ impl<'a> Model<'a> {
     fn polytopes<'n>(&mut self, hulls: impl Iterator<Item = (usize, &'n Node<'n>)>, shrinking: bool) -> Checked<()> {
         let mut entries = Vec::new();
         for (e, hull) in hulls {
-            let [points, images] = hull.fields(["points", "images"])?;
+            let [points, images] = hull.fields("points images")?;
             self.hulls[e] = points.matrix(self.shape.states[e].dim)?.transpose();
             entries.push((e, points, images));
         }
@@ -166,7 +166,7 @@ impl<'a> Model<'a> {
             for (row, combination) in weights.iter_mut().zip(&list.exactly(target.cols, "hull")?) {
                 let mut next = 0;
                 for term in combination.list()? {
-                    let [index, weight] = term.fields(["vertex", "weight"])?;
+                    let [index, weight] = term.fields("vertex weight")?;
                     let (k, weight) = (index.index(own.cols)?, weight.rational()?);
                     term.need(k >= next && weight.is_positive(), "hull", "vertices ascend, weights are positive")?;
                     (row[k], next) = (weight, k + 1);
@@ -233,7 +233,7 @@ impl<'a> Model<'a> {
         let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
         let mut cells = Vec::new();
         for (item, piece) in node.exactly(pieces.len(), "cover")?.iter().zip(pieces) {
-            let [word, tree] = item.fields(["piece", "cells"])?;
+            let [word, tree] = item.fields("piece cells")?;
             let same = word.word()? == piece.word;
             word.need(same, "cover", format_args!("the piece {:?} of the ring is expected here", piece.word))?;
             let mut leaf = |rows: &Matrix, state: usize, leaf: &str| {

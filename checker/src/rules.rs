@@ -37,7 +37,7 @@ pub enum Found {
 
 /// Reads an address as an object with prefix and cycle.
 pub fn read_address(node: &Node<'_>) -> Checked<Address> {
-    let [prefix, cycle] = node.fields(["prefix", "cycle"])?;
+    let [prefix, cycle] = node.fields("prefix cycle")?;
     let address = Address { prefix: prefix.word()?, cycle: cycle.word()? };
     cycle.need(!address.cycle.is_empty(), "format", "the cycle of an address is not empty")?;
     Ok(address)
@@ -130,7 +130,7 @@ impl Branch<'_> {
 
     /// Theorems 2 and 3.
     fn line(&self, node: &Node<'_>, rule: &str) -> Checked<Found> {
-        let [_, top, functional, cover] = node.fields(["rule", "top", "functional", "cover"])?;
+        let [_, top, functional, cover] = node.fields("rule top functional cover")?;
         let (top, length) = self.leading(&top)?;
         let fits = (length == 1) == (rule == "theorem-2");
         need(fits, rule, "Theorem 2 is about chains of length 1, Theorem 3 about longer ones")?;
@@ -162,7 +162,7 @@ impl Branch<'_> {
 
     /// The corollary on a line: `dim Y = 1` and `L ≠ 0`; the rays stay open.
     fn whole_line(&self, node: &Node<'_>) -> Checked<Found> {
-        node.fields(["rule"])?;
+        let [_] = node.fields("rule")?;
         let fits = self.germ.dim() == 1 && !self.germ.linear.is_zero();
         need(fits, "corollary-line", "the visible quotient is no line, or L is 0")?;
         Ok(Found::Line(self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1))?))
@@ -170,7 +170,7 @@ impl Branch<'_> {
 
     /// The corollary for one direction: `G v_1` lies in `D*`.
     fn direction(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top] = node.fields(["rule", "top"])?;
+        let [_, top] = node.fields("rule top")?;
         let (top, _) = self.leading(&top)?;
         Ok(Found::Direction(self.found_line(&top.field, &top.vectors()[0])?))
     }
@@ -182,7 +182,7 @@ impl Branch<'_> {
 
     /// The corollary: `U ⊂ D*` and `dim G U ≥ 2`.
     fn corollary(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top] = node.fields(["rule", "top"])?;
+        let [_, top] = node.fields("rule top")?;
         let top = Top::read(&top, &self.germ.linear)?;
         Self::plane("corollary", &top.directions(&self.germ.view)?)
     }
@@ -222,7 +222,7 @@ impl Branch<'_> {
 
     /// Theorem 4 with a point of the ring at which the leading functional vanishes.
     fn null_point(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top, functional, address] = node.fields(["rule", "top", "functional", "address"])?;
+        let [_, top, functional, address] = node.fields("rule top functional address")?;
         let (top, length) = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
         let (y, _) = self.ring_point(&address)?;
@@ -236,7 +236,7 @@ impl Branch<'_> {
     /// Theorem 4 with two points of one connected part of the ring at which the leading functional has opposite signs.
     fn sign_change(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, isolation, positive, negative] =
-            node.fields(["rule", "top", "functional", "isolation", "positive", "negative"])?;
+            node.fields("rule top functional isolation positive negative")?;
         let (top, length) = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
         self.changing_part(&top.field, &row, [&positive, &negative])?;
@@ -249,7 +249,7 @@ impl Branch<'_> {
 
     /// Lower bound from the orbit of one point of the ring: its own leading directions and those of the corollary.
     fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top, address, own] = node.fields(["rule", "top", "address", "own"])?;
+        let [_, top, address, own] = node.fields("rule top address own")?;
         let top = Top::read(&top, &self.germ.linear)?;
         let (y, _) = self.ring_point(&address)?;
         let transposed = self.germ.linear.transpose();
@@ -265,19 +265,17 @@ impl Branch<'_> {
     /// one sign wherever `c_2` vanishes.
     fn crossing(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, second, first, positive, negative, cover] =
-            node.fields(["rule", "top", "second", "first", "positive", "negative", "cover"])?;
+            node.fields("rule top second first positive negative cover")?;
         let (top, length) = self.leading(&top)?;
         need(top.chains.len() == 1 && length == 2, "crossing", "one block of length 2 is needed")?;
         let (c2, _) = top.row(&self.germ.linear, &second)?;
         let c1 = top.field.vector(&first, self.germ.dim())?;
-        let chain = top.residual(&self.germ.linear, &c1)? == c2;
-        first.need(chain, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
+        first.need(top.residual(&self.germ.linear, &c1)? == c2, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
         let part = self.changing_part(&top.field, &c2, [&positive, &negative])?;
         let rows = self.model.functionals(&self.germ, &top.field, &[&c2, &c1])?;
         let cells = self.model.cover(&self.germ, &rows, Some(part), &cover)?;
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
-        let same = signs.windows(2).all(|s| s[0] == s[1]);
-        cover.need(same, "crossing", "g_1 takes both signs where g_2 may vanish")?;
+        cover.need(signs.windows(2).all(|s| s[0] == s[1]), "crossing", "g_1 takes both signs where g_2 may vanish")?;
         let vectors = top.vectors().iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
         Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }

@@ -82,7 +82,7 @@ fn rows(columns: &[Matrix], right: Matrix) -> Matrix {
 
 /// Checks the proof of a certificate of the kind `solve`.
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
-    let [solutions, values, directions, conflict] = node.fields(["solutions", "values", "directions", "conflict"])?;
+    let [solutions, values, directions, conflict] = node.fields("solutions values directions conflict")?;
     let equations = Equations::of(case)?;
     let (n, count) = (equations.unknowns, equations.sources.len());
     let chosen = conflict.indices(count)?;

@@ -80,15 +80,14 @@ impl Top {
     }
 
     fn real(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let [_, radius, polynomial, interval, list] =
-            node.fields(["top", "radius", "polynomial", "interval", "chains"])?;
+        let [_, radius, polynomial, interval, list] = node.fields("top radius polynomial interval chains")?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let field = Field::read(&polynomial, &interval)?;
         let beyond = field.interval[0] > r || field.interval[1] < -&r;
         interval.need(beyond, "top-real", "the eigenvalue must lie outside the disc")?;
         let mut chains = Vec::new();
         for item in list.list()? {
-            let [sign, vectors] = item.fields(["sign", "vectors"])?;
+            let [sign, vectors] = item.fields("sign vectors")?;
             let sign = match sign.text()? {
                 "+" => 1,
                 "-" => -1,
@@ -112,8 +111,7 @@ impl Top {
     }
 
     fn pair(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let [_, radius, polynomial, centre, error, list] =
-            node.fields(["top", "radius", "polynomial", "centre", "error", "vectors"])?;
+        let [_, radius, polynomial, centre, error, list] = node.fields("top radius polynomial centre error vectors")?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let (m, c, e) = (Field::monic(&polynomial, MAX_DEGREE)?, centre.vector(2)?, error.rational()?);
         let (x, y, far) = (&c[0], &c[1], &r + &e);
@@ -131,7 +129,7 @@ impl Top {
     }
 
     fn conformal(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let [_, radius, basis, gram, square] = node.fields(["top", "radius", "basis", "gram", "square"])?;
+        let [_, radius, basis, gram, square] = node.fields("top radius basis gram square")?;
         let (r, count) = outside(&linear.characteristic()?, &radius)?;
         let e = basis.matrix(linear.rows)?;
         let (echelon, pivots) = e.echelon()?;

@@ -38,7 +38,7 @@ enum Weights {
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
     let case = file(source, "name title source vertex expect", |root| Case::read(root))?;
-    let [valences] = proof.fields(["valences"])?;
+    let [valences] = proof.fields("valences")?;
     let (mut listed, mut claims, mut together) = (Vec::new(), Vec::new(), None);
     for item in valences.list()? {
         let (n, smooth, plane) = item.at(case.valence(&item))?;
@@ -46,7 +46,7 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         listed.push(n);
         claims.push(format!("{}: at valence {n} the surface is C1 for almost all control points", smooth.word()));
         claims.push(format!("{}: at valence {n} it has a tangent plane for almost all control points", plane.word()));
-        together = Some(together.map_or(smooth, |t: Verdict| t.and(smooth)));
+        together = Some(together.map_or(smooth, |t: Verdict| t.min(smooth)));
     }
     let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));
     let verdict = match together {
@@ -149,7 +149,7 @@ impl Case {
     /// What follows at one valence: C¹, and a tangent plane.
     fn valence(&self, node: &Node<'_>) -> Checked<(usize, Verdict, Verdict)> {
         let [valence, rule, frequency, turn, others, vector, half_plane] =
-            node.fields(["valence", "rule", "frequency", "turn", "others", "vector", "half_plane"])?;
+            node.fields("valence rule frequency turn others vector half_plane")?;
         let (n, k, radius) = (valence.index(MAX_VALENCE + 1)?, frequency.index(MAX_VALENCE)?, others.rational()?);
         node.need(n >= 3 && 2 * k <= n && radius.is_positive(), "vertex", "no such vertex, block or bound")?;
         let pair = |node: &Node<'_>| node.vector(2).map(|mut v| (v.remove(0), v.remove(0)));
