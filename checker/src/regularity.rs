@@ -1,14 +1,9 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order (theory §11).
 
-use crate::case::Case;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::{Q, whole};
-use crate::radius::{System, bounds};
-use crate::ring::Model;
-use crate::shape::{End, Kind, Shape, Way, close};
-use crate::{Accepted, Checked, Verdict, need, some};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, some, whole};
+use crate::curve::{Case, End, Kind, Model, Shape, Way, close};
+use crate::jsr::{System, bounds};
 use num_traits::{One, Zero};
 
 /// Most orders of one certificate.

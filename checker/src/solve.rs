@@ -1,11 +1,7 @@
 //! Certificates of the kind `solve`: the unknown entries of a case, from the identities of its curves and the column sums.
 
-use crate::case::Case;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::Q;
-use crate::shape::Op;
-use crate::{Accepted, Checked, Verdict, need};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need};
+use crate::curve::{Case, Op};
 use num_bigint::BigInt;
 use num_traits::One;
 

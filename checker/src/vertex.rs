@@ -1,14 +1,11 @@
 //! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh, for schemes that are splines away
 //! from it (docs/theory.md §10.1, Theorems 2, 7 and 8).
 
+use crate::base::{Accepted, Checked, Json, Node, Q, Verdict, file, index, need, number, reject, whole};
 mod ball;
 mod mesh;
 mod patch;
 
-use crate::case::{file, index};
-use crate::json::{Json, Node};
-use crate::number::{Q, decimal_fraction, whole};
-use crate::{Accepted, Checked, Verdict, need, reject};
 use ball::{Ball, Balls, deflated, dominated, dot, leading};
 use mesh::{Centre, MAX_VALENCE, Mesh, Net, Spline, powers};
 use num_traits::{One, Signed};
@@ -37,7 +34,7 @@ enum Weights {
 
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
-    let case = file(source, "name title source vertex expect", |root| Case::read(root))?;
+    let case = file(source, "name title source vertex expect", Case::read)?;
     let [valences] = proof.fields("valences")?;
     let (mut listed, mut claims, mut together) = (Vec::new(), Vec::new(), None);
     for item in valences.list()? {
@@ -54,13 +51,6 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         found => found.unwrap_or(Verdict::Undetermined),
     };
     Ok(Accepted { case: case.name, verdict, claims, points: Vec::new() })
-}
-
-fn number(node: &Node<'_>) -> Checked<Q> {
-    let (Json::Text(text) | Json::Number(text)) = node.value else {
-        return node.reject("format", "a number is needed here");
-    };
-    node.some(decimal_fraction(text), "format", "not an exact number")
 }
 
 /// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.

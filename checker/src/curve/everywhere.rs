@@ -1,15 +1,9 @@
 //! Every point of a curve: invariant cones (Theorems 6 and 6′), joints at which the half-tangents agree, or a point that has
 //! no tangent that turns continuously.
 
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::whole;
-use crate::points::{Place, Point, complete, joints};
-use crate::rate::Bounds;
-use crate::ring::Model;
-use crate::rules::{Leading, Line};
-use crate::shape::{End, Kind};
-use crate::{Checked, Verdict, need};
+use super::rate::Bounds;
+use super::{End, Kind, Leading, Line, Model, Place, Point, complete, joints};
+use crate::base::{Checked, Matrix, Node, Verdict, need, whole};
 use num_traits::Signed;
 
 /// Longest window, and most words of one window without a positive factor.

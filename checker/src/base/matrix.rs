@@ -1,7 +1,7 @@
 //! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
 
-use crate::Checked;
-use crate::number::{Q, charge, gcd, lcm, ratio, spend};
+use super::number::{gcd, lcm, ratio};
+use super::{Checked, Q, charge, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use std::ops::Range;
@@ -312,7 +312,7 @@ pub fn primitive(mut numbers: Vec<BigInt>) -> Vec<BigInt> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::whole;
+    use crate::base::whole;
 
     fn matrix(rows: &[&[i64]]) -> Matrix {
         Matrix::from_rows(

@@ -1,15 +1,8 @@
 //! The whole certificate: contraction, points, answers, and the verdict that follows from them.
 
-use crate::case::Case;
-use crate::germ::Root;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::points::{Place, Point, complete};
-use crate::ring::Model;
-use crate::rules::read_address;
-use crate::shape::{Address, End, Kind, Piece, Way, close};
-use crate::spectrum::positive_definite;
-use crate::{Accepted, Checked, Verdict, need};
+use super::{Address, Case, End, Kind, Model, Piece, Place, Point, Root, Way};
+use super::{close, complete, everywhere, positive_definite, read_address};
+use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
 use num_traits::Signed;
 
 /// What a case asks.
@@ -116,7 +109,7 @@ impl<'a> Claims<'a> {
                 ("joints", stated, found, format!("the curve has a tangent line at {places}"))
             }
             Question::EveryPoint => {
-                let found = crate::everywhere::check(self.model, self.points, node)?;
+                let found = everywhere::check(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
                 ("every point", node.field("verdict")?, found.verdict, found.claim)
             }

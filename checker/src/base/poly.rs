@@ -1,9 +1,6 @@
 //! Real number fields with a chosen embedding, interval enclosures, and the count of roots in a disc.
 
-use crate::Checked;
-use crate::json::Node;
-use crate::matrix::{Matrix, primitive};
-use crate::number::{Q, spend};
+use super::{Checked, Matrix, Node, Q, primitive, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -265,7 +262,7 @@ pub fn roots_in_disc(p: &[BigInt]) -> Checked<Option<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::whole;
+    use crate::base::whole;
 
     /// `Π (b z − a)`, a power of `-1` and a factor left out.
     fn inside(roots: &[(i64, i64)]) -> Option<usize> {

@@ -1,8 +1,7 @@
 //! A strict JSON reader: no floats, no negative integers, no repeated keys, and the fields of every object in their order.
 
-use crate::matrix::Matrix;
-use crate::number::{Q, canonical, charge};
-use crate::{Checked, MAX_LETTERS, Rejected, need, reject, some};
+use super::number::canonical;
+use super::{Checked, MAX_LETTERS, MAX_PIECES, Matrix, Q, Rejected, charge, need, reject, some};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt::{Display, Formatter};
 
@@ -217,7 +216,7 @@ impl<'a> Node<'a> {
 
     /// A word: a list of at most 1000 letters below 64.
     pub fn word(&self) -> Checked<Vec<usize>> {
-        let letters = self.indices(crate::case::MAX_PIECES)?;
+        let letters = self.indices(MAX_PIECES)?;
         self.need(letters.len() <= MAX_LETTERS, "limit", "the word is too long")?;
         Ok(letters)
     }

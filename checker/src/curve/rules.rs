@@ -1,14 +1,7 @@
 //! The rules for one branch: what its certificate proves about the tangent subspace of its germ.
 
-use crate::germ::{Germ, Position, Root};
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::Q;
-use crate::poly::{Enclosed, Field};
-use crate::ring::Model;
-use crate::shape::Address;
-use crate::spectrum::{Chain, Top, residual, span_a_plane};
-use crate::{Checked, need};
+use super::{Address, Chain, Germ, Model, Position, Root, Top, residual, span_a_plane};
+use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, need};
 use num_traits::Zero;
 
 /// A proved tangent line, or a line in the tangent subspace.

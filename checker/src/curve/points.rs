@@ -1,13 +1,7 @@
 //! From branches to points: which branches a point has, and what follows for it (theory §3, §5, §9).
 
-use crate::germ::Root;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::poly::Field;
-use crate::ring::Model;
-use crate::rules::{self, Found, Line, read_address};
-use crate::shape::{Address, End, Kind};
-use crate::{Checked, Verdict, need, reject, some};
+use super::{Address, End, Found, Kind, Line, Model, Root, read_address, rules};
+use crate::base::{Checked, Field, MAX_PIECES, Matrix, Node, Verdict, need, reject, some};
 
 /// Where a point sits.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,7 +51,7 @@ impl Place {
             "right end" => node.fields("at").map(|[_]| Self::End(End::Finish))?,
             "joint" => {
                 let [_, path, left, right] = node.fields("at path left right")?;
-                let pieces = crate::case::MAX_PIECES;
+                let pieces = MAX_PIECES;
                 Self::Joint { path: path.word()?, left: left.index(pieces)?, right: right.index(pieces)? }
             }
             "inside" => node.fields("at address").and_then(|[_, a]| Ok(Self::Inside(read_address(&a)?)))?,

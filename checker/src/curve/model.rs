@@ -1,12 +1,7 @@
 //! Trees of words: contraction codes, and covers of a ring by cells on which a functional keeps its sign (theory §1, §7).
 
-use crate::germ::{Germ, Position};
-use crate::json::{Json, Node};
-use crate::matrix::Matrix;
-use crate::number::{Q, bits, spend};
-use crate::poly::Field;
-use crate::shape::{Shape, Spaces};
-use crate::{Checked, need, reject};
+use super::{Germ, Position, Shape, Spaces};
+use crate::base::{Checked, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -253,10 +248,9 @@ impl<'a> Model<'a> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Kind, Piece, State};
     use super::*;
-    use crate::number::whole;
-
-    use crate::shape::{Kind, Piece, State};
+    use crate::base::whole;
 
     fn row(entries: &[i64]) -> Matrix {
         Matrix::new(1, entries.len(), &entries.iter().map(|&x| whole(x)).collect::<Vec<_>>())

@@ -1,9 +1,7 @@
 //! Products of nonnegative matrices in rounded numbers: bounds of their cross-ratios from both sides, without the long
 //! fractions of the exact products.
 
-use crate::Checked;
-use crate::matrix::Matrix;
-use crate::number::{Q, bits, charge, spend};
+use crate::base::{Checked, Matrix, Q, bits, charge, spend};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed};

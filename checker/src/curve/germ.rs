@@ -1,9 +1,7 @@
 //! The germ of one branch `u w^ω`: its visible quotient `Y = V/N_G`, the map `L` on it, and its ring (theory §3, §9).
 
-use crate::matrix::Matrix;
-use crate::ring::Model;
-use crate::shape::{Address, Kind};
-use crate::{Checked, need};
+use super::{Address, Kind, Model};
+use crate::base::{Checked, Matrix, need};
 
 /// Where a piece of the ring lies with respect to the germ's point, in the order of the germ's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

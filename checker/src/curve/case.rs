@@ -1,25 +1,16 @@
 //! Reads the case file itself, so that a proof cannot be about another case.
 
-use crate::json::{Json, Node};
-use crate::matrix::Matrix;
-use crate::number::{Q, bits, decimal_fraction};
-use crate::radius::System;
-use crate::shape::{Address, End, Kind, Op, Piece, Shape, State};
-use crate::{Checked, Rejected, need};
+use super::{Address, End, Kind, Op, Piece, Shape, State};
+use crate::base::{
+    Checked, Json, MAX_COORDINATES, MAX_PIECES, Matrix, Node, Q, file, flag, index, items, matrix, need, number, word,
+};
 use num_traits::{One, Zero};
-use std::cell::{Cell, RefCell};
-use toml::de::{DeTable, DeValue};
+use std::cell::RefCell;
 
 /// Most states of a case.
 pub const MAX_STATES: usize = 64;
-/// Most pieces of a state.
-pub const MAX_PIECES: usize = 64;
-/// Most coordinates of a state.
-pub const MAX_COORDINATES: usize = 64;
 /// Most unknown entries.
 const MAX_HOLES: usize = 4_096;
-/// All numbers of a case together, in bits.
-const MAX_BITS: u64 = 1 << 22;
 
 /// A case: its name, its shape, and the addresses it asks about.
 pub struct Case {
@@ -45,60 +36,9 @@ pub struct Hole {
     pub unknown: usize,
 }
 
-/// The keys of a case, of a state (those of the boundaries of faces and of reversals are not read), and of a file of matrices.
+/// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
 const CASE: &str = "name title source kind convention pieces reversed map start state control examine expect";
 const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
-const MATRICES: &str = "name matrices states arrows";
-
-/// A value of a TOML file: numbers keep the text in which they are written.
-fn tree(value: &DeValue<'_>) -> Json {
-    match value {
-        DeValue::String(text) => Json::Text(text.to_string()),
-        DeValue::Integer(digits) if digits.radix() == 10 => Json::Number(digits.as_str().to_owned()),
-        DeValue::Float(digits) => Json::Number(digits.as_str().to_owned()),
-        DeValue::Boolean(flag) => Json::Flag(*flag),
-        DeValue::Array(items) => Json::List(items.iter().map(|v| tree(v.get_ref())).collect()),
-        DeValue::Table(table) => fields(table),
-        _ => Json::Null,
-    }
-}
-
-fn fields(table: &DeTable<'_>) -> Json {
-    Json::Object(table.iter().map(|(k, v)| (k.get_ref().to_string(), tree(v.get_ref()))).collect())
-}
-
-/// Reads a TOML file with these keys at its top by a function; what is wrong makes the file unreadable.
-pub fn file<T>(source: &str, keys: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
-    let unreadable = |place: String, why: String| Rejected { rule: "case".to_owned(), place, why, unreadable: true };
-    let parsed = DeTable::parse(source).map_err(|e| unreadable(String::new(), format!("not TOML: {}", e.message())))?;
-    let value = fields(parsed.get_ref());
-    let node = Node { value: &value, place: "case".to_owned() };
-    node.known(keys).and_then(|()| read(&node)).map_err(|r| unreadable(r.place, r.why))
-}
-
-/// A whole number of a TOML file below a bound.
-pub fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
-    let digits = if let Json::Number(digits) = node.value { digits.parse::<usize>().ok() } else { None };
-    node.some(digits.filter(|k| *k < bound), "format", format_args!("a whole number below {bound} is needed here"))
-}
-
-fn flag(node: &Node<'_>, key: &str) -> Checked<bool> {
-    match node.get(key).map(|n| (n.value, n)) {
-        None => Ok(false),
-        Some((Json::Flag(flag), _)) => Ok(*flag),
-        Some((_, n)) => n.reject("format", "true or false is needed here"),
-    }
-}
-
-/// A text that may be left out.
-fn word<'a>(node: &Node<'a>, key: &str) -> Checked<Option<&'a str>> {
-    node.get(key).map(|n| n.text()).transpose()
-}
-
-/// A list that may be left out.
-fn items<'a>(node: &Node<'a>, key: &str) -> Checked<Vec<Node<'a>>> {
-    node.get(key).map_or(Ok(Vec::new()), |n| n.list())
-}
 
 /// What must be known of all states before their pieces are read.
 struct Head<'a> {
@@ -114,33 +54,15 @@ fn state_named(node: &Node<'_>, heads: &[Head<'_>]) -> Checked<usize> {
     node.some(heads.iter().position(|h| h.name == name), "format", "there is no state of this name")
 }
 
-/// Reads the numbers of a case; where entries may be unknown, their places and names are collected.
+/// Reads the operators of a case; where entries may be unknown, their places and names are collected.
 #[derive(Default)]
 struct Reader {
     by_rows: bool,
     open: bool,
-    bits: Cell<u64>,
     holes: RefCell<Vec<(Hole, String)>>,
 }
 
 impl Reader {
-    fn number(&self, node: &Node<'_>) -> Checked<Q> {
-        let text = if let Json::Text(text) | Json::Number(text) = node.value { Some(text) } else { None };
-        let number = node.some(text.and_then(|t| decimal_fraction(t)), "format", "an exact number is needed here")?;
-        self.bits.set(self.bits.get().saturating_add(bits(&number)));
-        node.need(self.bits.get() <= MAX_BITS, "limit", "the numbers are too long")?;
-        Ok(number)
-    }
-
-    fn matrix(&self, node: &Node<'_>) -> Checked<Matrix> {
-        let rows = node.each(|row| row.each(|x| self.number(x)))?;
-        let cols = rows.first().map_or(0, Vec::len);
-        let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
-        let regular = fits(rows.len()) && fits(cols) && rows.iter().all(|r| r.len() == cols);
-        node.need(regular, "case", format_args!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;
-        Ok(Matrix::from_rows(cols, &rows))
-    }
-
     /// An operator on columns of barycentric coordinates of the given size, all of whose columns sum to 1. Where entries may be
     /// unknown (`"?"` or `"?name"`, or `"?"` for all), these are noted and 0.
     fn operator(&self, node: &Node<'_>, size: (usize, usize), op: Op) -> Checked<Matrix> {
@@ -158,7 +80,7 @@ impl Reader {
             let (i, j) = if self.by_rows { (col, row) } else { (row, col) };
             let at = if all { node } else { &rows[i][j] };
             let Some(name) = name(at) else {
-                entries.push(self.number(at)?);
+                entries.push(number(at)?);
                 continue;
             };
             let mut holes = self.holes.borrow_mut();
@@ -177,8 +99,8 @@ impl Reader {
     /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
     fn affine(&self, map: &Node<'_>) -> Checked<Matrix> {
         map.known("linear shift reversed")?;
-        let linear = self.matrix(&map.field("linear")?)?;
-        let shift = map.field("shift")?.each(|x| self.number(x))?;
+        let linear = matrix(&map.field("linear")?)?;
+        let shift = map.field("shift")?.each(|x| number(x))?;
         let d = shift.len();
         let fits = d < MAX_COORDINATES && (linear.rows, linear.cols) == (d, d);
         map.need(fits, "case", "`linear` and `shift` do not fit")?;
@@ -299,7 +221,7 @@ impl Reader {
         let start = case.some(start.or((states.len() == 1).then_some(0)), "case", "the key `start` is missing")?;
         let dim = states[start].dim;
         let view = match case.get("control") {
-            Some(points) => self.matrix(&points)?.transpose(),
+            Some(points) => matrix(&points)?.transpose(),
             None if form == Form::Maps => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
@@ -343,37 +265,5 @@ pub fn read(source: &str, open: bool) -> Checked<Case> {
         }
         let holes = reader.holes.into_inner().into_iter().map(|(hole, _)| hole).collect();
         Ok(Case { name: case.field("name")?.text()?.to_owned(), shape, examine, holes })
-    })
-}
-
-/// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
-pub fn matrix_list(source: &str) -> Checked<System> {
-    file(source, MATRICES, |node| {
-        let reader = Reader::default();
-        let mut matrices: Vec<Matrix> = Vec::new();
-        for item in node.field("matrices")?.list()? {
-            for x in item.each(Node::list)?.iter().flatten() {
-                let floats = matches!(x.value, Json::Number(text) if text.contains(['.', 'e', 'E', 'n']));
-                x.need(!floats, "case", "numbers of matrices are integers or texts")?;
-            }
-            matrices.push(reader.matrix(&item)?);
-        }
-        let name = word(node, "name")?.unwrap_or_default().to_owned();
-        let (dims, arrows) = if node.get("states").is_none() && node.get("arrows").is_none() {
-            let dim = matrices.first().map_or(0, |m| m.rows);
-            (vec![dim], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
-        } else {
-            let dims = node.field("states")?.each(|v| index(v, MAX_COORDINATES + 1))?;
-            let arrow = |arrow: &Node<'_>| {
-                let parts = arrow.exactly(3, "format")?;
-                let matrix = &matrices[index(&parts[2], matrices.len())?];
-                Ok((index(&parts[0], dims.len())?, index(&parts[1], dims.len())?, matrix.clone()))
-            };
-            let arrows = node.field("arrows")?.each(arrow)?;
-            (dims, arrows)
-        };
-        let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
-        node.need(!arrows.is_empty() && arrows.iter().all(fits), "case", "no arrow, or a matrix of the wrong size")?;
-        Ok(System { name, dims, arrows })
     })
 }

@@ -1,8 +1,6 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
-use crate::matrix::Matrix;
-use crate::number::{charge, spend};
-use crate::{Checked, MAX_LETTERS, need, some};
+use crate::base::{Checked, MAX_LETTERS, Matrix, charge, need, some, spend};
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

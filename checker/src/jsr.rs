@@ -1,12 +1,10 @@
 //! Bounds of a joint spectral radius: a disc that holds an eigenvalue of a product, and a norm for every diagonal block.
 
-use crate::case::matrix_list;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::{Q, bits, spend};
-use crate::poly::has_root_near;
-use crate::spectrum::positive_definite;
-use crate::{Accepted, Checked, MAX_LETTERS, Verdict, need};
+use crate::base::{
+    Accepted, Checked, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Verdict, bits, file, has_root_near, index,
+    matrix, need, spend, word,
+};
+use crate::curve::positive_definite;
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -18,6 +16,37 @@ pub struct System {
     pub dims: Vec<usize>,
     /// The arrows: from, to, matrix.
     pub arrows: Vec<(usize, usize, Matrix)>,
+}
+
+/// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
+fn matrix_list(source: &str) -> Checked<System> {
+    file(source, "name matrices states arrows", |node| {
+        let mut matrices: Vec<Matrix> = Vec::new();
+        for item in node.field("matrices")?.list()? {
+            for x in item.each(Node::list)?.iter().flatten() {
+                let floats = matches!(x.value, Json::Number(text) if text.contains(['.', 'e', 'E', 'n']));
+                x.need(!floats, "case", "numbers of matrices are integers or texts")?;
+            }
+            matrices.push(matrix(&item)?);
+        }
+        let name = word(node, "name")?.unwrap_or_default().to_owned();
+        let (dims, arrows) = if node.get("states").is_none() && node.get("arrows").is_none() {
+            let dim = matrices.first().map_or(0, |m| m.rows);
+            (vec![dim], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
+        } else {
+            let dims = node.field("states")?.each(|v| index(v, MAX_COORDINATES + 1))?;
+            let arrow = |arrow: &Node<'_>| {
+                let parts = arrow.exactly(3, "format")?;
+                let matrix = &matrices[index(&parts[2], matrices.len())?];
+                Ok((index(&parts[0], dims.len())?, index(&parts[1], dims.len())?, matrix.clone()))
+            };
+            let arrows = node.field("arrows")?.each(arrow)?;
+            (dims, arrows)
+        };
+        let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
+        node.need(!arrows.is_empty() && arrows.iter().all(fits), "case", "no arrow, or a matrix of the wrong size")?;
+        Ok(System { name, dims, arrows })
+    })
 }
 
 /// Checks the proof of a certificate of the kind `jsr`.

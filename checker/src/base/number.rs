@@ -1,6 +1,6 @@
 //! Rational numbers, how they are read, and the budget that keeps the work finite.
 
-use crate::{Checked, need};
+use super::{Checked, need};
 use num_bigint::BigInt;
 use num_integer::Integer;
 pub use num_rational::BigRational as Q;
