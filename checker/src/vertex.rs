@@ -1,14 +1,11 @@
 //! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh, for schemes that are splines away
 //! from it (docs/theory.md §10.1, Theorems 2, 7 and 8).
 
+use crate::base::{Accepted, Checked, Json, Node, Q, Verdict, file, index, need, number, reject, whole};
 mod ball;
 mod mesh;
 mod patch;
 
-use crate::case::{file, index};
-use crate::json::{Json, Node};
-use crate::number::{Q, decimal_fraction, whole};
-use crate::{Accepted, Checked, Verdict, at, need, reject};
 use ball::{Ball, Balls, deflated, dominated, dot, leading};
 use mesh::{Centre, MAX_VALENCE, Mesh, Net, Spline, powers};
 use num_traits::{One, Signed};
@@ -37,18 +34,17 @@ enum Weights {
 
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
-    let keys = ["name", "title", "source", "vertex", "expect"];
-    let case = file(source, &keys, Case::read)?;
-    let [valences] = proof.fields(["valences"])?;
+    let case = file(source, "name title source vertex expect", Case::read)?;
+    let [valences] = proof.fields("valences")?;
     let (mut listed, mut claims, mut together) = (Vec::new(), Vec::new(), None);
     for item in valences.list()? {
-        let (n, smooth, plane) = at(&item.place, case.valence(&item))?;
+        let (n, smooth, plane) = item.at(case.valence(&item))?;
         item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
         listed.push(n);
         for (verdict, what) in [(smooth, "the surface is C1"), (plane, "it has a tangent plane")] {
             claims.push(format!("{} for almost all control points: at valence {n} {what}", verdict.word()));
         }
-        together = Some(together.map_or(smooth, |t: Verdict| t.and(smooth)));
+        together = Some(together.map_or(smooth, |t: Verdict| t.min(smooth)));
     }
     let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));
     let verdict = match together {
@@ -56,11 +52,6 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         found => found.unwrap_or(Verdict::Undetermined),
     };
     Ok(Accepted { case: case.name, verdict, claims, points: Vec::new() })
-}
-
-fn number(node: &Node<'_>) -> Checked<Q> {
-    let (Json::Text(text) | Json::Number(text)) = node.value else { return node.malformed("a number is needed here") };
-    decimal_fraction(text).map_or_else(|| node.malformed("not an exact number"), Ok)
 }
 
 /// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.
@@ -75,7 +66,7 @@ fn read_valences(node: &Node<'_>) -> Checked<Option<Vec<usize>>> {
         let bound = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n <= MAX_VALENCE);
         match (bound(low), bound(high.trim_start_matches('='))) {
             (Some(low), Some(high)) if 3 <= low && low <= high => all.extend(low..=high),
-            _ => return node.malformed("valences are numbers and ranges"),
+            _ => return node.reject("format", "valences are numbers and ranges"),
         }
     }
     Ok(Some(all))
@@ -87,36 +78,36 @@ impl Case {
         let table = root.field("vertex")?;
         let (mesh, parameter) = (table.field("mesh")?.text()?, |key: &str| number(&table.field(key)?));
         let quads = |edges: i64, corners: i64| [whole(edges) / whole(16), whole(corners) / whole(16)];
-        let (spline, weights, keys): (_, _, &[&str]) = match mesh {
-            "catmull-clark" => (Spline::Bicubic, Weights::Shares(quads(24, 4), true), &[]),
-            "quad-triangle" => (Spline::Bicubic, Weights::Shares(quads(6, 1), false), &[]),
+        let (spline, weights, keys) = match mesh {
+            "catmull-clark" => (Spline::Bicubic, Weights::Shares(quads(24, 4), true), ""),
+            "quad-triangle" => (Spline::Bicubic, Weights::Shares(quads(6, 1), false), ""),
             "catmull-clark-variant" => {
                 let (alpha, beta) = (parameter("alpha")?, parameter("beta")?);
                 let gamma = Q::one() - alpha - &beta;
                 if table.get("gamma").is_some() {
                     table.need(parameter("gamma")? == gamma, "case", "the weights do not add up to 1")?;
                 }
-                (Spline::Bicubic, Weights::Shares([beta, gamma], false), &["alpha", "beta", "gamma"])
+                (Spline::Bicubic, Weights::Shares([beta, gamma], false), "alpha beta gamma")
             }
-            "loop" => (Spline::Quartic, Weights::Own(Centre::Loop), &[]),
-            "loop-warren" => (Spline::Quartic, Weights::Warren, &[]),
-            "loop-variant" => (Spline::Quartic, Weights::Given(parameter("beta")?), &["beta"]),
+            "loop" => (Spline::Quartic, Weights::Own(Centre::Loop), ""),
+            "loop-warren" => (Spline::Quartic, Weights::Warren, ""),
+            "loop-variant" => (Spline::Quartic, Weights::Given(parameter("beta")?), "beta"),
             "doo-sabin" => match table.get("weights") {
-                None => (Spline::Biquadratic, Weights::Own(Centre::Frequency(1)), &[]),
+                None => (Spline::Biquadratic, Weights::Own(Centre::Frequency(1)), ""),
                 Some(given) => {
                     let list = given.list()?.iter().map(number).collect::<Checked<Vec<_>>>()?;
-                    (Spline::Biquadratic, Weights::Own(Centre::Face(list)), &["weights"])
+                    (Spline::Biquadratic, Weights::Own(Centre::Face(list)), "weights")
                 }
             },
             "doo-sabin-frequency" => {
                 let f = table.get("frequency").map_or(Ok(2), |node| index(&node, 1025))?;
-                (Spline::Biquadratic, Weights::Own(Centre::Frequency(f)), &["frequency"])
+                (Spline::Biquadratic, Weights::Own(Centre::Frequency(f)), "frequency")
             }
-            "doo-sabin-catmull-clark" => (Spline::Biquadratic, Weights::Midpoints, &[]),
-            "midedge" => (Spline::Quadratic, Weights::Midedge, &[]),
-            _ => return table.malformed("a scheme for which there are no certificates"),
+            "doo-sabin-catmull-clark" => (Spline::Biquadratic, Weights::Midpoints, ""),
+            "midedge" => (Spline::Quadratic, Weights::Midedge, ""),
+            _ => return table.reject("format", "a scheme for which there are no certificates"),
         };
-        table.known(&[keys, &["mesh", "valence"]].concat())?;
+        table.known(&format!("mesh valence {keys}"))?;
         let asked = table.get("valence").map_or(Ok(Some(Vec::new())), |node| read_valences(&node))?;
         Ok(Self { name, spline, weights, asked })
     }
@@ -149,7 +140,7 @@ impl Case {
     /// What follows at one valence: C¹, and a tangent plane.
     fn valence(&self, node: &Node<'_>) -> Checked<(usize, Verdict, Verdict)> {
         let [valence, rule, frequency, turn, others, vector, half_plane] =
-            node.fields(["valence", "rule", "frequency", "turn", "others", "vector", "half_plane"])?;
+            node.fields("valence rule frequency turn others vector half_plane")?;
         let (n, k, radius) = (valence.index(MAX_VALENCE + 1)?, frequency.index(MAX_VALENCE)?, others.rational()?);
         node.need(n >= 3 && 2 * k <= n && radius.is_positive(), "vertex", "no such vertex, block or bound")?;
         let pair = |node: &Node<'_>| node.vector(2).map(|mut v| (v.remove(0), v.remove(0)));
@@ -178,7 +169,7 @@ impl Case {
             }
             "theorem-2" => (k == 0 || 2 * k == n) && one_sign(ring.iter().flat_map(Patch::points).map(Ball::real_sign)),
             "theorem-8-path" => k == 0 && one_sign(boundary(&mesh, &ring).iter().map(Ball::real_sign)),
-            _ => return rule.malformed("unknown rule for a vertex"),
+            _ => return rule.reject("format", "unknown rule for a vertex"),
         };
         rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
         let (smooth, plane) = match rule.text()? {
@@ -220,7 +211,7 @@ fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
         }
         found = Some((value, vector));
     }
-    let Some((value, mut vector)) = found else { return reject("vertex", "", "no such block") };
+    let Some((value, mut vector)) = found else { return reject("vertex", "no such block") };
     let places = mesh.places(2);
     let centre = if vector.len() > places.len() { vector.remove(0) } else { Ball::zero() };
     let values = places.into_iter().zip(vector).collect();
@@ -263,8 +254,7 @@ mod tests {
             let place = String::new();
             let proof = Node { value: &tree, place }.field("proof").unwrap();
             let item = proof.field("valences").unwrap().list().unwrap().pop().unwrap();
-            let keys = ["name", "vertex"];
-            let case = file(&read("toml"), &keys, Case::read).unwrap();
+            let case = file(&read("toml"), "name vertex", Case::read).unwrap();
             let pair = |n: &Node<'_>| (n.vector(2).unwrap().remove(0), n.vector(2).unwrap().remove(1));
             let n = item.field("valence").unwrap().index(100).unwrap();
             let k = item.field("frequency").unwrap().index(100).unwrap();

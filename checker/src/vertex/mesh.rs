@@ -4,8 +4,7 @@
 //! and triangles), or the cell `[i, i+1] × [j, j+1]` (dual). In block `k` the value in sector `s` is `ω^ks` times that in sector 0.
 
 use super::ball::{Ball, Balls, dot};
-use crate::number::{Q, whole};
-use crate::{Checked, need};
+use crate::base::{Checked, Q, need, reject, whole};
 use num_traits::{One, Signed, Zero};
 
 /// Most sectors.
@@ -76,7 +75,7 @@ pub fn powers(n: usize, w: &(Q, Q)) -> Checked<Vec<Ball>> {
 }
 
 fn outside<T>() -> Checked<T> {
-    crate::reject("vertex", "", "a point outside the rings")
+    reject("vertex", "a point outside the rings")
 }
 
 impl Mesh {

@@ -2,8 +2,7 @@
 
 use super::ball::Ball;
 use super::mesh::{Mesh, Net, Place, Spline};
-use crate::Checked;
-use crate::number::whole;
+use crate::base::{Checked, whole};
 
 /// Control points: `rows[j][i]`. A quadrangle has rows of one length; in a triangle they get shorter by one, and `i`, `j` are the
 /// exponents of the second and the third barycentric coordinate.
