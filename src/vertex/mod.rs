@@ -5,6 +5,7 @@ pub mod block;
 mod certify;
 pub mod cosine;
 mod every;
+mod factored;
 pub mod field;
 pub mod limit;
 pub mod net;

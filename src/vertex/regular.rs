@@ -4,6 +4,7 @@
 //! A cell is a triangle or a square of the lattice; its points are those that decide the surface above it. One step (or
 //! the two steps of a turning scheme) divides the cell in `N²`, each with points that follow from the old ones by `T_s`.
 
+use super::factored::{Mask, shrinking};
 use crate::arith::{Integer, Natural, Rational, ratio};
 use crate::linalg::Matrix;
 use crate::scheme::{MeshRule, Sector, SectorStencils, sector_stencils};
@@ -62,9 +63,6 @@ pub struct Regular {
     /// A bound of `|f − fit|` in the same units.
     pub value_bound: i128,
 }
-
-/// The mask: the weight of the point `q` in the point `p` of the finer lattice at `p − N q`.
-type Mask = BTreeMap<Place, Rational>;
 
 impl Regular {
     /// The regular rule of a scheme with its bounds, computed once for each scheme; `None` where a step does not keep
@@ -132,7 +130,7 @@ impl Regular {
         if !regular.keeps_linear_functions() {
             return None;
         }
-        (regular.slope_bound, regular.value_bound) = Bounds::new(&regular)?.found()?;
+        (regular.slope_bound, regular.value_bound) = Bounds::new(&regular)?.found(&mask)?;
         Some(regular)
     }
 
@@ -297,8 +295,12 @@ fn points(triangles: bool, factor: i64, mask: &Mask, parts: &[Cell]) -> Option<V
     }
 }
 
+fn directions(triangles: bool) -> &'static [Place] {
+    if triangles { &[(1, 0), (0, 1), (-1, 1)] } else { &[(1, 0), (0, 1), (1, 1), (1, -1)] }
+}
+
 fn differences(triangles: bool, index: &BTreeMap<Place, usize>) -> Vec<[usize; 4]> {
-    let directions: &[Place] = if triangles { &[(1, 0), (0, 1), (-1, 1)] } else { &[(1, 0), (0, 1), (1, 1), (1, -1)] };
+    let directions = directions(triangles);
     let mut all = Vec::new();
     for (k, u) in directions.iter().enumerate() {
         for v in &directions[k + 1..] {
@@ -445,9 +447,13 @@ impl<'a> Bounds<'a> {
         Some(worst)
     }
 
-    /// Bounds for slope and value, in units of `2^-BOUND_PLACES`, rounded up.
-    fn found(&self) -> Option<(i128, i128)> {
+    /// Bounds for slope and value, in units of `2^-BOUND_PLACES`, rounded up. How much second differences shrink is known from the
+    /// words, and from the factors of the mask, where it has them (Lemma 4′).
+    fn found(&self, mask: &Mask) -> Option<(i128, i128)> {
         let r = self.regular;
+        let factors =
+            (r.factor == 2).then(|| shrinking(mask, directions(r.triangles), &r.points, &r.parts)).flatten();
+        let mut length = 0;
         let (slope_scale, value_scale) = r.scales();
         let mut words = vec![self.first()];
         let (mut unit, mut size) = (1_i128, 1_i128);
@@ -463,7 +469,9 @@ impl<'a> Bounds<'a> {
             let part = |x: &Integer, by: i128| {
                 Rational::from(x) / Rational::from(Integer::from(unit) << PLACES) / Rational::from(Integer::from(by))
             };
-            let shrink = part(&shrink, 1);
+            length += 1;
+            let by_factors = factors.as_ref().and_then(|f| f.get(length)).cloned();
+            let shrink = by_factors.into_iter().chain([part(&shrink, 1)]).min()?;
             if shrink < 1 {
                 let rest = |s: Rational| ratio(1, 1) - s;
                 let slope = part(&slope, slope_scale) / rest(shrink.clone());

@@ -308,13 +308,14 @@ def main():
         for n in VALENCES.get(name, [*range(5, 13), 20, 31]):
             value, low, high, angle = sample(make(n))
             print(name, n, f"{value:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
-    print("# weights with a given transform in the central face, and the butterfly scheme with tension 1/20: not read by the tests")
+    print("# weights with a given transform in the central face, and the butterfly scheme with tensions 1/20 and 1/100: not read by the tests")
     for n, value in [(3, 0.8), (3, 0.9), (4, 0.9), (4, 0.95)]:
         found, low, high, angle = sample(Dual(n, lambda n, k: value, QUAD))
         print("# doo-sabin", n, f"{found:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
-    for n in range(3, 10):
-        found, low, high, angle = sample(Butterfly(n, modified=True, tension=1 / 20))
-        print("# butterfly-tension", n, f"{found:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
+    for tension, valences in [(20, range(3, 10)), (100, range(3, 6))]:
+        for n in valences:
+            found, low, high, angle = sample(Butterfly(n, modified=True, tension=1 / tension))
+            print(f"# butterfly-tension-1/{tension}", n, f"{found:.12f} {low:.6f} {high:.6f} {angle * n / (2 * math.pi):.6f}")
 
 
 main()
