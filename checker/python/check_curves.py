@@ -252,7 +252,9 @@ def plane(vectors, rule):
 # ---- reading ---------------------------------------------------------------------------------------------------------
 
 def rational(text):
-    need(isinstance(text, str) and len(text) <= 10000 and str(Q(text)) == text, "format")
+    # Exponents are no canonical form, and would be written out at any length.
+    need(isinstance(text, str) and len(text) <= 10000 and set(text) <= set("-0123456789/"), "format")
+    need(str(Q(text)) == text, "format")
     return Q(text)
 
 
