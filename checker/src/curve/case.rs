@@ -226,7 +226,7 @@ impl Reader {
             None => Matrix::identity(dim),
         };
         case.need(view.cols == dim, "case", "a wrong number of control points")?;
-        Ok(Shape { states, start, view })
+        Ok(Shape::new(states, start, view))
     }
 }
 

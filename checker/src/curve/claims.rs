@@ -54,7 +54,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, points, answers] = node.fields("contraction points answers")?;
     let model = Model::read(&case.shape, &contraction)?;
-    contraction.at(case.shape.check_curves(&model.reachable))?;
+    contraction.at(case.shape.check_curves())?;
     let root = Root { state: case.shape.start, view: case.shape.view.clone() };
     let mut checked: Vec<Point> = Vec::new();
     for item in points.list()? {
@@ -176,12 +176,9 @@ impl<'a> Claims<'a> {
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
     fn injective(&self, with_view: bool) -> Checked<()> {
         let (shape, spaces) = (self.model.shape, &self.model.spaces);
-        for &e in &self.model.reachable {
-            for piece in &shape.states[e].pieces {
-                let map = spaces.on_visible(e, piece)?;
-                let injective = map.rank()? == map.cols;
-                need(injective, "joints", format_args!("an operator of state {e} is not injective"))?;
-            }
+        for (e, piece) in shape.pieces() {
+            let map = spaces.on_visible(e, piece)?;
+            need(map.rank()? == map.cols, "joints", format_args!("an operator of state {e} is not injective"))?;
         }
         let start = spaces.of(shape.start)?;
         let injective = !with_view || shape.view.times(&start.basis)?.rank()? == start.visible.rows;
@@ -190,9 +187,9 @@ impl<'a> Claims<'a> {
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
     fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Checked<()> {
-        let Model { shape, reachable, spaces, .. } = self.model;
+        let Model { shape, spaces, .. } = self.model;
         let (mut listed, mut spans) = (Vec::new(), shape.no_rows());
-        for &e in reachable {
+        for &e in &shape.reachable {
             spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
         }
         for item in items {
@@ -205,8 +202,8 @@ impl<'a> Claims<'a> {
         }
         complete(self.model, &listed, node, "joints")?;
         let image = |e, p: &Piece, span: &Matrix| span.times(&spaces.on_visible(e, p)?.transpose());
-        let spans = close(shape, reachable, spans, Way::Up, image)?;
-        let all = reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
+        let spans = close(shape, spans, Way::Up, image)?;
+        let all = shape.reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
         node.need(all, "joints", "the tangent lines are not seen to span the visible quotients")
     }
 
@@ -219,15 +216,13 @@ impl<'a> Claims<'a> {
             item.need(n >= 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
             products[e] = positive_definite(&item, n)?;
         }
-        for &e in &self.model.reachable {
-            for piece in &shape.states[e].pieces {
-                let linear = spaces.linear(&piece.op, e, piece.target)?;
-                let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
-                let own = &products[piece.target];
-                let ratio = pulled.at(0, 0) / own.at(0, 0);
-                let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
-                node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
-            }
+        for (e, piece) in shape.pieces() {
+            let linear = spaces.linear(&piece.op, e, piece.target)?;
+            let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
+            let own = &products[piece.target];
+            let ratio = pulled.at(0, 0) / own.at(0, 0);
+            let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
+            node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
         }
         let start = spaces.of(shape.start)?;
         let injective = shape.view.times(&start.basis)?.rank()? == start.basis.cols;

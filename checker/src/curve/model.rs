@@ -9,8 +9,6 @@ use num_traits::{One, Signed, Zero};
 pub struct Model<'a> {
     /// The shape.
     pub shape: &'a Shape,
-    /// Its reachable states, breadth first.
-    pub reachable: Vec<usize>,
     /// Their spaces.
     pub spaces: Spaces,
     radius: Vec<Q>,
@@ -52,11 +50,10 @@ impl<'a> Model<'a> {
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
     /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Checked<Self> {
-        let reachable = shape.reachable();
-        let spaces = node.at(Spaces::new(shape, &reachable))?;
+        let spaces = node.at(Spaces::new(shape))?;
         let radius = vec![Q::zero(); shape.states.len()];
         let hulls = shape.states.iter().map(|s| Matrix::zeros(s.dim, 0)).collect();
-        let mut model = Self { shape, reachable, spaces, radius, hulls };
+        let mut model = Self { shape, spaces, radius, hulls };
         let mut entries = Vec::new();
         for (e, item) in model.for_states(node, "contraction")? {
             let [state, bound, code, hull] = item.fields("state radius code hull")?;
@@ -86,9 +83,9 @@ impl<'a> Model<'a> {
     /// The elements of a list with one for each reachable state, breadth first, with the state.
     pub fn for_states<'n>(&self, node: &Node<'n>, rule: &str) -> Checked<Vec<(usize, Node<'n>)>> {
         let items = node.list()?;
-        let all = items.len() == self.reachable.len();
+        let all = items.len() == self.shape.reachable.len();
         node.need(all, rule, "one entry for each reachable state is needed, breadth first")?;
-        Ok(self.reachable.iter().copied().zip(items).collect())
+        Ok(self.shape.reachable.iter().copied().zip(items).collect())
     }
 
     /// Visits the leaves of a tree with one child for each letter of the state that is reached: the rows times the product of
@@ -261,12 +258,12 @@ mod tests {
         let op = row(&[3, 1]).stack(&row(&[1, 3])).scaled(&(whole(1) / whole(4)));
         let pieces = vec![Piece { target: 0, op, reversed: false }];
         let states = vec![State { kind: Kind::Set, dim: 2, pieces, ends: [None, None] }];
-        Shape { states, start: 0, view: Matrix::identity(2) }
+        Shape::new(states, 0, Matrix::identity(2))
     }
 
     fn model(shape: &Shape, radius: i64, hull: Matrix) -> Model<'_> {
-        let spaces = Spaces::new(shape, &[0]).unwrap();
-        Model { shape, reachable: vec![0], spaces, radius: vec![whole(radius)], hulls: vec![hull] }
+        let spaces = Spaces::new(shape).unwrap();
+        Model { shape, spaces, radius: vec![whole(radius)], hulls: vec![hull] }
     }
 
     #[test]

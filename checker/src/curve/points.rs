@@ -68,7 +68,7 @@ impl Place {
                 Ok(vec![(side, end_branch(model, &[], root.state, *end)?)])
             }
             Self::Joint { path, left, right } => {
-                let neighbours = self.joint(model, root.state).filter(|&(e, l, r)| joints(model, e).contains(&(l, r)));
+                let neighbours = self.joint(model, root.state).filter(|j| model.joints_of(j.0).contains(j));
                 let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
                 let (state, ..) = some(neighbours, "joint", why)?;
                 let branch = |letter: usize, end: End| {
@@ -120,8 +120,8 @@ impl Place {
                     _ => return Ok(Self::Inside(address.clone())),
                 };
             }
-            let meets = |(l, r): &(usize, usize)| if end == End::Start { *r == letter } else { *l == letter };
-            if let Some((left, right)) = joints(model, states[k]).into_iter().find(meets) {
+            let meets = |&(_, l, r): &(_, usize, usize)| if end == End::Start { r == letter } else { l == letter };
+            if let Some((_, left, right)) = model.joints_of(states[k]).into_iter().find(meets) {
                 return Ok(Self::Joint { path: address.prefix[..k].to_vec(), left, right });
             }
         }
@@ -129,22 +129,23 @@ impl Place {
     }
 }
 
-/// The pairs of neighbouring pieces of a state that are more than points.
-pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
-    let pieces = &model.shape.states[state].pieces;
-    let solid: Vec<usize> = (0..pieces.len()).filter(|&k| !model.spaces.is_point(state, k)).collect();
-    solid.windows(2).map(|w| (w[0], w[1])).collect()
+impl Model<'_> {
+    /// All first-level joints: the reachable states, and the pairs of neighbours among their pieces that are more than points.
+    pub fn joints(&self) -> Vec<(usize, usize, usize)> {
+        self.shape.reachable.iter().flat_map(|&e| self.joints_of(e)).collect()
+    }
+
+    fn joints_of(&self, e: usize) -> Vec<(usize, usize, usize)> {
+        let count = self.shape.states[e].pieces.len();
+        let solid: Vec<usize> = (0..count).filter(|&k| !self.spaces.is_point(e, k)).collect();
+        solid.windows(2).map(|w| (e, w[0], w[1])).collect()
+    }
 }
 
-/// Whether all first-level joints of all reachable states are among these (state and two pieces).
+/// Whether all first-level joints are among these.
 pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
-    for &e in &model.reachable {
-        for (left, right) in joints(model, e) {
-            let why = format_args!("the joint of the pieces {left} and {right} of state {e} is missing");
-            node.need(listed.contains(&(e, left, right)), rule, why)?;
-        }
-    }
-    Ok(())
+    let missing = model.joints().into_iter().find(|joint| !listed.contains(joint));
+    node.need(missing.is_none(), rule, format_args!("the joint {missing:?} (state and pieces) is missing"))
 }
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
@@ -206,32 +207,25 @@ fn conclude(
     dimension: usize,
     found: &[(Side, Option<Found>)],
 ) -> Checked<Point> {
-    let planes = found.iter().filter(|(_, found)| matches!(found, Some(Found::Plane))).count();
-    let (mut lines, mut contained) = (Vec::new(), Vec::new());
-    for (side, found) in found {
-        if let Some(Found::Line(line)) = found {
-            lines.push((*side, line));
-        }
-        if let Some(Found::Line(line) | Found::Direction(line)) = found {
-            contained.push(line);
-        }
-    }
+    let given: Vec<(Side, &Found)> = found.iter().filter_map(|(side, found)| Some((*side, found.as_ref()?))).collect();
     let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
-    match rule {
-        "plane" => {
-            let alone = planes == 1 && contained.is_empty() && common.is_null();
-            need(alone, "plane", "one branch with a plane, and nothing else, is needed")?;
-            refuted(place, "none")
-        }
-        "differ" => {
-            let ([a, b], true) = (&contained[..], common.is_null() && found.len() == 2) else {
-                return reject("differ", "two branches with a line each, and nothing else, are needed");
-            };
+    match (rule, &given[..]) {
+        ("plane", [(_, Found::Plane)]) if common.is_null() => refuted(place, "none"),
+        ("plane", _) => reject("plane", "one branch with a plane, and nothing else, is needed"),
+        ("differ", [(_, Found::Line(a) | Found::Direction(a)), (_, Found::Line(b) | Found::Direction(b))])
+            if common.is_null() =>
+        {
             need(a.differs(b), "differ", "the two lines are not seen to be different")?;
-            let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
-            refuted(place, if corner { "corner" } else { "none" })
+            // A line that is only contained has no rays.
+            refuted(place, if a.left.len() == 1 && b.right.len() == 1 { "corner" } else { "none" })
         }
-        "line" => {
+        ("differ", _) => reject("differ", "two branches with a line each, and nothing else, are needed"),
+        ("line", _) => {
+            let lines = found.iter().filter_map(|(side, found)| match found {
+                Some(Found::Line(line)) => Some((*side, line)),
+                _ => None,
+            });
+            let lines: Vec<(Side, &Line)> = lines.collect();
             need(lines.len() == found.len(), "point", "every branch needs a proved line")?;
             let (relations, common) = relations(common, dimension, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
