@@ -278,13 +278,9 @@ impl System {
             let (from, to, matrix) = &self.arrows[a];
             item.need(*to == hull.points[k].state, "inclusion", "the arrow does not end in the state of the point")?;
             let Rest { vector, total, negative } = hull.rest(matrix.times(&hull.points[k].vector)?, &terms, *from)?;
-            let far = if monotone {
-                let under = !negative && !vector.data.iter().any(Signed::is_positive);
-                item.need(under, "inclusion", "the image does not lie below the combination")?;
-                total
-            } else {
-                total + &interior[*from] * vector.norm()
-            };
+            let under = !monotone || !negative && !vector.data.iter().any(Signed::is_positive);
+            item.need(under, "inclusion", "the image does not lie below the combination")?;
+            let far = total + &interior[*from] * vector.norm();
             item.need(far <= *bound, "inclusion", "the image lies outside the multiple of the polytope")?;
             seen[k][a] = true;
         }

@@ -246,7 +246,7 @@ impl<'a> Cones<'a> {
         let leading = Leading::read(&top, &linear)?;
         top.need(leading.eigenvalue_sign() > 0, "slow", "the leading eigenvalue must be positive")?;
         let (row, pairing) = leading.row(&linear, &functional)?;
-        let (field, v) = (&leading.field, &leading.vectors()[0]);
+        let (field, v) = (&leading.field, &leading.vectors[0]);
         let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
         for k in 0..rays.rows {
             let ray = rays.row(k);

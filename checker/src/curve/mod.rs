@@ -13,7 +13,7 @@ mod top;
 
 pub use case::Case;
 pub use claims::check;
-pub use germ::{Germ, Position, Root};
+pub use germ::{Germ, Root};
 pub use model::Model;
 pub use points::{Place, Point, complete};
 pub use rules::{Found, Leading, Line, read_address};

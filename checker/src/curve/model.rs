@@ -1,6 +1,6 @@
 //! Trees of words: contraction codes, and covers of a ring by cells on which a functional keeps its sign (theory §1, §7).
 
-use super::{Germ, Position, Shape, Spaces};
+use super::{Germ, Shape, Spaces};
 use crate::base::{Checked, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -37,8 +37,8 @@ pub struct Functionals {
 
 /// A cell of a cover.
 pub struct Cell {
-    /// On which side of the germ's point it lies.
-    pub position: Position,
+    /// On which side of the germ's point it lies: that of its piece.
+    pub side: i32,
     /// The index of the functional.
     pub functional: usize,
     /// Its sign there.
@@ -219,10 +219,10 @@ impl<'a> Model<'a> {
         &self,
         germ: &Germ,
         functionals: &Functionals,
-        part: Option<Position>,
+        part: Option<i32>,
         node: &Node<'_>,
     ) -> Checked<Vec<Cell>> {
-        let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
+        let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.side == part)).collect();
         let mut cells = Vec::new();
         for (item, piece) in node.exactly(pieces.len(), "cover")?.iter().zip(pieces) {
             let [word, tree] = item.fields("piece cells")?;
@@ -234,7 +234,7 @@ impl<'a> Model<'a> {
                     return reject("cover", "a leaf is a sign and the index of a functional, such as \"+0\"");
                 };
                 let keeps = self.keeps(rows, functional, &functionals.errors[functional], state, sign)?;
-                cells.push(Cell { position: piece.position, functional, sign });
+                cells.push(Cell { side: piece.side, functional, sign });
                 need(keeps, "cover", "a functional does not keep the sign of its cell")
             };
             tree.at(self.leaves(&functionals.rows.times(&piece.op)?, piece.end, tree.value, "cover", &mut leaf))?;

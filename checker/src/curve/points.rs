@@ -23,13 +23,8 @@ pub enum Place {
     OfSet(Address),
 }
 
-/// Which points a branch describes: earlier ones, later ones, or both.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Left,
-    Right,
-    Both,
-}
+/// Which points a branch describes: the earlier ones (at the finish of a curve), the later ones (at a start), or both.
+type Side = Option<End>;
 
 /// A checked point.
 pub struct Point {
@@ -51,8 +46,7 @@ impl Place {
             "right end" => node.fields("at").map(|[_]| Self::End(End::Finish))?,
             "joint" => {
                 let [_, path, left, right] = node.fields("at path left right")?;
-                let pieces = MAX_PIECES;
-                Self::Joint { path: path.word()?, left: left.index(pieces)?, right: right.index(pieces)? }
+                Self::Joint { path: path.word()?, left: left.index(MAX_PIECES)?, right: right.index(MAX_PIECES)? }
             }
             "inside" => node.fields("at address").and_then(|[_, a]| Ok(Self::Inside(read_address(&a)?)))?,
             "of set" => node.fields("at address").and_then(|[_, a]| Ok(Self::OfSet(read_address(&a)?)))?,
@@ -63,10 +57,7 @@ impl Place {
     /// The branches of the point: for a curve through the outermost pieces that are more than a point.
     fn branches(&self, model: &Model<'_>, root: &Root) -> Checked<Vec<(Side, Address)>> {
         match self {
-            Self::End(end) => {
-                let side = if *end == End::Start { Side::Right } else { Side::Left };
-                Ok(vec![(side, end_branch(model, &[], root.state, *end)?)])
-            }
+            Self::End(end) => Ok(vec![(Some(*end), end_branch(model, &[], root.state, *end)?)]),
             Self::Joint { path, left, right } => {
                 let neighbours = self.joint(model, root.state).filter(|j| model.joints_of(j.0).contains(j));
                 let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
@@ -78,13 +69,13 @@ impl Place {
                 let (before, after) = (branch(*left, End::Finish)?, branch(*right, End::Start)?);
                 let forward = model.shape.orientation(root.state, path)? > 0;
                 let (first, second) = if forward { (before, after) } else { (after, before) };
-                Ok(vec![(Side::Left, first), (Side::Right, second)])
+                Ok(vec![(Some(End::Finish), first), (Some(End::Start), second)])
             }
             Self::Inside(address) | Self::OfSet(address) => {
                 let normal = address.normalise(model.shape, root.state).as_ref() == Some(address);
                 let here = normal && root.state == model.shape.start && Self::of_address(model, address)? == *self;
                 need(here, "place", "the address is not in its normal form, or that of another kind of point")?;
-                Ok(vec![(Side::Both, address.clone())])
+                Ok(vec![(None, address.clone())])
             }
         }
     }
@@ -230,8 +221,8 @@ fn conclude(
             let (relations, common) = relations(common, dimension, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
             for ((side, line), factor) in lines.iter().zip(relations) {
-                left.extend(line.left.iter().filter(|_| *side != Side::Right).map(|s| s * factor));
-                right.extend(line.right.iter().filter(|_| *side != Side::Left).map(|s| s * factor));
+                left.extend(line.left.iter().filter(|_| *side != Some(End::Start)).map(|s| s * factor));
+                right.extend(line.right.iter().filter(|_| *side != Some(End::Finish)).map(|s| s * factor));
             }
             let kind = kind(&place, &left, &right);
             Ok(Point { place, verdict: Verdict::Proved, kind, common })
