@@ -41,8 +41,9 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         let (n, smooth, plane) = item.at(case.valence(&item))?;
         item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
         listed.push(n);
-        claims.push(format!("{}: at valence {n} the surface is C1 for almost all control points", smooth.word()));
-        claims.push(format!("{}: at valence {n} it has a tangent plane for almost all control points", plane.word()));
+        for (verdict, what) in [(smooth, "the surface is C1"), (plane, "it has a tangent plane")] {
+            claims.push(format!("{} for almost all control points: at valence {n} {what}", verdict.word()));
+        }
         together = Some(together.map_or(smooth, |t: Verdict| t.min(smooth)));
     }
     let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));
@@ -64,7 +65,7 @@ fn read_valences(node: &Node<'_>) -> Checked<Option<Vec<usize>>> {
         let (low, high) = part.split_once("..").unwrap_or((part, part));
         let bound = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n <= MAX_VALENCE);
         match (bound(low), bound(high.trim_start_matches('='))) {
-            (Some(low), Some(high)) => all.extend(low..=high),
+            (Some(low), Some(high)) if 3 <= low && low <= high => all.extend(low..=high),
             _ => return node.reject("format", "valences are numbers and ranges"),
         }
     }
@@ -215,4 +216,99 @@ fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
     let centre = if vector.len() > places.len() { vector.remove(0) } else { Ball::zero() };
     let values = places.into_iter().zip(vector).collect();
     mesh.continued(&value, Net { frequency: k, centre, values })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::Place;
+
+    /// The first half of a curve in Bernstein form.
+    fn half(curve: &[Ball]) -> Vec<Ball> {
+        let (mut left, mut rest, part) = (Vec::new(), curve.to_vec(), Ball::real(&(Q::one() / whole(2))));
+        while let Some(first) = rest.first() {
+            left.push(first.clone());
+            rest = rest.windows(2).map(|w| w[0].plus(&w[1]).times(&part)).collect();
+        }
+        left
+    }
+
+    /// `Ψ(x/2) = λ Ψ(x)`: the first half of the inner boundary of the ring is the first piece of the outer one, made smaller. This
+    /// ties masks and patches together.
+    #[test]
+    fn the_inner_boundary_is_the_outer_one_made_smaller() {
+        let inner: [(&str, fn(&[Patch]) -> Vec<Ball>); 4] = [
+            ("catmull-clark", |p| p[0].rows().iter().map(|row| row[0].clone()).collect()),
+            ("frequency", |p| p[0].rows().iter().map(|row| row[0].clone()).collect()),
+            // The triangle from (1, 1) has (0, 1) as its second corner and (1, 0) as its third one.
+            ("loop", |p| p[1].rows().iter().rev().map(|row| row[row.len() - 1].clone()).collect()),
+            // The left quarter of the first cell, from its corner (1, 1) to (1, 0).
+            ("midedge", |p| p[3].rows()[0].iter().rev().cloned().collect()),
+        ];
+        for (name, edge) in inner {
+            let read = |end: &str| {
+                let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/certs/pass");
+                std::fs::read_to_string(root.join(format!("vertex-{name}.{end}"))).unwrap()
+            };
+            let tree: Json = serde_json::from_str(&read("json")).unwrap();
+            let place = String::new();
+            let proof = Node { value: &tree, place }.field("proof").unwrap();
+            let item = proof.field("valences").unwrap().list().unwrap().pop().unwrap();
+            let case = file(&read("toml"), "name vertex", Case::read).unwrap();
+            let pair = |n: &Node<'_>| (n.vector(2).unwrap().remove(0), n.vector(2).unwrap().remove(1));
+            let n = item.field("valence").unwrap().index(100).unwrap();
+            let k = item.field("frequency").unwrap().index(100).unwrap();
+            let turn = pair(&item.field("turn").unwrap());
+            let mesh = Mesh::new(case.spline, case.centre(n), powers(n, &turn).unwrap()).unwrap();
+            let near: Vec<_> = item.field("vector").unwrap().list().unwrap().iter().map(pair).collect();
+            let radius = item.field("others").unwrap().rational().unwrap();
+            let block = mesh.block(k).unwrap();
+            let (value, _) = leading(&block, &near, &radius).unwrap();
+            let net = top(&mesh, k, &near, &radius).unwrap();
+            let ring = patches(&mesh, &net).unwrap();
+            let small = Q::one() / num_traits::pow(whole(2), 60);
+            let (small_edge, outer) = (half(&edge(&ring)), boundary(&mesh, &ring));
+            for (a, b) in small_edge.iter().zip(&outer) {
+                assert!(a.minus(&b.times(&value)).at_most() < small, "{name}");
+            }
+            assert!(small_edge.iter().all(|a| a.at_least() > small), "{name}");
+        }
+    }
+
+    /// At a regular vertex the leading eigenvector is the lattice itself.
+    #[test]
+    fn regular_vertices_give_the_lattice() {
+        for (spline, centre, n) in [
+            (Spline::Bicubic, Centre::Vertex([9, 6, 1].map(|w| whole(w) / whole(16))), 4),
+            (Spline::Quartic, Centre::Loop, 6),
+            (Spline::Biquadratic, Centre::Frequency(1), 4),
+        ] {
+            let sixth =
+                (whole(1) / whole(2), "866025403784438646763723170752936183/1000000000000000000000000000000000000");
+            let parsed = crate::number::canonical(sixth.1).unwrap();
+            let turn = if n == 4 { (whole(0), whole(1)) } else { (sixth.0, parsed) };
+            let mesh = Mesh::new(spline, centre, powers(n, &turn).unwrap()).unwrap();
+            let own = if spline == Spline::Biquadratic { whole(1) / whole(2) } else { whole(0) };
+            let point = |(i, j): Place| {
+                let (a, b) = (whole(i) + &own, whole(j) + &own);
+                (&a + &b * &turn.0, b * &turn.1)
+            };
+            let places = mesh.places(2);
+            let first = point(places[0]);
+            // Divided by the first point, so that this is 1.
+            let size = &first.0 * &first.0 + &first.1 * &first.1;
+            let near = |p: &Place| {
+                let (x, y) = point(*p);
+                ((&x * &first.0 + &y * &first.1) / &size, (&y * &first.0 - &x * &first.1) / &size)
+            };
+            let near: Vec<_> = places.iter().map(near).collect();
+            let net = top(&mesh, 1, &near, &(whole(3) / whole(10))).unwrap();
+            let ring = patches(&mesh, &net).unwrap();
+            assert!(one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign())), "{spline:?}");
+            // The outer boundary begins at distance 2 on the first spoke.
+            let scale = Ball::new(&first.0, &first.1);
+            let corner = boundary(&mesh, &ring)[0].times(&scale).minus(&Ball::real(&whole(2)));
+            assert!(corner.at_most() < Q::one() / num_traits::pow(whole(2), 60), "{spline:?}");
+        }
+    }
 }

@@ -130,11 +130,15 @@ fn norm(m: &Balls) -> Q {
 pub fn dominated(matrix: &Balls, radius: &Q) -> Checked<Q> {
     let inverse = Ball::real(&(Q::one() / radius));
     let mut power: Balls = matrix.iter().map(|row| row.iter().map(|x| x.times(&inverse)).collect()).collect();
-    let (half, mut sum, n) = (Q::one() / whole(2), Q::one(), matrix.len());
+    let (half, large) = (Q::one() / whole(2), whole(1 << 32));
+    let (mut sum, n) = (Q::one(), matrix.len());
     for _ in 0..SQUARINGS {
         let size = norm(&power);
         if size < half {
             return Ok(sum / (Q::one() - size));
+        }
+        if size > large {
+            break;
         }
         spend(4 * n * n * n, PLACES as u64)?;
         sum *= Q::one() + size;

@@ -61,6 +61,7 @@ pub struct Net {
 /// `f'/f = Σ 1/(z − z_k)`; if the imaginary parts of its powers below `n/2` are positive, it is the first one.
 pub fn powers(n: usize, w: &(Q, Q)) -> Checked<Vec<Ball>> {
     let near = Ball::new(&w.0, &w.1);
+    need(near.at_most() < whole(2), "vertex", "this is no root of unity")?;
     let before = (1..n).fold(Ball::real(&Q::one()), |p, _| p.times(&near));
     let off = before.times(&near).minus(&Ball::real(&Q::one())).at_most();
     need(before.at_least().is_positive(), "vertex", "no root of unity is seen near this number")?;

@@ -108,6 +108,12 @@ impl Patch {
         self.rows.iter().flatten()
     }
 
+    /// The control points by rows.
+    #[cfg(test)]
+    pub fn rows(&self) -> &[Vec<Ball>] {
+        &self.rows
+    }
+
     fn degree(&self) -> usize {
         self.rows.len() - 1
     }
