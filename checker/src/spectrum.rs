@@ -6,6 +6,7 @@ use crate::base::{
 };
 use crate::curve::{case, chain};
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::rc::Rc;
 
@@ -154,12 +155,8 @@ fn invertible(basis: &Matrix, modulus: &Node<'_>) -> Checked<bool> {
 
 /// The inverse of `a` modulo `p < 2^31`, if there is one.
 fn inverse(a: u64, p: u64) -> Option<u64> {
-    let (mut r, mut s) = ((p as i64, a as i64), (0, 1));
-    while r.1 != 0 {
-        let q = r.0 / r.1;
-        (r, s) = ((r.1, r.0 - q * r.1), (s.1, s.0 - q * s.1));
-    }
-    (r.0 == 1).then(|| s.0.rem_euclid(p as i64) as u64)
+    let found = (a as i64).extended_gcd(&(p as i64));
+    (found.gcd == 1).then(|| found.x.rem_euclid(p as i64) as u64)
 }
 
 /// Rule `moduli`: classes of equal modulus, the largest first, with radii that separate them.

@@ -105,7 +105,7 @@ impl<'a> Claims<'a> {
             }
             Question::Joints => {
                 let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
-                let (found, places) = self.joints(&theorem, &points, &upstairs)?;
+                let (found, places) = self.joints([&theorem, &points, &upstairs])?;
                 ("joints", stated, found, format!("the curve has a tangent line at {places}"))
             }
             Question::EveryPoint => {
@@ -145,12 +145,7 @@ impl<'a> Claims<'a> {
     }
 
     /// The joints: refuted by one of them; proved by Theorem 5 or 5′. Says at which joints.
-    fn joints(
-        &mut self,
-        theorem: &Node<'_>,
-        points: &Node<'_>,
-        upstairs: &Node<'_>,
-    ) -> Checked<(Verdict, &'static str)> {
+    fn joints(&mut self, [theorem, points, upstairs]: [&Node<'_>; 3]) -> Checked<(Verdict, &'static str)> {
         let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
         let chosen = self.select(points)?;
         upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;

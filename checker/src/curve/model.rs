@@ -45,6 +45,9 @@ pub struct Cell {
     pub sign: i32,
 }
 
+/// What is done with a leaf of a tree of words.
+type Visit<'v> = dyn FnMut(&Matrix, usize, &str) -> Checked<()> + 'v;
+
 impl<'a> Model<'a> {
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
@@ -90,14 +93,7 @@ impl<'a> Model<'a> {
 
     /// Visits the leaves of a tree with one child for each letter of the state that is reached: the rows times the product of
     /// the word that leads to the leaf, the state there, and what stands at the leaf.
-    fn leaves(
-        &self,
-        rows: &Matrix,
-        state: usize,
-        tree: &Json,
-        rule: &str,
-        visit: &mut dyn FnMut(&Matrix, usize, &str) -> Checked<()>,
-    ) -> Checked<()> {
+    fn leaves(&self, rows: &Matrix, state: usize, tree: &Json, rule: &str, visit: &mut Visit<'_>) -> Checked<()> {
         let pieces = &self.shape.states[state].pieces;
         match tree {
             Json::Text(leaf) => visit(rows, state, leaf),
@@ -134,11 +130,7 @@ impl<'a> Model<'a> {
             images.at(self.hull_maps_into(e, &images, shrinking))?;
             if shrinking {
                 let hull = &self.hulls[e];
-                points.need(
-                    hull.rank()? == hull.rows,
-                    "contraction",
-                    "the points do not span the space of the state",
-                )?;
+                points.need(hull.rank()? == hull.rows, "contraction", "the points do not span the space")?;
                 let shift = hull.minus(&self.spaces.of(e)?.base.times(&Matrix::row_of_ones(hull.cols))?);
                 let near = (0..hull.cols).all(|j| shift.columns(&[j]).norm() <= self.radius[e]);
                 points.need(near, "contraction", "the ball of this radius does not hold the points")?;
@@ -215,13 +207,7 @@ impl<'a> Model<'a> {
     /// Rule `cover`: every piece of the ring that is seen is cut into cells on each of which one of the functionals has one
     /// strict sign. The pieces come in the order of the ring (of one part of it, where `part` is given); leaves are `"+0"`,
     /// `"-0"`, `"+1"`, ….
-    pub fn cover(
-        &self,
-        germ: &Germ,
-        functionals: &Functionals,
-        part: Option<i32>,
-        node: &Node<'_>,
-    ) -> Checked<Vec<Cell>> {
+    pub fn cover(&self, germ: &Germ, by: &Functionals, part: Option<i32>, node: &Node<'_>) -> Checked<Vec<Cell>> {
         let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.side == part)).collect();
         let mut cells = Vec::new();
         for (item, piece) in node.exactly(pieces.len(), "cover")?.iter().zip(pieces) {
@@ -233,11 +219,11 @@ impl<'a> Model<'a> {
                 let Some((functional, sign, _)) = named.into_iter().find(|(_, _, name)| name == leaf) else {
                     return reject("cover", "a leaf is a sign and the index of a functional, such as \"+0\"");
                 };
-                let keeps = self.keeps(rows, functional, &functionals.errors[functional], state, sign)?;
+                let keeps = self.keeps(rows, functional, &by.errors[functional], state, sign)?;
                 cells.push(Cell { side: piece.side, functional, sign });
                 need(keeps, "cover", "a functional does not keep the sign of its cell")
             };
-            tree.at(self.leaves(&functionals.rows.times(&piece.op)?, piece.end, tree.value, "cover", &mut leaf))?;
+            tree.at(self.leaves(&by.rows.times(&piece.op)?, piece.end, tree.value, "cover", &mut leaf))?;
         }
         Ok(cells)
     }

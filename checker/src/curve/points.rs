@@ -26,6 +26,9 @@ pub enum Place {
 /// Which points a branch describes: the earlier ones (at the finish of a curve), the later ones (at a start), or both.
 type Side = Option<End>;
 
+/// A branch: its side, and what its certificate proves, where it has one.
+type Branch = (Side, Option<Found>);
+
 /// A checked point.
 pub struct Point {
     /// Where it sits.
@@ -177,7 +180,7 @@ impl Point {
         let [at, verdict, kind, rule, common, branches] = node.fields("place verdict kind rule common branches")?;
         let place = Place::read(&at)?;
         let addresses = at.at(place.branches(model, root))?;
-        let mut found: Vec<(Side, Option<Found>)> = Vec::new();
+        let mut found: Vec<Branch> = Vec::new();
         for ((side, address), item) in addresses.iter().zip(&branches.exactly(addresses.len(), "point")?) {
             let seen = if item.is_null() { None } else { Some(rules::check(model, root, address, item)?) };
             found.push((*side, seen));
@@ -191,13 +194,7 @@ impl Point {
 
 /// The conclusions: `plane` (a branch has more than one dimension), `line` (all branches have the same line), `differ` (the
 /// two branches have different lines, or their tangent subspaces contain different lines).
-fn conclude(
-    place: Place,
-    rule: &str,
-    common: &Node<'_>,
-    dimension: usize,
-    found: &[(Side, Option<Found>)],
-) -> Checked<Point> {
+fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[Branch]) -> Checked<Point> {
     let given: Vec<(Side, &Found)> = found.iter().filter_map(|(side, found)| Some((*side, found.as_ref()?))).collect();
     let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
     match (rule, &given[..]) {
@@ -218,7 +215,7 @@ fn conclude(
             });
             let lines: Vec<(Side, &Line)> = lines.collect();
             need(lines.len() == found.len(), "point", "every branch needs a proved line")?;
-            let (relations, common) = relations(common, dimension, &lines)?;
+            let (relations, common) = relations(common, size, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
             for ((side, line), factor) in lines.iter().zip(relations) {
                 left.extend(line.left.iter().filter(|_| *side != Some(End::Start)).map(|s| s * factor));

@@ -88,10 +88,7 @@ impl Address {
 
     /// The letter at a position of the infinite word.
     pub fn letter(&self, k: usize) -> usize {
-        match self.prefix.get(k) {
-            Some(letter) => *letter,
-            None => self.cycle[(k - self.prefix.len()) % self.cycle.len()],
-        }
+        *self.prefix.get(k).unwrap_or_else(|| &self.cycle[(k - self.prefix.len()) % self.cycle.len()])
     }
 
     /// The address whose sequence of (state, letter) pairs is written with the shortest prefix and the shortest period.
@@ -130,9 +127,8 @@ impl End {
     /// The end of a piece that lies at this end of its state.
     pub fn in_piece(self, piece: &Piece) -> Self {
         match (self, piece.reversed) {
-            (end, false) => end,
-            (Self::Start, true) => Self::Finish,
-            (Self::Finish, true) => Self::Start,
+            (Self::Start, false) | (Self::Finish, true) => Self::Start,
+            _ => Self::Finish,
         }
     }
 }
