@@ -5,15 +5,8 @@ use super::{close, complete, everywhere, positive_definite, read_address};
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
 use num_traits::Signed;
 
-/// What a case asks.
-#[derive(Debug, PartialEq, Eq)]
-enum Question {
-    Ends,
-    Joints,
-    Address(Address),
-    AnyPoint,
-    EveryPoint,
-}
+/// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
+type Question = (&'static str, Option<Address>);
 
 /// The questions of a case: of a curve its end points and its joints, of a set the fixed points of the maps of the start state
 /// to itself; then the addresses to examine, each once.
@@ -21,14 +14,15 @@ fn questions(case: &Case) -> Vec<Question> {
     let start = &case.shape.states[case.shape.start];
     let mut questions = Vec::new();
     if start.kind == Kind::Edge {
-        questions = vec![Question::Ends, Question::Joints];
+        questions = vec![("ends", None), ("joints", None)];
     } else {
         let own = (0..start.pieces.len()).filter(|&i| start.pieces[i].target == case.shape.start);
-        questions.extend(own.map(|i| Question::Address(Address { prefix: Vec::new(), cycle: vec![i] })));
+        questions.extend(own.map(|i| ("address", Some(Address { prefix: Vec::new(), cycle: vec![i] }))));
     }
-    for address in case.examine.iter().cloned().map(Question::Address) {
-        if !questions.contains(&address) {
-            questions.push(address);
+    for address in case.examine.iter().cloned() {
+        let question = ("address", Some(address));
+        if !questions.contains(&question) {
+            questions.push(question);
         }
     }
     questions
@@ -37,14 +31,14 @@ fn questions(case: &Case) -> Vec<Question> {
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
 fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     match item.tag("question")? {
-        "any point" if last => return Ok(Question::AnyPoint),
-        "every point" if !asked.contains(&Question::EveryPoint) => return Ok(Question::EveryPoint),
+        "any point" if last => return Ok(("any point", None)),
+        "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
     let [_, of, _, _] = item.fields("question address verdict points")?;
     let address = read_address(&of)?;
     let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
-    let question = Question::Address(address);
+    let question = ("address", Some(address));
     let new = normal && !asked.contains(&question);
     of.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
     Ok(question)
@@ -71,7 +65,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((*question != Question::EveryPoint).then_some(verdict));
+        found.extend((question.0 != "every point").then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let verdict = found.into_iter().min().unwrap_or(Verdict::Undetermined);
@@ -90,36 +84,36 @@ struct Claims<'a> {
 impl<'a> Claims<'a> {
     /// Checks the answer to a question.
     fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
-        let (what, stated, verdict, claim) = match question {
-            Question::Ends => {
+        let (stated, verdict, claim) = match question {
+            ("ends", _) => {
                 let [_, stated, points] = node.fields("question verdict points")?;
                 let found = self.all(&points, &[Place::End(End::Start), Place::End(End::Finish)])?;
-                ("ends", stated, found, "the curve has a tangent line at both end points".to_owned())
+                (stated, found, "the curve has a tangent line at both end points".to_owned())
             }
-            Question::Address(address) => {
+            (_, Some(address)) => {
                 let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
                 let place = format!("the address {:?} ({:?})", address.prefix, address.cycle);
-                ("address", stated, found, format!("the shape has a tangent line at {place}"))
+                (stated, found, format!("the shape has a tangent line at {place}"))
             }
-            Question::Joints => {
+            ("joints", _) => {
                 let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
                 let (found, places) = self.joints([&theorem, &points, &upstairs])?;
-                ("joints", stated, found, format!("the curve has a tangent line at {places}"))
+                (stated, found, format!("the curve has a tangent line at {places}"))
             }
-            Question::EveryPoint => {
+            ("every point", _) => {
                 let found = everywhere::check(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
-                ("every point", node.field("verdict")?, found.verdict, found.claim)
+                (node.field("verdict")?, found.verdict, found.claim)
             }
-            Question::AnyPoint => {
+            (_, None) => {
                 let [_, stated, products] = node.fields("question verdict products")?;
                 self.similarities(&products)?;
-                ("any point", stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
+                (stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
             }
         };
-        let asked = node.tag("question")? == what && stated.text()? == verdict.word();
+        let asked = node.tag("question")? == question.0 && stated.text()? == verdict.word();
         node.need(asked, "answers", format_args!("another question, or what follows is \"{}\"", verdict.word()))?;
         self.lines.push(format!("{}: {claim}", verdict.word()));
         Ok(verdict)
