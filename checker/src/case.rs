@@ -380,6 +380,16 @@ pub fn read(source: &str, open: bool) -> Checked<Case> {
     })
 }
 
+/// Reads more of the states of a case.
+pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> Checked<T> {
+    file(source, &CASE_KEYS, |case| read(&case.get("state").map_or(Ok(Vec::new()), |n| n.list())?))
+}
+
+/// A list of whole numbers below a bound.
+pub fn indices(node: &Node<'_>, bound: usize) -> Checked<Vec<usize>> {
+    node.list()?.iter().map(|n| index(n, bound)).collect()
+}
+
 /// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
 pub fn matrix_list(source: &str) -> Checked<crate::radius::System> {
     file(source, &["name", "matrices", "states", "arrows"], |node| {

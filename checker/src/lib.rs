@@ -21,6 +21,9 @@ mod rules;
 pub mod shape;
 mod solve;
 mod spectrum;
+mod surface;
+mod surface_branch;
+mod surface_chart;
 
 use std::fmt;
 
@@ -148,6 +151,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         "solve" => solve::check(case::read(case, true)?, &proof)?,
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
+        "surface" => surface::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };
     number::spend(0, 0)?;

@@ -4,7 +4,7 @@ use crate::germ::{Germ, Position};
 use crate::json::{Json, Node};
 use crate::matrix::Matrix;
 use crate::number::{Q, bits, spend};
-use crate::poly::Field;
+use crate::poly::{Enclosed, Field};
 use crate::shape::{Shape, Spaces};
 use crate::{Checked, at, need, reject};
 use num_bigint::BigInt;
@@ -84,7 +84,13 @@ impl<'a> Model<'a> {
                 at(&code.place, model.contracts(*e, *e, &Matrix::identity(shape.states[*e].dim), code.value))?;
             }
         }
-        if !entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Null)) {
+        if entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Text(text) if text == "simplex")) {
+            for &e in &model.reachable {
+                let maps = shape.states[e].pieces.iter().flat_map(|p| &p.op.data).all(|x| !x.is_negative());
+                node.need(maps, "hull", "the simplices are mapped into themselves by nonnegative operators only")?;
+                model.hulls[e] = Matrix::identity(shape.states[e].dim);
+            }
+        } else if !entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Null)) {
             model.polytopes(entries.iter().map(|(e, _, hull)| (*e, hull)), false)?;
         }
         Ok(model)
@@ -179,9 +185,13 @@ impl<'a> Model<'a> {
 
     /// Functionals on the germ's quotient, given over a number field, as rows on points.
     pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Checked<Functionals> {
+        self.enclosed(germ, &rows.iter().map(|row| field.enclose(row)).collect::<Checked<Vec<_>>>()?)
+    }
+
+    /// Functionals on the germ's quotient, given by enclosures of their entries, as rows on points.
+    pub fn enclosed(&self, germ: &Germ, rows: &[Enclosed]) -> Checked<Functionals> {
         let (mut middles, mut errors) = (Matrix::empty(germ.dim()), Vec::new());
-        for row in rows {
-            let values = field.enclose(row)?;
+        for values in rows {
             middles = middles.stack(&values.lo.plus(&Q::one(), &values.hi).transpose());
             // |chart_k (x − q)| is at most osc(chart_k) times the radius, because both points lie in the ball.
             let spread = |k: usize| (&values.hi.data[k] - &values.lo.data[k]) * oscillation(germ.chart.integers(k));

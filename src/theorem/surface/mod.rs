@@ -82,6 +82,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     } else {
         branches_only(&setting, &asked, &mut surface, &mut found.claims);
     }
+    found.polygons = setting.cx.polygons();
     found.surface = Some(surface);
     found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     Ok(found)

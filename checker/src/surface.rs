@@ -1,0 +1,200 @@
+//! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 12).
+
+use crate::germ::Root;
+use crate::json::Node;
+use crate::matrix::Matrix;
+use crate::ring::Model;
+use crate::rules::read_address;
+use crate::shape::Address;
+use crate::surface_branch::{self, Bounds, independent};
+use crate::surface_chart::Chart;
+use crate::{Accepted, Checked, Verdict, case, claims, need};
+
+/// A question of the case: a claim in words, and the places it is about; without places, the dense set.
+struct Question {
+    text: String,
+    places: Vec<usize>,
+}
+
+/// The questions of a case, and the places they are about, each with the addresses of its cells.
+#[derive(Default)]
+struct Questions {
+    asked: Vec<Question>,
+    places: Vec<Vec<Address>>,
+}
+
+impl Questions {
+    fn place(&mut self, addresses: Vec<Address>) -> usize {
+        let known = self.places.iter().position(|p| *p == addresses);
+        known.unwrap_or_else(|| {
+            self.places.push(addresses);
+            self.places.len() - 1
+        })
+    }
+
+    fn ask(&mut self, text: String, places: Vec<usize>) {
+        self.asked.push(Question { text, places });
+    }
+}
+
+/// What is asked of a patch with parameters (its vertices, the dense set, the addresses), or of single branches.
+fn questions(model: &Model<'_>, chart: Option<&Chart>, addresses: &[Address]) -> Checked<Questions> {
+    let (start, mut found) = (model.shape.start, Questions::default());
+    let name = |a: &Address| format!("{:?} ({:?})", a.prefix, a.cycle);
+    if let Some(chart) = chart {
+        let mut vertices = Vec::new();
+        for vertex in chart.vertices()? {
+            vertices.push(found.place(chart.addresses(start, &vertex)?));
+        }
+        let text = "at every vertex of the first subdivision the cells around it have together a tangent plane";
+        found.ask(text.to_owned(), vertices);
+        found.ask(String::new(), Vec::new());
+        for address in addresses {
+            let place = found.place(chart.addresses(start, &chart.locate(start, address)?)?);
+            let text = format!("the cells around the point {} have together a tangent plane there", name(address));
+            found.ask(text, vec![place]);
+        }
+        return Ok(found);
+    }
+    let pieces = model.shape.states[start].pieces.iter().enumerate().filter(|(_, p)| p.target == start);
+    let own = pieces.map(|(i, _)| Address { prefix: Vec::new(), cycle: vec![i] });
+    for address in own.chain(addresses.iter().cloned()) {
+        let text = format!("the germ of the branch {} has a tangent plane", name(&address));
+        if found.asked.iter().all(|q| q.text != text) {
+            let place = found.place(vec![address]);
+            found.ask(text, vec![place]);
+        }
+    }
+    Ok(found)
+}
+
+/// Checks the proof of a certificate of the kind `surface`.
+pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
+    let case = case::read(source, false)?;
+    let [contraction, further, points, dense, answers] =
+        node.fields(["contraction", "further", "points", "dense", "answers"])?;
+    let model = Model::read(&case.shape, &contraction)?;
+    let chart = Chart::read(source, &case.shape, &model.reachable)?;
+    let mut addresses: Vec<Address> = Vec::new();
+    for address in case.examine {
+        if !addresses.contains(&address) {
+            addresses.push(address);
+        }
+    }
+    for item in further.list()? {
+        let address = read_address(&item)?;
+        let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
+        item.need(normal && !addresses.contains(&address), "answers", "not in its normal form, or asked for before")?;
+        addresses.push(address);
+    }
+    let mut questions = questions(&model, chart.as_ref(), &addresses)?;
+    let root = Root { state: case.shape.start, view: case.shape.view.clone() };
+    let items = points.list()?;
+    points.need(items.len() == questions.places.len(), "points", "one entry for each point is needed, in order")?;
+    let (mut verdicts, mut lines) = (Vec::new(), Vec::new());
+    for (item, place) in items.iter().zip(&questions.places) {
+        let verdict = if item.is_null() { Verdict::Undetermined } else { point(&model, &root, Some(place), item)?.1 };
+        lines.push(format!("{}: {place:?}", verdict.word()));
+        verdicts.push(verdict);
+    }
+    let (mut together, mut found) = (None, Vec::new());
+    let listed = answers.list()?;
+    answers.need(listed.len() == questions.asked.len(), "answers", "one answer for each question is needed")?;
+    for (item, question) in listed.iter().zip(&mut questions.asked) {
+        let verdict = match (&chart, question.places.iter().map(|&k| verdicts[k]).reduce(Verdict::and)) {
+            (Some(chart), None) => {
+                let (text, verdict) = dense_set(&model, chart, &dense)?;
+                question.text = text;
+                verdict
+            }
+            (_, verdict) => verdict.unwrap_or(Verdict::Undetermined),
+        };
+        item.need(item.text()? == verdict.word(), "answers", &format!("what follows is \"{}\"", verdict.word()))?;
+        together = Some(together.map_or(verdict, |t: Verdict| t.and(verdict)));
+        found.push(format!("{}: {}", verdict.word(), question.text));
+    }
+    dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
+    let verdict = together.unwrap_or(Verdict::Undetermined);
+    Ok(Accepted { case: case.name, verdict, claims: found, points: lines })
+}
+
+/// Checks a point, whose addresses may be known, and says what they are.
+fn point(
+    model: &Model<'_>,
+    root: &Root,
+    place: Option<&[Address]>,
+    node: &Node<'_>,
+) -> Checked<(Vec<Address>, Verdict)> {
+    let [listed, rule, tangent, branches] = node.fields(["addresses", "rule", "tangent", "branches"])?;
+    let addresses = listed.list()?.iter().map(read_address).collect::<Checked<Vec<_>>>()?;
+    let known = place.is_none_or(|place| *place == addresses) && !addresses.is_empty();
+    listed.need(known, "point", "these are not the addresses of the point")?;
+    let items = branches.list()?;
+    branches.need(items.len() == addresses.len(), "point", "one entry for each address is needed")?;
+    let (mut found, mut position): (Vec<Option<Bounds>>, Option<Matrix>) = (Vec::new(), None);
+    for (item, address) in items.iter().zip(&addresses) {
+        let here = root.view.times(&model.shape.point(root.state, address)?)?;
+        let same = *position.get_or_insert_with(|| here.clone()) == here;
+        item.need(same, "point", "the cells around the point do not meet there")?;
+        let check = || surface_branch::check(model, root, address, item);
+        found.push(if item.is_null() { None } else { Some(check()?) });
+    }
+    let verdict = conclude(rule.text()?, &tangent, root.view.rows, &found)?;
+    Ok((addresses, verdict))
+}
+
+/// The conclusions: the tangent subspace, the sum of those of all branches, has more than two dimensions (`space`), exactly two
+/// (`plane`), or less (`line`).
+fn conclude(rule: &str, tangent: &Node<'_>, width: usize, found: &[Option<Bounds>]) -> Checked<Verdict> {
+    let contains: Vec<_> = found.iter().flatten().flat_map(|b| &b.contains).collect();
+    if rule == "space" {
+        let more = tangent.is_null() && independent(&contains, 3)?;
+        tangent.need(more, "space", "the directions are not seen to span more than a plane")?;
+        return Ok(Verdict::Refuted);
+    }
+    let bounds: Vec<&Bounds> = found.iter().flatten().collect();
+    need(bounds.len() == found.len(), "point", "every branch needs a certificate here")?;
+    let dimension = if tangent.is_null() {
+        tangent.need(bounds.len() == 1, "tangent", "the space that the branches have in common is needed")?;
+        bounds[0].dimension
+    } else {
+        let space = tangent.matrix(width)?;
+        tangent.need(space.echelon()?.0 == space, "tangent", "a basis in reduced echelon form is needed")?;
+        for vector in bounds.iter().flat_map(|b| &b.within) {
+            let holds = space.joined(&vector.transpose())?.is_none();
+            tangent.need(holds, "tangent", "the tangent subspace of a branch does not lie in this space")?;
+        }
+        space.rows
+    };
+    let plane = dimension == 2 && independent(&contains, 2)?;
+    tangent.need(
+        if rule == "plane" { plane } else { dimension < 2 && rule == "line" },
+        "tangent",
+        "the rule is another",
+    )?;
+    Ok(if plane { Verdict::Proved } else { Verdict::Refuted })
+}
+
+/// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
+fn dense_set(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<(String, Verdict)> {
+    let mut text = "the surface has a tangent plane at a dense set of points, one inside every cell".to_owned();
+    if node.is_null() {
+        return Ok((text, Verdict::Undetermined));
+    }
+    let items = node.list()?;
+    node.need(items.len() == model.reachable.len(), "dense", "one vertex for each reachable face is needed")?;
+    for (item, &e) in items.iter().zip(&model.reachable) {
+        let space = model.spaces.of(e)?;
+        let (addresses, verdict) =
+            point(model, &Root { state: e, view: space.visible.times(&space.reading)? }, None, item)?;
+        let parameter = chart.locate(e, &addresses[0])?;
+        let all = chart.is_inside(&parameter) && chart.addresses(e, &parameter)? == addresses;
+        item.need(all, "dense", "these are not all addresses of a point inside the face")?;
+        item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
+    }
+    if !claims::injective(model, "dense")? {
+        text = "the surface has a tangent plane at a point inside every cell whose projection does not fold the plane"
+            .to_owned();
+    }
+    Ok((text, Verdict::Proved))
+}
