@@ -71,7 +71,7 @@ fn fields(table: &DeTable<'_>) -> Json {
 }
 
 /// Reads a TOML file with these keys at its top by a function; what is wrong makes the file unreadable.
-fn file<T>(source: &str, keys: &[&str], read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
+pub fn file<T>(source: &str, keys: &[&str], read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
     let unreadable = |place: String, why: String| Rejected { rule: "case".to_owned(), place, why, unreadable: true };
     let parsed = DeTable::parse(source).map_err(|e| unreadable(String::new(), format!("not TOML: {}", e.message())))?;
     let value = fields(parsed.get_ref());
@@ -80,7 +80,7 @@ fn file<T>(source: &str, keys: &[&str], read: impl FnOnce(&Node<'_>) -> Checked<
 }
 
 /// A whole number of a TOML file below a bound.
-fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
+pub fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
     let digits = if let Json::Number(digits) = node.value { digits.parse::<usize>().ok() } else { None };
     match digits.filter(|k| *k < bound) {
         Some(k) => Ok(k),

@@ -22,8 +22,7 @@ pub mod shape;
 mod solve;
 mod spectrum;
 mod surface;
-mod surface_branch;
-mod surface_chart;
+mod vertex;
 
 use std::fmt;
 
@@ -152,6 +151,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         "spectrum" => jordan::check(case, &proof)?,
         "jsr" => radius::check(case, &proof)?,
         "surface" => surface::check(case, &proof)?,
+        "vertex" => vertex::check(case, &proof)?,
         _ => return kind.malformed("unknown kind of certificate"),
     };
     number::spend(0, 0)?;

@@ -1,14 +1,17 @@
 //! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 12).
 
+mod branch;
+mod chart;
+
 use crate::germ::Root;
 use crate::json::Node;
 use crate::matrix::Matrix;
 use crate::ring::Model;
 use crate::rules::read_address;
 use crate::shape::Address;
-use crate::surface_branch::{self, Bounds, independent};
-use crate::surface_chart::Chart;
 use crate::{Accepted, Checked, Verdict, case, claims, need};
+use branch::{Bounds, independent};
+use chart::Chart;
 
 /// A question of the case: a claim in words, and the places it is about; without places, the dense set.
 struct Question {
@@ -37,10 +40,15 @@ impl Questions {
     }
 }
 
+/// An address in words.
+fn name(address: &Address) -> String {
+    let letters = |word: &[usize]| word.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
+    format!("{}({})", letters(&address.prefix), letters(&address.cycle))
+}
+
 /// What is asked of a patch with parameters (its vertices, the dense set, the addresses), or of single branches.
 fn questions(model: &Model<'_>, chart: Option<&Chart>, addresses: &[Address]) -> Checked<Questions> {
     let (start, mut found) = (model.shape.start, Questions::default());
-    let name = |a: &Address| format!("{:?} ({:?})", a.prefix, a.cycle);
     if let Some(chart) = chart {
         let mut vertices = Vec::new();
         for vertex in chart.vertices()? {
@@ -94,7 +102,8 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let (mut verdicts, mut lines) = (Vec::new(), Vec::new());
     for (item, place) in items.iter().zip(&questions.places) {
         let verdict = if item.is_null() { Verdict::Undetermined } else { point(&model, &root, Some(place), item)?.1 };
-        lines.push(format!("{}: {place:?}", verdict.word()));
+        let names: Vec<String> = place.iter().map(name).collect();
+        lines.push(format!("{}: {}", verdict.word(), names.join(" = ")));
         verdicts.push(verdict);
     }
     let (mut together, mut found) = (None, Vec::new());
@@ -136,7 +145,7 @@ fn point(
         let here = root.view.times(&model.shape.point(root.state, address)?)?;
         let same = *position.get_or_insert_with(|| here.clone()) == here;
         item.need(same, "point", "the cells around the point do not meet there")?;
-        let check = || surface_branch::check(model, root, address, item);
+        let check = || branch::check(model, root, address, item);
         found.push(if item.is_null() { None } else { Some(check()?) });
     }
     let verdict = conclude(rule.text()?, &tangent, root.view.rows, &found)?;

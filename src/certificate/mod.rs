@@ -14,10 +14,12 @@ mod spectrum;
 mod surface;
 mod top;
 mod tree;
+mod vertex;
 
 pub use joint::radius_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
+pub use vertex::{confirm_vertices, vertex_certificate};
 
 use crate::arith::Rational;
 use crate::case::Case;

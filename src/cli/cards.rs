@@ -117,7 +117,8 @@ fn shape(case: &Case, name: &str, wanted: Report) -> Result<Made, Problem> {
 fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
     let case = VertexCase::read(path)?;
     let asked = case.valences.clone().unwrap_or(Valences::List((3..=12).collect()));
-    let (found, every) = super::vertex::at(&case, &asked, true)?;
+    let (mut found, every) = super::vertex::at(&case, &asked, true)?;
+    super::vertex::confirmed(&case, &mut found)?;
     let report = wanted.written.then(|| html::render(&proof::vertex_document(&case, &found, every.as_ref())));
     let verdict = overall(&found, every.as_ref());
     let mut parts: Vec<String> =

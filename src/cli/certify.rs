@@ -142,13 +142,15 @@ pub fn examined(
     let evidence = match confirm(case, &found) {
         Ok(certificate) => Ok(certificate),
         Err(Doubt::Unsupported(unsupported)) => Err(unsupported),
-        Err(doubt) => {
-            return Err(Problem::new("secant::certificate::rejected", format!("{}: {doubt}", case.name)).with_help(
-                "this is a mistake in secant: please report it with the case; --no-check leaves the check out",
-            ));
-        }
+        Err(doubt) => return Err(rejected(&case.name, &doubt)),
     };
     Ok((found, Some(evidence)))
+}
+
+/// A certificate that the checker does not accept.
+pub fn rejected(case: &str, doubt: &Doubt) -> Problem {
+    Problem::new("secant::certificate::rejected", format!("{case}: {doubt}"))
+        .with_help("this is a mistake in secant: please report it with the case; --no-check leaves the check out")
 }
 
 /// Reads a case and the addresses asked for.

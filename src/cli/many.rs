@@ -97,7 +97,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
 /// One case: from the store where its result is up to date, otherwise certified and stored.
 fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
     if super::vertex::is_about_vertices(path) {
-        return about_vertices(path);
+        return about_vertices(path, args.no_check);
     }
     let (case, addresses) = read(path, args)?;
     if let Some(done) = store.and_then(|s| s.find(path, &case)).and_then(kept) {
@@ -121,11 +121,22 @@ fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
     Ok(done)
 }
 
-/// A case about the vertices of a mesh: the verdicts at the valences of its file. The checker has no rule for them.
-fn about_vertices(path: &Path) -> Outcome {
+/// A case about the vertices of a mesh: the verdicts at the valences of its file.
+fn about_vertices(path: &Path, no_check: bool) -> Outcome {
     let case = VertexCase::read(path)?;
     let asked = super::vertex::valences(&case, None)?;
-    let (found, every) = super::vertex::at(&case, &asked, true)?;
+    let (mut found, every) = super::vertex::at(&case, &asked, true)?;
+    if !no_check {
+        super::vertex::confirmed(&case, &mut found)?;
+    }
+    let decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined).count();
+    let checked = if no_check || decided == 0 {
+        Checked::NotAsked
+    } else if every.is_none() && found.iter().filter(|f| f.checked).count() == decided {
+        Checked::Yes
+    } else {
+        Checked::NoRule
+    };
     let smooth = found.iter().map(|f| match f.smooth {
         Verdict::Proved => "C¹ valence",
         Verdict::Refuted => "valence not C¹",
@@ -135,7 +146,7 @@ fn about_vertices(path: &Path) -> Outcome {
         name: case.name.clone(),
         verdict: report::overall(&found, every.as_ref()),
         kinds: counted(smooth).join(", "),
-        checked: Checked::NoRule,
+        checked,
         json: report::json(&case, &found, every.as_ref()),
         kept: false,
     })

@@ -121,7 +121,7 @@ struct CertifyArgs {
     #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
     /// For a case with a [vertex] table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
-    #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "certificate", "approx"])]
+    #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]

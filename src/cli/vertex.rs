@@ -1,10 +1,11 @@
 //! `secant certify` of a case about the vertices of a mesh.
 
 use super::CertifyArgs;
-use super::certify::{exit_code, extension, json_text};
+use super::certify::{exit_code, extension, json_text, rejected};
 use super::output::{print, settle, stdout_colour, write_file};
 use super::progress::{Progress, Waiting};
 use crate::case::{Valences, VertexCase};
+use crate::certificate::{Certificate, confirm_vertices};
 use crate::diagnostic::Problem;
 use crate::picture::characteristic::sheet;
 use crate::report::proof::vertex_document;
@@ -27,17 +28,16 @@ pub fn run(path: &Path, args: &CertifyArgs) -> u8 {
 }
 
 fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
-    if args.certificate.is_some() || !args.address.is_empty() || args.approx {
-        return Err(Problem::new(
-            "secant::usage",
-            "--certificate, --address and --approx are not for vertices of a mesh",
-        )
-        .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
+    if !args.address.is_empty() || args.approx {
+        return Err(Problem::new("secant::usage", "--address and --approx are not for vertices of a mesh")
+            .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
     }
     let case = VertexCase::read(path)?;
     let asked = valences(&case, args.valence.as_deref())?;
-    let (found, every) = at(&case, &asked, args.quiet)?;
+    let (mut found, every) = at(&case, &asked, args.quiet)?;
     let every = every.as_ref();
+    let certificate = if args.no_check { None } else { confirmed(&case, &mut found)? };
+    let certified = certificate_file(args, certificate.as_ref())?;
     let reported = args.report.as_deref().map(|path| {
         let document = vertex_document(&case, &found, every);
         let written = match extension(path).as_str() {
@@ -51,7 +51,7 @@ fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
         let panels: Vec<_> = found.iter().filter_map(report::panel).collect();
         (path, sheet(&panels, &case.title))
     });
-    for (path, content) in reported.into_iter().chain(drawn) {
+    for (path, content) in reported.into_iter().chain(drawn).chain(certified) {
         write_file(path, &content)?;
     }
     if !args.quiet {
@@ -63,6 +63,30 @@ fn certified(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
         print(&shown);
     }
     Ok(exit_code(report::overall(&found, every)))
+}
+
+/// Has the verdicts proved again by the independent checker where the certificate format has rules for them.
+///
+/// # Errors
+/// The [`Problem`] of a certificate that the checker does not accept.
+pub fn confirmed(case: &VertexCase, found: &mut [AtValence]) -> Result<Option<Certificate>, Problem> {
+    confirm_vertices(case, found).map_err(|doubt| rejected(&case.name, &doubt))
+}
+
+/// The certificate as a file, where one is asked for.
+fn certificate_file<'a>(
+    args: &'a CertifyArgs,
+    certificate: Option<&Certificate>,
+) -> Result<Option<(&'a Path, String)>, Problem> {
+    let Some(path) = args.certificate.as_deref() else { return Ok(None) };
+    match certificate {
+        Some(certificate) => Ok(Some((path, certificate.text()))),
+        None => Err(Problem::new(
+            "secant::certificate::none",
+            "no rule of the certificate format covers these vertices, or --no-check left them out",
+        )
+        .with_help("see docs/certificate.md, sections 12 and 13; nothing was written")),
+    }
 }
 
 /// What is found at the valences that were asked for; for all of them, the common proof and the small ones it leaves out.

@@ -14,9 +14,22 @@ use serde_json::{Value, json};
 /// The place in the lattice of a sector where the Jacobian determinant has a sign.
 type Spot = (usize, (Rational, Rational));
 
-/// What the reports say where the independent checker has no part.
-pub const UNCHECKED: &str =
-    "the independent checker does not cover characteristic maps: these verdicts were proved once, not twice";
+/// What the reports say of the independent checker: at which valences it proved the verdicts again.
+#[must_use]
+pub fn twice(found: &[AtValence]) -> String {
+    let decided = |f: &&AtValence| f.smooth != Verdict::Undetermined;
+    let (again, once): (Vec<&AtValence>, Vec<&AtValence>) = found.iter().filter(decided).partition(|f| f.checked);
+    let list = |of: &[&AtValence]| ranges(&of.iter().map(|f| f.valence).collect::<Vec<_>>());
+    match (again.is_empty(), once.is_empty()) {
+        (true, _) => "the independent checker has no rule for these verdicts: they were proved once, not twice".to_owned(),
+        (_, true) => format!("the independent checker proved the verdicts at {} again", list(&again)),
+        _ => format!(
+            "the independent checker proved the verdicts at {} again, but not those at {}",
+            list(&again),
+            list(&once)
+        ),
+    }
+}
 
 /// The equation of the eigenvalue with `c = cos(2πk/n)` in its coefficients, with whole numbers.
 #[must_use]
@@ -145,7 +158,7 @@ pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
 #[must_use]
 pub fn document(case: &VertexCase, found: &[AtValence], every: Option<&Every>, full: bool) -> Document {
     let mut blocks = summary_by_valence(case, found, every);
-    blocks.push(Block::Paragraph(words(format!("Note: {UNCHECKED}."))));
+    blocks.push(Block::Paragraph(words(format!("Note: {}.", twice(found)))));
     if full {
         blocks.extend(evidence_by_valence(case, found));
     }
@@ -349,7 +362,7 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
             "negative": place(&s.negative),
             "zero": place(&s.zero),
         })),
-        "checked": false,
+        "checked": f.checked,
     })
 }
 
@@ -369,7 +382,7 @@ pub fn json(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> Va
             "pieces": e.pieces,
             "conditions": e.conditions.iter().map(|c| json!({"claim": c.claim, "holds": c.holds})).collect::<Vec<_>>(),
         })),
-        "note": UNCHECKED,
+        "note": twice(found),
         "valences": found.iter().map(|f| valence_json(case, f)).collect::<Vec<_>>(),
     })
 }

@@ -21,6 +21,32 @@ const DEPTH: usize = 14;
 /// Polynomials up to this degree are factored for display.
 const DISPLAY_DEGREE: usize = 24;
 
+/// What the verdict at one valence rests on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ground {
+    /// Theorem 7: the characteristic map is regular and winds once.
+    Regular,
+    /// Theorem 8 (a): the leading eigenvectors live in blocks other than 1 and `n − 1`.
+    Winding,
+    /// Theorem 8 (c): the Jacobian determinant changes its sign.
+    Fold,
+    /// Theorem 2 or 3: one leading eigenvector, whose function on the ring has no zero.
+    Line,
+    /// Theorem 8 (e): the same on a closed path only.
+    Path,
+}
+
+/// Enclosures of the leading eigenvector, as middles: with `ω = e^(2πik/n)`, a point of sector `s` has the value `ω^s (x + y ω)`.
+#[derive(Debug, Clone)]
+pub struct Eigenvector {
+    /// The frequency `k`.
+    pub frequency: usize,
+    /// At the centre.
+    pub centre: (Rational, Rational),
+    /// `x` and `y` at the points of sector 0, by place.
+    pub points: Vec<((usize, usize), (Rational, Rational))>,
+}
+
 /// What holds at one valence.
 #[derive(Debug, Clone)]
 pub struct AtValence {
@@ -46,6 +72,12 @@ pub struct AtValence {
     pub half_plane: Option<(Rational, Rational)>,
     /// Why: the theorem applied, or what failed.
     pub reason: String,
+    /// What a decided verdict rests on, where it is one leading eigenvector with its conjugate.
+    pub ground: Option<Ground>,
+    /// That eigenvector.
+    pub eigenvector: Option<Eigenvector>,
+    /// Whether the independent checker proved the verdicts again.
+    pub checked: bool,
     /// The patches of sector 0 as floats `x, y`, for pictures: nets of points in the true plane.
     pub outline: Vec<Net<(f64, f64)>>,
 }
@@ -64,6 +96,9 @@ impl AtValence {
             winding: None,
             half_plane: None,
             reason: String::new(),
+            ground: None,
+            eigenvector: None,
+            checked: false,
             outline: Vec::new(),
         }
     }
@@ -225,6 +260,7 @@ impl Judge<'_> {
             return;
         };
         if signs.strict().is_some() {
+            self.found.ground = Some(Ground::Line);
             self.refute(format!(
                 "{what} in block {k} leads and its function on the ring has no zero: all limit directions lie on one line \
                  (Theorem {})",
@@ -243,6 +279,7 @@ impl Judge<'_> {
              one side of it (Theorem 8)"
         ));
         self.found.plane = Verdict::Undetermined;
+        self.found.ground = Some(Ground::Path);
     }
 
     /// The ring of the leading eigenvector of block `k` for a scheme without Bézier patches.
@@ -252,13 +289,14 @@ impl Judge<'_> {
     }
 
     /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary or its innermost cells.
-    fn signs_of_function(&self, k: usize) -> Option<(Signs, Signs)> {
+    fn signs_of_function(&mut self, k: usize) -> Option<(Signs, Signs)> {
         if !self.found.polynomial {
             let ring = self.ring(k, BITS[0])?;
             let functional = (1, if k == 0 { 1 } else { -1 });
             return Some((ring.functional(functional, false), ring.functional(functional, true)));
         }
         let (field, values) = self.values(k, BITS[0])?;
+        self.note(k, &field, &values);
         // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
         let scalar = |p: &Turning<Fixed>| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) };
         let nets: Vec<Net<Fixed>> = patches(self.vertex, &field, &values)?.iter().map(|p| p.map(scalar)).collect();
@@ -280,6 +318,12 @@ impl Judge<'_> {
         Some((Enclosures::of_angle(k, self.vertex.valence, bits), values))
     }
 
+    fn note(&mut self, frequency: usize, field: &Enclosures, values: &Values<Fixed>) {
+        let middle = |v: &Turning<Fixed>| (field.to_interval(&v.x).mid(), field.to_interval(&v.y).mid());
+        let points = self.vertex.stencils.places.iter().copied().zip(values.orbits.iter().map(middle)).collect();
+        self.found.eigenvector = Some(Eigenvector { frequency, centre: middle(&values.centre), points });
+    }
+
     /// A pair of leading eigenvectors in the blocks `k` and `n − k`: the characteristic map.
     fn pair(&mut self, k: usize, length: usize) {
         self.found.frequency = Some(k);
@@ -295,6 +339,7 @@ impl Judge<'_> {
             return;
         }
         if k != 1 {
+            self.found.ground = Some(Ground::Winding);
             self.found.smooth = Verdict::Refuted;
             self.found.reason = match self.found.winding {
                 Some(w) => format!(
@@ -318,11 +363,13 @@ impl Judge<'_> {
         match (self.found.regular(), self.found.winding) {
             (Some(true), Some(1)) => {
                 self.found.smooth = Verdict::Proved;
+                self.found.ground = Some(Ground::Regular);
                 self.found.reason =
                     format!("the characteristic map is regular and winds once around 0{with_blocks} (Theorem 7)");
             }
             (Some(false), _) => {
                 self.found.smooth = Verdict::Refuted;
+                self.found.ground = Some(Ground::Fold);
                 "the Jacobian determinant of the characteristic map changes its sign (Theorem 8)"
                     .clone_into(&mut self.found.reason);
             }
@@ -339,6 +386,7 @@ impl Judge<'_> {
             return self.enclosed(k, bits);
         }
         let Some((field, values)) = self.values(k, bits) else { return false };
+        self.note(k, &field, &values);
         let Some(patches) = patches(self.vertex, &field, &values) else { return false };
         let mut signs = Signs::default();
         for (index, patch) in patches.iter().enumerate() {

@@ -14,5 +14,5 @@ pub mod solve;
 pub mod top;
 pub mod turning;
 
-pub use certify::{AtValence, at_valence, decimal};
+pub use certify::{AtValence, Eigenvector, Ground, at_valence, decimal};
 pub use every::{Condition, Every, every, strict_sign};

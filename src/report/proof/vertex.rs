@@ -3,7 +3,7 @@
 
 use super::super::document::{Block, Document, Inline, Line, code, line, words};
 use super::super::theorems;
-use super::super::vertex::{UNCHECKED, evidence_by_valence, overall, ranges, summary_by_valence};
+use super::super::vertex::{evidence_by_valence, overall, ranges, summary_by_valence, twice};
 use super::super::words::mark;
 use super::{Quoted, references};
 use crate::case::VertexCase;
@@ -27,10 +27,15 @@ pub fn vertex_document(case: &VertexCase, found: &[AtValence], every: Option<&Ev
     blocks.extend(summary_by_valence(case, found, every));
     blocks.extend(evidence_by_valence(case, found));
     blocks.push(Block::heading(2, "Certificate"));
-    blocks.push(Block::Facts(vec![
-        ("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes()))),
-        ("certificate".to_owned(), words(format!("none: {UNCHECKED}."))),
-    ]));
+    let mut facts = vec![("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes())))];
+    match crate::certificate::vertex_certificate(case, found) {
+        Some(certificate) => {
+            facts.push(("certificate, SHA-256".to_owned(), code(crate::certificate::sha256(certificate.text()))));
+            facts.push(("checker".to_owned(), words(format!("{}.", twice(found)))));
+        }
+        None => facts.push(("certificate".to_owned(), words(format!("none: {}.", twice(found))))),
+    }
+    blocks.push(Block::Facts(facts));
     blocks.extend(references(&seen));
     Document { title: case.title.clone(), blocks }
 }

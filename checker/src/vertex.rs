@@ -1,0 +1,225 @@
+//! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh, for schemes that are splines away
+//! from it (docs/theory.md §10.1, Theorems 2, 7 and 8).
+
+mod ball;
+mod mesh;
+mod patch;
+
+use crate::case::{file, index};
+use crate::json::{Json, Node};
+use crate::number::{Q, decimal_fraction, whole};
+use crate::{Accepted, Checked, Verdict, at, need, reject};
+use ball::{Ball, Balls, deflated, dominated, dot, leading};
+use mesh::{Centre, MAX_VALENCE, Mesh, Net, Spline, powers};
+use num_traits::{One, Signed};
+use patch::{Patch, boundary, patches};
+
+/// A case about the vertices of a mesh.
+struct Case {
+    name: String,
+    spline: Spline,
+    weights: Weights,
+    /// The valences of the case, which may name none; `None` where it asks for all that there are.
+    asked: Option<Vec<usize>>,
+}
+
+/// The weights of the case at the centre.
+enum Weights {
+    /// `α`, `β`, `γ` divided by the valence where this is set: the vertex has what is left.
+    Shares([Q; 2], bool),
+    Own(Centre),
+    /// Loop's: `β n`, or for valence 3 another.
+    Warren,
+    Given(Q),
+    Midpoints,
+    Midedge,
+}
+
+/// Checks the proof of a certificate of the kind `vertex`.
+pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
+    let keys = ["name", "title", "source", "vertex", "expect"];
+    let case = file(source, &keys, |root| Case::read(root))?;
+    let [valences] = proof.fields(["valences"])?;
+    let (mut listed, mut claims, mut together) = (Vec::new(), Vec::new(), None);
+    for item in valences.list()? {
+        let (n, smooth, plane) = at(&item.place, case.valence(&item))?;
+        item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
+        listed.push(n);
+        claims.push(format!("{}: at valence {n} the surface is C1 for almost all control points", smooth.word()));
+        claims.push(format!("{}: at valence {n} it has a tangent plane for almost all control points", plane.word()));
+        together = Some(together.map_or(smooth, |t: Verdict| t.and(smooth)));
+    }
+    let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));
+    let verdict = match together {
+        Some(Verdict::Proved) if !all => Verdict::Undetermined,
+        found => found.unwrap_or(Verdict::Undetermined),
+    };
+    Ok(Accepted { case: case.name, verdict, claims, points: Vec::new() })
+}
+
+fn number(node: &Node<'_>) -> Checked<Q> {
+    let (Json::Text(text) | Json::Number(text)) = node.value else { return node.malformed("a number is needed here") };
+    decimal_fraction(text).map_or_else(|| node.malformed("not an exact number"), Ok)
+}
+
+/// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.
+fn read_valences(node: &Node<'_>) -> Checked<Option<Vec<usize>>> {
+    let Json::Text(text) = node.value else { return Ok(Some(vec![index(node, MAX_VALENCE + 1)?])) };
+    if text.trim() == "all" {
+        return Ok(None);
+    }
+    let mut all = Vec::new();
+    for part in text.split(',') {
+        let (low, high) = part.split_once("..").unwrap_or((part, part));
+        let bound = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n <= MAX_VALENCE);
+        match (bound(low), bound(high.trim_start_matches('='))) {
+            (Some(low), Some(high)) => all.extend(low..=high),
+            _ => return node.malformed("valences are numbers and ranges"),
+        }
+    }
+    Ok(Some(all))
+}
+
+impl Case {
+    fn read(root: &Node<'_>) -> Checked<Self> {
+        let name = root.field("name")?.text()?.to_owned();
+        let table = root.field("vertex")?;
+        let (mesh, parameter) = (table.field("mesh")?.text()?, |key: &str| number(&table.field(key)?));
+        let quads = |edges: i64, corners: i64| [whole(edges) / whole(16), whole(corners) / whole(16)];
+        let (spline, weights, keys): (_, _, &[&str]) = match mesh {
+            "catmull-clark" => (Spline::Bicubic, Weights::Shares(quads(24, 4), true), &[]),
+            "quad-triangle" => (Spline::Bicubic, Weights::Shares(quads(6, 1), false), &[]),
+            "catmull-clark-variant" => {
+                let (alpha, beta) = (parameter("alpha")?, parameter("beta")?);
+                let gamma = Q::one() - alpha - &beta;
+                if table.get("gamma").is_some() {
+                    table.need(parameter("gamma")? == gamma, "case", "the weights do not add up to 1")?;
+                }
+                (Spline::Bicubic, Weights::Shares([beta, gamma], false), &["alpha", "beta", "gamma"])
+            }
+            "loop" => (Spline::Quartic, Weights::Own(Centre::Loop), &[]),
+            "loop-warren" => (Spline::Quartic, Weights::Warren, &[]),
+            "loop-variant" => (Spline::Quartic, Weights::Given(parameter("beta")?), &["beta"]),
+            "doo-sabin" => match table.get("weights") {
+                None => (Spline::Biquadratic, Weights::Own(Centre::Frequency(1)), &[]),
+                Some(given) => {
+                    let list = given.list()?.iter().map(number).collect::<Checked<Vec<_>>>()?;
+                    (Spline::Biquadratic, Weights::Own(Centre::Face(list)), &["weights"])
+                }
+            },
+            "doo-sabin-frequency" => {
+                let f = table.get("frequency").map_or(Ok(2), |node| index(&node, 1025))?;
+                (Spline::Biquadratic, Weights::Own(Centre::Frequency(f)), &["frequency"])
+            }
+            "doo-sabin-catmull-clark" => (Spline::Biquadratic, Weights::Midpoints, &[]),
+            "midedge" => (Spline::Quadratic, Weights::Midedge, &[]),
+            _ => return table.malformed("a scheme for which there are no certificates"),
+        };
+        table.known(&[keys, &["mesh", "valence"]].concat())?;
+        let asked = table.get("valence").map_or(Ok(Some(Vec::new())), |node| read_valences(&node))?;
+        Ok(Self { name, spline, weights, asked })
+    }
+
+    fn centre(&self, n: usize) -> Centre {
+        let (one, valence) = (Q::one(), whole(n as i64));
+        let vertex = |edges: Q, corners: Q| Centre::Vertex([&one - &edges - &corners, edges, corners]);
+        // The own weight, that of the two neighbours, and that of all.
+        let face = |own: Q, near: Q, all: Q| {
+            let weight = |j: usize| match j {
+                0 => &own + &all,
+                _ if j == 1 || j + 1 == n => &near + &all,
+                _ => all.clone(),
+            };
+            Centre::Face((0..n).map(weight).collect())
+        };
+        let part = |k: i64| Q::one() / whole(k);
+        match &self.weights {
+            Weights::Shares([edges, corners], true) => vertex(edges / &valence, corners / &valence),
+            Weights::Shares([edges, corners], false) => vertex(edges.clone(), corners.clone()),
+            Weights::Own(centre) => centre.clone(),
+            Weights::Warren if n == 3 => vertex(whole(9) / whole(16), whole(0)),
+            Weights::Warren => vertex(whole(3) / whole(8), whole(0)),
+            Weights::Given(beta) => vertex(beta * &valence, whole(0)),
+            Weights::Midpoints => face(part(2), part(8), part(4) / valence),
+            Weights::Midedge => face(part(2), part(4), whole(0)),
+        }
+    }
+
+    /// What follows at one valence: C¹, and a tangent plane.
+    fn valence(&self, node: &Node<'_>) -> Checked<(usize, Verdict, Verdict)> {
+        let [valence, rule, frequency, turn, others, vector, half_plane] =
+            node.fields(["valence", "rule", "frequency", "turn", "others", "vector", "half_plane"])?;
+        let (n, k, radius) = (valence.index(MAX_VALENCE + 1)?, frequency.index(MAX_VALENCE)?, others.rational()?);
+        node.need(n >= 3 && 2 * k <= n && radius.is_positive(), "vertex", "no such vertex, block or bound")?;
+        let pair = |node: &Node<'_>| node.vector(2).map(|mut v| (v.remove(0), v.remove(0)));
+        let mesh = Mesh::new(self.spline, self.centre(n), powers(n, &pair(&turn)?)?)?;
+        let near = vector.list()?.iter().map(pair).collect::<Checked<Vec<_>>>()?;
+        let net = top(&mesh, k, &near, &radius)?;
+        let ring = patches(&mesh, &net)?;
+        let held = if half_plane.is_null() {
+            false
+        } else {
+            let (x, y) = pair(&half_plane)?;
+            let against = Ball::new(&x, &y).conjugate();
+            let positive = ring.iter().flat_map(Patch::points).all(|p| p.times(&against).real_sign() == 1);
+            half_plane.need(positive && 0 < k && 2 * k < n, "half-plane", "the ring of a sector does not lie in it")?;
+            true
+        };
+        let holds = match rule.text()? {
+            "theorem-7" => k == 1 && held && one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign())),
+            "theorem-8-winding" => 2 <= k && 2 * k < n,
+            "theorem-8-fold" => {
+                let corners = ring.iter().flat_map(Patch::jacobian).filter(|c| c.1);
+                let signs: Vec<i32> = corners.map(|c| c.0.imaginary_sign()).collect();
+                0 < k && 2 * k < n && signs.contains(&1) && signs.contains(&-1)
+            }
+            "theorem-2" => (k == 0 || 2 * k == n) && one_sign(ring.iter().flat_map(Patch::points).map(Ball::real_sign)),
+            "theorem-8-path" => k == 0 && one_sign(boundary(&mesh, &ring).iter().map(Ball::real_sign)),
+            _ => return rule.malformed("unknown rule for a vertex"),
+        };
+        rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
+        let (smooth, plane) = match rule.text()? {
+            "theorem-7" => (Verdict::Proved, Verdict::Proved),
+            "theorem-2" => (Verdict::Refuted, Verdict::Refuted),
+            _ if held => (Verdict::Refuted, Verdict::Proved),
+            _ => (Verdict::Refuted, Verdict::Undetermined),
+        };
+        Ok((n, smooth, plane))
+    }
+}
+
+fn one_sign(signs: impl Iterator<Item = i32>) -> bool {
+    let all: Vec<i32> = signs.collect();
+    all.iter().all(|s| *s != 0 && *s == all[0])
+}
+
+/// Proves that the block `k` has exactly one eigenvalue of modulus `radius` or more but the 1 of block 0, that it is simple and smaller
+/// than 1, and that the other blocks have none; and returns its eigenvector on three rings.
+fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
+    let mut found = None;
+    for other in 0..=mesh.valence() / 2 {
+        let block = mesh.block(other)?;
+        let ones = vec![Ball::real(&Q::one()); block.len()];
+        // The weights add up to 1: on the quotient by the constant net the eigenvalue 1 is gone.
+        let rest: Balls = if other == 0 { deflated(&block, &ones, 0) } else { block.clone() };
+        if other != k {
+            dominated(&rest, radius)?;
+            continue;
+        }
+        need(near.len() == rest.len(), "vertex", "the vector has one entry for each point of the first two rings")?;
+        let (value, mut vector) = leading(&rest, near, radius)?;
+        need(value.at_most() < Q::one(), "vertex", "the eigenvalue is not smaller than 1")?;
+        if k == 0 {
+            // u on the quotient has B u = λ u + d; the eigenvector is u + d/(λ − 1).
+            let d = dot(&block[0][1..], &vector);
+            let shift = d.times(&value.minus(&ones[0]).inverse()?);
+            vector = std::iter::once(shift.clone()).chain(vector.iter().map(|u| u.plus(&shift))).collect();
+        }
+        found = Some((value, vector));
+    }
+    let Some((value, mut vector)) = found else { return reject("vertex", "", "no such block") };
+    let places = mesh.places(2);
+    let centre = if vector.len() > places.len() { vector.remove(0) } else { Ball::zero() };
+    let values = places.into_iter().zip(vector).collect();
+    mesh.continued(&value, Net { frequency: k, centre, values })
+}

@@ -1,0 +1,274 @@
+//! Subdivision around one vertex (for dual schemes: in a face) of a mesh that is regular elsewhere, one Fourier block at a time.
+//!
+//! Points of a sector have places `(i, j)` in its lattice: `i` steps along its first spoke and `j` along the next one (quadrangles
+//! and triangles), or the cell `[i, i+1] × [j, j+1]` (dual). In block `k` the value in sector `s` is `ω^ks` times that in sector 0.
+
+use super::ball::{Ball, Balls, dot};
+use crate::number::{Q, whole};
+use crate::{Checked, need};
+use num_traits::{One, Signed, Zero};
+
+/// Most sectors.
+pub const MAX_VALENCE: usize = 256;
+
+/// The splines that the schemes are away from the vertex.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spline {
+    /// Catmull and Clark: bicubic.
+    Bicubic,
+    /// Loop: the quartic box spline on triangles.
+    Quartic,
+    /// Doo and Sabin: biquadratic, dual.
+    Biquadratic,
+    /// Two steps of the midedge scheme: the quadratic box spline of Zwart and Powell, dual.
+    Quadratic,
+}
+
+/// The weights at the centre.
+#[derive(Debug, Clone)]
+pub enum Centre {
+    /// Of a vertex: its own, and those of all its edge neighbours and of all opposite corners together.
+    Vertex([Q; 3]),
+    /// Loop's `5/8 − (3/8 + cos(2π/n)/4)²` for all edge neighbours together.
+    Loop,
+    /// Of the corners of a face, from the own one on.
+    Face(Vec<Q>),
+    /// `δ_j/4 + (3 + 2cos(2πfj/n))/(4n)` in a face.
+    Frequency(usize),
+}
+
+/// A place of the lattice.
+pub type Place = (i64, i64);
+
+/// A scheme at one valence.
+pub struct Mesh {
+    spline: Spline,
+    centre: Centre,
+    /// `ω^0, …, ω^(n−1)`, `ω = e^(2πi/n)`.
+    powers: Vec<Ball>,
+}
+
+/// A net of one block on some rings: the value at the centre, and at the places of sector 0.
+pub struct Net {
+    /// The frequency.
+    pub frequency: usize,
+    /// At the centre; 0 in the blocks other than 0, and without meaning for dual schemes.
+    pub centre: Ball,
+    /// At the places.
+    pub values: Vec<(Place, Ball)>,
+}
+
+/// The powers of `e^(2πi/n)`, from an approximation `w`: some root of `z^n − 1` lies within `|w^n − 1| / |w|^(n−1)` of `w`, because
+/// `f'/f = Σ 1/(z − z_k)`; if the imaginary parts of its powers below `n/2` are positive, it is the first one.
+pub fn powers(n: usize, w: &(Q, Q)) -> Checked<Vec<Ball>> {
+    let near = Ball::new(&w.0, &w.1);
+    let before = (1..n).fold(Ball::real(&Q::one()), |p, _| p.times(&near));
+    let off = before.times(&near).minus(&Ball::real(&Q::one())).at_most();
+    need(before.at_least().is_positive(), "vertex", "no root of unity is seen near this number")?;
+    let root = near.widened(&(off / before.at_least()));
+    let mut all = vec![Ball::real(&Q::one())];
+    for m in 1..n {
+        all.push(all[m - 1].times(&root));
+        need(2 * m >= n || all[m].imaginary_sign() == 1, "vertex", "this is not the first root of unity")?;
+    }
+    Ok(all)
+}
+
+fn outside<T>() -> Checked<T> {
+    crate::reject("vertex", "", "a point outside the rings")
+}
+
+impl Mesh {
+    /// The scheme with these weights; the powers are those of [`powers`].
+    pub fn new(spline: Spline, centre: Centre, powers: Vec<Ball>) -> Checked<Self> {
+        let n = powers.len();
+        let fits = match &centre {
+            Centre::Vertex(weights) => weights.iter().sum::<Q>().is_one(),
+            Centre::Face(w) => {
+                w.len() == n && w.iter().sum::<Q>().is_one() && (1..n).all(|j| w[j] == w[n - j])
+            }
+            Centre::Frequency(f) => f % n != 0,
+            Centre::Loop => true,
+        };
+        need(fits, "vertex", "the weights at the centre do not add up to 1, or have no mirror symmetry")?;
+        Ok(Self { spline, centre, powers })
+    }
+
+    /// The valence.
+    pub fn valence(&self) -> usize {
+        self.powers.len()
+    }
+
+    /// The spline.
+    pub fn spline(&self) -> Spline {
+        self.spline
+    }
+
+    fn dual(&self) -> bool {
+        matches!(self.spline, Spline::Biquadratic | Spline::Quadratic)
+    }
+
+    /// `ω^turn`.
+    fn power(&self, turn: i64) -> &Ball {
+        &self.powers[turn.rem_euclid(self.powers.len() as i64) as usize]
+    }
+
+    /// The weight of the old point `q` in the new point `q`·2 + `offset`.
+    fn mask(&self, (i, j): Place) -> Q {
+        let far = |x: i64| usize::from(!(0..=1).contains(&x));
+        let (weight, of) = match self.spline {
+            Spline::Bicubic => {
+                let row = [1, 4, 6, 4, 1];
+                (row[(i + 2) as usize] * row[(j + 2) as usize], 64)
+            }
+            Spline::Quartic => match i.abs().max(j.abs()).max((i + j).abs()) {
+                0 => (10, 16),
+                1 => (6, 16),
+                2 if i == 0 || j == 0 || i + j == 0 => (1, 16),
+                2 => (2, 16),
+                _ => (0, 16),
+            },
+            Spline::Biquadratic if i < -1 || j < -1 => (0, 16),
+            Spline::Quadratic if i < -1 || j < -1 => (0, 4),
+            Spline::Biquadratic => ([9, 3, 1][far(i) + far(j)], 16),
+            Spline::Quadratic => ([2, 1, 0][far(i) + far(j)], 4),
+        };
+        whole(weight) / whole(of)
+    }
+
+    /// The place of sector 0 and the number of sectors by which a place of the continued lattice is turned against it; `None` for
+    /// the centre.
+    fn locate(&self, (mut i, mut j): Place) -> Option<(Place, i64)> {
+        let mut turn = 0;
+        let (first, triangles) = (i64::from(!self.dual()), self.spline == Spline::Quartic);
+        while i < first || j < 0 {
+            (i, j, turn) = match (self.dual(), j < 0) {
+                (false, _) if (i, j) == (0, 0) => return None,
+                (false, false) if i == 0 => (j, 0, turn + 1),
+                (false, true) => (-j, if triangles { i + j } else { i }, turn - 1),
+                (false, false) => (if triangles { i + j } else { j }, -i, turn + 1),
+                (true, true) => (-1 - j, i, turn - 1),
+                (true, false) => (j, -1 - i, turn + 1),
+            };
+        }
+        Some(((i, j), turn))
+    }
+
+    /// The places of sector 0 on the first rings.
+    pub fn places(&self, rings: i64) -> Vec<Place> {
+        let inside = |(i, j): &Place| match self.spline {
+            Spline::Quartic => *i > 0 && i + j <= rings,
+            Spline::Bicubic => *i > 0,
+            _ => *i < rings && *j < rings,
+        };
+        (0..=rings).flat_map(|i| (0..=rings).map(move |j| (i, j))).filter(inside).collect()
+    }
+
+    /// The old points of a new point, with their weights; `None` is the centre. The mesh is regular around all points but the
+    /// centre, so the mask holds in the lattice continued over the spokes.
+    fn stencil(&self, (i, j): Place) -> Vec<(Option<(Place, i64)>, Q)> {
+        let old = (-2..=3).flat_map(|a| (-2..=3).map(move |b| (a, b)));
+        let reached = old.filter(|(a, b)| (i - 2 * a).abs() <= 2 && (j - 2 * b).abs() <= 2);
+        let term = |q: Place| (self.locate(q), self.mask((i - 2 * q.0, j - 2 * q.1)));
+        reached.map(term).filter(|(_, weight)| !weight.is_zero()).collect()
+    }
+
+    /// The transform of the weights in the central face.
+    fn face(&self, k: usize) -> Ball {
+        let n = self.valence();
+        match &self.centre {
+            Centre::Frequency(f) => {
+                let met = [*f, n - f % n].iter().filter(|g| *g % n == k % n).count() as i64;
+                Ball::real(&((whole(1 + met) + if k == 0 { whole(3) } else { Q::zero() }) / whole(4)))
+            }
+            Centre::Face(weights) => {
+                let weights: Vec<Ball> = weights.iter().map(Ball::real).collect();
+                dot(&weights, (0..n).map(|j| self.power((j * k) as i64)))
+            }
+            _ => Ball::zero(),
+        }
+    }
+
+    /// The weights at a central vertex.
+    fn vertex(&self) -> [Ball; 3] {
+        match &self.centre {
+            Centre::Vertex(weights) => weights.each_ref().map(Ball::real),
+            _ => {
+                let cosine = self.power(1).plus(self.power(-1)).times(&Ball::real(&(Q::one() / whole(8))));
+                let inner = cosine.plus(&Ball::real(&(whole(3) / whole(8))));
+                let edges = Ball::real(&(whole(5) / whole(8))).minus(&inner.times(&inner));
+                [Ball::real(&Q::one()).minus(&edges), edges, Ball::zero()]
+            }
+        }
+    }
+
+    /// The block `k` on the first two rings, which one step determines from themselves; in block 0 of schemes with a central vertex
+    /// this comes first.
+    pub fn block(&self, k: usize) -> Checked<Balls> {
+        let places = self.places(2);
+        let mut rows: Balls = Vec::new();
+        if k == 0 && !self.dual() {
+            let [own, edges, corners] = self.vertex();
+            let of = |p: &Place| match *p {
+                (1, 0) => edges.clone(),
+                (1, 1) if self.spline == Spline::Bicubic => corners.clone(),
+                _ => Ball::zero(),
+            };
+            rows.push(std::iter::once(own).chain(places.iter().map(of)).collect());
+        }
+        let before = rows.len();
+        for (own, place) in places.iter().enumerate() {
+            let mut row = vec![Ball::zero(); before + places.len()];
+            if self.dual() && *place == (0, 0) {
+                row[own] = self.face(k);
+                rows.push(row);
+                continue;
+            }
+            for (old, weight) in self.stencil(*place) {
+                let Some((q, turn)) = old else {
+                    if before == 1 {
+                        row[0] = row[0].plus(&Ball::real(&weight));
+                    }
+                    continue;
+                };
+                let Some(known) = places.iter().position(|p| *p == q) else { return outside() };
+                let column = before + known;
+                row[column] = row[column].plus(&Ball::real(&weight).times(self.power(turn * k as i64)));
+            }
+            rows.push(row);
+        }
+        Ok(rows)
+    }
+
+    /// The net of an eigenvector on the first two rings continued by one ring: a point is its stencil, divided by the eigenvalue.
+    pub fn continued(&self, eigenvalue: &Ball, mut net: Net) -> Checked<Net> {
+        let inverse = eigenvalue.inverse()?;
+        for place in self.places(3) {
+            if net.values.iter().all(|(p, _)| *p != place) {
+                let terms = self.stencil(place);
+                let old = terms.iter().map(|(old, _)| self.at(&net, *old)).collect::<Checked<Vec<_>>>()?;
+                let weights: Vec<Ball> = terms.iter().map(|(_, w)| Ball::real(w)).collect();
+                net.values.push((place, dot(&old, &weights).times(&inverse)));
+            }
+        }
+        Ok(net)
+    }
+
+    fn at(&self, net: &Net, old: Option<(Place, i64)>) -> Checked<Ball> {
+        let Some((place, turn)) = old else { return Ok(net.centre.clone()) };
+        match net.values.iter().find(|(p, _)| *p == place) {
+            Some((_, value)) => Ok(value.times(self.power(turn * net.frequency as i64))),
+            None => outside(),
+        }
+    }
+
+    /// `Σ weight · value / divisor` over places of the continued lattice.
+    pub fn combined(&self, net: &Net, terms: &[(Place, i64)], divisor: i64) -> Checked<Ball> {
+        let mut sum = Ball::zero();
+        for (place, weight) in terms {
+            let weight = Ball::real(&(whole(*weight) / whole(divisor)));
+            sum = sum.plus(&self.at(net, self.locate(*place))?.times(&weight));
+        }
+        Ok(sum)
+    }
+}

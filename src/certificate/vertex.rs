@@ -1,0 +1,155 @@
+//! Certificates of a scheme at the vertices of a mesh.
+
+use super::{Certificate, Doubt, number};
+use crate::algebraic::sqrt_down;
+use crate::arith::Rational;
+use crate::case::{Valences, VertexCase};
+use crate::scheme::Sector;
+use crate::theorem::Verdict;
+use crate::vertex::field::{Enclosures, Field};
+use crate::vertex::{AtValence, Eigenvector, Ground};
+use malachite_base::num::arithmetic::traits::Floor;
+use serde_json::{Value, json};
+
+/// Binary places of eigenvectors and of roots of unity in a certificate.
+const PLACES: u64 = 96;
+/// Binary places of half-planes.
+const SHORT: u64 = 24;
+
+/// A complex number.
+type Complex = (Rational, Rational);
+
+fn times(a: &Complex, b: &Complex) -> Complex {
+    (&a.0 * &b.0 - &a.1 * &b.1, &a.0 * &b.1 + &a.1 * &b.0)
+}
+
+fn conjugate(a: &Complex) -> Complex {
+    (a.0.clone(), -&a.1)
+}
+
+fn square(a: &Complex) -> Rational {
+    &a.0 * &a.0 + &a.1 * &a.1
+}
+
+fn scaled(a: &Complex, factor: &Rational) -> Complex {
+    (&a.0 * factor, &a.1 * factor)
+}
+
+fn written(a: &Complex, places: u64) -> Value {
+    let one = |x: &Rational| number(&(Rational::from((x << places).floor()) >> places));
+    json!([one(&a.0), one(&a.1)])
+}
+
+/// `e^(2πik/n)`, nearly, for `0 ≤ k ≤ n/2`.
+fn unity(k: usize, n: usize) -> Complex {
+    let field = Enclosures::of_angle(k, n, 2 * PLACES);
+    let cosine = field.to_interval(&field.twice_cosine()).mid() >> 1;
+    let sine = sqrt_down(&(Rational::from(1) - &cosine * &cosine), 2 * PLACES);
+    (cosine, sine)
+}
+
+/// The values on the first two rings, in the order of the format, without their constant part in block 0.
+fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Vec<Complex> {
+    let inside = |&(i, j): &(usize, usize)| match (case.rule.dual(), case.rule.sector()) {
+        (true, _) => i < 2 && j < 2,
+        (false, Sector::Quads) => i > 0,
+        (false, Sector::Triangles) => i > 0 && i + j <= 2,
+    };
+    let turn = unity(vector.frequency, n);
+    let value = |(x, y): &Complex| (x + y * &turn.0, y * &turn.1);
+    let places = (0..=2).flat_map(|i| (0..=2).map(move |j| (i, j))).filter(inside);
+    let known = places.filter_map(|place| vector.points.iter().find(|(p, _)| *p == place));
+    let mut all: Vec<Complex> = known.map(|(_, v)| value(v)).collect();
+    if vector.frequency == 0 {
+        let own = if case.rule.dual() { all.remove(0) } else { value(&vector.centre) };
+        all.iter_mut().for_each(|v| *v = (&v.0 - &own.0, &v.1 - &own.1));
+    }
+    all
+}
+
+/// The evidence for one valence; `None` where the format has no rule for it.
+fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
+    let (n, top) = (found.valence, found.top.as_ref()?);
+    let (ground, vector) = (found.ground?, found.eigenvector.as_ref()?);
+    let simple = matches!(top.members.as_slice(), [only] if only.blocks == [1]);
+    if !simple || !found.polynomial {
+        return None;
+    }
+    let rule = match ground {
+        Ground::Regular => "theorem-7",
+        Ground::Winding => "theorem-8-winding",
+        Ground::Fold => "theorem-8-fold",
+        Ground::Line => "theorem-2",
+        Ground::Path => "theorem-8-path",
+    };
+    let values = values(case, vector, n);
+    let largest = values.iter().max_by_key(|v| square(v))?;
+    let inverse = scaled(&conjugate(largest), &(Rational::from(1) / square(largest)));
+    let half_plane = found.half_plane.as_ref().map(|(a, b)| {
+        // a x + b y = Re(conj(h) (x + yω)); the vector is divided by its largest entry.
+        let turn = unity(vector.frequency, n);
+        let h = times(&(a.clone(), (b - a * &turn.0) / &turn.1), &conjugate(largest));
+        let size = square(&h);
+        let unit = Rational::from(1) / sqrt_down(&size, SHORT).max(Rational::from(1) >> SHORT);
+        written(&scaled(&h, &unit), SHORT)
+    });
+    Some(json!({
+        "valence": n,
+        "rule": rule,
+        "frequency": vector.frequency,
+        "turn": written(&unity(1, n), PLACES),
+        "others": number(&top.others),
+        "vector": values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect::<Vec<_>>(),
+        "half_plane": half_plane,
+    }))
+}
+
+/// The certificate of the valences for which the format has a rule; `None` where there is none of them.
+#[must_use]
+pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Option<Certificate> {
+    let covered: Vec<(&AtValence, Value)> = found.iter().filter_map(|f| Some((f, evidence(case, f)?))).collect();
+    if covered.is_empty() || !VertexCase::is_one(&case.text.text) {
+        return None;
+    }
+    let valences: Vec<(usize, Verdict)> = covered.iter().map(|(f, _)| (f.valence, f.smooth)).collect();
+    let proof = json!({ "valences": covered.into_iter().map(|(_, evidence)| evidence).collect::<Vec<_>>() });
+    Some(Certificate::new("vertex", &case.name, together(case, &valences).word(), proof))
+}
+
+/// Has the verdicts at the valences for which the format has a rule checked by `secant-check`, and marks them as checked.
+///
+/// # Errors
+/// [`Doubt`] where the checker does not accept the certificate, or comes to other verdicts.
+///
+/// # Cost
+/// That of [`secant_check::check`].
+pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Option<Certificate>, Doubt> {
+    let Some(certificate) = vertex_certificate(case, found) else { return Ok(None) };
+    let accepted = secant_check::check(&case.text.text, &certificate.text())?;
+    let said = |f: &AtValence| {
+        [(f.smooth, "the surface is C1"), (f.plane, "it has a tangent plane")].map(|(verdict, what)| {
+            format!("{}: at valence {} {what} for almost all control points", verdict.word(), f.valence)
+        })
+    };
+    let mut claims = accepted.claims.iter();
+    for f in found.iter_mut().filter(|f| evidence(case, f).is_some()) {
+        f.checked = said(f).iter().all(|claim| claims.next() == Some(claim));
+        if !f.checked {
+            return Err(Doubt::Differs(accepted.verdict.word()));
+        }
+    }
+    Ok(Some(certificate))
+}
+
+/// The verdict of the certificate: about all valences that the case names.
+fn together(case: &VertexCase, claims: &[(usize, Verdict)]) -> Verdict {
+    let all = match &case.valences {
+        Some(Valences::List(list)) => list.iter().all(|n| claims.iter().any(|c| c.0 == *n)),
+        Some(Valences::All) => false,
+        None => true,
+    };
+    match claims.iter().map(|c| c.1).reduce(Verdict::and) {
+        Some(Verdict::Proved) if !all => Verdict::Undetermined,
+        found => found.unwrap_or(Verdict::Undetermined),
+    }
+}
