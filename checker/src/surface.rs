@@ -202,7 +202,8 @@ fn dense_set(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<(Stri
         item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
     }
     if !claims::injective(model, "dense")? {
-        text = "the surface has a tangent plane at a point inside every cell whose projection does not fold the plane"
+        text = "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
+                one where it does not fold that plane"
             .to_owned();
     }
     Ok((text, Verdict::Proved))

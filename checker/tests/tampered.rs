@@ -30,7 +30,7 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-const WORDS: [&str; 41] = [
+const WORDS: [&str; 45] = [
     "proved",
     "refuted",
     "undetermined",
@@ -70,6 +70,10 @@ const WORDS: [&str; 41] = [
     "balanced",
     "quadratic",
     "tree",
+    "space",
+    "leading",
+    "group",
+    "simplex",
     "5",
     "5'",
 ];
@@ -181,6 +185,15 @@ fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bo
             && found.points.len() == found.claims.len()
             && found.points.iter().zip(&original.points).all(weaker);
     }
+    if original.claims[0].contains("tangent plane") {
+        // Of a surface, points may be left open where others refute the same.
+        let weaker = |(a, b): (&String, &String)| {
+            a == b || a.strip_prefix("undetermined") == b.find(':').map(|colon| &b[colon..])
+        };
+        return (&found.case, found.verdict, &found.claims) == (&original.case, original.verdict, &original.claims)
+            && found.points.len() == original.points.len()
+            && found.points.iter().zip(&original.points).all(weaker);
+    }
     // The answer about every point may be left out, whatever it is.
     let asked = original.claims.iter().filter(|c| !c.contains("G¹") || found.claims.iter().any(|f| f.contains("G¹")));
     let claims: Vec<&String> = asked.collect();
@@ -219,9 +232,14 @@ fn weaker_rate(found: &str, original: &str) -> bool {
 
 /// Tries every mutant of the stored certificates, or every `step`-th.
 fn tamper(step: usize) -> (usize, usize, Vec<(PathBuf, String)>, Vec<String>) {
+    // All mutants of a few certificates: `SECANT_MUTANT_STEP=1 SECANT_MUTANT_ONLY=surface-spiral`.
+    let only = std::env::var("SECANT_MUTANT_ONLY").unwrap_or_default();
     let (mut tried, mut rejected, mut harmless, mut wrong) = (0, 0, Vec::new(), Vec::new());
     let mut count = 0;
     for (path, case, text) in stored("pass") {
+        if !path.to_string_lossy().contains(&only) {
+            continue;
+        }
         let original: Value = serde_json::from_str(&text).unwrap();
         let statement = secant_check::check(&case, &text).unwrap_or_else(|r| panic!("{}: {r}", path.display()));
         // The detour through the parsed value must change nothing, or every mutant would be rejected for its form.
@@ -255,7 +273,7 @@ fn tampered_certificates_are_rejected_or_harmless() {
     let (tried, rejected, harmless, wrong) = tamper(step);
     println!("{tried} mutants: {rejected} rejected, {} harmless, {} wrong", harmless.len(), wrong.len());
     assert!(wrong.is_empty(), "accepted with another statement:\n{}", wrong.join("\n"));
-    assert!(tried >= 4_000, "only {tried} mutants");
+    assert!(tried >= 4_000 || std::env::var("SECANT_MUTANT_ONLY").is_ok(), "only {tried} mutants");
     assert!(rejected > tried / 2);
     if let Ok(dir) = std::env::var("SECANT_WRITE_MUTANTS") {
         for (k, (path, text)) in harmless.iter().enumerate() {

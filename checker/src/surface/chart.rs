@@ -43,7 +43,8 @@ fn cells(layout: &str) -> Option<(Vec<Vec<[usize; 2]>>, usize, usize)> {
     Some(((0..columns * rows).map(cell).collect(), columns, rows))
 }
 
-/// The pieces of a face as affine maps of its parameters; `None` where it has no sides or they are no symmetries.
+/// The pieces of a face as affine maps of its parameters; `None` where it has no sides, does not shrink in both directions, or
+/// they are no symmetries.
 fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option<Vec<Piece>>> {
     let (Some(layout), true) = (state.get("layout"), state.get(side(triangle)).is_some()) else { return Ok(None) };
     let (cells, columns, rows) = cells(layout.text()?).unwrap_or_default();
@@ -59,7 +60,7 @@ fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option
             places = named.iter().map(|&k| cell[k]).collect();
         }
         let opposite = |k: usize| [0, 1].map(|i| places[k][i] + places[k + 2][i]);
-        if places.len() == 4 && opposite(0) != opposite(1) {
+        if columns.min(rows) < 2 || (places.len() == 4 && opposite(0) != opposite(1)) {
             return Ok(None);
         }
         let part = |n: usize, of: usize| ratio(BigInt::from(n), BigInt::from(of));
