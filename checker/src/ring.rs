@@ -56,18 +56,23 @@ pub struct Cell {
 }
 
 impl<'a> Model<'a> {
+    /// The spaces of a shape, without anything that encloses the attractors: no cover may be checked with it.
+    pub fn unenclosed(shape: &'a Shape) -> Checked<Self> {
+        let reachable = shape.reachable();
+        let spaces = Spaces::new(shape, &reachable)?;
+        let radius = vec![Q::zero(); shape.states.len()];
+        let hulls = shape.states.iter().map(|s| Matrix::empty(s.dim).transpose()).collect();
+        Ok(Self { shape, reachable, spaces, radius, hulls })
+    }
+
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
     /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Checked<Self> {
-        let reachable = shape.reachable();
-        let spaces = at(&node.place, Spaces::new(shape, &reachable))?;
+        let mut model = at(&node.place, Self::unenclosed(shape))?;
         let items = node.list()?;
         let one_each = "one entry for each reachable state is needed, breadth first";
-        node.need(items.len() == reachable.len(), "contraction", one_each)?;
-        let radius = vec![Q::zero(); shape.states.len()];
-        let hulls = shape.states.iter().map(|s| Matrix::empty(s.dim).transpose()).collect();
-        let mut model = Self { shape, reachable, spaces, radius, hulls };
+        node.need(items.len() == model.reachable.len(), "contraction", one_each)?;
         let mut entries = Vec::new();
         for (item, &e) in items.iter().zip(&model.reachable) {
             let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;

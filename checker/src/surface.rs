@@ -1,7 +1,8 @@
-//! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 12).
+//! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 8.1).
 
 mod branch;
 mod chart;
+mod product;
 
 use crate::germ::Root;
 use crate::json::Node;
@@ -12,6 +13,7 @@ use crate::shape::Address;
 use crate::{Accepted, Checked, Verdict, case, claims, need};
 use branch::{Bounds, independent};
 use chart::Chart;
+use product::Product;
 
 /// A question of the case: a claim in words, and the places it is about; without places, the dense set.
 struct Question {
@@ -79,10 +81,19 @@ fn questions(model: &Model<'_>, chart: Option<&Chart>, addresses: &[Address]) ->
 /// Checks the proof of a certificate of the kind `surface`.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let case = case::read(source, false)?;
-    let [contraction, further, points, dense, answers] =
-        node.fields(["contraction", "further", "points", "dense", "answers"])?;
-    let model = Model::read(&case.shape, &contraction)?;
-    let chart = Chart::read(source, &case.shape, &model.reachable)?;
+    let [contraction, product, further, points, dense, answers] =
+        node.fields(["contraction", "product", "further", "points", "dense", "answers"])?;
+    let shape = &case.shape;
+    let model = if contraction.is_null() { Model::unenclosed(shape)? } else { Model::read(shape, &contraction)? };
+    let chart = Chart::read(source, shape, &model.reachable)?;
+    let factors = if product.is_null() { Vec::new() } else { product.fields(["first", "second"])?.into() };
+    let curves = factors.iter().map(product::curve).collect::<Checked<Vec<_>>>()?;
+    let read = |chart| Product::read(shape, chart, &curves, &factors);
+    let (cover, flat) = (!contraction.is_null(), curves.is_empty());
+    let product = chart.as_ref().filter(|_| !flat).map(read).transpose()?;
+    let known = product.is_some() || (cover && flat);
+    contraction.need(known, "contraction", "a reason is needed, or a patch with parameters that is a product")?;
+    let surface = Surface { model: &model, product, cover };
     let mut addresses: Vec<Address> = Vec::new();
     for address in case.examine {
         if !addresses.contains(&address) {
@@ -101,7 +112,8 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     points.need(items.len() == questions.places.len(), "points", "one entry for each point is needed, in order")?;
     let (mut verdicts, mut lines) = (Vec::new(), Vec::new());
     for (item, place) in items.iter().zip(&questions.places) {
-        let verdict = if item.is_null() { Verdict::Undetermined } else { point(&model, &root, Some(place), item)?.1 };
+        let check = || surface.point(&root, Some(place), item);
+        let verdict = if item.is_null() { Verdict::Undetermined } else { check()?.1 };
         let names: Vec<String> = place.iter().map(name).collect();
         lines.push(format!("{}: {}", verdict.word(), names.join(" = ")));
         verdicts.push(verdict);
@@ -112,7 +124,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     for (item, question) in listed.iter().zip(&mut questions.asked) {
         let verdict = match (&chart, question.places.iter().map(|&k| verdicts[k]).reduce(Verdict::and)) {
             (Some(chart), None) => {
-                let (text, verdict) = dense_set(&model, chart, &dense)?;
+                let (text, verdict) = surface.dense_set(chart, &dense)?;
                 question.text = text;
                 verdict
             }
@@ -127,29 +139,69 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     Ok(Accepted { case: case.name, verdict, claims: found, points: lines })
 }
 
-/// Checks a point, whose addresses may be known, and says what they are.
-fn point(
-    model: &Model<'_>,
-    root: &Root,
-    place: Option<&[Address]>,
-    node: &Node<'_>,
-) -> Checked<(Vec<Address>, Verdict)> {
-    let [listed, rule, tangent, branches] = node.fields(["addresses", "rule", "tangent", "branches"])?;
-    let addresses = listed.list()?.iter().map(read_address).collect::<Checked<Vec<_>>>()?;
-    let known = place.is_none_or(|place| *place == addresses) && !addresses.is_empty();
-    listed.need(known, "point", "these are not the addresses of the point")?;
-    let items = branches.list()?;
-    branches.need(items.len() == addresses.len(), "point", "one entry for each address is needed")?;
-    let (mut found, mut position): (Vec<Option<Bounds>>, Option<Matrix>) = (Vec::new(), None);
-    for (item, address) in items.iter().zip(&addresses) {
-        let here = root.view.times(&model.shape.point(root.state, address)?)?;
-        let same = *position.get_or_insert_with(|| here.clone()) == here;
-        item.need(same, "point", "the cells around the point do not meet there")?;
-        let check = || branch::check(model, root, address, item);
-        found.push(if item.is_null() { None } else { Some(check()?) });
+/// A case with what is known of it.
+struct Surface<'a> {
+    model: &'a Model<'a>,
+    product: Option<Product<'a>>,
+    /// Whether the attractors are enclosed, so that there may be covers.
+    cover: bool,
+}
+
+impl Surface<'_> {
+    /// Checks a point, whose addresses may be known, and says what they are.
+    fn point(&self, root: &Root, place: Option<&[Address]>, node: &Node<'_>) -> Checked<(Vec<Address>, Verdict)> {
+        let [listed, rule, tangent, branches] = node.fields(["addresses", "rule", "tangent", "branches"])?;
+        let addresses = listed.list()?.iter().map(read_address).collect::<Checked<Vec<_>>>()?;
+        let known = place.is_none_or(|place| *place == addresses) && !addresses.is_empty();
+        listed.need(known, "point", "these are not the addresses of the point")?;
+        let model = self.model;
+        if let ("product", Some(product)) = (rule.text()?, &self.product) {
+            let basis = &model.spaces.of(root.state)?.basis;
+            let seen = root.view.times(basis)?.rank()? == basis.cols && tangent.is_null();
+            tangent.need(seen, "product", "the view must be injective, and no plane is given")?;
+            let verdict = product.verdict(&addresses[0], &branches)?;
+            return Ok((addresses, verdict));
+        }
+        rule.need(self.cover, "contraction", "without contraction only a product has points")?;
+        let items = branches.list()?;
+        branches.need(items.len() == addresses.len(), "point", "one entry for each address is needed")?;
+        let (mut found, mut position): (Vec<Option<Bounds>>, Option<Matrix>) = (Vec::new(), None);
+        for (item, address) in items.iter().zip(&addresses) {
+            let here = root.view.times(&model.shape.point(root.state, address)?)?;
+            let same = *position.get_or_insert_with(|| here.clone()) == here;
+            item.need(same, "point", "the cells around the point do not meet there")?;
+            let check = || branch::check(model, root, address, item);
+            found.push(if item.is_null() { None } else { Some(check()?) });
+        }
+        let verdict = conclude(rule.text()?, &tangent, root.view.rows, &found)?;
+        Ok((addresses, verdict))
     }
-    let verdict = conclude(rule.text()?, &tangent, root.view.rows, &found)?;
-    Ok((addresses, verdict))
+
+    /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
+    fn dense_set(&self, chart: &Chart, node: &Node<'_>) -> Checked<(String, Verdict)> {
+        let model = self.model;
+        let mut text = "the surface has a tangent plane at a dense set of points, one inside every cell".to_owned();
+        if node.is_null() {
+            return Ok((text, Verdict::Undetermined));
+        }
+        let items = node.list()?;
+        node.need(items.len() == model.reachable.len(), "dense", "one vertex for each reachable face is needed")?;
+        for (item, &e) in items.iter().zip(&model.reachable) {
+            let space = model.spaces.of(e)?;
+            let (addresses, verdict) =
+                self.point(&Root { state: e, view: space.visible.times(&space.reading)? }, None, item)?;
+            let parameter = chart.locate(e, &addresses[0])?;
+            let all = chart.is_inside(&parameter) && chart.addresses(e, &parameter)? == addresses;
+            item.need(all, "dense", "these are not all addresses of a point inside the face")?;
+            item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
+        }
+        if !claims::injective(model, "dense")? {
+            text = "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
+                one where it does not fold that plane"
+            .to_owned();
+        }
+        Ok((text, Verdict::Proved))
+    }
 }
 
 /// The conclusions: the tangent subspace, the sum of those of all branches, has more than two dimensions (`space`), exactly two
@@ -182,29 +234,4 @@ fn conclude(rule: &str, tangent: &Node<'_>, width: usize, found: &[Option<Bounds
         "the rule is another",
     )?;
     Ok(if plane { Verdict::Proved } else { Verdict::Refuted })
-}
-
-/// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
-fn dense_set(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<(String, Verdict)> {
-    let mut text = "the surface has a tangent plane at a dense set of points, one inside every cell".to_owned();
-    if node.is_null() {
-        return Ok((text, Verdict::Undetermined));
-    }
-    let items = node.list()?;
-    node.need(items.len() == model.reachable.len(), "dense", "one vertex for each reachable face is needed")?;
-    for (item, &e) in items.iter().zip(&model.reachable) {
-        let space = model.spaces.of(e)?;
-        let (addresses, verdict) =
-            point(model, &Root { state: e, view: space.visible.times(&space.reading)? }, None, item)?;
-        let parameter = chart.locate(e, &addresses[0])?;
-        let all = chart.is_inside(&parameter) && chart.addresses(e, &parameter)? == addresses;
-        item.need(all, "dense", "these are not all addresses of a point inside the face")?;
-        item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
-    }
-    if !claims::injective(model, "dense")? {
-        text = "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
-                one where it does not fold that plane"
-            .to_owned();
-    }
-    Ok((text, Verdict::Proved))
 }

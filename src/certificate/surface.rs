@@ -1,4 +1,4 @@
-//! Certificates of the tangent planes of a surface (kind `surface`, section 12 of the format).
+//! Certificates of the tangent planes of a surface (kind `surface`, section 8.1 of the format).
 
 use super::top::{elements, mirrored, top};
 use super::{Certificate, Unsupported, address_json, branch, contraction, number, numbers, tree, unsupported};
@@ -6,8 +6,8 @@ use crate::arith::Rational;
 use crate::case::Case;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
-use crate::shape::{Address, Shape};
-use crate::theorem::surface::{Rank, Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness};
+use crate::shape::{Address, Contraction, Shape};
+use crate::theorem::surface::{ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{Certified, Direction, Functional, RingProof, Statement, Verdict};
 use serde_json::{Value, json};
 
@@ -21,8 +21,19 @@ const LETTERS: usize = 4_000;
 pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Certificate, Unsupported> {
     let shape = &case.shape;
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
-    let mut states = contraction(shape, &found.contraction, radii, found.polygons.as_deref())?;
-    if surface.simplex {
+    let by_product = matches!(found.contraction, Contraction::Product(_));
+    let mut states = match by_product {
+        true => Value::Null,
+        false => contraction(shape, &found.contraction, radii, found.polygons.as_deref())?,
+    };
+    let injective = surface.dense.as_ref().is_some_and(|d| d.view_injective);
+    let mut product = Product {
+        factors: surface.factors.as_ref(),
+        always: by_product,
+        injective: injective && found.states.iter().all(|s| s.visible == s.relevant),
+        points: Default::default(),
+    };
+    if surface.simplex && !by_product {
         if found.polygons.is_some() {
             return unsupported("two kinds of enclosures", "contraction");
         }
@@ -34,7 +45,7 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     }
     let mut points = Vec::new();
     for p in &surface.points {
-        points.push(if p.verdict == Verdict::Undetermined { Value::Null } else { point(shape, p)? });
+        points.push(if p.verdict == Verdict::Undetermined { Value::Null } else { point(shape, p, &mut product)? });
     }
     let mut dense = Value::Null;
     let (mut asked, mut answers): (Vec<&Address>, Vec<&str>) = (Vec::new(), Vec::new());
@@ -46,7 +57,7 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
             asked.push(address);
         } else if claim.statement == Some(Statement::Theorem5Surface) && claim.verdict == Verdict::Proved {
             let vertices = surface.dense.iter().flat_map(|d| &d.vertices);
-            dense = vertices.map(|(_, p)| point(shape, p)).collect::<Result<_, _>>()?;
+            dense = vertices.map(|(_, p)| point(shape, p, &mut product)).collect::<Result<_, _>>()?;
         }
         answers.push(claim.verdict.word());
     }
@@ -60,8 +71,7 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     };
     let further = asked.iter().filter(|a| !own.contains(a) && !fixed(a));
     let further: Vec<Value> = further.map(|a| address_json(a)).collect();
-    let proof =
-        json!({"contraction": states, "further": further, "points": points, "dense": dense, "answers": answers});
+    let proof = json!({"contraction": states, "product": product.json()?, "further": further, "points": points, "dense": dense, "answers": answers});
     Ok(Certificate::new("surface", &case.name, found.verdict.word(), proof))
 }
 
@@ -69,16 +79,65 @@ fn name(b: &SurfaceBranch) -> String {
     format!("branch {}", b.address)
 }
 
+/// The curves of a tensor product, with the points of them that are needed.
+struct Product<'a> {
+    factors: Option<&'a [ProductFactor; 2]>,
+    /// Whether all points are proved by it.
+    always: bool,
+    /// Whether the surface is seen through a map that is injective on its relevant space.
+    injective: bool,
+    /// Places and certificates of points of each.
+    points: [Vec<(Value, Value)>; 2],
+}
+
+impl Product<'_> {
+    /// The indices of the points of the curves that decide a point of the surface.
+    fn add(&mut self, p: &SurfacePoint) -> Result<[usize; 2], Unsupported> {
+        let at = || name(&p.branches[0]);
+        let (Some(evidence), Some(factors)) = (p.product.as_ref(), self.factors) else {
+            return unsupported("a point without the theorem on tensor products", at());
+        };
+        if p.verdict != evidence.verdict || !self.injective {
+            return unsupported("a tensor product seen through a map that is not injective", at());
+        }
+        let mut indices = [0, 0];
+        for (k, report) in [&evidence.first, &evidence.second].into_iter().enumerate() {
+            let (place, known) = (super::place_json(report), &mut self.points[k]);
+            if !known.iter().any(|(p, _)| *p == place) {
+                known.push((place.clone(), branch::point(&factors[k].shape, report, &place)?));
+            }
+            indices[k] = known.iter().position(|(p, _)| *p == place).unwrap_or(0);
+        }
+        Ok(indices)
+    }
+
+    fn json(&self) -> Result<Value, Unsupported> {
+        let Some(factors) = self.factors.filter(|_| !self.points[0].is_empty()) else { return Ok(Value::Null) };
+        let curve = |k: usize| {
+            let ProductFactor { shape, contraction: found, states, polygons } = &factors[k];
+            let rows = |m: &Matrix| -> Value { (0..m.rows()).map(|i| numbers(m.row(i))).collect() };
+            let operators: Value = shape.states[shape.start].pieces.iter().map(|p| rows(&p.op)).collect();
+            let radii = states.iter().map(|(e, radius)| (*e, radius));
+            let contraction = contraction(shape, found, radii, polygons.as_deref())?;
+            let points: Vec<&Value> = self.points[k].iter().map(|(_, point)| point).collect();
+            Ok(json!({"operators": operators, "contraction": contraction, "points": points}))
+        };
+        Ok(json!({"first": curve(0)?, "second": curve(1)?}))
+    }
+}
+
 /// A decided point.
-fn point(shape: &Shape, p: &SurfacePoint) -> Result<Value, Unsupported> {
+fn point(shape: &Shape, p: &SurfacePoint, product: &mut Product) -> Result<Value, Unsupported> {
     let mut all: Vec<&SurfaceBranch> = p.branches.iter().collect();
     let letter = |Address { prefix, cycle }: &Address, k: usize| match k.checked_sub(prefix.len()) {
         None => prefix[k],
         Some(k) => cycle[k % cycle.len()],
     };
     all.sort_by_cached_key(|b| (0..LETTERS).map(|k| letter(&b.address, k)).collect::<Vec<_>>());
-    if p.statement == Some(Statement::TensorProduct) {
-        return unsupported("the theorem on tensor products", name(all[0]));
+    let addresses: Vec<Value> = all.iter().map(|b| address_json(&b.address)).collect();
+    if p.statement == Some(Statement::TensorProduct) || product.always {
+        let indices = product.add(p)?;
+        return Ok(json!({"addresses": addresses, "rule": "product", "tangent": null, "branches": indices}));
     }
     let sum = all.iter().fold(crate::theorem::surface::Subspace::default(), |s, b| s.join(&b.outcome.contains));
     let (rule, exact) = match (p.verdict, sum.rank()) {
@@ -103,7 +162,6 @@ fn point(shape: &Shape, p: &SurfacePoint) -> Result<Value, Unsupported> {
             found => found?,
         });
     }
-    let addresses: Vec<Value> = all.iter().map(|b| address_json(&b.address)).collect();
     Ok(json!({"addresses": addresses, "rule": rule, "tangent": tangent, "branches": branches}))
 }
 

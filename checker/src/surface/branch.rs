@@ -1,4 +1,4 @@
-//! What the certificate of one branch of a surface proves about the tangent subspace of its germ (docs/certificate.md, 12.3).
+//! What the certificate of one branch of a surface proves about the tangent subspace of its germ (docs/certificate.md, section 8.1).
 
 use crate::germ::{Germ, Root};
 use crate::json::Node;

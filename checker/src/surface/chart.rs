@@ -1,4 +1,4 @@
-//! The parameters of a patch: which cells hold a parameter, and by which addresses (docs/certificate.md, section 12.1).
+//! The parameters of a patch: which cells hold a parameter, and by which addresses (docs/certificate.md, section 8.1).
 
 use crate::case;
 use crate::json::Node;
@@ -43,6 +43,16 @@ fn cells(layout: &str) -> Option<(Vec<Vec<[usize; 2]>>, usize, usize)> {
     Some(((0..columns * rows).map(cell).collect(), columns, rows))
 }
 
+/// The affine map that takes the corners of a patch to these.
+fn affine(places: &[[usize; 2]], columns: usize, rows: usize) -> Matrix {
+    let part = |n: usize, of: usize| ratio(BigInt::from(n), BigInt::from(of));
+    let column = |k: usize| {
+        let (u, v) = (part(places[k][0], columns), part(places[k][1], rows));
+        vec![Q::one() - &u - &v, u, v]
+    };
+    Matrix::from_rows(3, &[column(0), column(1), column(places.len() - 1)]).transpose()
+}
+
 /// The pieces of a face as affine maps of its parameters; `None` where it has no sides, does not shrink in both directions, or
 /// they are no symmetries.
 fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option<Vec<Piece>>> {
@@ -63,13 +73,7 @@ fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option
         if columns.min(rows) < 2 || (places.len() == 4 && opposite(0) != opposite(1)) {
             return Ok(None);
         }
-        let part = |n: usize, of: usize| ratio(BigInt::from(n), BigInt::from(of));
-        let column = |k: usize| {
-            let (u, v) = (part(places[k][0], columns), part(places[k][1], rows));
-            vec![Q::one() - &u - &v, u, v]
-        };
-        let op = Matrix::from_rows(3, &[column(0), column(1), column(places.len() - 1)]).transpose();
-        maps.push(Piece { target: piece.target, op, reversed: false });
+        maps.push(Piece { target: piece.target, op: affine(&places, columns, rows), reversed: false });
     }
     Ok(Some(maps))
 }
@@ -101,6 +105,13 @@ impl Chart {
             }
             Ok(Some(Self { maps, triangle }))
         })
+    }
+
+    /// Whether a piece of the start lies in its part of a division into columns and rows without a turn.
+    pub fn is_plain(&self, letter: usize, columns: usize, rows: usize) -> bool {
+        let (cells, ..) = cells(&format!("{columns}x{rows}")).unwrap_or_default();
+        let plain = cells.get(letter).map(|cell| affine(cell, columns, rows));
+        !self.triangle && plain.as_ref() == Some(&self.maps.states[self.maps.start].pieces[letter].op)
     }
 
     /// The parameters of an address of a face.
