@@ -2,6 +2,7 @@
 
 use secant::arith::{Interval, Rational, ratio, to_f64};
 use secant::case::{Valences, VertexCase};
+use secant::certificate::confirm_vertices;
 use secant::scheme::{DualWeights, LoopWeights, MeshRule, VertexWeights, mesh_rule};
 use secant::theorem::Verdict;
 use secant::vertex::{AtValence, at_valence};
@@ -44,6 +45,49 @@ fn every_case_comes_out_as_its_file_expects() {
         seen += 1;
     }
     assert!(seen >= 20, "{seen} cases");
+}
+
+/// Splines with one leading eigenvalue: all of them are proved again by the checker, which builds the schemes from their masks.
+#[test]
+fn the_checker_proves_the_verdicts_again() {
+    let (mut again, mut once) = (0, Vec::new());
+    for file in std::fs::read_dir(root().join("cases/surfaces")).unwrap() {
+        let path = file.unwrap().path();
+        if !std::fs::read_to_string(&path).is_ok_and(|text| VertexCase::is_one(&text)) {
+            continue;
+        }
+        let case = VertexCase::read(&path).unwrap();
+        let mut found: Vec<AtValence> = case.expect.iter().map(|(n, _)| at(&case.rule, *n)).collect();
+        found.retain(|f| f.polynomial && f.smooth != Verdict::Undetermined);
+        let certificate = confirm_vertices(&case, &mut found).unwrap_or_else(|doubt| panic!("{}: {doubt}", case.name));
+        assert_eq!(certificate.is_some(), found.iter().any(|f| f.checked), "{}", case.name);
+        again += found.iter().filter(|f| f.checked).count();
+        once.extend(found.iter().filter(|f| !f.checked).map(|f| (case.name.clone(), f.valence)));
+    }
+    once.sort();
+    // Equal leading eigenvalues in several blocks have no rule.
+    assert_eq!(once, [("loop-edge-3", 3), ("loop-edge-4", 4), ("midedge", 3)].map(|(name, n)| (name.to_owned(), n)));
+    assert!(again > 80, "{again} valences");
+}
+
+#[test]
+fn a_certificate_of_a_vertex_is_written_and_checked_against_its_case() {
+    let file = std::env::temp_dir().join(format!("secant-vertex-{}.json", std::process::id()));
+    let path = file.to_str().unwrap();
+    let done = secant(&["certify", "cases/surfaces/loop.toml", "--valence", "5,7", "--certificate", path]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    assert!(String::from_utf8_lossy(&done.stdout).contains("proved the verdicts at valences 5, 7 again"));
+    let certificate = std::fs::read_to_string(&file).unwrap();
+    std::fs::remove_file(&file).unwrap();
+    let case = |name: &str| std::fs::read_to_string(root().join(format!("cases/surfaces/{name}.toml"))).unwrap();
+    let accepted = secant_check::check(&case("loop"), &certificate).unwrap();
+    // The case names more valences.
+    assert_eq!((accepted.verdict.word(), accepted.claims.len()), ("undetermined", 4));
+    assert_eq!(secant_check::check(&case("loop-warren"), &certificate).unwrap_err().rule, "case");
+    let renamed = certificate.replace("\"loop\"", "\"loop-zero\"");
+    assert_eq!(secant_check::check(&case("loop-zero"), &renamed).unwrap_err().rule, "vertex");
+    let none = secant(&["certify", "cases/surfaces/sqrt3.toml", "--valence", "5", "--certificate", path]);
+    assert_eq!((none.status.code(), file.exists()), (Some(2), false));
 }
 
 /// tests/oracle/characteristic.py samples the ring; it shares nothing with the program.
@@ -266,7 +310,7 @@ fn the_command_line() {
     assert_eq!(json["valences"].as_array().unwrap().len(), 4);
     assert_eq!(json["valences"][0]["eigenvalue"]["minimal_polynomial"], "16x^2 - 9x + 1");
     assert_eq!(json["valences"][2]["eigenvalue"]["equation"], "16x^2 + (-2c - 10)x + 1");
-    assert_eq!(json["valences"][0]["checked"], false);
+    assert_eq!(json["valences"][0]["checked"], true);
     let dir = tempfile::tempdir().unwrap();
     let file = |name: &str| dir.path().join(name).display().to_string();
     let (svg, html) = (file("map.svg"), file("proof.html"));

@@ -1,36 +1,34 @@
 //! `secant-check CASE CERTIFICATE`: exit code 0 accepted, 1 rejected, 2 unreadable.
+use secant_check::{MAX_BYTES, check};
 use std::io::{Read, Write};
 use std::process::ExitCode;
 
 fn read(path: &str) -> Result<String, String> {
-    let file = std::fs::File::open(path).map_err(|e| format!("{path} cannot be read: {e}"))?;
     let mut text = String::new();
-    match file.take(secant_check::MAX_BYTES as u64 + 1).read_to_string(&mut text) {
-        Ok(_) => Ok(text),
-        Err(e) => Err(format!("{path} cannot be read: {e}")),
-    }
+    let read = std::fs::File::open(path).and_then(|file| file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text));
+    read.map(|_| text).map_err(|e| format!("{path} cannot be read: {e}"))
 }
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [case, certificate] = &arguments[..] else {
-        eprintln!("usage: secant-check CASE.toml CERTIFICATE.json");
-        return ExitCode::from(2);
+    let texts = match &arguments[..] {
+        [case, certificate] => {
+            read(case).and_then(|c| Ok((c, read(certificate)?))).map_err(|e| format!("unreadable: {e}"))
+        }
+        _ => Err("usage: secant-check CASE.toml CERTIFICATE.json".to_owned()),
     };
-    let texts = read(case).and_then(|c| read(certificate).map(|t| (c, t)));
     let (case, certificate) = match texts {
         Ok(texts) => texts,
         Err(message) => {
-            eprintln!("unreadable: {message}");
+            eprintln!("{message}");
             return ExitCode::from(2);
         }
     };
-    let checked = secant_check::check(&case, &certificate);
-    let (text, code) = match checked {
+    let (text, code) = match check(&case, &certificate) {
         Ok(accepted) => {
-            let head = format!("accepted: {}: {}\n", accepted.case, accepted.verdict.word());
             let lines = accepted.claims.iter().chain(&accepted.points).map(|line| format!("  {line}\n"));
-            (head + &lines.collect::<String>(), 0)
+            let lines: String = lines.collect();
+            (format!("accepted: {}: {}\n{lines}", accepted.case, accepted.verdict.word()), 0)
         }
         Err(rejected) => (format!("{rejected}\n"), if rejected.unreadable { 2 } else { 1 }),
     };

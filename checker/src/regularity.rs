@@ -1,14 +1,9 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order (theory §11).
 
-use crate::case::Case;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::{Q, whole};
-use crate::radius::{System, bounds};
-use crate::ring::Model;
-use crate::shape::{End, Kind, Shape, close};
-use crate::{Accepted, Rejected, Verdict, at, need, reject};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, some, whole};
+use crate::curve::{Case, End, Kind, Model, Shape, Way, close};
+use crate::jsr::{System, bounds};
 use num_traits::{One, Zero};
 
 /// Most orders of one certificate.
@@ -29,22 +24,21 @@ struct Level<'a> {
 }
 
 /// Checks the proof of a certificate of the kind `regularity`.
-pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
-    let [contraction, orders] = node.fields(["contraction", "orders"])?;
+pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
+    let [contraction, orders] = node.fields("contraction orders")?;
     let model = Model::read(&case.shape, &contraction)?;
-    at(&contraction.place, case.shape.check_curves(&model.reachable))?;
-    let mut level = at(&node.place, Level::first(&model))?;
+    contraction.at(case.shape.check_curves(&model.reachable))?;
+    let mut level = node.at(Level::first(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
     for (k, item) in items.iter().enumerate() {
-        let [order, dims, radius, joints] = item.fields(["order", "dims", "radius", "joints"])?;
+        let [order, dims, radius, joints] = item.fields("order dims radius joints")?;
         order.need(order.index(MAX_ORDERS)? == k, "orders", "the orders come one after the other")?;
         if k > 0 {
-            level = at(&item.place, level.next())?;
+            level = item.at(level.next())?;
         }
         let found: Vec<usize> = level.reachable.iter().map(|&e| level.families[e].rows).collect();
-        let listed = dims.list()?.iter().map(|n| n.index(usize::MAX)).collect::<Result<Vec<_>, _>>()?;
-        dims.need(listed == found, "orders", &format!("the dimensions are {found:?}"))?;
+        dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {found:?}"))?;
         let (low, high) = level.radius(&radius)?;
         let text = format!("the joint spectral radius on the differences of derivatives of order {k}");
         lines.push(format!("proved: {text} is at least {low} and at most {high}"));
@@ -52,10 +46,10 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
             "none"
         } else {
             radius.need(&high * &level.scale < Q::one(), "orders", "the radius is not below N to the power -k")?;
-            at(&item.place, level.with_ends(k))?;
+            level.ends = item.at(level.limits(k))?;
             if level.joined()? { "holds" } else { "fails" }
         };
-        joints.need(joints.text()? == joined, "orders", &format!("the joint equation: {joined}"))?;
+        joints.follows("orders", joined)?;
         let last = found.iter().all(|d| *d == 0) || joined == "fails";
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
         let smooth = if joined == "fails" { "refuted" } else { "proved" };
@@ -66,7 +60,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Result<Accepted, Rejected> {
 
 impl<'a> Level<'a> {
     /// The curve itself: every reachable state is an edge of the same number of pieces, none of them reversed.
-    fn first(model: &'a Model<'a>) -> Result<Self, Rejected> {
+    fn first(model: &'a Model<'a>) -> Checked<Self> {
         let (shape, reachable) = (model.shape, model.reachable.as_slice());
         let pieces = shape.states[shape.start].pieces.len();
         let uniform = reachable
@@ -74,11 +68,10 @@ impl<'a> Level<'a> {
             .map(|&e| &shape.states[e])
             .all(|s| s.kind == Kind::Edge && s.pieces.len() == pieces && s.pieces.iter().all(|p| !p.reversed));
         need(uniform && pieces >= 2, "orders", "a curve of one number of pieces, none reversed, is needed")?;
-        let mut families: Vec<Matrix> = shape.states.iter().map(|s| Matrix::empty(s.dim)).collect();
-        let mut ends: Vec<[Matrix; 2]> =
-            shape.states.iter().map(|s| [Matrix::empty(s.dim).transpose(), Matrix::empty(s.dim).transpose()]).collect();
+        let mut families = shape.no_rows();
+        let mut ends: Vec<[Matrix; 2]> = shape.states.iter().map(|s| [0, 1].map(|_| Matrix::zeros(s.dim, 0))).collect();
         for &e in reachable {
-            families[e] = model.spaces.of(e)?.basis.transpose().echelon()?.0;
+            families[e] = model.spaces.of(e)?.basis.transpose();
             ends[e] = [shape.end_point(e, End::Start)?, shape.end_point(e, End::Finish)?];
         }
         need(families[shape.start].rows > 0, "orders", "the curve is a point")?;
@@ -86,10 +79,9 @@ impl<'a> Level<'a> {
     }
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
-    fn radius(&self, node: &Node<'_>) -> Result<(Q, Q), Rejected> {
+    fn radius(&self, node: &Node<'_>) -> Checked<(Q, Q)> {
         if node.is_null() {
-            let empty = self.families.iter().all(|f| f.rows == 0);
-            node.need(empty, "orders", "bounds of a radius are needed here")?;
+            node.need(self.families.iter().all(|f| f.rows == 0), "orders", "bounds of a radius are needed here")?;
             return Ok((Q::zero(), Q::zero()));
         }
         let place = |e: usize| self.reachable.iter().position(|r| *r == e).unwrap_or(0);
@@ -111,18 +103,17 @@ impl<'a> Level<'a> {
 
     /// The differences of the next derivative: the smallest families with `N^k T_i c_δ − c_e ∈ F_e`, `T_i F_δ ⊂ F_e`, which must
     /// have codimension 1. Its values at the ends are not computed yet: the ends are still those of the derivative before.
-    fn next(self) -> Result<Self, Rejected> {
+    fn next(self) -> Checked<Self> {
         let scale = &self.scale * whole(self.pieces as i64);
-        let mut families: Vec<Matrix> = self.shape.states.iter().map(|s| Matrix::empty(s.dim)).collect();
+        let mut families = self.shape.no_rows();
         for &e in self.reachable {
             for piece in &self.shape.states[e].pieces {
                 let image = piece.op.times(&self.chord(piece.target))?.scaled(&scale);
                 families[e] = families[e].stack(&image.minus(&self.chord(e)).transpose());
             }
-            families[e] = families[e].echelon()?.0;
         }
-        let ends = |from: usize, p: &crate::shape::Piece| (p.target, from);
-        close(self.shape, self.reachable, &mut families, ends, |span, p| span.times(&p.op.transpose()))?;
+        let families =
+            close(self.shape, self.reachable, families, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
         let lower = self.reachable.iter().all(|&e| families[e].rows + 1 == self.families[e].rows);
         need(lower, "orders", "the differences of the next derivative do not have codimension 1")?;
         Ok(Self { scale, families, ..self })
@@ -132,51 +123,41 @@ impl<'a> Level<'a> {
         self.ends[e][1].minus(&self.ends[e][0])
     }
 
-    /// Replaces the values at the ends by those of the derivative of order `k`: along the address of an end `N^k T c` tends to
-    /// the fixed vector of the scaled cycle in `c + F`, which is unique because the radius on `F` is below `N^-k`.
-    fn with_ends(&mut self, k: usize) -> Result<(), Rejected> {
+    /// The values at the ends of the derivative of order `k`.
+    fn limits(&self, k: usize) -> Checked<Vec<[Matrix; 2]>> {
         let mut ends = self.ends.clone();
         for &e in self.reachable {
             ends[e] = [self.limit(e, End::Start, k)?, self.limit(e, End::Finish, k)?];
         }
-        self.ends = ends;
-        Ok(())
+        Ok(ends)
     }
 
-    fn limit(&self, e: usize, end: End, k: usize) -> Result<Matrix, Rejected> {
-        let Some(address) = self.shape.end_address(e, end, &|_, _| false) else {
-            return reject("orders", "", "a state without pieces");
-        };
+    /// Along the address of an end `N^k T c` tends to the fixed vector of the scaled cycle in `c + F`, which is unique because the
+    /// radius on `F` is below `N^-k`.
+    fn limit(&self, e: usize, end: End, k: usize) -> Checked<Matrix> {
+        let address = some(self.shape.end_address(e, end, &|_, _| false), "orders", "a state without pieces")?;
         // The scale is `N^k` for each letter.
         let power = |letters: usize| num_traits::pow(whole(self.pieces as i64), k * letters);
         let (prefix, home) = self.shape.product(e, &address.prefix)?;
         let (cycle, _) = self.shape.product(home, &address.cycle)?;
         let shifted = cycle.scaled(&power(address.cycle.len())).minus(&Matrix::identity(cycle.rows));
-        let (chord, family) = (self.chord(home), &self.families[home]);
-        let right = shifted.times(&chord)?.scaled(&-Q::one());
-        let system = shifted.times(&family.transpose())?.transpose().stack(&right.transpose()).transpose();
-        let (solved, pivots) = system.echelon()?;
-        let unique = pivots == (0..family.rows).collect::<Vec<_>>();
-        need(unique, "orders", "the derivative at an end is not unique")?;
-        let fixed = if family.rows == 0 {
-            chord
-        } else {
-            let solution = solved.columns(&[family.rows]);
-            family.transpose().times(&solution)?.plus(&Q::one(), &chord)
-        };
+        let (chord, family) = (self.chord(home), self.families[home].transpose());
+        // c + F y is fixed.
+        let y = shifted.times(&family)?.solve(&shifted.times(&chord.scaled(&-Q::one()))?)?;
+        let y = some(y, "orders", "the derivative at an end is not unique")?;
+        let fixed = family.times(&y)?.plus(&Q::one(), &chord);
         prefix.scaled(&power(address.prefix.len())).times(&fixed)
     }
 
     /// The joint equation: at the first-level joints of all states the derivatives of the two sides agree.
-    fn joined(&self) -> Result<bool, Rejected> {
+    fn joined(&self) -> Checked<bool> {
+        let mut joined = true;
         for &e in self.reachable {
             for pair in self.shape.states[e].pieces.windows(2) {
                 let left = pair[0].op.times(&self.ends[pair[0].target][1])?;
-                if left != pair[1].op.times(&self.ends[pair[1].target][0])? {
-                    return Ok(false);
-                }
+                joined &= left == pair[1].op.times(&self.ends[pair[1].target][0])?;
             }
         }
-        Ok(true)
+        Ok(joined)
     }
 }

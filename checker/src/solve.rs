@@ -1,12 +1,9 @@
 //! Certificates of the kind `solve`: the unknown entries of a case, from the identities of its curves and the column sums.
 
-use crate::case::{Case, Hole};
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::{Q, spend};
-use crate::shape::{Op, Shape};
-use crate::{Accepted, Checked, Verdict, need, reject};
-use num_traits::{One, Zero};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need};
+use crate::curve::{Case, Op};
+use num_bigint::BigInt;
+use num_traits::One;
 
 /// Most unknowns.
 const MAX_UNKNOWNS: usize = 512;
@@ -19,44 +16,45 @@ struct Equations {
 }
 
 impl Equations {
-    /// All equations are affine, because no product has two factors with unknown entries; so they are known from their values
-    /// at 0 and at the unit vectors.
-    fn of(case: Case) -> Checked<Self> {
-        let Case { mut shape, holes, .. } = case;
+    /// All equations are affine, because no product has two factors with unknown entries.
+    fn of(case: &Case) -> Checked<Self> {
+        let Case { shape, holes, .. } = case;
         let unknowns = holes.iter().map(|h| h.unknown + 1).max().unwrap_or(0);
         need(unknowns > 0, "solve", "no entry is unknown")?;
         need(unknowns <= MAX_UNKNOWNS, "limit", "too many unknowns")?;
-        let mut identities = Vec::new();
+        let is_open = |op: Op| holes.iter().any(|h| h.op == op);
+        // The factor by which an unknown is multiplied in an operator.
+        let slope = |op: Op, unknown: usize| {
+            let (rows, cols) = (shape.op(op).rows, shape.op(op).cols);
+            let mut slope = Matrix::zeros(rows, cols);
+            for h in holes.iter().filter(|h| (h.op, h.unknown) == (op, unknown)) {
+                slope.data[h.row * cols + h.col] = BigInt::one();
+            }
+            slope
+        };
+        let mut sources = Vec::new();
         for e in 0..shape.states.len() {
-            identities.extend(shape.identities(e)?);
-        }
-        let is_open = |op: &Op| holes.iter().any(|h| h.op == *op);
-        for [a, b, c, d] in &identities {
-            let squared = is_open(a) && is_open(b) || is_open(c) && is_open(d);
-            need(!squared, "solve", "two operators with unknown entries are multiplied")?;
+            for [a, b, c, d] in shape.identities(e)? {
+                let squared = is_open(a) && is_open(b) || is_open(c) && is_open(d);
+                need(!squared, "solve", "two operators with unknown entries are multiplied")?;
+                let change = |x: Op, y: Op, k: usize| match is_open(x) {
+                    true => slope(x, k).times(shape.op(y)),
+                    false => shape.op(x).times(&slope(y, k)),
+                };
+                let columns = (0..unknowns).map(|k| Ok(change(a, b, k)?.minus(&change(c, d, k)?)));
+                let columns = columns.collect::<Checked<Vec<_>>>()?;
+                let right = shape.op(c).times(shape.op(d))?.minus(&shape.op(a).times(shape.op(b))?);
+                sources.push(rows(&columns, right));
+            }
         }
         let mut sums: Vec<Op> = holes.iter().map(|h| h.op).collect();
         sums.dedup();
-        let at_zero = residuals(&shape, &identities, &sums)?;
-        let mut sources: Vec<Matrix> = at_zero.iter().map(|r| r.transpose()).collect();
-        for unknown in (0..unknowns).rev() {
-            let set = |shape: &mut Shape, value: &Q| {
-                holes.iter().filter(|h| h.unknown == unknown).for_each(|h: &Hole| shape.set(h.op, h.row, h.col, value));
-            };
-            set(&mut shape, &Q::one());
-            let values = residuals(&shape, &identities, &sums)?;
-            set(&mut shape, &Q::zero());
-            for (source, (value, zero)) in sources.iter_mut().zip(values.iter().zip(&at_zero)) {
-                *source = value.minus(zero).transpose().stack(source);
-            }
+        for op in sums {
+            let (matrix, ones) = (shape.op(op), Matrix::row_of_ones(shape.op(op).rows));
+            let columns = (0..unknowns).map(|k| ones.times(&slope(op, k))).collect::<Checked<Vec<_>>>()?;
+            sources.push(rows(&columns, Matrix::row_of_ones(matrix.cols).minus(&ones.times(matrix)?)));
         }
-        // The last row holds the values at 0, which are −b.
-        let close = |m: Matrix| {
-            let last = m.rows - 1;
-            let right = m.row(last).scaled(&-Q::one());
-            m.transpose().columns(&(0..last).collect::<Vec<_>>()).transpose().stack(&right).transpose()
-        };
-        Ok(Self { sources: sources.into_iter().map(close).collect(), unknowns })
+        Ok(Self { sources, unknowns })
     }
 
     /// The rank of the equations of some sources, without and with their right sides.
@@ -65,82 +63,60 @@ impl Equations {
         let pivots = all.echelon()?.1;
         Ok((pivots.iter().filter(|j| **j < self.unknowns).count(), pivots.len()))
     }
+
+    fn contradict(&self, chosen: impl Iterator<Item = usize>) -> Checked<bool> {
+        let (rank, extended) = self.ranks(chosen)?;
+        Ok(rank < extended)
+    }
 }
 
-/// What should be 0: the entries of the differences of two products, and of column sums and 1.
-fn residuals(shape: &Shape, identities: &[[Op; 4]], sums: &[Op]) -> Checked<Vec<Matrix>> {
-    let mut all = Vec::new();
-    for [a, b, c, d] in identities {
-        let difference = shape.op(*a).times(shape.op(*b))?.minus(&shape.op(*c).times(shape.op(*d))?);
-        all.push(Matrix { rows: difference.data.len(), cols: 1, ..difference });
-    }
-    for op in sums {
-        let m = shape.op(*op);
-        spend(m.rows * m.cols, m.bits())?;
-        let ones = |n: usize| Matrix::ones(1, n, |_, _| true);
-        all.push(ones(m.rows).times(m)?.minus(&ones(m.cols)).transpose());
-    }
-    Ok(all)
+/// One equation for each entry of the matrices: those by which the unknowns are multiplied, and the right side.
+fn rows(columns: &[Matrix], right: Matrix) -> Matrix {
+    let flat = |m: &Matrix| Matrix { rows: 1, cols: m.data.len(), ..m.clone() };
+    columns.iter().fold(Matrix::empty(right.data.len()), |all, c| all.stack(&flat(c))).stack(&flat(&right)).transpose()
 }
 
 /// Checks the proof of a certificate of the kind `solve`.
-pub fn check(open: Case, node: &Node<'_>) -> Checked<Accepted> {
-    let [solutions, values, directions, conflict] = node.fields(["solutions", "values", "directions", "conflict"])?;
-    let case = open.name.clone();
-    let equations = Equations::of(open)?;
+pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
+    let [solutions, values, directions, conflict] = node.fields("solutions values directions conflict")?;
+    let equations = Equations::of(case)?;
     let (n, count) = (equations.unknowns, equations.sources.len());
-    let (rank, extended) = equations.ranks(0..count)?;
-    let chosen = conflict.list()?.iter().map(|k| k.index(count)).collect::<Checked<Vec<_>>>()?;
+    let chosen = conflict.indices(count)?;
     let (verdict, claim) = match solutions.text()? {
         "none" => {
-            let empty = values.is_null() && directions.list()?.is_empty();
-            need(
-                empty && chosen.windows(2).all(|w| w[0] < w[1]),
-                "solve",
-                "only a conflict, in ascending order, is needed",
-            )?;
-            let contradict = |left_out: Option<usize>| {
-                let (rank, extended) = equations.ranks(chosen.iter().copied().filter(|k| Some(*k) != left_out))?;
-                Ok(rank < extended)
-            };
-            conflict.need(contradict(None)?, "solve", "these equations do not contradict each other")?;
-            for &k in &chosen {
-                conflict.need(
-                    !contradict(Some(k))?,
-                    "solve",
-                    "a part of these equations is a contradiction already",
-                )?;
+            let only = values.is_null() && directions.list()?.is_empty() && chosen.windows(2).all(|w| w[0] < w[1]);
+            need(only, "solve", "only a conflict, in ascending order, is needed")?;
+            let all = equations.contradict(chosen.iter().copied())?;
+            conflict.need(all, "solve", "these equations do not contradict each other")?;
+            for k in &chosen {
+                let part = equations.contradict(chosen.iter().copied().filter(|other| other != k))?;
+                conflict.need(!part, "solve", "a part of these equations is a contradiction already")?;
             }
-            (
-                Verdict::Refuted,
-                format!("refuted: the {n} unknowns have values; the equations {chosen:?} contradict each other"),
-            )
+            let text = format!("the {n} unknowns have values; the equations {chosen:?} contradict each other");
+            (Verdict::Refuted, format!("refuted: {text}"))
         }
         kind @ ("one" | "family") => {
+            let (rank, extended) = equations.ranks(0..count)?;
             need(chosen.is_empty() && rank == extended, "solve", "the equations contradict each other")?;
-            let point = values.vector(n)?;
+            let point = Matrix::new(1, n, &values.vector(n)?);
             let along = directions.matrix(n)?;
             let free = along.rows;
             need((kind == "one") == (free == 0), "solve", "a family has directions, one solution has none")?;
             let independent = along.rank()? == free && rank + free == n;
-            directions.need(independent, "solve", &format!("{} independent directions are needed", n - rank))?;
+            directions.need(independent, "solve", format_args!("{} independent directions are needed", n - rank))?;
             // (x, −1) and (d, 0) are in the kernel of the extended rows.
-            let mut columns = Matrix::from_rows(n + 1, &[point.into_iter().chain([-Q::one()]).collect()]);
-            if free > 0 {
-                columns = columns.stack(&along.transpose().stack(&Matrix::ones(1, free, |_, _| false)).transpose());
-            }
+            let last = Matrix::ones(1 + free, 1, |i, _| i == 0).scaled(&-Q::one());
+            let kernel = point.stack(&along).beside(&last).transpose();
             for source in &equations.sources {
-                let solved = source.times(&columns.transpose())?.is_zero();
-                values.need(solved, "solve", "an equation does not hold")?;
+                values.need(source.times(&kernel)?.is_zero(), "solve", "an equation does not hold")?;
             }
             let text =
                 if free == 0 { "are determined".to_owned() } else { format!("form a family of {free} parameters") };
-            (
-                Verdict::Proved,
-                format!("proved: the {n} unknowns have values that satisfy {count} matrix equations; they {text}"),
-            )
+            let claim =
+                format!("proved: the {n} unknowns have values that satisfy {count} matrix equations; they {text}");
+            (Verdict::Proved, claim)
         }
-        _ => return reject("format", &solutions.place, "one, family or none"),
+        _ => return solutions.reject("format", "one, family or none"),
     };
-    Ok(Accepted { case, verdict, claims: vec![claim], points: Vec::new() })
+    Ok(Accepted { case: case.name.clone(), verdict, claims: vec![claim], points: Vec::new() })
 }

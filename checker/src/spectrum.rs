@@ -1,198 +1,264 @@
-//! The part of a spectrum with the largest modulus, proved without factorisation.
+//! Certificates of the kind `spectrum`: roots, Jordan blocks and equal moduli of rational matrices, without factorisation.
 
-use crate::json::Node;
-use crate::matrix::{Matrix, primitive};
-use crate::number::{Q, bits, spend, whole};
-use crate::poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, roots_in_disc, values};
-use crate::{Checked, reject};
+use crate::base::number::decimal_fraction;
+use crate::base::{
+    Accepted, Checked, Field, MAX_PIECES, Matrix, Node, Q, Rejected, Verdict, bits, has_root_near, need, some, spend,
+};
+use crate::curve::{case, chain};
 use num_bigint::BigInt;
-use num_traits::{Signed, pow};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::rc::Rc;
 
-/// A Jordan chain `v_1, v_2, …` with `(L − sθ) v_1 = 0` and `(L − sθ) v_{j+1} = v_j`.
-pub struct Chain {
-    /// `s = ±1`.
-    pub sign: i32,
-    /// The vectors, over the field.
-    pub vectors: Vec<Matrix>,
+/// Largest matrix of a file.
+const MAX_SIZE: usize = 256;
+/// The modulus of a determinant lies below this.
+const MAX_MODULUS: usize = 1 << 31;
+
+/// A disc with one root of a factor; where its centre is not real, it stands for its mirror image too.
+struct Disc {
+    factor: Rc<Matrix>,
+    x: BigInt,
+    y: BigInt,
+    error: BigInt,
 }
 
-/// The eigenvalues outside a disc, all of one modulus, with their whole generalised eigenspaces.
-pub enum Top {
-    /// `±θ` for a real number `θ`, with a Jordan basis.
-    Real {
-        /// The field of `θ`.
-        field: Field,
-        /// The chains.
-        chains: Vec<Chain>,
-    },
-    /// Complex conjugate eigenvalues with one Jordan block each.
-    Pair {
-        /// A square that holds one of them: its real and its imaginary side.
-        value: [Interval; 2],
-        /// Its eigenvector over `Q[x]/(m)`.
-        vector: Matrix,
-        /// The matrix that multiplies by the root of `m`.
-        by_root: Matrix,
-    },
-    /// A rational invariant subspace on which `L` is a conformal map for some scalar product; its basis as rows.
-    Conformal(Matrix),
+/// The discs of a matrix; all numbers are over one denominator.
+struct Discs {
+    list: Vec<Disc>,
+    den: BigInt,
+    bits: u64,
 }
 
-/// The radius, and how many roots of the characteristic polynomial have a larger modulus; none has this one.
-pub fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
-    let (r, n) = (radius.rational()?, chi.cols - 1);
-    radius.need(r.is_positive(), "disc", "the radius must be positive")?;
-    spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
-    // Multiples of a_k r^k: a_k p^k q^(n - k).
-    let scaled = |(k, a): (usize, &BigInt)| a * pow(r.numer().clone(), k) * pow(r.denom().clone(), n - k);
-    match roots_in_disc(&primitive(chi.data.iter().enumerate().map(scaled).collect()))? {
-        Some(inside) => Ok((r, n - inside)),
-        None => reject("disc", &radius.place, "the recursion of Schur and Cohn is not regular for this radius"),
-    }
-}
-
-/// `M v − s θ v` for a vector over `Q[x]/(m)`, given by the matrix that multiplies by the root of `m`.
-pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Checked<Matrix> {
-    Ok(matrix.times(v)?.plus(&whole(-i64::from(sign)), &v.times(by_root)?))
-}
-
-/// Reads the vectors of a Jordan chain of the eigenvalue `s θ`.
-pub fn chain(list: &Node<'_>, matrix: &Matrix, by_root: &Matrix, sign: i32, rule: &str) -> Checked<Vec<Matrix>> {
-    let mut vectors: Vec<Matrix> = Vec::new();
-    for item in list.list()? {
-        let v = Field::coordinates(by_root.rows, &item, matrix.rows)?;
-        let residual = residual(by_root, matrix, sign, &v)?;
-        let continues = vectors.last().map_or(residual.is_zero(), |before| residual == *before);
-        item.need(continues, rule, "the vector does not continue the Jordan chain")?;
-        vectors.push(v);
-    }
-    list.need(!vectors.is_empty(), rule, "a chain is not empty")?;
-    Ok(vectors)
-}
-
-impl Top {
-    /// Reads and checks the evidence for the top of the spectrum of `linear`.
-    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let read = match node.tag("top")? {
-            "real" => Self::real(node, linear),
-            "pair" => Self::pair(node, linear),
-            "conformal" => Self::conformal(node, linear),
-            _ => node.malformed("unknown kind of top"),
-        };
-        crate::at(&node.place, read)
+impl Disc {
+    fn modulus_squared(&self) -> BigInt {
+        &self.x * &self.x + &self.y * &self.y
     }
 
-    fn real(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let [_, radius, polynomial, interval, list] =
-            node.fields(["top", "radius", "polynomial", "interval", "chains"])?;
-        let (r, count) = outside(&linear.characteristic()?, &radius)?;
-        let field = Field::read(&polynomial, &interval)?;
-        let beyond = field.interval.lo > r || field.interval.hi < -&r;
-        interval.need(beyond, "top-real", "the eigenvalue must lie outside the disc")?;
-        let mut chains = Vec::new();
-        for item in list.list()? {
-            let [sign, vectors] = item.fields(["sign", "vectors"])?;
-            let sign = match sign.text()? {
-                "+" => 1,
-                "-" => -1,
-                _ => return sign.malformed("a sign is \"+\" or \"-\""),
-            };
-            chains.push(Chain { sign, vectors: chain(&vectors, linear, &field.by_root, sign, "top-real")? });
-        }
-        let all = chains.iter().map(|c| c.vectors.len()).sum::<usize>() == count;
-        list.need(all, "top-real", &format!("{count} eigenvalues lie outside the disc"))?;
-        for s in [1, -1] {
-            let starts = chains.iter().filter(|c| c.sign == s).map(|c| field.enclose(&c.vectors[0]));
-            let independent = match &starts.collect::<Checked<Vec<_>>>()?[..] {
-                [] => true,
-                [v] => v.is_nonzero(),
-                [v, w] => v.not_parallel(w),
-                _ => false,
-            };
-            list.need(independent, "top-real", "the eigenvectors are not seen to be independent")?;
-        }
-        Ok(Self::Real { field, chains })
-    }
-
-    fn pair(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let [_, radius, polynomial, centre, error, list] =
-            node.fields(["top", "radius", "polynomial", "centre", "error", "vectors"])?;
-        let (r, count) = outside(&linear.characteristic()?, &radius)?;
-        let (m, c, e) = (Field::monic(&polynomial, MAX_DEGREE)?, centre.vector(2)?, error.rational()?);
-        let (x, y, far) = (&c[0], &c[1], &r + &e);
-        let fits = e.is_positive() && *y > e && x * x + y * y > &far * &far;
-        node.need(fits, "top-pair", "an eigenvalue outside the disc and off the real axis is needed")?;
-        let near = has_root_near(&Matrix::new(1, m.len(), &m), &c, &e)?;
-        error.need(near, "top-pair", "no root is seen to lie within this distance of the centre")?;
-        let by_root = Field::companion(&m);
-        let vectors = chain(&list, linear, &by_root, 1, "top-pair")?;
-        let around = |v: &Q| Interval { lo: v - &e, hi: v + &e };
-        let (value, vector) = ([around(x), around(y)], vectors[0].clone());
-        let [re, im] = values(&vector, &value[0], &value[1])?;
-        let all = 2 * vectors.len() == count && (re.is_nonzero() || im.is_nonzero());
-        list.need(all, "top-pair", &format!("{count} eigenvalues lie outside the disc, or the vector may be 0"))?;
-        Ok(Self::Pair { value, vector, by_root })
-    }
-
-    fn conformal(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let [_, radius, basis, gram, square] = node.fields(["top", "radius", "basis", "gram", "square"])?;
-        let (r, count) = outside(&linear.characteristic()?, &radius)?;
-        let e = basis.matrix(linear.rows)?;
-        let (echelon, pivots) = e.echelon()?;
-        let fits = echelon == e && e.rows == count;
-        basis.need(fits, "top-conformal", &format!("{count} rows in reduced echelon form are needed"))?;
-        let images = e.times(&linear.transpose())?;
-        // Rows are images of basis vectors: this is the transpose of L on the space.
-        let inner = images.columns(&pivots);
-        basis.need(inner.times(&e)? == images, "top-conformal", "the space is not invariant")?;
-        let (h, c) = (positive_definite(&gram, e.rows)?, square.rational()?);
-        let stretches = c > &r * &r && inner.times(&h)?.times(&inner.transpose())? == h.scaled(&c);
-        square.need(stretches, "top-conformal", "the map does not stretch the scalar product by this factor")?;
-        Ok(Self::Conformal(e))
-    }
-
-    /// The image under `view` of the eigenvectors that end the longest chains, by their coefficients: over the field, over
-    /// `Q[x]/(m)` (which stands for real and imaginary part), or rational.
-    pub fn ends(&self, view: &Matrix) -> Checked<Vec<Matrix>> {
-        match self {
-            Self::Real { chains, .. } => {
-                let longest = chains.iter().map(|c| c.vectors.len()).max();
-                let ending = chains.iter().filter(|c| Some(c.vectors.len()) == longest);
-                ending.map(|c| view.times(&c.vectors[0])).collect()
-            }
-            Self::Pair { vector, .. } => Ok(vec![view.times(vector)?]),
-            Self::Conformal(basis) => (0..basis.rows).map(|i| view.times(&basis.row(i).transpose())).collect(),
-        }
-    }
-
-    /// Enclosures of real vectors that span their real and imaginary parts.
-    pub fn directions(&self, view: &Matrix) -> Checked<Vec<Enclosed>> {
-        let ends = self.ends(view)?;
-        Ok(match self {
-            Self::Real { field, .. } => ends.iter().map(|v| field.enclose(v)).collect::<Checked<_>>()?,
-            Self::Pair { value, .. } => values(&ends[0], &value[0], &value[1])?.into(),
-            Self::Conformal(_) => ends.into_iter().map(Enclosed::exact).collect(),
+    /// Whether the disc, moved by at most `slack` (over the denominator of the discs), misses another one and its mirror image.
+    fn misses(&self, other: &Self, slack: &Q) -> bool {
+        let far = (&self.error + &other.error) * slack.denom() + slack.numer();
+        let x = (&self.x - &other.x) * slack.denom();
+        [&self.y - &other.y, &self.y + &other.y].into_iter().all(|y| {
+            let y = y * slack.denom();
+            &x * &x + &y * &y > &far * &far
         })
     }
 }
 
-/// Reads a symmetric matrix whose elimination without exchanges has positive pivots only.
-pub fn positive_definite(node: &Node<'_>, n: usize) -> Checked<Matrix> {
-    let matrix = node.matrix(n)?;
-    node.need(matrix.rows == n && matrix.transpose() == matrix, "gram", "a symmetric matrix is needed")?;
-    let mut rest = matrix.clone();
-    while rest.rows > 0 {
-        node.need(rest.data[0].is_positive(), "gram", "the matrix is not positive definite")?;
-        let lower: Vec<usize> = (1..rest.rows).collect();
-        let column = rest.columns(&[0]);
-        let schur = rest.scaled(&rest.at(0, 0)).minus(&column.times(&column.transpose())?);
-        rest = schur.transpose().columns(&lower).transpose().columns(&lower);
-        rest.data = primitive(rest.data);
-    }
-    Ok(matrix)
+/// Reads `n` and then `n` rows of numbers; `#` starts a comment.
+fn plain(source: &str) -> Checked<Matrix> {
+    let words = source.lines().flat_map(|line| line.split('#').next().unwrap_or("").split_ascii_whitespace());
+    let mut words = words.map(decimal_fraction);
+    let size = words.next().flatten().and_then(|n| if n.is_integer() { n.numer().to_usize() } else { None });
+    let n = some(size.filter(|n| (1..=MAX_SIZE).contains(n)), "matrix", "the size of a matrix is needed first")?;
+    let entries = words.collect::<Option<Vec<Q>>>().filter(|entries| entries.len() == n * n);
+    Ok(Matrix::new(n, n, &some(entries, "matrix", "n rows of n exact numbers are needed after the size")?))
 }
 
-/// Whether some two of the vectors have a 2x2 minor that is certainly not 0.
-pub fn span_a_plane(vectors: &[Enclosed]) -> bool {
-    (0..vectors.len()).any(|k| vectors[..k].iter().any(|w| vectors[k].not_parallel(w)))
+/// Checks the proof of a certificate of the kind `spectrum` about the text of a case or of a matrix.
+pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
+    let [spectra] = node.fields("spectra")?;
+    let items = spectra.each(|item| item.fields::<4>("operator factors modulus classes"));
+    let mut operators: Vec<(String, Matrix, Option<(usize, usize)>)> = Vec::new();
+    let mut name = "matrix".to_owned();
+    if items.as_ref().is_ok_and(|items| items.first().is_some_and(|[operator, ..]| operator.is_null())) {
+        operators.push((name.clone(), plain(source)?, None));
+    } else {
+        let case = case::read(source, false).map_err(|r| Rejected { unreadable: false, ..r })?;
+        for (e, state) in case.shape.states.into_iter().enumerate() {
+            for (k, piece) in state.pieces.into_iter().enumerate().filter(|(_, p)| p.target == e) {
+                operators.push((format!("operator {k} of state {e}"), piece.op, Some((e, k))));
+            }
+        }
+        name = case.name;
+    }
+    let items = items?;
+    let all = items.len() == operators.len() && !items.is_empty();
+    spectra.need(all, "spectrum", "one item for each operator is needed")?;
+    let mut claims = Vec::new();
+    for ([operator, factors, modulus, classes], (of, matrix, place)) in items.iter().zip(&operators) {
+        let same = match place {
+            None => operator.is_null(),
+            Some(place) => {
+                let [state, piece] = operator.fields("state piece")?;
+                (state.index(case::MAX_STATES)?, piece.index(MAX_PIECES)?) == *place
+            }
+        };
+        operator.need(same, "spectrum", format_args!("{of} is expected here"))?;
+        let (discs, lines) = factors.at(roots_and_chains(matrix, factors, modulus))?;
+        let classes = classes.at(moduli(&discs, classes))?;
+        claims.extend(lines.into_iter().chain([classes]).map(|line| format!("{of}: {line}")));
+    }
+    Ok(Accepted { case: name, verdict: Verdict::Proved, claims, points: Vec::new() })
+}
+
+/// Rules `roots` and `chains`: discs that hold one root each of the factors, and a Jordan basis over `Q[x]/(factor)`.
+fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Checked<(Discs, Vec<String>)> {
+    let (mut numbers, mut factors, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+    let mut basis = Matrix::empty(matrix.rows);
+    for item in node.list()? {
+        let [polynomial, roots, chains] = item.fields("polynomial roots chains")?;
+        let p = Field::monic(&polynomial, matrix.rows)?;
+        let factor = Rc::new(Matrix::new(1, p.len(), &p));
+        let mut counted = 0;
+        for root in roots.list()? {
+            let [centre, error] = root.fields("centre error")?;
+            let (c, e) = (centre.vector(2)?, error.rational()?);
+            let placed = !e.is_negative() && (c[1].is_zero() || c[1] > e);
+            root.need(placed, "roots", "a disc is centred on the real axis or lies above it")?;
+            root.need(has_root_near(&factor, &c, &e)?, "roots", "no root is seen to lie in this disc")?;
+            counted += if c[1].is_zero() { 1 } else { 2 };
+            numbers.extend(c.into_iter().chain([e]));
+            factors.push(Rc::clone(&factor));
+        }
+        roots.need(counted == p.len() - 1, "roots", "the discs must be as many as the degree")?;
+        let by_root = Field::companion(&p);
+        let mut blocks: Vec<usize> = Vec::new();
+        for item in chains.list()? {
+            let vectors = chain(&item, matrix, &by_root, 1, "chains")?;
+            basis = vectors.iter().fold(basis, |all, v| all.stack(&v.transpose()));
+            blocks.push(vectors.len());
+        }
+        let descend = !blocks.is_empty() && blocks.windows(2).all(|w| w[0] >= w[1]);
+        chains.need(descend, "chains", "there are chains, and the longest come first")?;
+        lines.push(format!("each root of {} has Jordan blocks of the sizes {blocks:?}", text(&p)));
+    }
+    let all = Matrix::new(factors.len(), 3, &numbers);
+    let disc = |(k, factor): (usize, Rc<Matrix>)| {
+        let [x, y, error] = [0, 1, 2].map(|j| all.integers(k)[j].clone());
+        Disc { factor, x, y, error }
+    };
+    let list: Vec<Disc> = factors.into_iter().enumerate().map(disc).collect();
+    let discs = Discs { list, bits: all.bits(), den: all.den };
+    for (k, a) in discs.list.iter().enumerate() {
+        spend(8 * k, discs.bits)?;
+        need(discs.list[..k].iter().all(|b| a.misses(b, &Q::zero())), "roots", "two discs meet")?;
+    }
+    let why = format_args!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows);
+    node.need(basis.rows == matrix.rows, "chains", why)?;
+    let independent = invertible(&basis, modulus)?;
+    modulus.need(independent, "chains", "the vectors are not seen to be independent for this modulus")?;
+    Ok((discs, lines))
+}
+
+fn text(p: &[Q]) -> String {
+    let terms = p.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()).map(|(k, c)| format!("({c}) x^{k}"));
+    terms.collect::<Vec<_>>().join(" + ")
+}
+
+/// Whether the determinant is a unit modulo a number: elimination finds invertible pivots. The number need not be prime.
+fn invertible(basis: &Matrix, modulus: &Node<'_>) -> Checked<bool> {
+    let (n, p) = (basis.rows, modulus.index(MAX_MODULUS)? as u64);
+    if p < 2 {
+        return Ok(false);
+    }
+    spend(n * n * n, 64)?;
+    let residue = |x: &BigInt| ((x % p + p) % p).to_u64().unwrap_or(0);
+    let mut rows: Vec<Vec<u64>> = (0..n).map(|i| basis.integers(i).iter().map(residue).collect()).collect();
+    for j in 0..n {
+        let Some((i, inverse)) = (j..n).find_map(|i| Some((i, inverse(rows[i][j], p)?))) else { return Ok(false) };
+        rows.swap(i, j);
+        let pivot = rows[j].clone();
+        for row in rows.iter_mut().skip(j + 1).filter(|row| row[j] != 0) {
+            let factor = row[j] * inverse % p;
+            row.iter_mut().zip(&pivot).for_each(|(x, y)| *x = (*x + (p - factor) * y) % p);
+        }
+    }
+    Ok(true)
+}
+
+/// The inverse of `a` modulo `p < 2^31`, if there is one.
+fn inverse(a: u64, p: u64) -> Option<u64> {
+    let (mut r, mut s) = ((p as i64, a as i64), (0, 1));
+    while r.1 != 0 {
+        let q = r.0 / r.1;
+        (r, s) = ((r.1, r.0 - q * r.1), (s.1, s.0 - q * s.1));
+    }
+    (r.0 == 1).then(|| s.0.rem_euclid(p as i64) as u64)
+}
+
+/// Rule `moduli`: classes of equal modulus, the largest first, with radii that separate them.
+fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
+    let (mut listed, mut sizes) = (vec![false; discs.list.len()], Vec::new());
+    let mut above: Option<Q> = None;
+    let items = node.list()?;
+    for (k, item) in items.iter().enumerate() {
+        let [members, square, below] = item.fields("members square below")?;
+        let chosen = members.indices(listed.len())?;
+        members.need(!chosen.is_empty(), "moduli", "a class is not empty")?;
+        for &m in &chosen {
+            members.need(!std::mem::replace(&mut listed[m], true), "moduli", "a root stands in two classes")?;
+        }
+        let below = if k + 1 == items.len() && below.is_null() { None } else { Some(below.rational()?) };
+        for &m in &chosen {
+            let inside = above.as_ref().map_or(Ok(true), |a| discs.beyond(m, a, -1))?;
+            let outside = below.as_ref().map_or(Ok(true), |b| discs.beyond(m, b, 1))?;
+            item.need(inside && outside, "moduli", "the radii do not separate the classes")?;
+        }
+        let square = if square.is_null() { None } else { Some(square.rational()?) };
+        // The first member has the modulus of the class, which where no square is given is its own.
+        for &m in &chosen[usize::from(square.is_none())..] {
+            let equal = square.as_ref().map_or_else(|| discs.opposite(chosen[0], m), |s| discs.inverted(m, s))?;
+            item.need(equal, "moduli", "the roots of a class are not seen to have one modulus")?;
+        }
+        sizes.push(chosen.iter().map(|&m| if discs.list[m].y.is_zero() { 1 } else { 2 }).sum::<usize>());
+        above = below;
+    }
+    node.need(listed.iter().all(|l| *l), "moduli", "a root stands in no class")?;
+    Ok(format!("different eigenvalues by modulus, the largest first: {sizes:?}"))
+}
+
+impl Discs {
+    /// Whether the modulus of the root of disc `m` lies above the radius (`side = 1`) or below it (`side = -1`).
+    fn beyond(&self, m: usize, radius: &Q, side: i64) -> Checked<bool> {
+        spend(16, self.bits + bits(radius))?;
+        let disc = &self.list[m];
+        let (r, e) = (radius.numer() * &self.den, &disc.error * radius.denom());
+        let (modulus, r) = (disc.modulus_squared() * radius.denom() * radius.denom(), r + e * side);
+        let positive = !radius.is_negative() && !r.is_negative();
+        Ok(positive && if side > 0 { modulus > &r * &r } else { modulus < &r * &r })
+    }
+
+    /// Whether the root of disc `b` is minus that of disc `a`, or minus its mirror image: the factor of `b` is `±p(−x)`, and
+    /// of its discs only `b` meets the reflected disc.
+    fn opposite(&self, a: usize, b: usize) -> Checked<bool> {
+        let (p, q) = (&self.list[a].factor, &self.list[b].factor);
+        let sign = |k: usize| if (p.cols - 1 - k).is_multiple_of(2) { 1 } else { -1 };
+        let reflected = p.cols == q.cols && (0..p.cols).all(|k| &q.data[k] * &p.den == &p.data[k] * &q.den * sign(k));
+        let Disc { x, y, error, .. } = &self.list[a];
+        let mirror = Disc { factor: Rc::clone(q), x: -x, y: y.clone(), error: error.clone() };
+        Ok(reflected && self.others_miss(&mirror, b, &Q::zero())?)
+    }
+
+    /// Whether the other discs of the factor of disc `m` miss a disc that may move by at most `slack`.
+    fn others_miss(&self, disc: &Disc, m: usize, slack: &Q) -> Checked<bool> {
+        spend(8 * self.list.len(), self.bits + bits(slack))?;
+        let factor = &self.list[m].factor;
+        let mut others = self.list.iter().enumerate().filter(|(k, d)| *k != m && Rc::ptr_eq(&d.factor, factor));
+        Ok(others.all(|(_, d)| disc.misses(d, slack)))
+    }
+
+    /// Whether the root `λ` of disc `m` has `|λ|² = s`: the roots of its factor are closed under `λ -> s/λ`, and `s/conj(λ)`,
+    /// which is the multiple `s/|λ|²` of `λ`, is nearer to `λ` than the other roots.
+    fn inverted(&self, m: usize, s: &Q) -> Checked<bool> {
+        let disc = &self.list[m];
+        let (p, d) = (&disc.factor, disc.factor.cols - 1);
+        spend(4 * p.cols, p.bits() + bits(s) * d as u64)?;
+        // a_(d-j) s^(d-j) = a_0 a_j for all j.
+        let (mut n, mut q, mut closed) = (BigInt::one(), BigInt::one(), s.is_positive());
+        for k in 0..=d {
+            closed &= &p.data[k] * &n * &p.den == &p.data[0] * &p.data[d - k] * &q;
+            n *= s.numer();
+            q *= s.denom();
+        }
+        let (x, y, e) = (disc.x.abs(), disc.y.abs(), &disc.error);
+        let least = x.clone().max(y.clone()) - e;
+        if !closed || !least.is_positive() {
+            return Ok(false);
+        }
+        // | s - |c|^2 | + 2 (|x| + |y|) e + e^2 over the least modulus.
+        let apart = s.numer() * &self.den * &self.den - disc.modulus_squared() * s.denom();
+        let moved = apart.abs() + ((x + y) * e * 2 + e * e) * s.denom();
+        self.others_miss(disc, m, &Q::new_raw(moved, least * s.denom()))
+    }
 }

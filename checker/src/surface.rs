@@ -4,13 +4,8 @@ mod branch;
 mod chart;
 mod product;
 
-use crate::germ::Root;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::ring::Model;
-use crate::rules::read_address;
-use crate::shape::Address;
-use crate::{Accepted, Checked, Verdict, case, claims, need};
+use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
+use crate::curve::{Address, Model, Root, case, injective, read_address};
 use branch::{Bounds, independent};
 use chart::Chart;
 use product::Product;
@@ -82,11 +77,11 @@ fn questions(model: &Model<'_>, chart: Option<&Chart>, addresses: &[Address]) ->
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let case = case::read(source, false)?;
     let [contraction, product, further, points, dense, answers] =
-        node.fields(["contraction", "product", "further", "points", "dense", "answers"])?;
+        node.fields("contraction product further points dense answers")?;
     let shape = &case.shape;
     let model = if contraction.is_null() { Model::unenclosed(shape)? } else { Model::read(shape, &contraction)? };
     let chart = Chart::read(source, shape, &model.reachable)?;
-    let factors = if product.is_null() { Vec::new() } else { product.fields(["first", "second"])?.into() };
+    let factors = if product.is_null() { Vec::new() } else { product.fields::<2>("first second")?.into() };
     let curves = factors.iter().map(product::curve).collect::<Checked<Vec<_>>>()?;
     let read = |chart| Product::read(shape, chart, &curves, &factors);
     let (cover, flat) = (!contraction.is_null(), curves.is_empty());
@@ -118,11 +113,11 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         lines.push(format!("{}: {}", verdict.word(), names.join(" = ")));
         verdicts.push(verdict);
     }
-    let (mut together, mut found) = (None, Vec::new());
+    let (mut together, mut found) = (Vec::new(), Vec::new());
     let listed = answers.list()?;
     answers.need(listed.len() == questions.asked.len(), "answers", "one answer for each question is needed")?;
     for (item, question) in listed.iter().zip(&mut questions.asked) {
-        let verdict = match (&chart, question.places.iter().map(|&k| verdicts[k]).reduce(Verdict::and)) {
+        let verdict = match (&chart, question.places.iter().map(|&k| verdicts[k]).min()) {
             (Some(chart), None) => {
                 let (text, verdict) = surface.dense_set(chart, &dense)?;
                 question.text = text;
@@ -130,12 +125,12 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
             }
             (_, verdict) => verdict.unwrap_or(Verdict::Undetermined),
         };
-        item.need(item.text()? == verdict.word(), "answers", &format!("what follows is \"{}\"", verdict.word()))?;
-        together = Some(together.map_or(verdict, |t: Verdict| t.and(verdict)));
+        item.follows("answers", verdict.word())?;
+        together.push(verdict);
         found.push(format!("{}: {}", verdict.word(), question.text));
     }
     dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
-    let verdict = together.unwrap_or(Verdict::Undetermined);
+    let verdict = together.into_iter().min().unwrap_or(Verdict::Undetermined);
     Ok(Accepted { case: case.name, verdict, claims: found, points: lines })
 }
 
@@ -150,8 +145,8 @@ struct Surface<'a> {
 impl Surface<'_> {
     /// Checks a point, whose addresses may be known, and says what they are.
     fn point(&self, root: &Root, place: Option<&[Address]>, node: &Node<'_>) -> Checked<(Vec<Address>, Verdict)> {
-        let [listed, rule, tangent, branches] = node.fields(["addresses", "rule", "tangent", "branches"])?;
-        let addresses = listed.list()?.iter().map(read_address).collect::<Checked<Vec<_>>>()?;
+        let [listed, rule, tangent, branches] = node.fields("addresses rule tangent branches")?;
+        let addresses = listed.each(read_address)?;
         let known = place.is_none_or(|place| *place == addresses) && !addresses.is_empty();
         listed.need(known, "point", "these are not the addresses of the point")?;
         let model = self.model;
@@ -195,7 +190,7 @@ impl Surface<'_> {
             item.need(all, "dense", "these are not all addresses of a point inside the face")?;
             item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
         }
-        if !claims::injective(model, "dense")? {
+        if !injective(model, "dense")? {
             text = "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
                 one where it does not fold that plane"
             .to_owned();

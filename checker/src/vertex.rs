@@ -1,14 +1,11 @@
 //! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh, for schemes that are splines away
 //! from it (docs/theory.md §10.1, Theorems 2, 7 and 8).
 
+use crate::base::{Accepted, Checked, Json, Node, Q, Verdict, file, index, need, number, reject, whole};
 mod ball;
 mod mesh;
 mod patch;
 
-use crate::case::{file, index};
-use crate::json::{Json, Node};
-use crate::number::{Q, decimal_fraction, whole};
-use crate::{Accepted, Checked, Verdict, at, need, reject};
 use ball::{Ball, Balls, deflated, dominated, dot, leading};
 use mesh::{Centre, MAX_VALENCE, Mesh, Net, Spline, powers};
 use num_traits::{One, Signed};
@@ -37,17 +34,17 @@ enum Weights {
 
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
-    let keys = ["name", "title", "source", "vertex", "expect"];
-    let case = file(source, &keys, |root| Case::read(root))?;
-    let [valences] = proof.fields(["valences"])?;
+    let case = file(source, "name title source vertex expect", Case::read)?;
+    let [valences] = proof.fields("valences")?;
     let (mut listed, mut claims, mut together) = (Vec::new(), Vec::new(), None);
     for item in valences.list()? {
-        let (n, smooth, plane) = at(&item.place, case.valence(&item))?;
+        let (n, smooth, plane) = item.at(case.valence(&item))?;
         item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
         listed.push(n);
-        claims.push(format!("{}: at valence {n} the surface is C1 for almost all control points", smooth.word()));
-        claims.push(format!("{}: at valence {n} it has a tangent plane for almost all control points", plane.word()));
-        together = Some(together.map_or(smooth, |t: Verdict| t.and(smooth)));
+        for (verdict, what) in [(smooth, "the surface is C1"), (plane, "it has a tangent plane")] {
+            claims.push(format!("{} for almost all control points: at valence {n} {what}", verdict.word()));
+        }
+        together = Some(together.map_or(smooth, |t: Verdict| t.min(smooth)));
     }
     let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));
     let verdict = match together {
@@ -55,11 +52,6 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         found => found.unwrap_or(Verdict::Undetermined),
     };
     Ok(Accepted { case: case.name, verdict, claims, points: Vec::new() })
-}
-
-fn number(node: &Node<'_>) -> Checked<Q> {
-    let (Json::Text(text) | Json::Number(text)) = node.value else { return node.malformed("a number is needed here") };
-    decimal_fraction(text).map_or_else(|| node.malformed("not an exact number"), Ok)
 }
 
 /// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.
@@ -73,8 +65,8 @@ fn read_valences(node: &Node<'_>) -> Checked<Option<Vec<usize>>> {
         let (low, high) = part.split_once("..").unwrap_or((part, part));
         let bound = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n <= MAX_VALENCE);
         match (bound(low), bound(high.trim_start_matches('='))) {
-            (Some(low), Some(high)) => all.extend(low..=high),
-            _ => return node.malformed("valences are numbers and ranges"),
+            (Some(low), Some(high)) if 3 <= low && low <= high => all.extend(low..=high),
+            _ => return node.reject("format", "valences are numbers and ranges"),
         }
     }
     Ok(Some(all))
@@ -86,36 +78,36 @@ impl Case {
         let table = root.field("vertex")?;
         let (mesh, parameter) = (table.field("mesh")?.text()?, |key: &str| number(&table.field(key)?));
         let quads = |edges: i64, corners: i64| [whole(edges) / whole(16), whole(corners) / whole(16)];
-        let (spline, weights, keys): (_, _, &[&str]) = match mesh {
-            "catmull-clark" => (Spline::Bicubic, Weights::Shares(quads(24, 4), true), &[]),
-            "quad-triangle" => (Spline::Bicubic, Weights::Shares(quads(6, 1), false), &[]),
+        let (spline, weights, keys) = match mesh {
+            "catmull-clark" => (Spline::Bicubic, Weights::Shares(quads(24, 4), true), ""),
+            "quad-triangle" => (Spline::Bicubic, Weights::Shares(quads(6, 1), false), ""),
             "catmull-clark-variant" => {
                 let (alpha, beta) = (parameter("alpha")?, parameter("beta")?);
                 let gamma = Q::one() - alpha - &beta;
                 if table.get("gamma").is_some() {
                     table.need(parameter("gamma")? == gamma, "case", "the weights do not add up to 1")?;
                 }
-                (Spline::Bicubic, Weights::Shares([beta, gamma], false), &["alpha", "beta", "gamma"])
+                (Spline::Bicubic, Weights::Shares([beta, gamma], false), "alpha beta gamma")
             }
-            "loop" => (Spline::Quartic, Weights::Own(Centre::Loop), &[]),
-            "loop-warren" => (Spline::Quartic, Weights::Warren, &[]),
-            "loop-variant" => (Spline::Quartic, Weights::Given(parameter("beta")?), &["beta"]),
+            "loop" => (Spline::Quartic, Weights::Own(Centre::Loop), ""),
+            "loop-warren" => (Spline::Quartic, Weights::Warren, ""),
+            "loop-variant" => (Spline::Quartic, Weights::Given(parameter("beta")?), "beta"),
             "doo-sabin" => match table.get("weights") {
-                None => (Spline::Biquadratic, Weights::Own(Centre::Frequency(1)), &[]),
+                None => (Spline::Biquadratic, Weights::Own(Centre::Frequency(1)), ""),
                 Some(given) => {
                     let list = given.list()?.iter().map(number).collect::<Checked<Vec<_>>>()?;
-                    (Spline::Biquadratic, Weights::Own(Centre::Face(list)), &["weights"])
+                    (Spline::Biquadratic, Weights::Own(Centre::Face(list)), "weights")
                 }
             },
             "doo-sabin-frequency" => {
                 let f = table.get("frequency").map_or(Ok(2), |node| index(&node, 1025))?;
-                (Spline::Biquadratic, Weights::Own(Centre::Frequency(f)), &["frequency"])
+                (Spline::Biquadratic, Weights::Own(Centre::Frequency(f)), "frequency")
             }
-            "doo-sabin-catmull-clark" => (Spline::Biquadratic, Weights::Midpoints, &[]),
-            "midedge" => (Spline::Quadratic, Weights::Midedge, &[]),
-            _ => return table.malformed("a scheme for which there are no certificates"),
+            "doo-sabin-catmull-clark" => (Spline::Biquadratic, Weights::Midpoints, ""),
+            "midedge" => (Spline::Quadratic, Weights::Midedge, ""),
+            _ => return table.reject("format", "a scheme for which there are no certificates"),
         };
-        table.known(&[keys, &["mesh", "valence"]].concat())?;
+        table.known(&format!("mesh valence {keys}"))?;
         let asked = table.get("valence").map_or(Ok(Some(Vec::new())), |node| read_valences(&node))?;
         Ok(Self { name, spline, weights, asked })
     }
@@ -148,7 +140,7 @@ impl Case {
     /// What follows at one valence: C¹, and a tangent plane.
     fn valence(&self, node: &Node<'_>) -> Checked<(usize, Verdict, Verdict)> {
         let [valence, rule, frequency, turn, others, vector, half_plane] =
-            node.fields(["valence", "rule", "frequency", "turn", "others", "vector", "half_plane"])?;
+            node.fields("valence rule frequency turn others vector half_plane")?;
         let (n, k, radius) = (valence.index(MAX_VALENCE + 1)?, frequency.index(MAX_VALENCE)?, others.rational()?);
         node.need(n >= 3 && 2 * k <= n && radius.is_positive(), "vertex", "no such vertex, block or bound")?;
         let pair = |node: &Node<'_>| node.vector(2).map(|mut v| (v.remove(0), v.remove(0)));
@@ -166,7 +158,9 @@ impl Case {
             true
         };
         let holds = match rule.text()? {
-            "theorem-7" => k == 1 && held && one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign())),
+            "theorem-7" => {
+                k == 1 && held && one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign()))
+            }
             "theorem-8-winding" => 2 <= k && 2 * k < n,
             "theorem-8-fold" => {
                 let corners = ring.iter().flat_map(Patch::jacobian).filter(|c| c.1);
@@ -175,7 +169,7 @@ impl Case {
             }
             "theorem-2" => (k == 0 || 2 * k == n) && one_sign(ring.iter().flat_map(Patch::points).map(Ball::real_sign)),
             "theorem-8-path" => k == 0 && one_sign(boundary(&mesh, &ring).iter().map(Ball::real_sign)),
-            _ => return rule.malformed("unknown rule for a vertex"),
+            _ => return rule.reject("format", "unknown rule for a vertex"),
         };
         rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
         let (smooth, plane) = match rule.text()? {
@@ -217,9 +211,104 @@ fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
         }
         found = Some((value, vector));
     }
-    let Some((value, mut vector)) = found else { return reject("vertex", "", "no such block") };
+    let Some((value, mut vector)) = found else { return reject("vertex", "no such block") };
     let places = mesh.places(2);
     let centre = if vector.len() > places.len() { vector.remove(0) } else { Ball::zero() };
     let values = places.into_iter().zip(vector).collect();
     mesh.continued(&value, Net { frequency: k, centre, values })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mesh::Place;
+
+    /// The first half of a curve in Bernstein form.
+    fn half(curve: &[Ball]) -> Vec<Ball> {
+        let (mut left, mut rest, part) = (Vec::new(), curve.to_vec(), Ball::real(&(Q::one() / whole(2))));
+        while let Some(first) = rest.first() {
+            left.push(first.clone());
+            rest = rest.windows(2).map(|w| w[0].plus(&w[1]).times(&part)).collect();
+        }
+        left
+    }
+
+    /// `Ψ(x/2) = λ Ψ(x)`: the first half of the inner boundary of the ring is the first piece of the outer one, made smaller. This
+    /// ties masks and patches together.
+    #[test]
+    fn the_inner_boundary_is_the_outer_one_made_smaller() {
+        let inner: [(&str, fn(&[Patch]) -> Vec<Ball>); 4] = [
+            ("catmull-clark", |p| p[0].rows().iter().map(|row| row[0].clone()).collect()),
+            ("frequency", |p| p[0].rows().iter().map(|row| row[0].clone()).collect()),
+            // The triangle from (1, 1) has (0, 1) as its second corner and (1, 0) as its third one.
+            ("loop", |p| p[1].rows().iter().rev().map(|row| row[row.len() - 1].clone()).collect()),
+            // The left quarter of the first cell, from its corner (1, 1) to (1, 0).
+            ("midedge", |p| p[3].rows()[0].iter().rev().cloned().collect()),
+        ];
+        for (name, edge) in inner {
+            let read = |end: &str| {
+                let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/certs/pass");
+                std::fs::read_to_string(root.join(format!("vertex-{name}.{end}"))).unwrap()
+            };
+            let tree: Json = serde_json::from_str(&read("json")).unwrap();
+            let place = String::new();
+            let proof = Node { value: &tree, place }.field("proof").unwrap();
+            let item = proof.field("valences").unwrap().list().unwrap().pop().unwrap();
+            let case = file(&read("toml"), "name vertex", Case::read).unwrap();
+            let pair = |n: &Node<'_>| (n.vector(2).unwrap().remove(0), n.vector(2).unwrap().remove(1));
+            let n = item.field("valence").unwrap().index(100).unwrap();
+            let k = item.field("frequency").unwrap().index(100).unwrap();
+            let turn = pair(&item.field("turn").unwrap());
+            let mesh = Mesh::new(case.spline, case.centre(n), powers(n, &turn).unwrap()).unwrap();
+            let near: Vec<_> = item.field("vector").unwrap().list().unwrap().iter().map(pair).collect();
+            let radius = item.field("others").unwrap().rational().unwrap();
+            let block = mesh.block(k).unwrap();
+            let (value, _) = leading(&block, &near, &radius).unwrap();
+            let net = top(&mesh, k, &near, &radius).unwrap();
+            let ring = patches(&mesh, &net).unwrap();
+            let small = Q::one() / num_traits::pow(whole(2), 60);
+            let (small_edge, outer) = (half(&edge(&ring)), boundary(&mesh, &ring));
+            for (a, b) in small_edge.iter().zip(&outer) {
+                assert!(a.minus(&b.times(&value)).at_most() < small, "{name}");
+            }
+            assert!(small_edge.iter().all(|a| a.at_least() > small), "{name}");
+        }
+    }
+
+    /// At a regular vertex the leading eigenvector is the lattice itself.
+    #[test]
+    fn regular_vertices_give_the_lattice() {
+        for (spline, centre, n) in [
+            (Spline::Bicubic, Centre::Vertex([9, 6, 1].map(|w| whole(w) / whole(16))), 4),
+            (Spline::Quartic, Centre::Loop, 6),
+            (Spline::Biquadratic, Centre::Frequency(1), 4),
+        ] {
+            let sixth =
+                (whole(1) / whole(2), "866025403784438646763723170752936183/1000000000000000000000000000000000000");
+            let parsed = crate::number::canonical(sixth.1).unwrap();
+            let turn = if n == 4 { (whole(0), whole(1)) } else { (sixth.0, parsed) };
+            let mesh = Mesh::new(spline, centre, powers(n, &turn).unwrap()).unwrap();
+            let own = if spline == Spline::Biquadratic { whole(1) / whole(2) } else { whole(0) };
+            let point = |(i, j): Place| {
+                let (a, b) = (whole(i) + &own, whole(j) + &own);
+                (&a + &b * &turn.0, b * &turn.1)
+            };
+            let places = mesh.places(2);
+            let first = point(places[0]);
+            // Divided by the first point, so that this is 1.
+            let size = &first.0 * &first.0 + &first.1 * &first.1;
+            let near = |p: &Place| {
+                let (x, y) = point(*p);
+                ((&x * &first.0 + &y * &first.1) / &size, (&y * &first.0 - &x * &first.1) / &size)
+            };
+            let near: Vec<_> = places.iter().map(near).collect();
+            let net = top(&mesh, 1, &near, &(whole(3) / whole(10))).unwrap();
+            let ring = patches(&mesh, &net).unwrap();
+            assert!(one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign())), "{spline:?}");
+            // The outer boundary begins at distance 2 on the first spoke.
+            let scale = Ball::new(&first.0, &first.1);
+            let corner = boundary(&mesh, &ring)[0].times(&scale).minus(&Ball::real(&whole(2)));
+            assert!(corner.at_most() < Q::one() / num_traits::pow(whole(2), 60), "{spline:?}");
+        }
+    }
 }

@@ -30,7 +30,7 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-const WORDS: [&str; 45] = [
+const WORDS: [&str; 49] = [
     "proved",
     "refuted",
     "undetermined",
@@ -76,6 +76,10 @@ const WORDS: [&str; 45] = [
     "simplex",
     "5",
     "5'",
+    "theorem-7",
+    "theorem-8-winding",
+    "theorem-8-fold",
+    "theorem-8-path",
 ];
 
 /// What may stand in the place of a value.
@@ -185,6 +189,12 @@ fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bo
             && found.points.len() == found.claims.len()
             && found.points.iter().zip(&original.points).all(weaker);
     }
+    if original.claims[0].contains("almost all") {
+        // Vertices: fewer valences, or no plane without a half-plane.
+        let open = |claim: &String| claim.starts_with("undetermined");
+        let known = found.claims.iter().all(|c| open(c) || original.claims.contains(c));
+        return known && (found.verdict == original.verdict || found.verdict.word() == "undetermined");
+    }
     if original.claims[0].contains("tangent plane") {
         // Of a surface, points may be left open where others refute the same.
         let weaker = |(a, b): (&String, &String)| {
@@ -201,7 +211,12 @@ fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bo
     let mut both = found.claims.iter().zip(claims);
     match radius(&original.claims[0]) {
         Some((low, high)) => head && radius(&found.claims[0]).is_some_and(|(l, h)| l <= high && low <= h),
-        None => head && sorted(found) == sorted(original) && both.all(|(a, b)| a == b || weaker_rate(a, b)),
+        None => {
+            // Half-tangents of the curve before the projection, instead of those that are seen.
+            let unseen = |a: &str, b: &str| a.replacen("before the projection ", "", 1) == b;
+            let weaker = |(a, b): (&String, &String)| a == b || unseen(a, b) || weaker_rate(a, b);
+            head && sorted(found) == sorted(original) && both.all(weaker)
+        }
     }
 }
 
@@ -232,14 +247,11 @@ fn weaker_rate(found: &str, original: &str) -> bool {
 
 /// Tries every mutant of the stored certificates, or every `step`-th.
 fn tamper(step: usize) -> (usize, usize, Vec<(PathBuf, String)>, Vec<String>) {
-    // All mutants of a few certificates: `SECANT_MUTANT_STEP=1 SECANT_MUTANT_ONLY=surface-spiral`.
-    let only = std::env::var("SECANT_MUTANT_ONLY").unwrap_or_default();
     let (mut tried, mut rejected, mut harmless, mut wrong) = (0, 0, Vec::new(), Vec::new());
     let mut count = 0;
-    for (path, case, text) in stored("pass") {
-        if !path.to_string_lossy().contains(&only) {
-            continue;
-        }
+    let only = std::env::var("SECANT_MUTANT_ONLY").unwrap_or_default();
+    let chosen = stored("pass").into_iter().filter(|(path, ..)| path.to_string_lossy().contains(&only));
+    for (path, case, text) in chosen {
         let original: Value = serde_json::from_str(&text).unwrap();
         let statement = secant_check::check(&case, &text).unwrap_or_else(|r| panic!("{}: {r}", path.display()));
         // The detour through the parsed value must change nothing, or every mutant would be rejected for its form.

@@ -128,7 +128,7 @@ pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Op
     let accepted = secant_check::check(&case.text.text, &certificate.text())?;
     let said = |f: &AtValence| {
         [(f.smooth, "the surface is C1"), (f.plane, "it has a tangent plane")].map(|(verdict, what)| {
-            format!("{}: at valence {} {what} for almost all control points", verdict.word(), f.valence)
+            format!("{} for almost all control points: at valence {} {what}", verdict.word(), f.valence)
         })
     };
     let mut claims = accepted.claims.iter();

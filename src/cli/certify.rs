@@ -81,7 +81,9 @@ fn note_dangling(case: &Case) {
 /// Says so where a decided verdict has no certificate that could be checked.
 fn note_unconfirmed(unsupported: &Unsupported) {
     let message = format!("the verdict was not proved again: {unsupported}");
-    complain(&Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, section 12"));
+    complain(
+        &Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, “What is not covered”"),
+    );
 }
 
 /// The certificate that the checker accepted, or why the format has none.
@@ -240,7 +242,7 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
         Some(path) => {
             let written = evidence.cloned().unwrap_or_else(|| certificate(case, found)).map_err(|unsupported| {
                 Problem::new("secant::certificate::none", unsupported.to_string())
-                    .with_help("see docs/certificate.md, section 12; nothing was written")
+                    .with_help("see docs/certificate.md, “What is not covered”; nothing was written")
             })?;
             Some((path, written.text()))
         }

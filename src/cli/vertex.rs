@@ -85,7 +85,7 @@ fn certificate_file<'a>(
             "secant::certificate::none",
             "no rule of the certificate format covers these vertices, or --no-check left them out",
         )
-        .with_help("see docs/certificate.md, sections 12 and 13; nothing was written")),
+        .with_help("see docs/certificate.md, “What is not covered”; nothing was written")),
     }
 }
 

@@ -21,7 +21,9 @@ pub fn twice(found: &[AtValence]) -> String {
     let (again, once): (Vec<&AtValence>, Vec<&AtValence>) = found.iter().filter(decided).partition(|f| f.checked);
     let list = |of: &[&AtValence]| ranges(&of.iter().map(|f| f.valence).collect::<Vec<_>>());
     match (again.is_empty(), once.is_empty()) {
-        (true, _) => "the independent checker has no rule for these verdicts: they were proved once, not twice".to_owned(),
+        (true, _) => {
+            "the independent checker has no rule for these verdicts: they were proved once, not twice".to_owned()
+        }
         (_, true) => format!("the independent checker proved the verdicts at {} again", list(&again)),
         _ => format!(
             "the independent checker proved the verdicts at {} again, but not those at {}",

@@ -1,15 +1,7 @@
 //! What the certificate of one branch of a surface proves about the tangent subspace of its germ (docs/certificate.md, section 8.1).
 
-use crate::germ::{Germ, Root};
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::spend;
-use crate::poly::{Enclosed, Field, Interval, products, values};
-use crate::ring::Model;
-use crate::rules::Branch;
-use crate::shape::Address;
-use crate::spectrum::{Top, outside, residual};
-use crate::{Checked, need};
+use crate::base::{Checked, Enclosed, Field, Matrix, Node, need, products, spend, values};
+use crate::curve::{Address, Branch, Germ, Model, Root, Top, outside, residual};
 use num_bigint::BigInt;
 use num_traits::Zero;
 
@@ -27,11 +19,11 @@ pub struct Bounds {
 pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Checked<Bounds> {
     let branch = Branch { model, germ: Germ::new(model, root, address)? };
     let germ = &branch.germ;
-    let [top_node, orbits, bound] = node.fields(["top", "orbits", "bound"])?;
+    let [top_node, orbits, bound] = node.fields("top orbits bound")?;
     let top = Top::read(&top_node, &germ.linear)?;
     let (mut contains, mut within) = (top.directions(&germ.view)?, top.ends(&germ.view)?);
     for orbit in orbits.list()? {
-        let [point, own] = orbit.fields(["address", "own"])?;
+        let [point, own] = orbit.fields("address own")?;
         let (own, view) = branch.orbit_top(&point, &own)?;
         contains.extend(own.directions(&view)?);
         within.extend(own.ends(&view)?);
@@ -52,8 +44,8 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
 
 /// Rows that read coefficients of the last vectors of the longest chains: what lies in their common kernel has `u = 0`.
 fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<Enclosed>, Node<'n>)> {
-    let [_, list, cover] = bound.fields(["by", "functionals", "cover"])?;
-    let zero = Interval::point(&Zero::zero());
+    let [_, list, cover] = bound.fields("by functionals cover")?;
+    let zero = [Zero::zero(), Zero::zero()];
     let (field, imaginary, parts, chains) = match top {
         Top::Real { field, chains } => (field.clone(), zero, 1, chains.as_slice()),
         Top::Pair { value: [x, y], by_root, .. } => {
@@ -80,7 +72,7 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
 
 /// Rational rows whose common kernel is the sum of the generalised eigenspaces inside a disc.
 fn group<'n>(germ: &Germ, bound: &Node<'n>) -> Checked<(usize, Vec<Enclosed>, Node<'n>)> {
-    let [_, radius, rows, cover] = bound.fields(["by", "radius", "rows", "cover"])?;
+    let [_, radius, rows, cover] = bound.fields("by radius rows cover")?;
     let list = rows.matrix(germ.dim())?;
     let (space, pivots) = list.echelon()?;
     let images = space.times(&germ.linear)?;

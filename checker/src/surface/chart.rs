@@ -1,11 +1,7 @@
 //! The parameters of a patch: which cells hold a parameter, and by which addresses (docs/certificate.md, section 8.1).
 
-use crate::case;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::{Q, ratio, spend, whole};
-use crate::shape::{Address, Kind, Piece, Shape, State};
-use crate::{Checked, need};
+use crate::base::{Checked, MAX_PIECES, Matrix, Node, Q, index, need, number::ratio, some, spend, whole};
+use crate::curve::{Address, Kind, Piece, Shape, State, case};
 use num_bigint::BigInt;
 use num_traits::{One, Signed};
 
@@ -34,7 +30,7 @@ fn cells(layout: &str) -> Option<(Vec<Vec<[usize; 2]>>, usize, usize)> {
         return Some((vec![corner(0, 0), corner(1, 0), corner(0, 1), vec![[1, 1], [0, 1], [1, 0]]], 2, 2));
     }
     let (columns, rows) = layout.split_once('x')?;
-    let size = |text: &str| text.trim().parse().ok().filter(|n| (1..=case::MAX_PIECES).contains(n));
+    let size = |text: &str| text.trim().parse().ok().filter(|n| (1..=MAX_PIECES).contains(n));
     let (columns, rows) = (size(columns)?, size(rows)?);
     let cell = |k: usize| {
         let (i, j) = (k % columns, k / columns);
@@ -64,7 +60,7 @@ fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option
     for ((piece, node), cell) in pieces.iter().zip(state.field("piece")?.list()?).zip(cells) {
         let mut places = cell.clone();
         if let Some(order) = node.get("corners") {
-            let named = case::indices(&order, cell.len())?;
+            let named = order.each(|n| index(n, cell.len()))?;
             let all = named.len() == cell.len() && (0..cell.len()).all(|k| named.contains(&k));
             order.need(all, "case", "each corner must be named once")?;
             places = named.iter().map(|&k| cell[k]).collect();
@@ -161,8 +157,7 @@ impl Chart {
                 continue;
             }
             for (letter, piece) in self.maps.states[*state].pieces.iter().enumerate().rev() {
-                let both = piece.op.transpose().stack(&here.transpose()).transpose();
-                let local = both.echelon()?.0.columns(&[3]);
+                let local = some(piece.op.solve(here)?, "case", "a piece whose place is no cell")?;
                 if self.margins(&local).iter().all(|m| !m.is_negative()) {
                     open.push(([cells.clone(), vec![(piece.target, local)]].concat(), [&word[..], &[letter]].concat()));
                 }

@@ -1,24 +1,21 @@
 //! Tensor products of two curves: `p(s, t) = a(s) ⊗ b(t)` (docs/certificate.md, section 8.1).
 
 use super::chart::Chart;
-use crate::germ::Root;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::spend;
-use crate::points::{Place, Point};
-use crate::ring::Model;
-use crate::shape::{Address, Kind, Piece, Shape, State};
-use crate::{Checked, Verdict, need};
+use crate::base::{Checked, Matrix, Node, Verdict, need, spend};
+use crate::curve::{Address, Kind, Model, Piece, Place, Point, Root, Shape, State};
 use num_bigint::BigInt;
 
 /// The operators of a curve of one state, whose columns sum to 1.
 pub fn curve(node: &Node<'_>) -> Checked<Shape> {
-    let [operators, _, _] = node.fields(["operators", "contraction", "points"])?;
+    let [operators, _, _] = node.fields("operators contraction points")?;
     let mut pieces = Vec::new();
     for item in operators.list()? {
         let op = item.matrix(item.list()?.len())?;
-        let sums = Matrix::ones(1, op.rows, |_, _| true).times(&op)? == Matrix::ones(1, op.cols, |_, _| true);
-        item.need(sums && op.rows > 0, "product", "a matrix whose columns sum to 1 is needed")?;
+        item.need(
+            op.is_affine() && op.rows == op.cols && op.rows > 0,
+            "product",
+            "a matrix whose columns sum to 1 is needed",
+        )?;
         pieces.push(Piece { target: 0, op, reversed: false });
     }
     let dim = pieces.first().map_or(0, |p| p.op.rows);
@@ -62,12 +59,12 @@ impl<'a> Product<'a> {
         let root = |shape: &Shape| Root { state: 0, view: shape.view.clone() };
         let mut read = Vec::new();
         for (shape, node) in curves.iter().zip(nodes) {
-            let [_, contraction, points] = node.fields(["operators", "contraction", "points"])?;
+            let [_, contraction, points] = node.fields("operators contraction points")?;
             let model = Model::read(shape, &contraction)?;
             shape.check_curves(&[0])?;
             node.need(model.spaces.of(0)?.basis.cols > 0, "product", "the curve is a point")?;
             let check = |item: &Node<'_>| Point::check(&model, &root(shape), item);
-            let points = points.list()?.iter().map(check).collect::<Checked<Vec<_>>>()?;
+            let points = points.each(check)?;
             read.push((model, points));
         }
         Ok(Self { curves: read })
@@ -88,7 +85,7 @@ impl<'a> Product<'a> {
                 "product",
                 "another point of the curve is needed",
             )?;
-            both = both.and(point.verdict);
+            both = both.min(point.verdict);
         }
         Ok(both)
     }

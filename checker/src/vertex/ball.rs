@@ -1,7 +1,6 @@
 //! Complex numbers known up to an error, and matrices of them: bounds of spectral radii, and eigenvectors near given ones.
 
-use crate::number::{Q, spend, whole};
-use crate::{Checked, need};
+use crate::base::{Checked, Q, need, reject, spend, whole};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -131,18 +130,22 @@ fn norm(m: &Balls) -> Q {
 pub fn dominated(matrix: &Balls, radius: &Q) -> Checked<Q> {
     let inverse = Ball::real(&(Q::one() / radius));
     let mut power: Balls = matrix.iter().map(|row| row.iter().map(|x| x.times(&inverse)).collect()).collect();
-    let (half, mut sum, n) = (Q::one() / whole(2), Q::one(), matrix.len());
+    let (half, large) = (Q::one() / whole(2), whole(1 << 32));
+    let (mut sum, n) = (Q::one(), matrix.len());
     for _ in 0..SQUARINGS {
         let size = norm(&power);
         if size < half {
             return Ok(sum / (Q::one() - size));
+        }
+        if size > large {
+            break;
         }
         spend(4 * n * n * n, PLACES as u64)?;
         sum *= Q::one() + size;
         let column = |j: usize| power.iter().map(move |row| &row[j]);
         power = power.iter().map(|row| (0..n).map(|j| dot(row, column(j))).collect()).collect();
     }
-    crate::reject("vertex", "", "another eigenvalue is not seen to be smaller than the bound")
+    reject("vertex", "another eigenvalue is not seen to be smaller than the bound")
 }
 
 /// The matrix on the quotient by a vector with `v_p = 1` that spans an invariant line.
@@ -158,7 +161,7 @@ pub fn deflated(matrix: &Balls, v: &[Ball], p: usize) -> Balls {
 /// With `‖(λ' − B)^-1‖ ≤ N` and `4 N² ‖r‖ |s| ≤ 1/2` the right side contracts the ball of radius `2 N |s|` (maximum norm).
 pub fn leading(matrix: &Balls, near: &[(Q, Q)], radius: &Q) -> Checked<(Ball, Vec<Ball>)> {
     let Some(p) = near.iter().position(|(x, y)| x.is_one() && y.is_zero()) else {
-        return crate::reject("vertex", "", "some entry of the vector must be 1");
+        return reject("vertex", "some entry of the vector must be 1");
     };
     let exact: Vec<Ball> = near.iter().map(|(x, y)| Ball::new(x, y)).collect();
     let bound = dominated(&deflated(matrix, &exact, p), radius)? / radius;

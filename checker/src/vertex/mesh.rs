@@ -4,8 +4,7 @@
 //! and triangles), or the cell `[i, i+1] × [j, j+1]` (dual). In block `k` the value in sector `s` is `ω^ks` times that in sector 0.
 
 use super::ball::{Ball, Balls, dot};
-use crate::number::{Q, whole};
-use crate::{Checked, need};
+use crate::base::{Checked, Q, need, reject, whole};
 use num_traits::{One, Signed, Zero};
 
 /// Most sectors.
@@ -62,6 +61,7 @@ pub struct Net {
 /// `f'/f = Σ 1/(z − z_k)`; if the imaginary parts of its powers below `n/2` are positive, it is the first one.
 pub fn powers(n: usize, w: &(Q, Q)) -> Checked<Vec<Ball>> {
     let near = Ball::new(&w.0, &w.1);
+    need(near.at_most() < whole(2), "vertex", "this is no root of unity")?;
     let before = (1..n).fold(Ball::real(&Q::one()), |p, _| p.times(&near));
     let off = before.times(&near).minus(&Ball::real(&Q::one())).at_most();
     need(before.at_least().is_positive(), "vertex", "no root of unity is seen near this number")?;
@@ -75,7 +75,7 @@ pub fn powers(n: usize, w: &(Q, Q)) -> Checked<Vec<Ball>> {
 }
 
 fn outside<T>() -> Checked<T> {
-    crate::reject("vertex", "", "a point outside the rings")
+    reject("vertex", "a point outside the rings")
 }
 
 impl Mesh {
@@ -84,9 +84,7 @@ impl Mesh {
         let n = powers.len();
         let fits = match &centre {
             Centre::Vertex(weights) => weights.iter().sum::<Q>().is_one(),
-            Centre::Face(w) => {
-                w.len() == n && w.iter().sum::<Q>().is_one() && (1..n).all(|j| w[j] == w[n - j])
-            }
+            Centre::Face(w) => w.len() == n && w.iter().sum::<Q>().is_one() && (1..n).all(|j| w[j] == w[n - j]),
             Centre::Frequency(f) => f % n != 0,
             Centre::Loop => true,
         };

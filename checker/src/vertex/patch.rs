@@ -2,8 +2,7 @@
 
 use super::ball::Ball;
 use super::mesh::{Mesh, Net, Place, Spline};
-use crate::Checked;
-use crate::number::whole;
+use crate::base::{Checked, whole};
 
 /// Control points: `rows[j][i]`. A quadrangle has rows of one length; in a triangle they get shorter by one, and `i`, `j` are the
 /// exponents of the second and the third barycentric coordinate.
@@ -73,7 +72,8 @@ pub fn patches(mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
                     let terms = QUARTIC_POINTS.iter().map(place).zip(mask.iter().copied()).filter(|(_, w)| *w != 0);
                     point(&terms.collect::<Vec<_>>(), 24)
                 });
-                let rows = (0..5).map(|r| masks.by_ref().take(5 - r).collect::<Checked<_>>()).collect::<Checked<_>>()?;
+                let rows =
+                    (0..5).map(|r| masks.by_ref().take(5 - r).collect::<Checked<_>>()).collect::<Checked<_>>()?;
                 Ok(Patch { rows, triangle: true })
             };
             TRIANGLES.iter().map(triangle).collect()
@@ -86,11 +86,7 @@ pub fn patches(mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
 }
 
 /// The triangle of a cell from its corner `m` to the next one and its middle, for the box spline of Zwart and Powell.
-fn quarter(
-    point: &impl Fn(&[(Place, i64)], i64) -> Checked<Ball>,
-    (i, j): Place,
-    m: usize,
-) -> Checked<Vec<Vec<Ball>>> {
+fn quarter(point: &impl Fn(&[(Place, i64)], i64) -> Checked<Ball>, (i, j): Place, m: usize) -> Checked<Vec<Vec<Ball>>> {
     let at = |(a, b): Place| (i + a, j + b);
     // Neighbours across the sides from corner 0 on, and across the corners.
     let side = |m: usize| at([(0, -1), (1, 0), (0, 1), (-1, 0)][m % 4]);
@@ -112,6 +108,12 @@ impl Patch {
         self.rows.iter().flatten()
     }
 
+    /// The control points by rows.
+    #[cfg(test)]
+    pub fn rows(&self) -> &[Vec<Ball>] {
+        &self.rows
+    }
+
     fn degree(&self) -> usize {
         self.rows.len() - 1
     }
@@ -122,7 +124,11 @@ impl Patch {
     pub fn jacobian(&self) -> Vec<(Ball, bool)> {
         let d = self.degree();
         let weight = |i: usize, j: usize, a: usize, b: usize| {
-            Ball::real(&whole(if self.triangle { choose(d - 1, i) * choose(d - 1 - i, j) } else { choose(a, i) * choose(b, j) }))
+            Ball::real(&whole(if self.triangle {
+                choose(d - 1, i) * choose(d - 1 - i, j)
+            } else {
+                choose(a, i) * choose(b, j)
+            }))
         };
         let row = |j: usize, last: usize| (0..if self.triangle { last - j } else { last }).map(move |i| (i, j));
         let along = |(i, j): (usize, usize)| {

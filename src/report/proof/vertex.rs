@@ -27,7 +27,8 @@ pub fn vertex_document(case: &VertexCase, found: &[AtValence], every: Option<&Ev
     blocks.extend(summary_by_valence(case, found, every));
     blocks.extend(evidence_by_valence(case, found));
     blocks.push(Block::heading(2, "Certificate"));
-    let mut facts = vec![("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes())))];
+    let mut facts =
+        vec![("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes())))];
     match crate::certificate::vertex_certificate(case, found) {
         Some(certificate) => {
             facts.push(("certificate, SHA-256".to_owned(), code(crate::certificate::sha256(certificate.text()))));
@@ -62,13 +63,13 @@ fn statement(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> V
         if list.is_empty() {
             continue;
         }
-        let how = match verdict {
-            Verdict::Proved => "",
-            Verdict::Refuted => "it is false that ",
-            Verdict::Undetermined => "whether ",
+        let said = match verdict {
+            Verdict::Proved => claim.to_owned(),
+            Verdict::Refuted => claim.replace(" is a ", " is not a "),
+            Verdict::Undetermined => format!("whether {claim}"),
         };
         let mut item = vec![mark(verdict)];
-        item.extend(words(format!(": {how}{claim}, at {}", ranges(&list))));
+        item.extend(words(format!(": {said}, at {}", ranges(&list))));
         items.push(item);
     }
     blocks.push(Block::List(items));

@@ -13,7 +13,8 @@ pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
 pub use tensor::{factors, product_point};
 pub use verdict::{
-    ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint, SurfaceWitness, Winding,
+    ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint, SurfaceWitness,
+    Winding,
 };
 
 use super::{

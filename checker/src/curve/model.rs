@@ -1,12 +1,7 @@
 //! Trees of words: contraction codes, and covers of a ring by cells on which a functional keeps its sign (theory §1, §7).
 
-use crate::germ::{Germ, Position};
-use crate::json::{Json, Node};
-use crate::matrix::Matrix;
-use crate::number::{Q, bits, spend};
-use crate::poly::{Enclosed, Field};
-use crate::shape::{Shape, Spaces};
-use crate::{Checked, at, need, reject};
+use super::{Germ, Position, Shape, Spaces};
+use crate::base::{Checked, Enclosed, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -33,10 +28,7 @@ fn dobrushin(op: &Matrix) -> Q {
 
 /// `max − min`.
 fn oscillation(row: &[BigInt]) -> BigInt {
-    match (row.iter().max(), row.iter().min()) {
-        (Some(hi), Some(lo)) => hi - lo,
-        _ => BigInt::zero(),
-    }
+    row.iter().max().zip(row.iter().min()).map_or_else(BigInt::zero, |(hi, lo)| hi - lo)
 }
 
 /// Rows on the points of the germ's state that vanish at its fixed point, and by how much each may be wrong on its attractor.
@@ -61,7 +53,7 @@ impl<'a> Model<'a> {
         let reachable = shape.reachable();
         let spaces = Spaces::new(shape, &reachable)?;
         let radius = vec![Q::zero(); shape.states.len()];
-        let hulls = shape.states.iter().map(|s| Matrix::empty(s.dim).transpose()).collect();
+        let hulls = shape.states.iter().map(|s| Matrix::zeros(s.dim, 0)).collect();
         Ok(Self { shape, reachable, spaces, radius, hulls })
     }
 
@@ -69,36 +61,77 @@ impl<'a> Model<'a> {
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
     /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Checked<Self> {
-        let mut model = at(&node.place, Self::unenclosed(shape))?;
-        let items = node.list()?;
-        let one_each = "one entry for each reachable state is needed, breadth first";
-        node.need(items.len() == model.reachable.len(), "contraction", one_each)?;
+        let mut model = node.at(Self::unenclosed(shape))?;
         let mut entries = Vec::new();
-        for (item, &e) in items.iter().zip(&model.reachable) {
-            let [state, bound, code, hull] = item.fields(["state", "radius", "code", "hull"])?;
-            state.need(state.index(shape.states.len())? == e, "contraction", one_each)?;
+        for (e, item) in model.for_states(node, "contraction")? {
+            let [state, bound, code, hull] = item.fields("state radius code hull")?;
+            state.need(state.index(shape.states.len())? == e, "contraction", "states come breadth first")?;
             code.need(!matches!(code.value, Json::Text(_)), "contraction", "the empty word does not contract")?;
             model.radius[e] = bound.rational()?;
             entries.push((e, code, hull));
         }
-        let by_polytopes = entries.iter().all(|(_, code, _)| matches!(code.value, Json::Object(_)));
-        if by_polytopes {
+        if entries.iter().all(|(_, code, _)| matches!(code.value, Json::Object(_))) {
             model.polytopes(entries.iter().map(|(e, code, _)| (*e, code)), true)?;
         } else {
             for (e, code, _) in &entries {
-                at(&code.place, model.contracts(*e, *e, &Matrix::identity(shape.states[*e].dim), code.value))?;
+                let identity = Matrix::identity(shape.states[*e].dim);
+                let mut leaf = |product: &Matrix, end: usize, leaf: &str| {
+                    need(leaf == ".", "contraction", "a leaf of a code is \".\"")?;
+                    model.contracts(*e, end, product)
+                };
+                code.at(model.leaves(&identity, *e, code.value, "contraction", &mut leaf))?;
             }
         }
         if entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Text(text) if text == "simplex")) {
             for &e in &model.reachable {
-                let maps = shape.states[e].pieces.iter().flat_map(|p| &p.op.data).all(|x| !x.is_negative());
+                let maps = shape.states[e].pieces.iter().all(|p| !p.op.has_negative());
                 node.need(maps, "hull", "the simplices are mapped into themselves by nonnegative operators only")?;
                 model.hulls[e] = Matrix::identity(shape.states[e].dim);
             }
-        } else if !entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Null)) {
+        } else if !entries.iter().all(|(_, _, hull)| hull.is_null()) {
             model.polytopes(entries.iter().map(|(e, _, hull)| (*e, hull)), false)?;
         }
         Ok(model)
+    }
+
+    /// The elements of a list with one for each reachable state, breadth first, with the state.
+    pub fn for_states<'n>(&self, node: &Node<'n>, rule: &str) -> Checked<Vec<(usize, Node<'n>)>> {
+        let items = node.list()?;
+        let all = items.len() == self.reachable.len();
+        node.need(all, rule, "one entry for each reachable state is needed, breadth first")?;
+        Ok(self.reachable.iter().copied().zip(items).collect())
+    }
+
+    /// Visits the leaves of a tree with one child for each letter of the state that is reached: the rows times the product of
+    /// the word that leads to the leaf, the state there, and what stands at the leaf.
+    fn leaves(
+        &self,
+        rows: &Matrix,
+        state: usize,
+        tree: &Json,
+        rule: &str,
+        visit: &mut dyn FnMut(&Matrix, usize, &str) -> Checked<()>,
+    ) -> Checked<()> {
+        let pieces = &self.shape.states[state].pieces;
+        match tree {
+            Json::Text(leaf) => visit(rows, state, leaf),
+            Json::List(children) if children.len() == pieces.len() => {
+                let mut both = pieces.iter().zip(children);
+                both.try_for_each(|(p, child)| self.leaves(&rows.times(&p.op)?, p.target, child, rule, visit))
+            }
+            _ => reject(rule, "a tree has one child for each letter of its state, and texts as leaves"),
+        }
+    }
+
+    /// A word from `from` to `end` contracts by its `τ`, and the ball of `from` holds the image of that of `end`.
+    fn contracts(&self, from: usize, end: usize, product: &Matrix) -> Checked<()> {
+        let radii = bits(&self.radius[end]) + bits(&self.radius[from]);
+        spend(product.rows * product.cols * product.cols + 64, product.bits() + radii)?;
+        let tau = dobrushin(product);
+        need(tau < Q::one(), "contraction", "a word of the code does not contract")?;
+        let shift = product.times(&self.spaces.of(end)?.base)?.minus(&self.spaces.of(from)?.base);
+        let holds = shift.norm() + tau * &self.radius[end] <= self.radius[from];
+        need(holds, "contraction", "the ball of this radius does not hold the image of a ball")
     }
 
     /// Reads the hulls of all states, and the images of their vertices. With `shrinking` they prove contraction (Lemma 1′): the
@@ -107,25 +140,22 @@ impl<'a> Model<'a> {
     fn polytopes<'n>(&mut self, hulls: impl Iterator<Item = (usize, &'n Node<'n>)>, shrinking: bool) -> Checked<()> {
         let mut entries = Vec::new();
         for (e, hull) in hulls {
-            let [points, images] = hull.fields(["points", "images"])?;
+            let [points, images] = hull.fields("points images")?;
             self.hulls[e] = points.matrix(self.shape.states[e].dim)?.transpose();
             entries.push((e, points, images));
         }
         for (e, points, images) in entries {
-            at(&images.place, self.hull_maps_into(e, &images, shrinking))?;
+            images.at(self.hull_maps_into(e, &images, shrinking))?;
             if shrinking {
-                let spans = self.hulls[e].rank()? == self.shape.states[e].dim;
-                points.need(spans, "contraction", "the points do not span the space of the state")?;
-                let (hull, base) = (&self.hulls[e], &self.spaces.of(e)?.base);
-                let ones = Matrix::ones(1, hull.cols, |_, _| true);
-                let shift = hull.minus(&base.times(&ones)?);
-                let column = |j: usize| (0..hull.rows).map(|i| shift.data[i * hull.cols + j].abs()).sum::<BigInt>();
-                let largest = Q::new((0..hull.cols).map(column).max().unwrap_or_default(), shift.den.clone());
+                let hull = &self.hulls[e];
                 points.need(
-                    largest <= self.radius[e],
+                    hull.rank()? == hull.rows,
                     "contraction",
-                    "the ball of this radius does not hold the points",
+                    "the points do not span the space of the state",
                 )?;
+                let shift = hull.minus(&self.spaces.of(e)?.base.times(&Matrix::row_of_ones(hull.cols))?);
+                let near = (0..hull.cols).all(|j| shift.columns(&[j]).norm() <= self.radius[e]);
+                points.need(near, "contraction", "the ball of this radius does not hold the points")?;
             }
         }
         Ok(())
@@ -134,58 +164,28 @@ impl<'a> Model<'a> {
     /// Rule `hull`: the image of each vertex of the target's hull under each piece is a convex combination of vertices, so
     /// that the hulls, mapped into themselves by a contracting system, hold the attractors.
     fn hull_maps_into(&self, e: usize, images: &Node<'_>, shrinking: bool) -> Checked<()> {
-        let (own, images, pieces) = (&self.hulls[e], images.list()?, &self.shape.states[e].pieces);
-        let sums = Matrix::ones(1, own.rows, |_, _| true).times(own)?;
-        let affine = sums == Matrix::ones(1, own.cols, |_, _| true);
-        need(affine && images.len() == pieces.len(), "hull", "images of each piece, and points of sum 1, are needed")?;
-        for (piece, list) in pieces.iter().zip(&images) {
-            let (target, list) = (&self.hulls[piece.target], list.list()?);
-            let all = list.len() == target.cols && !list.is_empty();
-            need(all, "hull", "one image for each vertex of the target's hull is needed")?;
+        let (own, pieces) = (&self.hulls[e], &self.shape.states[e].pieces);
+        need(own.is_affine(), "hull", "points have the sum 1")?;
+        for (piece, list) in pieces.iter().zip(&images.exactly(pieces.len(), "hull")?) {
+            let target = &self.hulls[piece.target];
             let mut weights = vec![vec![Q::zero(); own.cols]; target.cols];
-            for (row, combination) in weights.iter_mut().zip(&list) {
+            for (row, combination) in weights.iter_mut().zip(&list.exactly(target.cols, "hull")?) {
                 let mut next = 0;
                 for term in combination.list()? {
-                    let [index, weight] = term.fields(["vertex", "weight"])?;
+                    let [index, weight] = term.fields("vertex weight")?;
                     let (k, weight) = (index.index(own.cols)?, weight.rational()?);
                     term.need(k >= next && weight.is_positive(), "hull", "vertices ascend, weights are positive")?;
                     (row[k], next) = (weight, k + 1);
                 }
             }
-            let common = |k: usize| weights.iter().all(|w| w[k].is_positive());
-            let shrinks = !shrinking || (0..own.cols).any(common);
-            need(shrinks, "contraction", "the images under a piece have no vertex in common")?;
+            let common = (0..own.cols).any(|k| weights.iter().all(|w| w[k].is_positive()));
+            need(common || !shrinking, "contraction", "the images under a piece have no vertex in common")?;
             let weights = Matrix::from_rows(own.cols, &weights).transpose();
-            let sums = Matrix::ones(1, own.cols, |_, _| true).times(&weights)?;
-            let one = sums == Matrix::ones(1, target.cols, |_, _| true);
-            need(one, "hull", "the weights do not add up to 1")?;
+            need(weights.is_affine() && target.cols > 0, "hull", "the weights do not add up to 1, or there are none")?;
             let combined = own.times(&weights)?;
             need(piece.op.times(target)? == combined, "hull", "an image is not this convex combination")?;
         }
         Ok(())
-    }
-
-    /// Checks a tree below a word from `from` to `end` with its product.
-    fn contracts(&self, from: usize, end: usize, product: &Matrix, tree: &Json) -> Checked<()> {
-        match tree {
-            Json::List(children) if children.len() == self.shape.states[end].pieces.len() => {
-                for (piece, child) in self.shape.states[end].pieces.iter().zip(children) {
-                    self.contracts(from, piece.target, &product.times(&piece.op)?, child)?;
-                }
-                Ok(())
-            }
-            Json::Text(leaf) if leaf == "." => {
-                let radii = bits(&self.radius[end]) + bits(&self.radius[from]);
-                spend(product.rows * product.cols * product.cols + 64, product.bits() + radii)?;
-                let tau = dobrushin(product);
-                need(tau < Q::one(), "contraction", "a word of the code does not contract")?;
-                let shift = product.times(&self.spaces.of(end)?.base)?.minus(&self.spaces.of(from)?.base);
-                let norm = Q::new(shift.data.iter().map(Signed::abs).sum(), shift.den);
-                let holds = norm + tau * &self.radius[end] <= self.radius[from];
-                need(holds, "contraction", "the ball of this radius does not hold the image of a ball")
-            }
-            _ => reject("contraction", "", "a code is a tree with one child for each letter and \".\" at its leaves"),
-        }
     }
 
     /// Functionals on the germ's quotient, given over a number field, as rows on points.
@@ -210,7 +210,7 @@ impl<'a> Model<'a> {
     pub fn rows(&self, germ: &Germ, on_quotient: &Matrix, errors: Vec<Q>) -> Checked<Functionals> {
         let rows = on_quotient.times(&germ.chart)?;
         let at_fixed = rows.times(&germ.fixed)?;
-        Ok(Functionals { rows: rows.minus(&at_fixed.times(&Matrix::ones(1, rows.cols, |_, _| true))?), errors })
+        Ok(Functionals { rows: rows.minus(&at_fixed.times(&Matrix::row_of_ones(rows.cols))?), errors })
     }
 
     /// Whether a functional, given by its row on the points of a state, keeps a sign on the attractor of the state.
@@ -240,60 +240,32 @@ impl<'a> Model<'a> {
         part: Option<Position>,
         node: &Node<'_>,
     ) -> Checked<Vec<Cell>> {
-        let items = node.list()?;
         let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
-        let all = items.len() == pieces.len();
-        node.need(all, "cover", &format!("{} pieces of the ring are seen here", pieces.len()))?;
         let mut cells = Vec::new();
-        for (item, piece) in items.iter().zip(pieces) {
-            let [word, tree] = item.fields(["piece", "cells"])?;
+        for (item, piece) in node.exactly(pieces.len(), "cover")?.iter().zip(pieces) {
+            let [word, tree] = item.fields("piece cells")?;
             let same = word.word()? == piece.word;
-            word.need(same, "cover", &format!("the piece {:?} of the ring is expected here", piece.word))?;
-            let moved = functionals.rows.times(&piece.op)?;
-            let covered = self.covers(&moved, &functionals.errors, piece.end, tree.value, &mut |functional, sign| {
+            word.need(same, "cover", format_args!("the piece {:?} of the ring is expected here", piece.word))?;
+            let mut leaf = |rows: &Matrix, state: usize, leaf: &str| {
+                let named = (0..rows.rows).flat_map(|k| [(k, 1, format!("+{k}")), (k, -1, format!("-{k}"))]);
+                let Some((functional, sign, _)) = named.into_iter().find(|(_, _, name)| name == leaf) else {
+                    return reject("cover", "a leaf is a sign and the index of a functional, such as \"+0\"");
+                };
+                let keeps = self.keeps(rows, functional, &functionals.errors[functional], state, sign)?;
                 cells.push(Cell { position: piece.position, functional, sign });
-            });
-            at(&tree.place, covered)?;
+                need(keeps, "cover", "a functional does not keep the sign of its cell")
+            };
+            tree.at(self.leaves(&functionals.rows.times(&piece.op)?, piece.end, tree.value, "cover", &mut leaf))?;
         }
         Ok(cells)
-    }
-
-    fn covers(
-        &self,
-        rows: &Matrix,
-        errors: &[Q],
-        state: usize,
-        tree: &Json,
-        found: &mut dyn FnMut(usize, i32),
-    ) -> Checked<()> {
-        match tree {
-            Json::List(children) if children.len() == self.shape.states[state].pieces.len() => {
-                for (piece, child) in self.shape.states[state].pieces.iter().zip(children) {
-                    self.covers(&rows.times(&piece.op)?, errors, piece.target, child, found)?;
-                }
-                Ok(())
-            }
-            Json::Text(leaf) => {
-                let named = (0..rows.rows).flat_map(|k| [(k, 1, format!("+{k}")), (k, -1, format!("-{k}"))]);
-                let Some((k, sign, _)) = named.into_iter().find(|(_, _, name)| name == leaf) else {
-                    return reject("cover", "", "a leaf is a sign and the index of a functional, such as \"+0\"");
-                };
-                let keeps = self.keeps(rows, k, &errors[k], state, sign)?;
-                need(keeps, "cover", "a functional does not keep the sign of its cell")?;
-                found(k, sign);
-                Ok(())
-            }
-            _ => reject("cover", "", "cells form a tree with one child for each letter"),
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::{Kind, Piece, State};
     use super::*;
-    use crate::number::whole;
-    use crate::poly::Interval;
-    use crate::shape::{Kind, Piece, State};
+    use crate::base::whole;
 
     fn row(entries: &[i64]) -> Matrix {
         Matrix::new(1, entries.len(), &entries.iter().map(|&x| whole(x)).collect::<Vec<_>>())
@@ -334,7 +306,7 @@ mod tests {
         let germ = Germ { state: 0, prefix_sign: 1, turn: 1, fixed, chart, linear, view, ring: Vec::new() };
         // The root of 2 lies within 1/2 of 3/2; two points of the ball differ by at most 6, their chart by 6.
         let by_root = Field::companion(&[-2, 0, 1].map(whole));
-        let root = Field { interval: Interval { lo: whole(1), hi: whole(2) }, by_root };
+        let root = Field { interval: [whole(1), whole(2)], by_root };
         let found = ball.functionals(&germ, &root, &[&row(&[0, 1])]).unwrap();
         assert_eq!(found.errors, [whole(3)]);
     }

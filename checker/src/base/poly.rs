@@ -1,34 +1,23 @@
 //! Real number fields with a chosen embedding, interval enclosures, and the count of roots in a disc.
 
-use crate::Checked;
-use crate::json::Node;
-use crate::matrix::{Matrix, primitive};
-use crate::number::{Q, spend};
+use super::{Checked, Matrix, Node, Q, primitive, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 /// Largest degree of a number field.
 pub const MAX_DEGREE: usize = 64;
 
-/// A closed interval with rational ends.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Interval {
-    /// Lower end.
-    pub lo: Q,
-    /// Upper end.
-    pub hi: Q,
+/// A closed interval: its lower and its upper end.
+pub type Interval = [Q; 2];
+
+/// The interval that holds only `x`.
+fn point(x: &Q) -> Interval {
+    [x.clone(), x.clone()]
 }
 
-impl Interval {
-    /// The interval that holds only `x`.
-    pub fn point(x: &Q) -> Self {
-        Self { lo: x.clone(), hi: x.clone() }
-    }
-
-    /// The common sign of all members, `0` where there is none or it is 0.
-    pub fn sign(&self) -> i32 {
-        if self.lo.is_positive() { 1 } else { -i32::from(self.hi.is_negative()) }
-    }
+/// The sign of a number that lies between two others, 0 where it is not seen or 0.
+fn sign_between<T: Signed>(lo: &T, hi: &T) -> i32 {
+    if lo.is_positive() { 1 } else { -i32::from(hi.is_negative()) }
 }
 
 /// The least and the greatest product.
@@ -58,7 +47,7 @@ impl Enclosed {
 
     /// The sign of an entry, 0 where it is not seen or 0.
     pub fn sign(&self, k: usize) -> i32 {
-        if self.lo.data[k].is_positive() { 1 } else { -i32::from(self.hi.data[k].is_negative()) }
+        sign_between(&self.lo.data[k], &self.hi.data[k])
     }
 
     /// Whether the sign of some entry is seen.
@@ -85,7 +74,7 @@ impl Enclosed {
 /// Enclosures of the values on a rectangle (its real and its imaginary side) of the polynomials whose coefficients, lowest
 /// first, are the rows of a matrix: real and imaginary parts over one denominator (Horner's scheme, in integers).
 pub fn values(rows: &Matrix, x: &Interval, y: &Interval) -> Checked<[Enclosed; 2]> {
-    let ends = Matrix::new(2, 2, &[x.lo.clone(), x.hi.clone(), y.lo.clone(), y.hi.clone()]);
+    let ends = Matrix::new(2, 2, &[x.as_slice(), y].concat());
     spend(8 * rows.data.len() * rows.cols * rows.cols, rows.bits() + ends.bits())?;
     let side = |k: usize| [ends.data[2 * k].clone(), ends.data[2 * k + 1].clone()];
     let (x, y) = (side(0), side(1));
@@ -108,12 +97,16 @@ pub fn values(rows: &Matrix, x: &Interval, y: &Interval) -> Checked<[Enclosed; 2
     Ok([0, 1].map(|part| Enclosed { lo: column(part, 0), hi: column(part, 1) }))
 }
 
+/// The derivative of a polynomial (a row, lowest coefficient first), as long as the polynomial.
+fn derivative(p: &Matrix) -> Matrix {
+    let data = p.data.iter().enumerate().skip(1).map(|(k, c)| c * k).chain([BigInt::zero()]).collect();
+    Matrix { data, ..p.clone() }
+}
+
 /// Whether a polynomial of degree `n` (a row) is seen to have a root within `error` of a point `z` of the plane: some root is
 /// nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`.
 pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Checked<bool> {
-    let slope = p.data.iter().enumerate().skip(1).map(|(k, c)| c * k).chain([BigInt::zero()]).collect();
-    let both = p.stack(&Matrix { data: slope, ..p.clone() });
-    let [re, im] = values(&both, &Interval::point(&z[0]), &Interval::point(&z[1]))?;
+    let [re, im] = values(&p.stack(&derivative(p)), &point(&z[0]), &point(&z[1]))?;
     let square = |k: usize| &re.lo.data[k] * &re.lo.data[k] + &im.lo.data[k] * &im.lo.data[k];
     let (far, degree) = (error.numer(), error.denom() * (p.cols - 1));
     // Where the derivative is 0, this says that z is a root.
@@ -133,34 +126,31 @@ pub struct Field {
 impl Field {
     /// The rational numbers, `θ` being the number given.
     pub fn rational(x: &Q) -> Self {
-        Self { interval: Interval::point(x), by_root: Matrix::new(1, 1, std::slice::from_ref(x)) }
+        Self { interval: point(x), by_root: Matrix::new(1, 1, std::slice::from_ref(x)) }
     }
 
     /// Reads `polynomial` (monic; it need not be irreducible) and `interval` and checks that there is one root in it.
     pub fn read(polynomial: &Node<'_>, interval: &Node<'_>) -> Checked<Self> {
-        let m = Self::monic(polynomial, MAX_DEGREE)?;
-        let d = m.len() - 1;
-        let ends = interval.vector(2)?;
-        if d == 1 {
-            interval.need(ends[0] == ends[1] && ends[0] == -&m[0], "field", "both ends must be the rational root")?;
+        let (m, ends) = (Self::monic(polynomial, MAX_DEGREE)?, interval.vector(2)?);
+        let place = [ends[0].clone(), ends[1].clone()];
+        if m.len() == 2 {
+            interval.need(ends == [-&m[0], -&m[0]], "field", "both ends must be the rational root")?;
             return Ok(Self::rational(&ends[0]));
         }
-        let row = Matrix::new(1, d + 1, &m);
-        let value = |x: &Q| Self::real(&row, &Interval::point(x)).map(|v| v.sign(0));
+        let row = Matrix::new(1, m.len(), &m);
+        let value = |x: &Q| Ok(Self::real(&row, &point(x))?.sign(0));
         let changes = ends[0] < ends[1] && value(&ends[0])? * value(&ends[1])? < 0;
         interval.need(changes, "field", "the polynomial does not change sign on the interval")?;
-        let place = Interval { lo: ends[0].clone(), hi: ends[1].clone() };
-        let slope = row.data.iter().enumerate().skip(1).map(|(k, c)| c * k).collect();
-        let monotone = Self::real(&Matrix { cols: d, data: slope, ..row }, &place)?.is_nonzero();
+        let monotone = Self::real(&derivative(&row), &place)?.is_nonzero();
         interval.need(monotone, "field", "the interval is too wide to hold one root only")?;
         Ok(Self { interval: place, by_root: Self::companion(&m) })
     }
 
     /// Reads a monic polynomial of a degree from 1 on, lowest coefficient first.
     pub fn monic(node: &Node<'_>, most: usize) -> Checked<Vec<Q>> {
-        let m = node.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
-        let monic = (2..=most + 1).contains(&m.len()) && m.last().is_some_and(Q::is_one);
-        node.need(monic, "field", &format!("a monic polynomial of degree 1 to {most} is needed"))?;
+        let m = node.each(Node::rational)?;
+        let monic = (2..=most + 1).contains(&m.len()) && m[m.len() - 1].is_one();
+        node.need(monic, "field", format_args!("a monic polynomial of degree 1 to {most} is needed"))?;
         Ok(m)
     }
 
@@ -182,14 +172,13 @@ impl Field {
 
     /// Reads `count` elements, polynomials of degree below `degree`, as rows of coefficients.
     pub fn coordinates(degree: usize, node: &Node<'_>, count: usize) -> Checked<Matrix> {
-        let items = node.list()?;
-        node.need(items.len() == count, "format", "a vector of another length is needed here")?;
+        let items = node.exactly(count, "format")?;
         let entries = items.iter().map(|item| Self::coefficients(degree, item)).collect::<Checked<Vec<_>>>()?;
         Ok(Matrix::from_rows(degree, &entries))
     }
 
     fn coefficients(degree: usize, node: &Node<'_>) -> Checked<Vec<Q>> {
-        let mut element = node.list()?.iter().map(Node::rational).collect::<Result<Vec<Q>, _>>()?;
+        let mut element = node.each(Node::rational)?;
         let fits = element.len() <= degree && element.last().is_none_or(|c| !c.is_zero());
         node.need(fits, "format", "an element is a polynomial of lower degree without leading zeros")?;
         element.resize(degree, Q::zero());
@@ -201,37 +190,34 @@ impl Field {
         Ok(Matrix::new(1, self.degree(), &Self::coefficients(self.degree(), node)?))
     }
 
-    /// Whether an element is the root of `m` by which `number` is generated: it is a root, and lies in the interval of that.
-    pub fn is_root(&self, m: &[Q], number: &Self, x: &Matrix) -> Checked<bool> {
-        let constant = |c: &Q| self.embedded(&Matrix::new(1, 1, std::slice::from_ref(c)));
-        let mut value = constant(&Q::zero());
-        for c in m.iter().rev() {
-            value = self.dot(&value, x)?.plus(&Q::one(), &constant(c));
+    /// Whether an element is the root by which another number is generated: a root of its polynomial, in its interval.
+    pub fn is_root(&self, number: &Self, x: &Matrix) -> Checked<bool> {
+        let (d, one) = (number.degree(), self.embedded(&Matrix::identity(1)));
+        // The last row of the companion matrix holds the coefficients but for the sign.
+        let mut value = one.clone();
+        for k in (0..d).rev() {
+            value = self.dot(&value, x)?.plus(&-number.by_root.at(d - 1, k), &one);
         }
-        let (place, at) = (&number.interval, self.enclose(x)?);
-        let inside = place.lo <= at.lo.at(0, 0) && at.hi.at(0, 0) <= place.hi;
+        let ([lo, hi], at) = (&number.interval, self.enclose(x)?);
+        let inside = *lo <= at.lo.at(0, 0) && at.hi.at(0, 0) <= *hi;
         // Of a polynomial of degree 1 there is no other root.
-        Ok(value.is_zero() && (inside || m.len() == 2))
+        Ok(value.is_zero() && (inside || d == 1))
     }
 
     /// The vector of these rational numbers (a column) in the field.
     pub fn embedded(&self, column: &Matrix) -> Matrix {
-        let den = column.den.clone();
-        let zeros = || std::iter::repeat_n(BigInt::zero(), self.degree() - 1);
-        let data = column.data.iter().flat_map(|x| std::iter::once(x.clone()).chain(zeros())).collect();
-        Matrix { rows: column.rows, cols: self.degree(), data, den }
+        column.beside(&Matrix::zeros(column.rows, self.degree() - 1))
     }
 
     /// The element `Σ a_k b_k`.
     pub fn dot(&self, a: &Matrix, b: &Matrix) -> Checked<Matrix> {
         let products = a.transpose().times(b)?;
         let d = self.degree();
-        let mut sum = Matrix::ones(1, d, |_, _| false);
+        let mut sum = Matrix::zeros(1, d);
         for k in (0..2 * d - 1).rev() {
-            let mut coefficient = Matrix::ones(1, d, |_, _| false);
-            coefficient.data[0] =
-                (0..d).filter(|&i| (i..i + d).contains(&k)).map(|i| &products.data[i * d + k - i]).sum();
-            coefficient.den = products.den.clone();
+            let mut coefficient = Matrix { den: products.den.clone(), ..Matrix::zeros(1, d) };
+            let terms = (0..d).filter(|&i| (i..i + d).contains(&k));
+            coefficient.data[0] = terms.map(|i| &products.data[i * d + k - i]).sum();
             sum = sum.times(&self.by_root)?.plus(&Q::one(), &coefficient);
         }
         Ok(sum)
@@ -244,8 +230,13 @@ impl Field {
 
     /// Enclosures of real values.
     fn real(rows: &Matrix, x: &Interval) -> Checked<Enclosed> {
-        let [re, _] = values(rows, x, &Interval::point(&Q::zero()))?;
+        let [re, _] = values(rows, x, &point(&Q::zero()))?;
         Ok(re)
+    }
+
+    /// The sign of `θ`, 0 where it is not seen.
+    pub fn root_sign(&self) -> i32 {
+        sign_between(&self.interval[0], &self.interval[1])
     }
 
     /// The sign of an element at `θ`, 0 where it is not seen.
@@ -275,7 +266,7 @@ pub fn roots_in_disc(p: &[BigInt]) -> Checked<Option<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::whole;
+    use crate::base::whole;
 
     /// `Π (b z − a)`, a power of `-1` and a factor left out.
     fn inside(roots: &[(i64, i64)]) -> Option<usize> {
@@ -306,14 +297,14 @@ mod tests {
 
     #[test]
     fn horner_encloses() {
-        let x = Interval { lo: Q::new((-1).into(), 2.into()), hi: whole(2) };
+        let x = [Q::new((-1).into(), 2.into()), whole(2)];
         let p = [1, -3, 2].map(|c| whole(c) / whole(5));
         let value = Field::real(&Matrix::new(1, 3, &p), &x).unwrap();
         // ((2 x − 3) x + 1) / 5: 2 x − 3 is in [−4, 1], times x in [−8, 2].
         assert_eq!((value.lo.at(0, 0), value.hi.at(0, 0)), (whole(-7) / whole(5), whole(3) / whole(5)));
         // (x + iy)² + i-free terms: x² − y² + 1 and 2xy on [−1/2, 2] × [1, 3].
         let square = Matrix::new(1, 3, &[whole(1), whole(0), whole(1)]);
-        let [re, im] = values(&square, &x, &Interval { lo: whole(1), hi: whole(3) }).unwrap();
+        let [re, im] = values(&square, &x, &[whole(1), whole(3)]).unwrap();
         assert_eq!([re.lo.at(0, 0), re.hi.at(0, 0)], [whole(-9), whole(4)]);
         assert_eq!([im.lo.at(0, 0), im.hi.at(0, 0)], [whole(-3), whole(12)]);
     }

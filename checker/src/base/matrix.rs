@@ -1,9 +1,10 @@
 //! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
 
-use crate::Checked;
-use crate::number::{Q, charge, gcd, lcm, ratio, spend};
+use super::number::{gcd, lcm, ratio};
+use super::{Checked, Q, charge, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
+use std::ops::Range;
 
 /// A matrix, stored by rows; a point is a matrix with one column.
 #[derive(Debug, Clone)]
@@ -49,9 +50,19 @@ impl Matrix {
         Self::ones(n, n, |i, j| i == j)
     }
 
+    /// The matrix with 0 everywhere.
+    pub fn zeros(rows: usize, cols: usize) -> Self {
+        Self::ones(rows, cols, |_, _| false)
+    }
+
+    /// The row of `n` ones.
+    pub fn row_of_ones(n: usize) -> Self {
+        Self::ones(1, n, |_, _| true)
+    }
+
     /// The matrix with no rows.
     pub fn empty(cols: usize) -> Self {
-        Self::ones(0, cols, |_, _| false)
+        Self::zeros(0, cols)
     }
 
     /// The entry in row `i` and column `j`.
@@ -84,6 +95,28 @@ impl Matrix {
     pub fn transpose(&self) -> Self {
         let data = (0..self.data.len()).map(|k| self.data[k % self.rows * self.cols + k / self.rows].clone());
         Self { rows: self.cols, cols: self.rows, data: data.collect(), den: self.den.clone() }
+    }
+
+    /// The submatrix of these ranges of rows and columns.
+    pub fn part(&self, rows: Range<usize>, cols: Range<usize>) -> Self {
+        let data = rows.clone().flat_map(|i| self.integers(i)[cols.clone()].to_vec()).collect();
+        Self { rows: rows.len(), cols: cols.len(), data, den: self.den.clone() }
+    }
+
+    /// The sum of the absolute values of all entries.
+    pub fn norm(&self) -> Q {
+        ratio(self.data.iter().map(Signed::abs).sum(), self.den.clone())
+    }
+
+    /// Whether every column adds up to 1.
+    pub fn is_affine(&self) -> bool {
+        let sum = |j: usize| (0..self.rows).map(|i| &self.data[i * self.cols + j]).sum::<BigInt>();
+        (0..self.cols).all(|j| sum(j) == self.den)
+    }
+
+    /// Whether some entry is negative.
+    pub fn has_negative(&self) -> bool {
+        self.data.iter().any(Signed::is_negative)
     }
 
     /// Whether all entries are 0.
@@ -144,6 +177,28 @@ impl Matrix {
         Self { rows: self.rows + below.rows, cols: self.cols, data, den }
     }
 
+    /// The columns of `self` followed by those of `right`.
+    pub fn beside(&self, right: &Self) -> Self {
+        self.transpose().stack(&right.transpose()).transpose()
+    }
+
+    /// Whether a symmetric matrix is positive definite, or only semidefinite where `strictly` is false: elimination without
+    /// exchanges.
+    pub fn is_positive(&self, strictly: bool) -> Checked<bool> {
+        let mut a = self.data.clone();
+        for n in (1..=self.rows).rev() {
+            spend(2 * n * n, a.iter().map(BigInt::bits).max().unwrap_or(0))?;
+            if a[0].is_negative() || a[0].is_zero() && (strictly || a[..n].iter().any(|x| !x.is_zero())) {
+                return Ok(false);
+            }
+            // The row and the column of a pivot 0 are 0.
+            let pivot = if a[0].is_zero() { BigInt::one() } else { a[0].clone() };
+            let rest = (1..n).flat_map(|i| (1..n).map(move |j| (i, j)));
+            a = primitive(rest.map(|(i, j)| &pivot * &a[i * n + j] - &a[i * n] * &a[j]).collect());
+        }
+        Ok(true)
+    }
+
     /// The nonzero rows of the reduced row echelon form, and the columns of their leading ones.
     pub fn echelon(&self) -> Checked<(Self, Vec<usize>)> {
         let mut rows: Vec<Vec<BigInt>> = (0..self.rows).map(|i| primitive(self.integers(i).to_vec())).collect();
@@ -202,21 +257,18 @@ impl Matrix {
         (0..exponent).try_fold(Self::identity(self.rows), |p, _| p.times(self))
     }
 
-    /// The point with coordinate sum 1 that spans the kernel of `self − 1`, if the kernel is a line and there is one.
+    /// The only solution `X` of `self X = right`, if there is exactly one.
+    pub fn solve(&self, right: &Self) -> Checked<Option<Self>> {
+        let n = self.cols;
+        let (rows, pivots) = self.beside(right).echelon()?;
+        Ok(pivots.into_iter().eq(0..n).then(|| rows.part(0..n, n..n + right.cols)))
+    }
+
+    /// The only point with coordinate sum 1 that is mapped to itself, if there is exactly one.
     pub fn fixed_point(&self) -> Checked<Option<Self>> {
         let n = self.rows;
-        let (rows, pivots) = self.minus(&Self::identity(n)).echelon()?;
-        let Some(free) = (0..n).find(|j| !pivots.contains(j)).filter(|_| pivots.len() + 1 == n) else {
-            return Ok(None);
-        };
-        let mut v = vec![rows.den.clone(); n];
-        for (i, &pivot) in pivots.iter().enumerate() {
-            v[pivot] = -&rows.integers(i)[free];
-        }
-        let sum: BigInt = v.iter().sum();
-        let sign = sum.signum();
-        v.iter_mut().for_each(|x| *x *= &sign);
-        Ok(if sum.is_zero() { None } else { Some(Self { rows: n, cols: 1, data: v, den: sum.abs() }.reduced()) })
+        let equations = self.minus(&Self::identity(n)).stack(&Self::row_of_ones(n));
+        Ok(equations.solve(&Self::ones(n + 1, 1, |i, _| i == n))?.map(Self::reduced))
     }
 
     /// The same matrix over its least denominator.
@@ -260,7 +312,7 @@ pub fn primitive(mut numbers: Vec<BigInt>) -> Vec<BigInt> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::number::whole;
+    use crate::base::whole;
 
     fn matrix(rows: &[&[i64]]) -> Matrix {
         Matrix::from_rows(

@@ -1,13 +1,7 @@
 //! From branches to points: which branches a point has, and what follows for it (theory §3, §5, §9).
 
-use crate::germ::Root;
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::poly::{Field, MAX_DEGREE};
-use crate::ring::Model;
-use crate::rules::{self, Found, Line};
-use crate::shape::{Address, End, Kind};
-use crate::{Checked, Verdict, at, need, reject};
+use super::{Address, End, Found, Kind, Line, Model, Root, read_address, rules};
+use crate::base::{Checked, Field, MAX_PIECES, Matrix, Node, Verdict, need, reject, some};
 
 /// Where a point sits.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -53,28 +47,16 @@ impl Place {
     /// Reads a place.
     pub fn read(node: &Node<'_>) -> Checked<Self> {
         Ok(match node.tag("at")? {
-            "left end" => {
-                node.fields(["at"])?;
-                Self::End(End::Start)
-            }
-            "right end" => {
-                node.fields(["at"])?;
-                Self::End(End::Finish)
-            }
+            "left end" => node.fields("at").map(|[_]| Self::End(End::Start))?,
+            "right end" => node.fields("at").map(|[_]| Self::End(End::Finish))?,
             "joint" => {
-                let [_, path, left, right] = node.fields(["at", "path", "left", "right"])?;
-                let pieces = crate::case::MAX_PIECES;
+                let [_, path, left, right] = node.fields("at path left right")?;
+                let pieces = MAX_PIECES;
                 Self::Joint { path: path.word()?, left: left.index(pieces)?, right: right.index(pieces)? }
             }
-            "inside" => {
-                let [_, address] = node.fields(["at", "address"])?;
-                Self::Inside(rules::read_address(&address)?)
-            }
-            "of set" => {
-                let [_, address] = node.fields(["at", "address"])?;
-                Self::OfSet(rules::read_address(&address)?)
-            }
-            _ => return node.malformed("unknown place of a point"),
+            "inside" => node.fields("at address").and_then(|[_, a]| Ok(Self::Inside(read_address(&a)?)))?,
+            "of set" => node.fields("at address").and_then(|[_, a]| Ok(Self::OfSet(read_address(&a)?)))?,
+            _ => return node.reject("format", "unknown place of a point"),
         })
     }
 
@@ -86,17 +68,15 @@ impl Place {
                 Ok(vec![(side, end_branch(model, &[], root.state, *end)?)])
             }
             Self::Joint { path, left, right } => {
-                let state = model.shape.path(root.state, path).and_then(|p| p.last().copied());
-                let Some(state) = state else { return reject("joint", "", "a letter of the path does not exist") };
-                if !joints(model, state).contains(&(*left, *right)) {
-                    return reject("joint", "", "the pieces are no neighbours that are more than points");
-                }
+                let neighbours = self.joint(model, root.state).filter(|&(e, l, r)| joints(model, e).contains(&(l, r)));
+                let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
+                let (state, ..) = some(neighbours, "joint", why)?;
                 let branch = |letter: usize, end: End| {
                     let piece = &model.shape.states[state].pieces[letter];
                     end_branch(model, &[path, &[letter][..]].concat(), piece.target, end.in_piece(piece))
                 };
                 let (before, after) = (branch(*left, End::Finish)?, branch(*right, End::Start)?);
-                let forward = model.shape.orientation(root.state, path) > 0;
+                let forward = model.shape.orientation(root.state, path)? > 0;
                 let (first, second) = if forward { (before, after) } else { (after, before) };
                 Ok(vec![(Side::Left, first), (Side::Right, second)])
             }
@@ -109,13 +89,18 @@ impl Place {
         }
     }
 
+    /// The state and the two pieces of a joint.
+    pub fn joint(&self, model: &Model<'_>, root: usize) -> Option<(usize, usize, usize)> {
+        let Self::Joint { path, left, right } = self else { return None };
+        Some((*model.shape.path(root, path).ok()?.last()?, *left, *right))
+    }
+
     /// The place of the point with a normalised address: an end, a joint, a point inside, or a point of a set.
     pub fn of_address(model: &Model<'_>, address: &Address) -> Checked<Self> {
         let shape = model.shape;
-        let unknown = || reject("word", "", "a letter of an address does not exist");
-        let Some(states) = shape.path(shape.start, &address.prefix) else { return unknown() };
+        let states = shape.path(shape.start, &address.prefix)?;
         let state = states[states.len() - 1];
-        let Some(cycle) = shape.path(state, &address.cycle) else { return unknown() };
+        let cycle = shape.path(state, &address.cycle)?;
         if states.iter().chain(&cycle).any(|&e| shape.states[e].kind != Kind::Edge) {
             return Ok(Self::OfSet(address.clone()));
         }
@@ -155,8 +140,8 @@ pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
 pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
     for &e in &model.reachable {
         for (left, right) in joints(model, e) {
-            let why = || format!("the joint of the pieces {left} and {right} of state {e} is missing");
-            node.need(listed.contains(&(e, left, right)), rule, &why())?;
+            let why = format_args!("the joint of the pieces {left} and {right} of state {e} is missing");
+            node.need(listed.contains(&(e, left, right)), rule, why)?;
         }
     }
     Ok(())
@@ -164,10 +149,8 @@ pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
     let skip = |e: usize, letter: usize| model.spaces.is_point(e, letter);
-    match model.shape.end_address(state, end, &skip) {
-        Some(address) => Ok(Address { prefix: [path, &address.prefix].concat(), ..address }),
-        None => reject("end", "", "a curve all of whose pieces are points"),
-    }
+    let address = some(model.shape.end_address(state, end, &skip), "end", "a curve all of whose pieces are points")?;
+    Ok(Address { prefix: [path, &address.prefix].concat(), ..address })
 }
 
 /// Whether the fixed point of a cycle is this end of its cell: nothing but points lies on that side, for two turns.
@@ -186,17 +169,11 @@ fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> bool {
 }
 
 impl Point {
-    /// The state and the two pieces of a joint.
-    pub fn joint(&self, model: &Model<'_>, root: usize) -> Option<(usize, usize, usize)> {
-        let Place::Joint { path, left, right } = &self.place else { return None };
-        Some((*model.shape.path(root, path)?.last()?, *left, *right))
-    }
-
     /// Reads `{"state", "point"}`: a first-level joint, seen in the visible quotient of its own state, which is returned.
     pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Checked<(usize, Self)> {
-        let [state, point] = node.fields(["state", "point"])?;
+        let [state, point] = node.fields("state point")?;
         let e = state.index(model.shape.states.len())?;
-        let space = at(&state.place, model.spaces.of(e))?;
+        let space = state.at(model.spaces.of(e))?;
         let point = Self::check(model, &Root { state: e, view: space.visible.times(&space.reading)? }, &point)?;
         let first = matches!(&point.place, Place::Joint { path, .. } if path.is_empty());
         node.need(first, rule, "a first-level joint is needed here")?;
@@ -205,27 +182,17 @@ impl Point {
 
     /// Reads a point and checks what its certificate says.
     pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Checked<Self> {
-        let [place_node, verdict, kind, rule, common, branches] =
-            node.fields(["place", "verdict", "kind", "rule", "common", "branches"])?;
-        let place = Place::read(&place_node)?;
-        let addresses = at(&place_node.place, place.branches(model, root))?;
-        let items = branches.list()?;
-        if items.len() != addresses.len() {
-            return reject("point", &branches.place, format!("the point has {} branches", addresses.len()));
-        }
+        let [at, verdict, kind, rule, common, branches] = node.fields("place verdict kind rule common branches")?;
+        let place = Place::read(&at)?;
+        let addresses = at.at(place.branches(model, root))?;
         let mut found: Vec<(Side, Option<Found>)> = Vec::new();
-        for ((side, address), item) in addresses.iter().zip(&items) {
-            let result = match item.value {
-                crate::json::Json::Null => None,
-                _ => Some(rules::check(model, root, address, item)?),
-            };
-            found.push((*side, result));
+        for ((side, address), item) in addresses.iter().zip(&branches.exactly(addresses.len(), "point")?) {
+            let seen = if item.is_null() { None } else { Some(rules::check(model, root, address, item)?) };
+            found.push((*side, seen));
         }
-        let point = at(&node.place, conclude(place, rule.text()?, &common, root.view.rows, &found))?;
-        if verdict.text()? != point.verdict.word() {
-            return reject("point", &verdict.place, format!("what follows is \"{}\"", point.verdict.word()));
-        }
-        kind.refuse(kind.text()? != point.kind, "point", format!("the kind is \"{}\"", point.kind))?;
+        let point = node.at(conclude(place, rule.text()?, &common, root.view.rows, &found))?;
+        verdict.follows("point", point.verdict.word())?;
+        kind.follows("point", point.kind)?;
         Ok(point)
     }
 }
@@ -239,26 +206,26 @@ fn conclude(
     dimension: usize,
     found: &[(Side, Option<Found>)],
 ) -> Checked<Point> {
-    let (mut lines, mut directions, mut planes): (Vec<(Side, &Line)>, Vec<&Line>, _) = (Vec::new(), Vec::new(), 0);
-    for (side, result) in found {
-        match result {
-            Some(Found::Line(line)) => lines.push((*side, line)),
-            Some(Found::Direction(line)) => directions.push(line),
-            Some(Found::Plane) => planes += 1,
-            None => {}
+    let planes = found.iter().filter(|(_, found)| matches!(found, Some(Found::Plane))).count();
+    let (mut lines, mut contained) = (Vec::new(), Vec::new());
+    for (side, found) in found {
+        if let Some(Found::Line(line)) = found {
+            lines.push((*side, line));
+        }
+        if let Some(Found::Line(line) | Found::Direction(line)) = found {
+            contained.push(line);
         }
     }
     let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
     match rule {
         "plane" => {
-            let alone = planes == 1 && lines.is_empty() && directions.is_empty() && common.is_null();
+            let alone = planes == 1 && contained.is_empty() && common.is_null();
             need(alone, "plane", "one branch with a plane, and nothing else, is needed")?;
             refuted(place, "none")
         }
         "differ" => {
-            let contained: Vec<&Line> = lines.iter().map(|(_, line)| *line).chain(directions).collect();
             let ([a, b], true) = (&contained[..], common.is_null() && found.len() == 2) else {
-                return reject("differ", "", "two branches with a line each, and nothing else, are needed");
+                return reject("differ", "two branches with a line each, and nothing else, are needed");
             };
             need(a.differs(b), "differ", "the two lines are not seen to be different")?;
             let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
@@ -268,13 +235,14 @@ fn conclude(
             need(lines.len() == found.len(), "point", "every branch needs a proved line")?;
             let (relations, common) = relations(common, dimension, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
-            for ((side, line), relation) in lines.iter().zip(relations) {
-                add_rays(*side, line, relation, &mut left, &mut right);
+            for ((side, line), factor) in lines.iter().zip(relations) {
+                left.extend(line.left.iter().filter(|_| *side != Side::Right).map(|s| s * factor));
+                right.extend(line.right.iter().filter(|_| *side != Side::Left).map(|s| s * factor));
             }
             let kind = kind(&place, &left, &right);
             Ok(Point { place, verdict: Verdict::Proved, kind, common })
         }
-        _ => reject("point", "", "the rule is \"line\", \"differ\" (two branches) or \"plane\""),
+        _ => reject("point", "the rule is \"line\", \"differ\" (two branches) or \"plane\""),
     }
 }
 
@@ -282,44 +250,31 @@ fn conclude(
 /// line `common` may be `null`; otherwise it is a rational vector, or a list with one algebraic number for each coordinate,
 /// each the root of a polynomial in an interval, as elements of the fields of the lines.
 fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Checked<(Vec<i32>, Option<Matrix>)> {
-    let shared = |ray: Option<i32>| match ray {
-        Some(sign) => Ok(sign),
-        None => reject("line", &common.place, "the lines are not seen to have this vector in common"),
-    };
+    let shared = |ray| common.some(ray, "line", "the lines are not seen to have this vector in common");
     if common.is_null() {
         return Ok((vec![shared((lines.len() == 1).then_some(1))?], None));
     }
-    let items = common.list()?;
-    if items.iter().all(|item| item.text().is_ok()) {
-        let vector = Matrix::new(dimension, 1, &common.vector(dimension)?);
-        let along = |(_, line): &(Side, &Line)| shared(line.along(&line.field.embedded(&vector))?);
-        return Ok((lines.iter().map(along).collect::<Checked<_>>()?, Some(vector)));
-    }
-    common.need(items.len() == dimension, "format", "one number for each coordinate is needed here")?;
     let mut vectors: Vec<Matrix> = lines.iter().map(|(_, line)| Matrix::empty(line.field.degree())).collect();
-    for item in &items {
-        let [polynomial, interval, elements] = item.fields(["polynomial", "interval", "elements"])?;
-        let m = Field::monic(&polynomial, MAX_DEGREE)?;
+    let rational = if common.list()?.iter().all(|item| item.text().is_ok()) {
+        Some(Matrix::new(dimension, 1, &common.vector(dimension)?))
+    } else {
+        None
+    };
+    for item in if rational.is_none() { common.exactly(dimension, "format")? } else { Vec::new() } {
+        let [polynomial, interval, elements] = item.fields("polynomial interval elements")?;
         let number = Field::read(&polynomial, &interval)?;
-        let list = elements.list()?;
-        elements.need(list.len() == lines.len(), "format", "one element for each branch is needed here")?;
-        for ((vector, element), (_, line)) in vectors.iter_mut().zip(&list).zip(lines) {
-            let x = line.field.element(element)?;
-            element.need(line.field.is_root(&m, &number, &x)?, "line", "the element is not this root")?;
+        let elements = elements.exactly(lines.len(), "format")?;
+        for ((vector, element), (_, line)) in vectors.iter_mut().zip(elements).zip(lines) {
+            let x = line.field.element(&element)?;
+            element.need(line.field.is_root(&number, &x)?, "line", "the element is not this root")?;
             *vector = vector.stack(&x);
         }
     }
-    let along = |((_, line), vector): (&(Side, &Line), &Matrix)| shared(line.along(vector)?);
-    Ok((lines.iter().zip(&vectors).map(along).collect::<Checked<_>>()?, None))
-}
-
-fn add_rays(side: Side, line: &Line, factor: i32, left: &mut Vec<i32>, right: &mut Vec<i32>) {
-    if side != Side::Right {
-        left.extend(line.left.iter().map(|s| s * factor));
+    let mut signs = Vec::new();
+    for ((_, line), vector) in lines.iter().zip(vectors) {
+        signs.push(shared(line.along(&rational.as_ref().map_or(vector, |v| line.field.embedded(v)))?)?);
     }
-    if side != Side::Left {
-        right.extend(line.right.iter().map(|s| s * factor));
-    }
+    Ok((signs, rational))
 }
 
 /// The kind from the rays of the two sides.

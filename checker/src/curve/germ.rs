@@ -1,9 +1,7 @@
 //! The germ of one branch `u w^ω`: its visible quotient `Y = V/N_G`, the map `L` on it, and its ring (theory §3, §9).
 
-use crate::matrix::Matrix;
-use crate::ring::Model;
-use crate::shape::{Address, Kind};
-use crate::{Checked, need, reject};
+use super::{Address, Kind, Model};
+use crate::base::{Checked, Matrix, need};
 
 /// Where a piece of the ring lies with respect to the germ's point, in the order of the germ's state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,9 +60,7 @@ impl Germ {
     pub fn new(model: &Model<'_>, root: &Root, address: &Address) -> Checked<Self> {
         let shape = model.shape;
         let (prefix, state) = shape.product(root.state, &address.prefix)?;
-        let (cycle, back) = shape.product(state, &address.cycle)?;
-        need(back == state && !address.cycle.is_empty(), "word", "the cycle does not return to its state")?;
-        let Some(fixed) = cycle.fixed_point()? else { return reject("fixed-point", "", "a fixed point is not unique") };
+        let (cycle, fixed) = shape.cycle(state, &address.cycle)?;
         let space = model.spaces.of(state)?;
         let view_on_v = root.view.times(&prefix)?.times(&space.basis)?;
         let linear_v = model.spaces.linear(&cycle, state, state)?;
@@ -75,8 +71,8 @@ impl Germ {
         let linear = rows.times(&linear_v.columns(&pivots))?;
         let view = view_on_v.columns(&pivots);
         let ordered = shape.states[state].kind == Kind::Edge;
-        let turn = if ordered { shape.orientation(state, &address.cycle) } else { 1 };
-        let prefix_sign = shape.orientation(root.state, &address.prefix);
+        let turn = if ordered { shape.orientation(state, &address.cycle)? } else { 1 };
+        let prefix_sign = shape.orientation(root.state, &address.prefix)?;
         let mut germ = Self { state, prefix_sign, turn, fixed, chart, linear, view, ring: Vec::new() };
         germ.ring = germ.ring_of(model, &address.cycle)?;
         Ok(germ)
@@ -101,22 +97,19 @@ impl Germ {
         for (i, &turn) in cycle.iter().enumerate() {
             let state = &model.shape.states[at];
             let mut level: Vec<(usize, Matrix)> = Vec::new();
+            let (ordered, cycled) = (state.kind == Kind::Edge, &state.pieces[turn]);
             for (letter, piece) in state.pieces.iter().enumerate().filter(|(j, _)| *j != turn) {
                 let op = product.times(&piece.op)?;
-                let ordered = state.kind == Kind::Edge;
                 let position = match (ordered, (letter < turn) == forward) {
                     (false, _) => Position::Unordered,
                     (true, true) => Position::Before,
                     (true, false) => Position::After,
                 };
-                let cycled = &state.pieces[turn];
-                let repeated = !ordered
-                    && ((cycled.target == piece.target && cycled.op == piece.op)
-                        || level.contains(&(piece.target, op.clone())));
+                let as_cycle = cycled.target == piece.target && cycled.op == piece.op;
+                let repeated = !ordered && (as_cycle || level.contains(&(piece.target, op.clone())));
                 let space = model.spaces.of(piece.target)?;
                 let image = op.times(&space.base)?;
-                let is_fixed = model.spaces.is_point(at, letter) && image == self.fixed;
-                if repeated || is_fixed {
+                if repeated || model.spaces.is_point(at, letter) && image == self.fixed {
                     continue;
                 }
                 let collapses = falls.times(&image.minus(&self.fixed))?.is_zero()
@@ -127,9 +120,9 @@ impl Germ {
                 }
                 level.push((piece.target, op));
             }
-            product = product.times(&state.pieces[turn].op)?;
-            forward ^= state.pieces[turn].reversed;
-            at = state.pieces[turn].target;
+            product = product.times(&cycled.op)?;
+            forward ^= cycled.reversed;
+            at = cycled.target;
         }
         Ok(kept)
     }

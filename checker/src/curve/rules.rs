@@ -1,14 +1,7 @@
 //! The rules for one branch: what its certificate proves about the tangent subspace of its germ.
 
-use crate::germ::{Germ, Position, Root};
-use crate::json::Node;
-use crate::matrix::Matrix;
-use crate::number::Q;
-use crate::poly::{Enclosed, Field};
-use crate::ring::{Cell, Model};
-use crate::shape::Address;
-use crate::spectrum::{Chain, Top, residual, span_a_plane};
-use crate::{Checked, at, need, reject};
+use super::{Address, Chain, Germ, Model, Position, Root, Top, residual, span_a_plane};
+use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, need};
 use num_traits::Zero;
 
 /// A proved tangent line, or a line in the tangent subspace.
@@ -37,9 +30,10 @@ pub enum Found {
 
 /// Reads an address as an object with prefix and cycle.
 pub fn read_address(node: &Node<'_>) -> Checked<Address> {
-    let [prefix, cycle] = node.fields(["prefix", "cycle"])?;
+    let [prefix, cycle] = node.fields("prefix cycle")?;
     let address = Address { prefix: prefix.word()?, cycle: cycle.word()? };
-    if address.cycle.is_empty() { cycle.malformed("the cycle of an address is not empty") } else { Ok(address) }
+    cycle.need(!address.cycle.is_empty(), "format", "the cycle of an address is not empty")?;
+    Ok(address)
 }
 
 /// A branch with its germ.
@@ -52,23 +46,19 @@ pub struct Branch<'a> {
 
 /// Checks the certificate of the branch with this address.
 pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Checked<Found> {
-    let germ = at(&node.place, Germ::new(model, root, address))?;
+    let germ = node.at(Germ::new(model, root, address))?;
     let branch = Branch { model, germ };
-    at(
-        &node.place,
-        match node.tag("rule")? {
-            "theorem-2" => branch.line(node, "theorem-2"),
-            "theorem-3" => branch.line(node, "theorem-3"),
-            "corollary-line" => branch.whole_line(node),
-            "corollary" => branch.corollary(node),
-            "null-point" => branch.null_point(node),
-            "sign-change" => branch.sign_change(node),
-            "orbit" => branch.orbit(node),
-            "crossing" => branch.crossing(node),
-            "direction" => branch.direction(node),
-            _ => node.malformed("unknown rule for a branch"),
-        },
-    )
+    node.at(match node.tag("rule")? {
+        rule @ ("theorem-2" | "theorem-3") => branch.line(node, rule),
+        "corollary-line" => branch.whole_line(node),
+        "corollary" => branch.corollary(node),
+        "null-point" => branch.null_point(node),
+        "sign-change" => branch.sign_change(node),
+        "orbit" => branch.orbit(node),
+        "crossing" => branch.crossing(node),
+        "direction" => branch.direction(node),
+        _ => node.reject("format", "unknown rule for a branch"),
+    })
 }
 
 /// Evidence with real top eigenvalues and exactly one longest chain.
@@ -83,14 +73,12 @@ impl Leading {
     /// Reads and checks a top of this form.
     pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
         let Top::Real { field, chains } = Top::read(node, linear)? else {
-            return reject("leading", &node.place, "a real top is needed here");
+            return node.reject("leading", "a real top is needed here");
         };
         let length = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
         let longest: Vec<usize> = (0..chains.len()).filter(|&k| chains[k].vectors.len() == length).collect();
-        match longest[..] {
-            [longest] => Ok(Self { field, chains, longest }),
-            _ => reject("leading", &node.place, "exactly one longest chain is needed here"),
-        }
+        node.need(longest.len() == 1, "leading", "exactly one longest chain is needed here")?;
+        Ok(Self { field, longest: longest[0], chains })
     }
 
     /// The vectors of the longest chain.
@@ -100,7 +88,7 @@ impl Leading {
 
     /// The sign of its eigenvalue.
     pub fn eigenvalue_sign(&self) -> i32 {
-        self.chains[self.longest].sign * self.field.interval.sign()
+        self.chains[self.longest].sign * self.field.root_sign()
     }
 
     /// `g L − λ g` for a row over the field.
@@ -129,56 +117,58 @@ impl Leading {
 }
 
 impl Branch<'_> {
-    fn leading(&self, node: &Node<'_>) -> Checked<Leading> {
-        Leading::read(node, &self.germ.linear)
+    /// A top with exactly one longest chain, and how long that is.
+    fn leading(&self, node: &Node<'_>) -> Checked<(Leading, usize)> {
+        let top = Leading::read(node, &self.germ.linear)?;
+        let length = top.vectors().len();
+        Ok((top, length))
     }
 
     /// Theorems 2 and 3.
     fn line(&self, node: &Node<'_>, rule: &str) -> Checked<Found> {
-        let [_, top, functional, cover] = node.fields(["rule", "top", "functional", "cover"])?;
-        let top = self.leading(&top)?;
-        let length = top.vectors().len();
+        let [_, top, functional, cover] = node.fields("rule top functional cover")?;
+        let (top, length) = self.leading(&top)?;
         let fits = (length == 1) == (rule == "theorem-2");
         need(fits, rule, "Theorem 2 is about chains of length 1, Theorem 3 about longer ones")?;
         let (row, pairing) = top.row(&self.germ.linear, &functional)?;
         let functional = self.model.functionals(&self.germ, &top.field, &[&row])?;
         let cells = self.model.cover(&self.germ, &functional, None, &cover)?;
+        let mut line = self.found_line(&top.field, &top.vectors()[0])?;
         // L^m x is about C(m, l) λ^(m-l) (g x / g v) v_1 with l = length - 1; m runs over all large numbers.
         let lambda = top.eigenvalue_sign();
-        let parity = if length % 2 == 0 { lambda } else { 1 };
-        let (left, right) = self.rays(&cells, lambda, pairing * parity);
-        self.found_line(&top.field, &top.vectors()[0], left, right)
-    }
-
-    /// The rays of earlier and of later points, for even and odd numbers of turns.
-    fn rays(&self, cells: &[Cell], lambda: i32, factor: i32) -> (Vec<i32>, Vec<i32>) {
-        let (mut left, mut right) = (Vec::new(), Vec::new());
+        let factor = if length % 2 == 0 { pairing * lambda } else { pairing };
         for cell in cells {
             let after = if cell.position == Position::Before { -1 } else { 1 };
+            // An even and an odd number of turns.
             for (turn, power) in [(1, 1), (self.germ.turn, lambda)] {
-                let rays = if after * turn * self.germ.prefix_sign < 0 { &mut left } else { &mut right };
-                let ray = cell.sign * factor * power;
+                let before = after * turn * self.germ.prefix_sign < 0;
+                let (rays, ray) = (if before { &mut line.left } else { &mut line.right }, cell.sign * factor * power);
                 if !rays.contains(&ray) {
                     rays.push(ray);
                 }
             }
         }
-        (left, right)
+        Ok(Found::Line(line))
     }
 
-    fn found_line(&self, field: &Field, v: &Matrix, left: Vec<i32>, right: Vec<i32>) -> Checked<Found> {
-        let vector = self.germ.view.times(v)?;
-        let values = field.enclose(&vector)?;
-        need(values.is_nonzero(), "line", "the direction is not seen to be nonzero")?;
-        Ok(Found::Line(Line { field: field.clone(), vector, values, left, right }))
+    /// The line of a vector of `Y`, seen through `G`.
+    fn found_line(&self, field: &Field, v: &Matrix) -> Checked<Line> {
+        Line::new(field, self.germ.view.times(v)?)
     }
 
     /// The corollary on a line: `dim Y = 1` and `L ≠ 0`; the rays stay open.
     fn whole_line(&self, node: &Node<'_>) -> Checked<Found> {
-        node.fields(["rule"])?;
+        let [_] = node.fields("rule")?;
         let fits = self.germ.dim() == 1 && !self.germ.linear.is_zero();
         need(fits, "corollary-line", "the visible quotient is no line, or L is 0")?;
-        self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1), Vec::new(), Vec::new())
+        Ok(Found::Line(self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1))?))
+    }
+
+    /// The corollary for one direction: `G v_1` lies in `D*`.
+    fn direction(&self, node: &Node<'_>) -> Checked<Found> {
+        let [_, top] = node.fields("rule top")?;
+        let (top, _) = self.leading(&top)?;
+        Ok(Found::Direction(self.found_line(&top.field, &top.vectors()[0])?))
     }
 
     fn plane(rule: &str, vectors: &[Enclosed]) -> Checked<Found> {
@@ -188,15 +178,9 @@ impl Branch<'_> {
 
     /// The corollary: `U ⊂ D*` and `dim G U ≥ 2`.
     fn corollary(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top] = node.fields(["rule", "top"])?;
+        let [_, top] = node.fields("rule top")?;
         let top = Top::read(&top, &self.germ.linear)?;
         Self::plane("corollary", &top.directions(&self.germ.view)?)
-    }
-
-    /// `G` is injective on `Y`.
-    fn injective(&self, rule: &str) -> Checked<()> {
-        let injective = self.germ.view.rank()? == self.germ.dim();
-        need(injective, rule, "the map into the space where the shape is looked at is not injective on the quotient")
     }
 
     /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
@@ -204,23 +188,16 @@ impl Branch<'_> {
         let address = read_address(node)?;
         let letters = self.germ.ring.iter().map(|p| p.word.len()).max().unwrap_or(0);
         let word: Vec<usize> = (0..letters).map(|k| address.letter(k)).collect();
-        let Some(piece) = self.germ.ring.iter().find(|p| word.starts_with(&p.word)) else {
-            return reject("ring", &node.place, "the address begins with no piece of the ring that is seen");
-        };
-        let point = at(&node.place, self.model.shape.point(self.germ.state, &address))?;
+        let piece = self.germ.ring.iter().find(|p| word.starts_with(&p.word));
+        let piece = node.some(piece, "ring", "the address begins with no piece of the ring that is seen")?;
+        let point = node.at(self.model.shape.point(self.germ.state, &address))?;
         Ok((self.germ.coordinates(&point)?, piece.position))
     }
 
     /// The part of the ring in which a row is positive at one point and negative at another.
-    fn changing_part(
-        &self,
-        field: &Field,
-        row: &Matrix,
-        positive: &Node<'_>,
-        negative: &Node<'_>,
-    ) -> Checked<Position> {
+    fn changing_part(&self, field: &Field, row: &Matrix, points: [&Node<'_>; 2]) -> Checked<Position> {
         let mut parts = Vec::new();
-        for (node, wanted) in [(positive, 1), (negative, -1)] {
+        for (node, wanted) in points.into_iter().zip([1, -1]) {
             let (y, part) = self.ring_point(node)?;
             parts.push(part);
             let has = field.sign(&y.transpose().times(row)?)? == wanted;
@@ -231,40 +208,44 @@ impl Branch<'_> {
         Ok(parts[0])
     }
 
+    /// What both forms of Theorem 4 need: a simple eigenvalue, and `G` injective on `Y`.
+    fn theorem_4(&self, length: usize, rule: &str) -> Checked<Found> {
+        need(length == 1, rule, "a simple eigenvalue is needed")?;
+        let injective = self.germ.view.rank()? == self.germ.dim();
+        need(injective, rule, "the map into the space where the shape is looked at is not injective on the quotient")?;
+        Ok(Found::Plane)
+    }
+
     /// Theorem 4 with a point of the ring at which the leading functional vanishes.
     fn null_point(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top, functional, address] = node.fields(["rule", "top", "functional", "address"])?;
-        let top = self.leading(&top)?;
-        need(top.vectors().len() == 1, "null-point", "a simple eigenvalue is needed")?;
+        let [_, top, functional, address] = node.fields("rule top functional address")?;
+        let (top, length) = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
         let (y, _) = self.ring_point(&address)?;
         let vanishes = y.transpose().times(&row)?.is_zero();
         address.need(vanishes, "null-point", "the functional does not vanish at the point")?;
         let ends = self.germ.linear.power(self.germ.dim())?.times(&y)?.is_zero();
         address.need(!ends, "null-point", "the orbit of the point ends in the germ's point")?;
-        self.injective("null-point")?;
-        Ok(Found::Plane)
+        self.theorem_4(length, "null-point")
     }
 
     /// Theorem 4 with two points of one connected part of the ring at which the leading functional has opposite signs.
     fn sign_change(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, isolation, positive, negative] =
-            node.fields(["rule", "top", "functional", "isolation", "positive", "negative"])?;
-        let top = self.leading(&top)?;
-        need(top.vectors().len() == 1, "sign-change", "a simple eigenvalue is needed")?;
+            node.fields("rule top functional isolation positive negative")?;
+        let (top, length) = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
-        self.changing_part(&top.field, &row, &positive, &negative)?;
+        self.changing_part(&top.field, &row, [&positive, &negative])?;
         // Isolation: the rows of L^dim have no common zero on the ring.
         let rows = self.germ.linear.power(self.germ.dim())?.echelon()?.0;
         let rows = self.model.rows(&self.germ, &rows, vec![Q::zero(); rows.rows])?;
         self.model.cover(&self.germ, &rows, None, &isolation)?;
-        self.injective("sign-change")?;
-        Ok(Found::Plane)
+        self.theorem_4(length, "sign-change")
     }
 
     /// Lower bound from the orbit of one point of the ring: its own leading directions and those of the corollary.
     fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top, address, own] = node.fields(["rule", "top", "address", "own"])?;
+        let [_, top, address, own] = node.fields("rule top address own")?;
         let top = Top::read(&top, &self.germ.linear)?;
         let (own, view) = self.orbit_top(&address, &own)?;
         let mut vectors = top.directions(&self.germ.view)?;
@@ -275,46 +256,41 @@ impl Branch<'_> {
     /// The top of `L` on the cyclic hull of a point of the ring, and `G` on that hull.
     pub fn orbit_top(&self, address: &Node<'_>, own: &Node<'_>) -> Checked<(Top, Matrix)> {
         let (y, _) = self.ring_point(address)?;
-        let (hull, pivots) = y.transpose().hull(&self.germ.linear.transpose())?;
+        let transposed = self.germ.linear.transpose();
+        let (hull, pivots) = y.transpose().hull(&transposed)?;
         address.need(!pivots.is_empty(), "orbit", "this is the germ's point itself")?;
-        let linear = hull.times(&self.germ.linear.transpose())?.columns(&pivots).transpose();
-        Ok((Top::read(own, &linear)?, self.germ.view.times(&hull.transpose())?))
+        let own = Top::read(own, &hull.times(&transposed)?.columns(&pivots).transpose())?;
+        Ok((own, self.germ.view.times(&hull.transpose())?))
     }
 
     /// Section 6: one real block of length 2, and a connected part of the ring on which `c_2` takes both signs while `c_1` has
     /// one sign wherever `c_2` vanishes.
     fn crossing(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, second, first, positive, negative, cover] =
-            node.fields(["rule", "top", "second", "first", "positive", "negative", "cover"])?;
-        let top = self.leading(&top)?;
-        let block = top.chains.len() == 1 && top.vectors().len() == 2;
-        need(block, "crossing", "one block of length 2 is needed")?;
+            node.fields("rule top second first positive negative cover")?;
+        let (top, length) = self.leading(&top)?;
+        need(top.chains.len() == 1 && length == 2, "crossing", "one block of length 2 is needed")?;
         let (c2, _) = top.row(&self.germ.linear, &second)?;
         let c1 = top.field.vector(&first, self.germ.dim())?;
-        let chain = top.residual(&self.germ.linear, &c1)? == c2;
-        first.need(chain, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
-        let part = self.changing_part(&top.field, &c2, &positive, &negative)?;
+        first.need(top.residual(&self.germ.linear, &c1)? == c2, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
+        let part = self.changing_part(&top.field, &c2, [&positive, &negative])?;
         let rows = self.model.functionals(&self.germ, &top.field, &[&c2, &c1])?;
         let cells = self.model.cover(&self.germ, &rows, Some(part), &cover)?;
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
-        let same = signs.windows(2).all(|s| s[0] == s[1]);
-        cover.need(same, "crossing", "g_1 takes both signs where g_2 may vanish")?;
+        cover.need(signs.windows(2).all(|s| s[0] == s[1]), "crossing", "g_1 takes both signs where g_2 may vanish")?;
         let vectors = top.vectors().iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
         Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
-    }
-
-    /// The corollary for one direction: `G v_1` lies in `D*`.
-    fn direction(&self, node: &Node<'_>) -> Checked<Found> {
-        let [_, top] = node.fields(["rule", "top"])?;
-        let top = self.leading(&top)?;
-        Ok(match self.found_line(&top.field, &top.vectors()[0], Vec::new(), Vec::new())? {
-            Found::Line(line) => Found::Direction(line),
-            other => other,
-        })
     }
 }
 
 impl Line {
+    /// The line of a vector that is not 0; its rays are open.
+    pub fn new(field: &Field, vector: Matrix) -> Checked<Self> {
+        let values = field.enclose(&vector)?;
+        need(values.is_nonzero(), "line", "the direction is not seen to be nonzero")?;
+        Ok(Self { field: field.clone(), vector, values, left: Vec::new(), right: Vec::new() })
+    }
+
     /// Whether a vector over the field of the line lies on it: `1` and `-1` for its two rays.
     pub fn along(&self, w: &Matrix) -> Checked<Option<i32>> {
         for i in 0..w.rows {

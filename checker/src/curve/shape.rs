@@ -1,8 +1,6 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
-use crate::matrix::Matrix;
-use crate::number::{Q, charge, spend};
-use crate::{Checked, MAX_LETTERS, need, reject};
+use crate::base::{Checked, MAX_LETTERS, Matrix, charge, need, some, spend};
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -153,55 +151,54 @@ impl Shape {
         order
     }
 
-    /// The states passed when a word is read, or `None` where a letter does not exist.
-    pub fn path(&self, from: usize, word: &[usize]) -> Option<Vec<usize>> {
+    /// For each state a matrix without rows.
+    pub fn no_rows(&self) -> Vec<Matrix> {
+        self.states.iter().map(|s| Matrix::empty(s.dim)).collect()
+    }
+
+    /// The states passed when a word is read.
+    pub fn path(&self, from: usize, word: &[usize]) -> Checked<Vec<usize>> {
         let mut states = vec![from];
         for &letter in word {
-            let last = states[states.len() - 1];
-            states.push(self.states[last].pieces.get(letter)?.target);
+            let piece = self.states[states[states.len() - 1]].pieces.get(letter);
+            states.push(some(piece, "word", format_args!("letter {letter} of a word does not exist"))?.target);
         }
-        Some(states)
+        Ok(states)
     }
 
     /// The product of the operators of a word and the state where it ends.
     pub fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
-        let mut state = from;
+        let states = self.path(from, word)?;
         let mut product = Matrix::identity(self.states[from].dim);
-        for &letter in word {
-            let Some(piece) = self.states[state].pieces.get(letter) else {
-                return reject("word", "", format!("letter {letter} of a word does not exist"));
-            };
-            product = product.times(&piece.op)?;
-            state = piece.target;
+        for (&e, &letter) in states.iter().zip(word) {
+            product = product.times(&self.states[e].pieces[letter].op)?;
         }
-        Ok((product, state))
+        Ok((product, states[word.len()]))
     }
 
     /// `+1` or `-1`: the product of the orientations along a word.
-    pub fn orientation(&self, from: usize, word: &[usize]) -> i32 {
-        let states = self.path(from, word).unwrap_or_default();
-        word.iter().zip(&states).map(|(&i, &e)| if self.states[e].pieces[i].reversed { -1 } else { 1 }).product()
+    pub fn orientation(&self, from: usize, word: &[usize]) -> Checked<i32> {
+        let states = self.path(from, word)?;
+        Ok(word.iter().zip(&states).map(|(&i, &e)| if self.states[e].pieces[i].reversed { -1 } else { 1 }).product())
     }
 
-    /// The point with an address whose cycle returns to its state.
+    /// The product and the fixed point of a cycle, which must return to the state where it begins.
+    pub fn cycle(&self, state: usize, word: &[usize]) -> Checked<(Matrix, Matrix)> {
+        let (cycle, back) = self.product(state, word)?;
+        need(back == state && !word.is_empty(), "word", "the cycle of an address does not return to its state")?;
+        let fixed = some(cycle.fixed_point()?, "fixed-point", "a fixed point is not unique")?;
+        Ok((cycle, fixed))
+    }
+
+    /// The point with an address.
     pub fn point(&self, from: usize, address: &Address) -> Checked<Matrix> {
         let (prefix, state) = self.product(from, &address.prefix)?;
-        let (cycle, back) = self.product(state, &address.cycle)?;
-        need(
-            back == state && !address.cycle.is_empty(),
-            "word",
-            "the cycle of an address does not return to its state",
-        )?;
-        match cycle.fixed_point()? {
-            Some(fixed) => prefix.times(&fixed),
-            None => reject("fixed-point", "", "a fixed point is not unique"),
-        }
+        prefix.times(&self.cycle(state, &address.cycle)?.1)
     }
 
     /// The address of an end of the curve of a state, through its outermost pieces for which `skip` is false.
     pub fn end_address(&self, state: usize, end: End, skip: &dyn Fn(usize, usize) -> bool) -> Option<Address> {
-        let mut seen: Vec<(usize, End)> = Vec::new();
-        let mut letters: Vec<usize> = Vec::new();
+        let (mut seen, mut letters) = (Vec::new(), Vec::new());
         let (mut at, mut side) = (state, end);
         loop {
             if let Some(k) = seen.iter().position(|s| *s == (at, side)) {
@@ -209,23 +206,16 @@ impl Shape {
             }
             seen.push((at, side));
             let pieces = &self.states[at].pieces;
-            let mut letters_in_order = 0..pieces.len();
-            let letter = match side {
-                End::Start => letters_in_order.find(|&i| !skip(at, i))?,
-                End::Finish => letters_in_order.rfind(|&i| !skip(at, i))?,
-            };
+            let mut solid = (0..pieces.len()).filter(|&i| !skip(at, i));
+            let letter = if side == End::Start { solid.next()? } else { solid.next_back()? };
             letters.push(letter);
-            side = side.in_piece(&pieces[letter]);
-            at = pieces[letter].target;
+            (at, side) = (pieces[letter].target, side.in_piece(&pieces[letter]));
         }
     }
 
     /// An end point of the curve of a state.
     pub fn end_point(&self, state: usize, end: End) -> Checked<Matrix> {
-        match self.end_address(state, end, &|_, _| false) {
-            Some(address) => self.point(state, &address),
-            None => reject("curve", "", "a state without pieces"),
-        }
+        self.point(state, &some(self.end_address(state, end, &|_, _| false), "curve", "a state without pieces")?)
     }
 
     /// Rule `curve`: in every reachable edge state each piece begins where the one before ends, and the identities hold.
@@ -234,11 +224,11 @@ impl Shape {
             for (j, pair) in self.states[e].pieces.windows(2).enumerate() {
                 let end = |p: &Piece, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
                 let meet = end(&pair[0], End::Finish)? == end(&pair[1], End::Start)?;
-                need(meet, "curve", &format!("pieces {j} and {} of state {e} do not meet", j + 1))?;
+                need(meet, "curve", format_args!("pieces {j} and {} of state {e} do not meet", j + 1))?;
             }
             for [a, b, c, d] in self.identities(e)? {
                 let holds = self.op(a).times(self.op(b))? == self.op(c).times(self.op(d))?;
-                need(holds, "curve", &format!("an identity of incidence or adjacency fails in state {e}"))?;
+                need(holds, "curve", format_args!("an identity of incidence or adjacency fails in state {e}"))?;
             }
         }
         Ok(())
@@ -247,26 +237,21 @@ impl Shape {
     /// The identities `a b = c d` of an edge state, where it has boundary operators: of incidence at the start and at the
     /// finish, then of adjacency.
     pub fn identities(&self, e: usize) -> Checked<Vec<[Op; 4]>> {
-        let pieces = &self.states[e].pieces;
-        let vertex = |state: usize, end: End| self.states[state].ends[end as usize].as_ref().map(|b| b.0);
-        let inner = |k: usize, end: End| {
-            let (target, end) = (pieces[k].target, end.in_piece(&pieces[k]));
-            Some((vertex(target, end)?, Op::End(target, end)))
-        };
-        let mut all = Vec::new();
+        let (pieces, mut all) = (&self.states[e].pieces, Vec::new());
         if self.states[e].kind != Kind::Edge {
             return Ok(all);
         }
+        let own = |e: usize, end: End| Some((self.states[e].ends[end as usize].as_ref()?.0, Op::End(e, end)));
+        let inner = |k: usize, end: End| own(pieces[k].target, end.in_piece(&pieces[k]));
         let why = "boundaries that should coincide are of different vertices";
         for (k, end) in [(0, End::Start), (pieces.len() - 1, End::Finish)] {
-            let (Some(v), Some((w, inside))) = (vertex(e, end), inner(k, end)) else { continue };
+            let (Some((v, outside)), Some((w, inside))) = (own(e, end), inner(k, end)) else { continue };
             need(self.states[v].pieces[0].target == w, "curve", why)?;
-            all.push([Op::End(e, end), Op::Piece(v, 0), Op::Piece(e, k), inside]);
+            all.push([outside, Op::Piece(v, 0), Op::Piece(e, k), inside]);
         }
         for k in 1..pieces.len() {
-            let (Some((v, before)), Some((w, after))) = (inner(k - 1, End::Finish), inner(k, End::Start)) else {
-                continue;
-            };
+            let ends = (inner(k - 1, End::Finish), inner(k, End::Start));
+            let (Some((v, before)), Some((w, after))) = ends else { continue };
             need(v == w, "curve", why)?;
             all.push([Op::Piece(e, k - 1), before, Op::Piece(e, k), after]);
         }
@@ -280,19 +265,6 @@ impl Shape {
             Op::End(state, end) => (state, end),
         };
         self.states[state].ends[end as usize].as_ref().map_or(&self.states[self.start].pieces[0].op, |b| &b.1)
-    }
-
-    /// Changes an entry of an operator.
-    pub fn set(&mut self, op: Op, row: usize, col: usize, value: &Q) {
-        let matrix = match op {
-            Op::Piece(state, letter) => Some(&mut self.states[state].pieces[letter].op),
-            Op::End(state, end) => self.states[state].ends[end as usize].as_mut().map(|b| &mut b.1),
-        };
-        if let Some(m) = matrix {
-            let mut entries = m.entries();
-            entries[row * m.cols + col] = value.clone();
-            *m = Matrix::new(m.rows, m.cols, &entries);
-        }
     }
 }
 
@@ -309,56 +281,45 @@ pub struct Space {
     pub visible: Matrix,
     /// The columns of their leading ones.
     pub leading: Vec<usize>,
+    /// By letter, whether the piece is a single point.
+    points: Vec<bool>,
 }
 
 /// The spaces of all reachable states.
-pub struct Spaces {
-    all: Vec<Option<Space>>,
-    points: Vec<Vec<bool>>,
-}
+pub struct Spaces(Vec<Option<Space>>);
 
 impl Spaces {
     /// The space of a reachable state.
     pub fn of(&self, state: usize) -> Checked<&Space> {
-        match self.all.get(state) {
-            Some(Some(space)) => Ok(space),
-            _ => reject("word", "", "a state that cannot be reached"),
-        }
+        some(self.0.get(state).and_then(Option::as_ref), "word", "a state that cannot be reached")
     }
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
     pub fn new(shape: &Shape, reachable: &[usize]) -> Checked<Self> {
-        let none = |e: usize| Matrix::empty(shape.states[e].dim);
-        let mut base: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
+        let (mut base, mut offsets, mut rows) = (shape.no_rows(), shape.no_rows(), shape.no_rows());
         for &e in reachable {
             let zero = Address { prefix: Vec::new(), cycle: vec![0] };
-            let Some(address) = zero.normalise(shape, e) else { return reject("word", "", "a state without pieces") };
-            base[e] = shape.point(e, &address)?;
+            base[e] = shape.point(e, &some(zero.normalise(shape, e), "word", "a state without pieces")?)?;
         }
-        let mut spans: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
         for &e in reachable {
             for piece in &shape.states[e].pieces {
                 let offset = piece.op.times(&base[piece.target])?.minus(&base[e]);
-                spans[e] = spans[e].stack(&offset.transpose());
+                offsets[e] = offsets[e].stack(&offset.transpose());
             }
-            spans[e] = spans[e].echelon()?.0;
         }
-        close(shape, reachable, &mut spans, |from, p| (p.target, from), |span, p| span.times(&p.op.transpose()))?;
-        let mut rows: Vec<Matrix> = (0..shape.states.len()).map(none).collect();
-        rows[shape.start] = shape.view.echelon()?.0;
-        close(shape, reachable, &mut rows, |from, p| (from, p.target), |row, p| row.times(&p.op))?;
-        let mut spaces = Self { all: vec![None; shape.states.len()], points: vec![Vec::new(); shape.states.len()] };
+        let spans = close(shape, reachable, offsets, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
+        rows[shape.start] = shape.view.clone();
+        let rows = close(shape, reachable, rows, Way::Down, |_, p, row| row.times(&p.op))?;
+        let mut spaces = vec![None; shape.states.len()];
         for &e in reachable {
             let (basis, pivots) = spans[e].echelon()?;
             let (basis, reading) = (basis.transpose(), Matrix::ones(pivots.len(), basis.cols, |i, j| pivots[i] == j));
             let (visible, leading) = rows[e].times(&basis)?.echelon()?;
-            spaces.all[e] = Some(Space { base: base[e].clone(), basis, reading, visible, leading });
+            let is_point = |p: &Piece| Ok(p.op.times(&spans[p.target].transpose())?.is_zero());
+            let points = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
+            spaces[e] = Some(Space { base: base[e].clone(), basis, reading, visible, leading, points });
         }
-        for &e in reachable {
-            let is_point = |p: &Piece| Ok(p.op.times(&spaces.of(p.target)?.basis)?.is_zero());
-            spaces.points[e] = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
-        }
-        Ok(spaces)
+        Ok(Self(spaces))
     }
 
     /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
@@ -368,7 +329,7 @@ impl Spaces {
 
     /// Whether a piece of a reachable state is a single point.
     pub fn is_point(&self, state: usize, letter: usize) -> bool {
-        self.points[state].get(letter).is_none_or(|p| *p)
+        self.of(state).ok().and_then(|space| space.points.get(letter)).is_none_or(|point| *point)
     }
 
     /// The map between visible quotients that a piece of a state induces.
@@ -383,27 +344,38 @@ impl Spaces {
     }
 }
 
-/// Enlarges a family of row spaces until it is closed: `images` of the space at the first state lie in that at the second.
+/// Which way a family of spaces is carried along a piece.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// From the target of the piece to its state.
+    Up,
+    /// From its state to the target.
+    Down,
+}
+
+/// The smallest family of row spaces (one for each reachable state, in echelon form) that holds a given one and the images of
+/// its members, which `image` computes for a state, one of its pieces and the space that is carried.
 pub fn close(
     shape: &Shape,
     reachable: &[usize],
-    family: &mut [Matrix],
-    ends: impl Fn(usize, &Piece) -> (usize, usize),
-    images: impl Fn(&Matrix, &Piece) -> Checked<Matrix>,
-) -> Checked<()> {
-    loop {
-        let mut grown = false;
+    mut family: Vec<Matrix>,
+    way: Way,
+    image: impl Fn(usize, &Piece, &Matrix) -> Checked<Matrix>,
+) -> Checked<Vec<Matrix>> {
+    for &e in reachable {
+        family[e] = family[e].echelon()?.0;
+    }
+    let mut grown = true;
+    while std::mem::take(&mut grown) {
         for &e in reachable {
             for piece in &shape.states[e].pieces {
                 spend(1, 0)?;
-                let (from, to) = ends(e, piece);
-                if let Some((joined, _)) = family[to].joined(&images(&family[from], piece)?)? {
+                let (from, to) = if way == Way::Up { (piece.target, e) } else { (e, piece.target) };
+                if let Some((joined, _)) = family[to].joined(&image(e, piece, &family[from])?)? {
                     (family[to], grown) = (joined, true);
                 }
             }
         }
-        if !grown {
-            return Ok(());
-        }
     }
+    Ok(family)
 }

@@ -1,6 +1,6 @@
 //! Rational numbers, how they are read, and the budget that keeps the work finite.
 
-use crate::Checked;
+use super::{Checked, need};
 use num_bigint::BigInt;
 use num_integer::Integer;
 pub use num_rational::BigRational as Q;
@@ -30,11 +30,7 @@ pub fn charge(count: usize, bits: u64) -> bool {
 
 /// The same; an empty budget rejects the certificate.
 pub fn spend(count: usize, bits: u64) -> Checked<()> {
-    if charge(count, bits) {
-        Ok(())
-    } else {
-        crate::reject("limit", "", "the check needs more arithmetic than is allowed")
-    }
+    need(charge(count, bits), "limit", "the check needs more arithmetic than is allowed")
 }
 
 /// The greatest common divisor, not negative; much faster than that of the library where one of the numbers is short.

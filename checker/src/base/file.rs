@@ -1,0 +1,77 @@
+//! TOML files: cases, whose numbers are decimals and fractions.
+
+use super::number::decimal_fraction;
+use super::{Checked, Json, Matrix, Node, Q, Rejected, bits, spend};
+use toml::de::{DeTable, DeValue};
+
+/// Most coordinates of a state.
+pub const MAX_COORDINATES: usize = 64;
+
+/// A value of a TOML file: numbers keep the text in which they are written.
+fn tree(value: &DeValue<'_>) -> Json {
+    match value {
+        DeValue::String(text) => Json::Text(text.to_string()),
+        DeValue::Integer(digits) if digits.radix() == 10 => Json::Number(digits.as_str().to_owned()),
+        DeValue::Float(digits) => Json::Number(digits.as_str().to_owned()),
+        DeValue::Boolean(flag) => Json::Flag(*flag),
+        DeValue::Array(items) => Json::List(items.iter().map(|v| tree(v.get_ref())).collect()),
+        DeValue::Table(table) => fields(table),
+        _ => Json::Null,
+    }
+}
+
+fn fields(table: &DeTable<'_>) -> Json {
+    Json::Object(table.iter().map(|(k, v)| (k.get_ref().to_string(), tree(v.get_ref()))).collect())
+}
+
+/// Reads a TOML file with these keys at its top by a function; what is wrong makes the file unreadable.
+pub fn file<T>(source: &str, keys: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
+    let unreadable = |place: String, why: String| Rejected { rule: "case".to_owned(), place, why, unreadable: true };
+    let parsed = DeTable::parse(source).map_err(|e| unreadable(String::new(), format!("not TOML: {}", e.message())))?;
+    let value = fields(parsed.get_ref());
+    let node = Node { value: &value, place: "case".to_owned() };
+    node.known(keys).and_then(|()| read(&node)).map_err(|r| unreadable(r.place, r.why))
+}
+
+/// A whole number of a TOML file below a bound.
+pub fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
+    let digits = if let Json::Number(digits) = node.value { digits.parse::<usize>().ok() } else { None };
+    node.some(digits.filter(|k| *k < bound), "format", format_args!("a whole number below {bound} is needed here"))
+}
+
+/// Whether a key is set to true.
+pub fn flag(node: &Node<'_>, key: &str) -> Checked<bool> {
+    match node.get(key).map(|n| (n.value, n)) {
+        None => Ok(false),
+        Some((Json::Flag(flag), _)) => Ok(*flag),
+        Some((_, n)) => n.reject("format", "true or false is needed here"),
+    }
+}
+
+/// A text that may be left out.
+pub fn word<'a>(node: &Node<'a>, key: &str) -> Checked<Option<&'a str>> {
+    node.get(key).map(|n| n.text()).transpose()
+}
+
+/// A list that may be left out: its elements.
+pub fn items<'a>(node: &Node<'a>, key: &str) -> Checked<Vec<Node<'a>>> {
+    node.get(key).map_or(Ok(Vec::new()), |n| n.list())
+}
+
+/// A number: a text or a number of the file.
+pub fn number(node: &Node<'_>) -> Checked<Q> {
+    let text = if let Json::Text(text) | Json::Number(text) = node.value { Some(text) } else { None };
+    let number = node.some(text.and_then(|t| decimal_fraction(t)), "format", "an exact number is needed here")?;
+    spend(40, bits(&number))?;
+    Ok(number)
+}
+
+/// Reads a matrix of 1 to 64 rows and columns.
+pub fn matrix(node: &Node<'_>) -> Checked<Matrix> {
+    let rows = node.each(|row| row.each(|x| number(x)))?;
+    let cols = rows.first().map_or(0, Vec::len);
+    let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
+    let regular = fits(rows.len()) && fits(cols) && rows.iter().all(|r| r.len() == cols);
+    node.need(regular, "case", format_args!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;
+    Ok(Matrix::from_rows(cols, &rows))
+}

@@ -1,0 +1,20 @@
+//! What all rules use: answers, exact numbers and matrices, polynomials at roots, and the strict readers of the two files.
+
+mod answer;
+mod file;
+mod json;
+mod matrix;
+pub mod number;
+mod poly;
+
+pub use answer::{Accepted, Checked, Rejected, Verdict, need, reject, some, unreadable};
+pub use file::{MAX_COORDINATES, file, flag, index, items, matrix, number, word};
+pub use json::{Json, Node};
+pub use matrix::{Matrix, primitive};
+pub use number::{Q, bits, charge, spend, whole};
+pub use poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, products, roots_in_disc, values};
+
+/// Longest word of a certificate or address of a case.
+pub const MAX_LETTERS: usize = 1_000;
+/// Most pieces of a state.
+pub const MAX_PIECES: usize = 64;

@@ -1,0 +1,274 @@
+//! Reads the case file itself, so that a proof cannot be about another case.
+
+use super::{Address, End, Kind, Op, Piece, Shape, State};
+use crate::base::{
+    Checked, Json, MAX_COORDINATES, MAX_PIECES, Matrix, Node, Q, file, flag, index, items, matrix, need, number, word,
+};
+use num_traits::{One, Zero};
+use std::cell::RefCell;
+
+/// Most states of a case.
+pub const MAX_STATES: usize = 64;
+/// Most unknown entries.
+const MAX_HOLES: usize = 4_096;
+
+/// A case: its name, its shape, and the addresses it asks about.
+pub struct Case {
+    /// The name.
+    pub name: String,
+    /// The shape; unknown entries are 0.
+    pub shape: Shape,
+    /// The addresses under `[[examine]]`, in their normal form.
+    pub examine: Vec<Address>,
+    /// The unknown entries: by state, first the pieces, then the two boundaries; in each operator by rows.
+    pub holes: Vec<Hole>,
+}
+
+/// An unknown entry.
+pub struct Hole {
+    /// The operator.
+    pub op: Op,
+    /// The row.
+    pub row: usize,
+    /// The column.
+    pub col: usize,
+    /// The number of the unknown; entries of one name are one unknown.
+    pub unknown: usize,
+}
+
+/// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
+const CASE: &str = "name title source kind convention pieces reversed map start state control examine expect";
+const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
+
+/// What must be known of all states before their pieces are read.
+struct Head<'a> {
+    name: &'a str,
+    kind: Kind,
+    dim: usize,
+    pieces: Vec<Node<'a>>,
+}
+
+/// The number of the state that is named here.
+fn state_named(node: &Node<'_>, heads: &[Head<'_>]) -> Checked<usize> {
+    let name = node.text()?;
+    node.some(heads.iter().position(|h| h.name == name), "format", "there is no state of this name")
+}
+
+/// Reads the operators of a case; where entries may be unknown, their places and names are collected.
+#[derive(Default)]
+struct Reader {
+    by_rows: bool,
+    open: bool,
+    holes: RefCell<Vec<(Hole, String)>>,
+}
+
+impl Reader {
+    /// An operator on columns of barycentric coordinates of the given size, all of whose columns sum to 1. Where entries may be
+    /// unknown (`"?"` or `"?name"`, or `"?"` for all), these are noted and 0.
+    fn operator(&self, node: &Node<'_>, size: (usize, usize), op: Op) -> Checked<Matrix> {
+        let name = |n: &Node<'_>| match n.value {
+            Json::Text(text) if self.open => text.strip_prefix('?').map(str::to_owned),
+            _ => None,
+        };
+        let (all, noted) = (name(node).is_some(), self.holes.borrow().len());
+        let rows = if all { Vec::new() } else { node.each(Node::list)? };
+        let written = if self.by_rows { (size.1, size.0) } else { size };
+        let fits = all || (rows.len() == written.0 && rows.iter().all(|r| r.len() == written.1));
+        node.need(fits, "case", "the operator has the wrong size")?;
+        let mut entries = Vec::new();
+        for (row, col) in (0..size.0).flat_map(|i| (0..size.1).map(move |j| (i, j))) {
+            let (i, j) = if self.by_rows { (col, row) } else { (row, col) };
+            let at = if all { node } else { &rows[i][j] };
+            let Some(name) = name(at) else {
+                entries.push(number(at)?);
+                continue;
+            };
+            let mut holes = self.holes.borrow_mut();
+            at.need(holes.len() < MAX_HOLES, "limit", "too many unknown entries")?;
+            let known = holes.iter().find(|(_, n)| !name.is_empty() && *n == name).map(|(h, _)| h.unknown);
+            let unknown = known.unwrap_or_else(|| holes.iter().map(|(h, _)| h.unknown + 1).max().unwrap_or(0));
+            holes.push((Hole { op, row, col, unknown }, name));
+            entries.push(Q::zero());
+        }
+        let matrix = Matrix::new(size.0, size.1, &entries);
+        let affine = self.holes.borrow().len() > noted || matrix.is_affine();
+        node.need(affine, "case", "a column of an operator does not sum to 1")?;
+        Ok(matrix)
+    }
+
+    /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
+    fn affine(&self, map: &Node<'_>) -> Checked<Matrix> {
+        map.known("linear shift reversed")?;
+        let linear = matrix(&map.field("linear")?)?;
+        let shift = map.field("shift")?.each(|x| number(x))?;
+        let d = shift.len();
+        let fits = d < MAX_COORDINATES && (linear.rows, linear.cols) == (d, d);
+        map.need(fits, "case", "`linear` and `shift` do not fit")?;
+        // Column j is the image of e_j; its first entry makes the sum 1.
+        let shift = Matrix::new(d, 1, &shift);
+        let images = shift.beside(&linear.plus(&Q::one(), &shift.times(&Matrix::row_of_ones(d))?));
+        let first = Matrix::row_of_ones(d + 1).minus(&Matrix::row_of_ones(d).times(&images)?);
+        Ok(first.stack(&images))
+    }
+
+    /// The pieces of a state: affine maps, plain operators (of the only state), or tables that name their targets.
+    fn pieces(&self, e: usize, heads: &[Head<'_>], form: Form) -> Checked<Vec<Piece>> {
+        let Head { kind, dim, pieces, .. } = &heads[e];
+        let mut read = Vec::new();
+        for (k, piece) in pieces.iter().enumerate() {
+            let (target, op, reversed) = match form {
+                Form::Maps => (0, self.affine(piece)?, flag(piece, "reversed")?),
+                Form::Pieces => (0, self.operator(piece, (*dim, *dim), Op::Piece(e, k))?, false),
+                Form::States => {
+                    piece.known("to matrix reversed corners")?;
+                    let (target, reversed) = (state_named(&piece.field("to")?, heads)?, flag(piece, "reversed")?);
+                    let size = (*dim, heads[target].dim);
+                    (target, self.operator(&piece.field("matrix")?, size, Op::Piece(e, k))?, reversed)
+                }
+            };
+            let same_kind = *kind == Kind::Set || heads[target].kind == *kind;
+            let fits = same_kind && op.rows == *dim && (!reversed || *kind == Kind::Edge);
+            piece.need(fits, "case", "the piece is of another kind or size, or runs backwards in no curve")?;
+            read.push(Piece { target, op, reversed });
+        }
+        let most = if *kind == Kind::Vertex { 1 } else { MAX_PIECES };
+        let count = (1..=most).contains(&read.len()) && (1..=MAX_COORDINATES).contains(dim);
+        need(count, "case", format_args!("a wrong number of pieces or coordinates of state {e}"))?;
+        Ok(read)
+    }
+
+    fn head<'a>(&self, table: &Node<'a>, default: Kind) -> Checked<Head<'a>> {
+        table.known(STATE)?;
+        let pieces = table.field("piece")?.list()?;
+        let kind = match word(table, "kind")? {
+            None => default,
+            Some("edge") => Kind::Edge,
+            Some("vertex") => Kind::Vertex,
+            // No rule uses the boundaries of a face: its claims are about a set.
+            Some("set" | "face") => Kind::Set,
+            Some(_) => return table.reject("format", "unknown kind of a state"),
+        };
+        let dim = match (table.get("dimension"), pieces.first()) {
+            (Some(n), _) => index(&n, MAX_COORDINATES + 1)?,
+            (None, None) => 0,
+            (None, Some(first)) => {
+                let rows = first.field("matrix")?.list()?;
+                if self.by_rows { rows.first().map_or(Ok(Vec::new()), Node::list)?.len() } else { rows.len() }
+            }
+        };
+        Ok(Head { name: table.field("name")?.text()?, kind, dim, pieces })
+    }
+
+    /// A boundary operator of an edge, where the state has it.
+    fn boundary(&self, e: usize, heads: &[Head<'_>], table: &Node<'_>, end: End) -> Checked<Option<(usize, Matrix)>> {
+        let key = if end == End::Start { "left" } else { "right" };
+        let kind = heads[e].kind;
+        let Some(b) = table.get(key).filter(|b| kind != Kind::Set || b.get("edge").is_none()) else { return Ok(None) };
+        b.known("vertex matrix points")?;
+        let vertex = state_named(&b.field("vertex")?, heads)?;
+        let joins = kind == Kind::Edge && heads[vertex].kind == Kind::Vertex;
+        b.need(joins, "case", "a boundary joins a vertex to an edge")?;
+        let (rows, cols) = (heads[e].dim, heads[vertex].dim);
+        let op = match b.get("points").filter(|_| b.get("matrix").is_none()) {
+            None => self.operator(&b.field("matrix")?, (rows, cols), Op::End(e, end))?,
+            Some(points) => {
+                // Coordinate j is put at points[j].
+                let at = points.each(|p| index(p, rows))?;
+                points.need(at.len() == cols, "case", format_args!("{cols} points are needed here"))?;
+                Matrix::ones(rows, cols, |i, j| at[j] == i)
+            }
+        };
+        Ok(Some((vertex, op)))
+    }
+
+    fn shape(&self, case: &Node<'_>) -> Checked<Shape> {
+        let kind = match word(case, "kind")? {
+            None | Some("curve") => Kind::Edge,
+            Some("set") => Kind::Set,
+            Some(_) => return case.reject("format", "unknown kind"),
+        };
+        let (form, list, without) = match (case.get("map"), case.get("pieces"), case.get("state")) {
+            (Some(maps), None, None) => (Form::Maps, maps.list()?, "start reversed control"),
+            (None, Some(pieces), None) => (Form::Pieces, pieces.list()?, "start"),
+            (None, None, Some(tables)) => (Form::States, tables.list()?, "reversed"),
+            _ => return case.reject("format", "one of `pieces`, `map` and `state` is needed"),
+        };
+        let fits = without.split(' ').all(|key| case.get(key).is_none());
+        case.need(fits, "case", format_args!("the keys {without} do not go with this form of a case"))?;
+        let heads = match (form, list.first()) {
+            (Form::States, _) => list.iter().map(|t| self.head(t, kind)).collect::<Checked<Vec<_>>>()?,
+            (Form::Maps, Some(map)) => {
+                vec![Head { name: "", kind, dim: 1 + map.field("shift")?.list()?.len(), pieces: list.clone() }]
+            }
+            (_, Some(op)) => vec![Head { name: "", kind, dim: op.list()?.len(), pieces: list.clone() }],
+            _ => Vec::new(),
+        };
+        let new = |k: usize| heads[..k].iter().all(|h| h.name != heads[k].name);
+        let count = (1..=MAX_STATES).contains(&heads.len()) && (0..heads.len()).all(new);
+        case.need(count, "case", "no state, too many, or two of one name")?;
+        let mut states = Vec::new();
+        for (e, head) in heads.iter().enumerate() {
+            let pieces = self.pieces(e, &heads, form)?;
+            let boundary = |end| if form == Form::States { self.boundary(e, &heads, &list[e], end) } else { Ok(None) };
+            let ends = [boundary(End::Start)?, boundary(End::Finish)?];
+            states.push(State { kind: head.kind, dim: head.dim, pieces, ends });
+        }
+        for n in items(case, "reversed")? {
+            states[0].pieces[index(&n, list.len())?].reversed = true;
+            n.need(kind == Kind::Edge, "case", "only pieces of curves run backwards")?;
+        }
+        let start = case.get("start").map(|node| state_named(&node, &heads)).transpose()?;
+        let start = case.some(start.or((states.len() == 1).then_some(0)), "case", "the key `start` is missing")?;
+        let dim = states[start].dim;
+        let view = match case.get("control") {
+            Some(points) => matrix(&points)?.transpose(),
+            None if form == Form::Maps => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
+            None => Matrix::identity(dim),
+        };
+        case.need(view.cols == dim, "case", "a wrong number of control points")?;
+        Ok(Shape { states, start, view })
+    }
+}
+
+/// The three forms of a case.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Maps,
+    Pieces,
+    States,
+}
+
+/// Reads more of the states of a case.
+pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> Checked<T> {
+    file(source, CASE, |case| read(&items(case, "state")?))
+}
+
+/// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both
+/// are not read.
+///
+/// # Errors
+/// What is wrong, and where; `unreadable` is set.
+pub fn read(source: &str, open: bool) -> Checked<Case> {
+    file(source, CASE, |case| {
+        let by_rows = match word(case, "convention")? {
+            Some("rows") if case.get("map").is_none() => true,
+            Some("columns") => false,
+            None if case.get("map").is_some() => false,
+            _ => return case.reject("format", "the convention is rows or columns"),
+        };
+        for state in if open { items(case, "state")? } else { Vec::new() } {
+            let beyond = state.get("reversal").is_some() || state.get("layout").is_some();
+            state.need(!beyond, "case", "the identities of faces and reversals are not read")?;
+        }
+        let reader = Reader { by_rows, open, ..Reader::default() };
+        let shape = reader.shape(case)?;
+        let mut examine = Vec::new();
+        for entry in items(case, "examine")? {
+            let [address] = entry.fields("address")?;
+            let normal = Address::parse(address.text()?).and_then(|a| a.normalise(&shape, shape.start));
+            examine.push(address.some(normal, "format", "this is no address of the case")?);
+        }
+        let holes = reader.holes.into_inner().into_iter().map(|(hole, _)| hole).collect();
+        Ok(Case { name: case.field("name")?.text()?.to_owned(), shape, examine, holes })
+    })
+}

@@ -1,0 +1,240 @@
+//! The whole certificate: contraction, points, answers, and the verdict that follows from them.
+
+use super::{Address, Case, End, Kind, Model, Piece, Place, Point, Root, Way};
+use super::{close, complete, everywhere, positive_definite, read_address};
+use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
+use num_traits::Signed;
+
+/// What a case asks.
+#[derive(Debug, PartialEq, Eq)]
+enum Question {
+    Ends,
+    Joints,
+    Address(Address),
+    AnyPoint,
+    EveryPoint,
+}
+
+/// The questions of a case: of a curve its end points and its joints, of a set the fixed points of the maps of the start state
+/// to itself; then the addresses to examine, each once.
+fn questions(case: &Case) -> Vec<Question> {
+    let start = &case.shape.states[case.shape.start];
+    let mut questions = Vec::new();
+    if start.kind == Kind::Edge {
+        questions = vec![Question::Ends, Question::Joints];
+    } else {
+        let own = (0..start.pieces.len()).filter(|&i| start.pieces[i].target == case.shape.start);
+        questions.extend(own.map(|i| Question::Address(Address { prefix: Vec::new(), cycle: vec![i] })));
+    }
+    for address in case.examine.iter().cloned().map(Question::Address) {
+        if !questions.contains(&address) {
+            questions.push(address);
+        }
+    }
+    questions
+}
+
+/// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
+fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
+    match item.tag("question")? {
+        "any point" if last => return Ok(Question::AnyPoint),
+        "every point" if !asked.contains(&Question::EveryPoint) => return Ok(Question::EveryPoint),
+        _ => {}
+    }
+    let [_, of, _, _] = item.fields("question address verdict points")?;
+    let address = read_address(&of)?;
+    let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
+    let question = Question::Address(address);
+    let new = normal && !asked.contains(&question);
+    of.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
+    Ok(question)
+}
+
+/// Checks the proof of a certificate of the kind `certify`.
+pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
+    let [contraction, points, answers] = node.fields("contraction points answers")?;
+    let model = Model::read(&case.shape, &contraction)?;
+    contraction.at(case.shape.check_curves(&model.reachable))?;
+    let root = Root { state: case.shape.start, view: case.shape.view.clone() };
+    let mut checked: Vec<Point> = Vec::new();
+    for item in points.list()? {
+        let point = Point::check(&model, &root, &item)?;
+        item.need(checked.iter().all(|p| p.place != point.place), "points", "the same point twice")?;
+        checked.push(point);
+    }
+    let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], lines: Vec::new() };
+    let (items, mut asked) = (answers.list()?, questions(case));
+    answers.need(items.len() >= asked.len(), "answers", format_args!("{} questions are asked", asked.len()))?;
+    for (k, item) in items.iter().enumerate().skip(asked.len()) {
+        asked.push(further(case, item, &asked, k + 1 == items.len())?);
+    }
+    let mut found = Vec::new();
+    for (item, question) in items.iter().zip(&asked) {
+        let verdict = item.at(claims.answer(item, question))?;
+        found.extend((*question != Question::EveryPoint).then_some(verdict));
+    }
+    points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
+    let verdict = found.into_iter().min().unwrap_or(Verdict::Undetermined);
+    let line = |p: &Point| format!("{}: {:?}, {}", p.verdict.word(), p.place, p.kind);
+    let points = checked.iter().map(line).collect();
+    Ok(Accepted { case: case.name.clone(), verdict, claims: claims.lines, points })
+}
+
+/// All operators are injective on the visible quotients; whether the map into the space where the shape is looked at is, too.
+pub fn injective(model: &Model<'_>, rule: &str) -> Checked<bool> {
+    let Model { shape, reachable, spaces, .. } = model;
+    for &e in reachable {
+        for piece in &shape.states[e].pieces {
+            let map = spaces.on_visible(e, piece)?;
+            need(map.rank()? == map.cols, rule, format_args!("an operator of state {e} is not injective"))?;
+        }
+    }
+    let start = spaces.of(shape.start)?;
+    Ok(shape.view.times(&start.basis)?.rank()? == start.visible.rows)
+}
+
+struct Claims<'a> {
+    model: &'a Model<'a>,
+    points: &'a [Point],
+    used: Vec<bool>,
+    lines: Vec<String>,
+}
+
+impl<'a> Claims<'a> {
+    /// Checks the answer to a question.
+    fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
+        let (what, stated, verdict, claim) = match question {
+            Question::Ends => {
+                let [_, stated, points] = node.fields("question verdict points")?;
+                let found = self.all(&points, &[Place::End(End::Start), Place::End(End::Finish)])?;
+                ("ends", stated, found, "the curve has a tangent line at both end points".to_owned())
+            }
+            Question::Address(address) => {
+                let [_, of, stated, points] = node.fields("question address verdict points")?;
+                of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
+                let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
+                let place = format!("the address {:?} ({:?})", address.prefix, address.cycle);
+                ("address", stated, found, format!("the shape has a tangent line at {place}"))
+            }
+            Question::Joints => {
+                let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
+                let (found, places) = self.joints(&theorem, &points, &upstairs)?;
+                ("joints", stated, found, format!("the curve has a tangent line at {places}"))
+            }
+            Question::EveryPoint => {
+                let found = everywhere::check(self.model, self.points, node)?;
+                found.witness.into_iter().for_each(|k| self.used[k] = true);
+                ("every point", node.field("verdict")?, found.verdict, found.claim)
+            }
+            Question::AnyPoint => {
+                let [_, stated, products] = node.fields("question verdict products")?;
+                self.similarities(&products)?;
+                ("any point", stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
+            }
+        };
+        let asked = node.tag("question")? == what && stated.text()? == verdict.word();
+        node.need(asked, "answers", format_args!("another question, or what follows is \"{}\"", verdict.word()))?;
+        self.lines.push(format!("{}: {claim}", verdict.word()));
+        Ok(verdict)
+    }
+
+    /// The points with the indices given.
+    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<&'a Point>> {
+        let indices = node.indices(self.points.len())?;
+        node.need(indices.windows(2).all(|w| w[0] < w[1]), "answers", "indices must ascend")?;
+        indices.iter().for_each(|&k| self.used[k] = true);
+        Ok(indices.iter().map(|&k| &self.points[k]).collect())
+    }
+
+    /// The verdict on "all these places have a tangent line" from some of them.
+    fn all(&mut self, node: &Node<'_>, places: &[Place]) -> Checked<Verdict> {
+        let chosen = self.select(node)?;
+        let asked = chosen.iter().all(|p| places.contains(&p.place));
+        node.need(asked, "answers", "a point that is not asked for")?;
+        Ok(match chosen.iter().map(|p| p.verdict).min() {
+            Some(Verdict::Proved) if chosen.len() < places.len() => Verdict::Undetermined,
+            found => found.unwrap_or(Verdict::Undetermined),
+        })
+    }
+
+    /// The joints: refuted by one of them; proved by Theorem 5 or 5′. Says at which joints.
+    fn joints(
+        &mut self,
+        theorem: &Node<'_>,
+        points: &Node<'_>,
+        upstairs: &Node<'_>,
+    ) -> Checked<(Verdict, &'static str)> {
+        let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
+        let chosen = self.select(points)?;
+        upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
+        let listed: Option<Vec<_>> = chosen.iter().map(|p| p.place.joint(model, model.shape.start)).collect();
+        let listed = points.some(listed, "joints", "a point that is no joint")?;
+        let together = chosen.iter().map(|p| p.verdict).min();
+        if name == "none" {
+            let refuted = together == Some(Verdict::Refuted);
+            let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };
+            return Ok((verdict, "every joint of every level"));
+        }
+        let fits = matches!(name, "5" | "5'") && together == Some(Verdict::Proved);
+        theorem.need(fits, "joints", "a theorem proves that joints have tangents; \"none\" otherwise")?;
+        complete(model, &listed, points, "joints")?;
+        theorem.at(self.injective(name == "5"))?;
+        if name == "5" {
+            return Ok((Verdict::Proved, "every joint of every level, a dense set"));
+        }
+        self.upstairs(&items, upstairs)?;
+        Ok((Verdict::Proved, "the joints listed and every joint whose line upstairs is not killed, a dense set"))
+    }
+
+    /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
+    fn injective(&self, with_view: bool) -> Checked<()> {
+        let view = injective(self.model, "joints")?;
+        need(view || !with_view, "joints", "the map into the space where the shape is looked at is not injective")
+    }
+
+    /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
+    fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Checked<()> {
+        let Model { shape, reachable, spaces, .. } = self.model;
+        let (mut listed, mut spans) = (Vec::new(), shape.no_rows());
+        for &e in reachable {
+            spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
+        }
+        for item in items {
+            let (e, point) = Point::in_own_state(self.model, item, "joints")?;
+            let joint = point.place.joint(self.model, e).filter(|j| !listed.contains(j));
+            let new = point.verdict == Verdict::Proved && joint.is_some();
+            item.need(new, "joints", "each first-level joint is proved once, in its own state")?;
+            listed.extend(joint);
+            spans[e] = point.common.iter().fold(spans[e].clone(), |span, vector| span.stack(&vector.transpose()));
+        }
+        complete(self.model, &listed, node, "joints")?;
+        let image = |e, p: &Piece, span: &Matrix| span.times(&spaces.on_visible(e, p)?.transpose());
+        let spans = close(shape, reachable, spans, Way::Up, image)?;
+        let all = reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
+        node.need(all, "joints", "the tangent lines are not seen to span the visible quotients")
+    }
+
+    /// All maps are similarities for some scalar products on the relevant spaces, of dimension at least 2.
+    fn similarities(&self, node: &Node<'_>) -> Checked<()> {
+        let Model { shape, spaces, .. } = self.model;
+        let mut products = shape.no_rows();
+        for (e, item) in self.model.for_states(node, "similarities")? {
+            let n = spaces.of(e)?.basis.cols;
+            item.need(n >= 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
+            products[e] = positive_definite(&item, n)?;
+        }
+        for &e in &self.model.reachable {
+            for piece in &shape.states[e].pieces {
+                let linear = spaces.linear(&piece.op, e, piece.target)?;
+                let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
+                let own = &products[piece.target];
+                let ratio = pulled.at(0, 0) / own.at(0, 0);
+                let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
+                node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
+            }
+        }
+        let start = spaces.of(shape.start)?;
+        let injective = shape.view.times(&start.basis)?.rank()? == start.basis.cols;
+        node.need(injective, "similarities", "the map into the space where the shape is looked at is not injective")
+    }
+}

@@ -1,0 +1,21 @@
+//! Curves and sets: the case, what is computed from it, and the rules of certificates of the kind `certify`.
+
+pub mod case;
+mod claims;
+mod everywhere;
+mod germ;
+mod model;
+mod points;
+mod rate;
+mod rules;
+mod shape;
+mod top;
+
+pub use case::Case;
+pub use claims::{check, injective};
+pub use germ::{Germ, Position, Root};
+pub use model::Model;
+pub use points::{Place, Point, complete, joints};
+pub use rules::{Branch, Found, Leading, Line, read_address};
+pub use shape::{Address, End, Kind, Op, Piece, Shape, Spaces, State, Way, close};
+pub use top::{Chain, Top, chain, outside, positive_definite, residual, span_a_plane};

@@ -1,0 +1,186 @@
+//! The part of a spectrum with the largest modulus, proved without factorisation.
+
+use crate::base::{
+    Checked, Enclosed, Field, Interval, MAX_DEGREE, Matrix, Node, Q, bits, has_root_near, primitive, roots_in_disc,
+    spend, values, whole,
+};
+use num_bigint::BigInt;
+use num_traits::{Signed, pow};
+
+/// A Jordan chain `v_1, v_2, …` with `(L − sθ) v_1 = 0` and `(L − sθ) v_{j+1} = v_j`.
+pub struct Chain {
+    /// `s = ±1`.
+    pub sign: i32,
+    /// The vectors, over the field.
+    pub vectors: Vec<Matrix>,
+}
+
+/// The eigenvalues outside a disc, all of one modulus, with their whole generalised eigenspaces.
+pub enum Top {
+    /// `±θ` for a real number `θ`, with a Jordan basis.
+    Real {
+        /// The field of `θ`.
+        field: Field,
+        /// The chains.
+        chains: Vec<Chain>,
+    },
+    /// Complex conjugate eigenvalues with one Jordan block each.
+    Pair {
+        /// A square that holds one of them: its real and its imaginary side.
+        value: [Interval; 2],
+        /// Its eigenvector over `Q[x]/(m)`.
+        vector: Matrix,
+        /// The matrix that multiplies by the root of `m`.
+        by_root: Matrix,
+    },
+    /// A rational invariant subspace on which `L` is a conformal map for some scalar product; its basis as rows.
+    Conformal(Matrix),
+}
+
+/// The radius, and how many roots of the characteristic polynomial have a larger modulus; none has this one.
+pub fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
+    let (r, n) = (radius.rational()?, chi.cols - 1);
+    radius.need(r.is_positive(), "disc", "the radius must be positive")?;
+    spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
+    // Multiples of a_k r^k: a_k p^k q^(n - k).
+    let scaled = |(k, a): (usize, &BigInt)| a * pow(r.numer().clone(), k) * pow(r.denom().clone(), n - k);
+    let inside = roots_in_disc(&primitive(chi.data.iter().enumerate().map(scaled).collect()))?;
+    let inside = radius.some(inside, "disc", "the recursion of Schur and Cohn is not regular for this radius")?;
+    Ok((r, n - inside))
+}
+
+/// `M v − s θ v` for a vector over `Q[x]/(m)`, given by the matrix that multiplies by the root of `m`.
+pub fn residual(by_root: &Matrix, matrix: &Matrix, sign: i32, v: &Matrix) -> Checked<Matrix> {
+    Ok(matrix.times(v)?.plus(&whole(-i64::from(sign)), &v.times(by_root)?))
+}
+
+/// Reads the vectors of a Jordan chain of the eigenvalue `s θ`.
+pub fn chain(list: &Node<'_>, matrix: &Matrix, by_root: &Matrix, sign: i32, rule: &str) -> Checked<Vec<Matrix>> {
+    let mut vectors: Vec<Matrix> = Vec::new();
+    for item in list.list()? {
+        let v = Field::coordinates(by_root.rows, &item, matrix.rows)?;
+        let residual = residual(by_root, matrix, sign, &v)?;
+        let continues = vectors.last().map_or(residual.is_zero(), |before| residual == *before);
+        item.need(continues, rule, "the vector does not continue the Jordan chain")?;
+        vectors.push(v);
+    }
+    list.need(!vectors.is_empty(), rule, "a chain is not empty")?;
+    Ok(vectors)
+}
+
+impl Top {
+    /// Reads and checks the evidence for the top of the spectrum of `linear`.
+    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
+        let read = match node.tag("top")? {
+            "real" => Self::real(node, linear),
+            "pair" => Self::pair(node, linear),
+            "conformal" => Self::conformal(node, linear),
+            _ => node.reject("format", "unknown kind of top"),
+        };
+        node.at(read)
+    }
+
+    fn real(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
+        let [_, radius, polynomial, interval, list] = node.fields("top radius polynomial interval chains")?;
+        let (r, count) = outside(&linear.characteristic()?, &radius)?;
+        let field = Field::read(&polynomial, &interval)?;
+        let beyond = field.interval[0] > r || field.interval[1] < -&r;
+        interval.need(beyond, "top-real", "the eigenvalue must lie outside the disc")?;
+        let mut chains = Vec::new();
+        for item in list.list()? {
+            let [sign, vectors] = item.fields("sign vectors")?;
+            let sign = match sign.text()? {
+                "+" => 1,
+                "-" => -1,
+                _ => return sign.reject("format", "a sign is \"+\" or \"-\""),
+            };
+            chains.push(Chain { sign, vectors: chain(&vectors, linear, &field.by_root, sign, "top-real")? });
+        }
+        let all = chains.iter().map(|c| c.vectors.len()).sum::<usize>() == count;
+        list.need(all, "top-real", format_args!("{count} eigenvalues lie outside the disc"))?;
+        for s in [1, -1] {
+            let starts = chains.iter().filter(|c| c.sign == s).map(|c| field.enclose(&c.vectors[0]));
+            let independent = match &starts.collect::<Checked<Vec<_>>>()?[..] {
+                [] => true,
+                [v] => v.is_nonzero(),
+                [v, w] => v.not_parallel(w),
+                _ => false,
+            };
+            list.need(independent, "top-real", "the eigenvectors are not seen to be independent")?;
+        }
+        Ok(Self::Real { field, chains })
+    }
+
+    fn pair(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
+        let [_, radius, polynomial, centre, error, list] = node.fields("top radius polynomial centre error vectors")?;
+        let (r, count) = outside(&linear.characteristic()?, &radius)?;
+        let (m, c, e) = (Field::monic(&polynomial, MAX_DEGREE)?, centre.vector(2)?, error.rational()?);
+        let (x, y, far) = (&c[0], &c[1], &r + &e);
+        let fits = e.is_positive() && *y > e && x * x + y * y > &far * &far;
+        node.need(fits, "top-pair", "an eigenvalue outside the disc and off the real axis is needed")?;
+        let near = has_root_near(&Matrix::new(1, m.len(), &m), &c, &e)?;
+        error.need(near, "top-pair", "no root is seen to lie within this distance of the centre")?;
+        let by_root = Field::companion(&m);
+        let vectors = chain(&list, linear, &by_root, 1, "top-pair")?;
+        let around = |v: &Q| [v - &e, v + &e];
+        let (value, vector) = ([around(x), around(y)], vectors[0].clone());
+        let [re, im] = values(&vector, &value[0], &value[1])?;
+        let all = 2 * vectors.len() == count && (re.is_nonzero() || im.is_nonzero());
+        list.need(all, "top-pair", format_args!("{count} eigenvalues lie outside the disc, or the vector may be 0"))?;
+        Ok(Self::Pair { value, vector, by_root })
+    }
+
+    fn conformal(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
+        let [_, radius, basis, gram, square] = node.fields("top radius basis gram square")?;
+        let (r, count) = outside(&linear.characteristic()?, &radius)?;
+        let e = basis.matrix(linear.rows)?;
+        let (echelon, pivots) = e.echelon()?;
+        let fits = echelon == e && e.rows == count;
+        basis.need(fits, "top-conformal", format_args!("{count} rows in reduced echelon form are needed"))?;
+        let images = e.times(&linear.transpose())?;
+        // Rows are images of basis vectors: this is the transpose of L on the space.
+        let inner = images.columns(&pivots);
+        basis.need(inner.times(&e)? == images, "top-conformal", "the space is not invariant")?;
+        let (h, c) = (positive_definite(&gram, e.rows)?, square.rational()?);
+        let stretches = c > &r * &r && inner.times(&h)?.times(&inner.transpose())? == h.scaled(&c);
+        square.need(stretches, "top-conformal", "the map does not stretch the scalar product by this factor")?;
+        Ok(Self::Conformal(e))
+    }
+
+    /// The image under `view` of the eigenvectors that end the longest chains, by their coefficients: over the field, over
+    /// `Q[x]/(m)` (which stands for real and imaginary part), or rational.
+    pub fn ends(&self, view: &Matrix) -> Checked<Vec<Matrix>> {
+        match self {
+            Self::Real { chains, .. } => {
+                let longest = chains.iter().map(|c| c.vectors.len()).max();
+                let ending = chains.iter().filter(|c| Some(c.vectors.len()) == longest);
+                ending.map(|c| view.times(&c.vectors[0])).collect()
+            }
+            Self::Pair { vector, .. } => Ok(vec![view.times(vector)?]),
+            Self::Conformal(basis) => (0..basis.rows).map(|i| view.times(&basis.row(i).transpose())).collect(),
+        }
+    }
+
+    /// Enclosures of real vectors that span their real and imaginary parts.
+    pub fn directions(&self, view: &Matrix) -> Checked<Vec<Enclosed>> {
+        let ends = self.ends(view)?;
+        Ok(match self {
+            Self::Real { field, .. } => ends.iter().map(|v| field.enclose(v)).collect::<Checked<_>>()?,
+            Self::Pair { value, .. } => values(&ends[0], &value[0], &value[1])?.into(),
+            Self::Conformal(_) => ends.into_iter().map(Enclosed::exact).collect(),
+        })
+    }
+}
+
+/// Reads a symmetric matrix whose elimination without exchanges has positive pivots only.
+pub fn positive_definite(node: &Node<'_>, n: usize) -> Checked<Matrix> {
+    let matrix = node.matrix(n)?;
+    node.need(matrix.rows == n && matrix.transpose() == matrix, "gram", "a symmetric matrix is needed")?;
+    node.need(matrix.is_positive(true)?, "gram", "the matrix is not positive definite")?;
+    Ok(matrix)
+}
+
+/// Whether some two of the vectors have a 2x2 minor that is certainly not 0.
+pub fn span_a_plane(vectors: &[Enclosed]) -> bool {
+    (0..vectors.len()).any(|k| vectors[..k].iter().any(|w| vectors[k].not_parallel(w)))
+}

@@ -1,0 +1,381 @@
+//! Bounds of a joint spectral radius: a disc that holds an eigenvalue of a product, and a norm for every diagonal block.
+
+use crate::base::{
+    Accepted, Checked, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Verdict, bits, file, has_root_near, index,
+    matrix, need, spend, word,
+};
+use crate::curve::positive_definite;
+use num_bigint::BigInt;
+use num_traits::{One, Signed, Zero};
+
+/// Matrices `dim(from) x dim(to)` between the spaces of states.
+pub struct System {
+    /// The name of the file.
+    pub name: String,
+    /// The dimension of the space of every state.
+    pub dims: Vec<usize>,
+    /// The arrows: from, to, matrix.
+    pub arrows: Vec<(usize, usize, Matrix)>,
+}
+
+/// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
+fn matrix_list(source: &str) -> Checked<System> {
+    file(source, "name matrices states arrows", |node| {
+        let mut matrices: Vec<Matrix> = Vec::new();
+        for item in node.field("matrices")?.list()? {
+            for x in item.each(Node::list)?.iter().flatten() {
+                let floats = matches!(x.value, Json::Number(text) if text.contains(['.', 'e', 'E', 'n']));
+                x.need(!floats, "case", "numbers of matrices are integers or texts")?;
+            }
+            matrices.push(matrix(&item)?);
+        }
+        let name = word(node, "name")?.unwrap_or_default().to_owned();
+        let (dims, arrows) = if node.get("states").is_none() && node.get("arrows").is_none() {
+            let dim = matrices.first().map_or(0, |m| m.rows);
+            (vec![dim], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
+        } else {
+            let dims = node.field("states")?.each(|v| index(v, MAX_COORDINATES + 1))?;
+            let arrow = |arrow: &Node<'_>| {
+                let parts = arrow.exactly(3, "format")?;
+                let matrix = &matrices[index(&parts[2], matrices.len())?];
+                Ok((index(&parts[0], dims.len())?, index(&parts[1], dims.len())?, matrix.clone()))
+            };
+            let arrows = node.field("arrows")?.each(arrow)?;
+            (dims, arrows)
+        };
+        let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
+        node.need(!arrows.is_empty() && arrows.iter().all(fits), "case", "no arrow, or a matrix of the wrong size")?;
+        Ok(System { name, dims, arrows })
+    })
+}
+
+/// Checks the proof of a certificate of the kind `jsr`.
+pub fn check(text: &str, node: &Node<'_>) -> Checked<Accepted> {
+    let system = matrix_list(text)?;
+    let Bounds { lower, upper, blocks } = bounds(&system, node)?;
+    let which = if lower == upper { format!("{lower}") } else { format!("at least {lower} and at most {upper}") };
+    let claim = format!("proved: the joint spectral radius is {which}");
+    Ok(Accepted { case: system.name, verdict: Verdict::Proved, claims: vec![claim], points: blocks })
+}
+
+/// What is proved of a radius.
+pub struct Bounds {
+    /// It is at least this.
+    pub lower: Q,
+    /// It is at most this.
+    pub upper: Q,
+    /// One line for each block.
+    pub blocks: Vec<String>,
+}
+
+/// Checks `{"lower", "upper", "bases", "blocks"}` for a system.
+pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
+    let [lower, upper, bases, blocks] = node.fields("lower upper bases blocks")?;
+    let lo = if lower.is_null() { Q::zero() } else { lower.at(below(system, &lower))? };
+    let hi = upper.rational()?;
+    // The matrices in the bases.
+    let frames = read_bases(system, &bases)?;
+    let mut arrows = Vec::new();
+    for (from, to, m) in &system.arrows {
+        arrows.push((*from, *to, frames[*from].1.times(&m.times(&frames[*to].0)?)?));
+    }
+    let (mut lines, mut used) = (Vec::new(), vec![0_usize; system.dims.len()]);
+    for item in blocks.list()? {
+        let [dims, bound, norm] = item.fields("dims bound norm")?;
+        let (dims, bound) = (dims.indices(usize::MAX)?, bound.rational()?);
+        let fits = dims.len() == used.len() && !bound.is_negative() && bound <= hi;
+        item.need(fits, "block", "one size for each state, and a bound up to the upper one, are needed")?;
+        let start = used.clone();
+        used.iter_mut().zip(&dims).for_each(|(u, d)| *u = u.saturating_add(*d));
+        let room = used.iter().zip(&system.dims).all(|(u, d)| u <= d);
+        item.need(room, "block", "the blocks have more dimensions than the spaces")?;
+        // Nothing of the images of this block and those before lies after it.
+        let nothing =
+            |(from, to, m): &(usize, usize, Matrix)| m.part(used[*from]..m.rows, start[*to]..used[*to]).is_zero();
+        let triangular = arrows.iter().all(nothing);
+        item.need(triangular, "block", "the matrices are not block upper triangular in these bases")?;
+        let diagonal = |(from, to, m): &(usize, usize, Matrix)| {
+            (*from, *to, m.part(start[*from]..used[*from], start[*to]..used[*to]))
+        };
+        let block = System { name: String::new(), arrows: arrows.iter().map(diagonal).collect(), dims };
+        lines.push(norm.at(block.check(&norm, &bound))?);
+    }
+    blocks.need(used == system.dims, "block", "the blocks do not fill the spaces")?;
+    upper.need(lo <= hi, "block", "the bounds contradict each other")?;
+    Ok(Bounds { lower: lo, upper: hi, blocks: lines })
+}
+
+/// A basis of every state (columns) and its inverse.
+fn read_bases(system: &System, node: &Node<'_>) -> Checked<Vec<(Matrix, Matrix)>> {
+    let mut bases = Vec::new();
+    for (item, &dim) in node.exactly(system.dims.len(), "format")?.iter().zip(&system.dims) {
+        let basis = item.matrix(dim)?.transpose();
+        item.need(basis.cols == dim, "format", format_args!("{dim} vectors are needed here"))?;
+        let inverse = item.some(basis.solve(&Matrix::identity(dim))?, "block", "the vectors are no basis")?;
+        bases.push((basis, inverse));
+    }
+    Ok(bases)
+}
+
+/// A closed path and a disc around `z` in which its product has an eigenvalue, because `n |χ(z)| <= error |χ'(z)|`; the modulus is
+/// at least `|z| − error >= bound^length`.
+fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
+    let [word, centre, error, bound] = node.fields("word centre error bound")?;
+    let word = word.indices(system.arrows.len())?;
+    let (centre, e, bound) = (centre.vector(2)?, error.rational()?, bound.rational()?);
+    let fits = (1..=MAX_LETTERS).contains(&word.len()) && !e.is_negative() && !bound.is_negative();
+    need(fits, "word", "a word of 1 to 1000 letters, and numbers from 0 on, are needed")?;
+    let arrow = |k: usize| &system.arrows[word[k]];
+    let closed = (0..word.len()).all(|k| arrow(k).1 == arrow((k + 1) % word.len()).0);
+    need(closed, "word", "the arrows form no closed path")?;
+    let product = (1..word.len()).try_fold(arrow(0).2.clone(), |p, k| p.times(&arrow(k).2))?;
+    error.need(
+        has_root_near(&product.characteristic()?, &centre, &e)?,
+        "word",
+        "no eigenvalue is seen in this disc",
+    )?;
+    let reach = power(&bound, word.len())? + &e;
+    let above = &reach * &reach <= &centre[0] * &centre[0] + &centre[1] * &centre[1];
+    need(above, "word", "the bound is above the eigenvalue")?;
+    Ok(bound)
+}
+
+fn power(x: &Q, exponent: usize) -> Checked<Q> {
+    spend(exponent, bits(x).saturating_mul(exponent as u64))?;
+    Ok(num_traits::pow(x.clone(), exponent))
+}
+
+/// An upper bound of a modulus; where the number is not real about `2^-100` above it.
+fn modulus(re: &Q, im: &Q) -> Checked<Q> {
+    if im.is_zero() {
+        return Ok(re.abs());
+    }
+    let square = re * re + im * im;
+    spend(16, bits(&square) + 256)?;
+    let scale = BigInt::one() << 100u32;
+    let scaled = (square * Q::from_integer(&scale * &scale)).ceil().to_integer();
+    Ok(Q::new(scaled.sqrt() + BigInt::one(), scale))
+}
+
+/// A vector in a state. Scalars are real (`width` 1) or complex (`width` 2); a vector has a column for the real and one for the
+/// imaginary parts.
+struct Point {
+    state: usize,
+    vector: Matrix,
+}
+
+/// A polytope: all combinations `Σ c q` of its points with `Σ|c| <= 1`.
+struct Polytope {
+    width: usize,
+    points: Vec<Point>,
+}
+
+/// What is left of a vector after a combination of points is taken off, and the coefficients of that.
+struct Rest {
+    vector: Matrix,
+    /// `Σ |c|`, rounded upwards.
+    total: Q,
+    negative: bool,
+}
+
+impl Polytope {
+    fn read(node: &Node<'_>, width: usize, dims: &[usize]) -> Checked<Self> {
+        let read = |item: &Node<'_>| {
+            let [state, coordinates] = item.fields("state coordinates")?;
+            let state = state.index(dims.len())?;
+            let scalar = |x: &Node<'_>| if width == 2 { x.vector(2) } else { Ok(vec![x.rational()?]) };
+            let entries =
+                coordinates.exactly(dims[state], "format")?.iter().map(scalar).collect::<Checked<Vec<_>>>()?;
+            Ok(Point { state, vector: Matrix::from_rows(width, &entries) })
+        };
+        Ok(Self { width, points: node.each(read)? })
+    }
+
+    /// Reads a combination of points of a state and takes it off a vector.
+    fn rest(&self, mut vector: Matrix, node: &Node<'_>, state: usize) -> Checked<Rest> {
+        let (mut total, mut negative) = (Q::zero(), false);
+        for item in node.list()? {
+            let parts = item.exactly(1 + self.width, "format")?;
+            let point = &self.points[parts[0].index(self.points.len())?];
+            item.need(point.state == state, "inclusion", "a point of another state")?;
+            let c = parts[1..].iter().map(Node::rational).collect::<Checked<Vec<_>>>()?;
+            // Rows times this matrix are multiplied by the scalar.
+            let (factor, modulus) = match &c[..] {
+                [re, im] => (vec![re.clone(), im.clone(), -im, re.clone()], modulus(re, im)?),
+                _ => (c.clone(), c[0].abs()),
+            };
+            negative |= c[0].is_negative();
+            total += modulus;
+            vector = vector.minus(&point.vector.times(&Matrix::new(self.width, self.width, &factor))?);
+        }
+        Ok(Rest { vector, total, negative })
+    }
+
+    /// By state, `K` with all unit vectors in `K Q`: they are combinations but for rests whose 1-norm is below 1.
+    fn interiors(&self, node: &Node<'_>, dims: &[usize]) -> Checked<Vec<Q>> {
+        let mut found: Vec<Option<Q>> = dims.iter().map(|d| (*d == 0).then(Q::zero)).collect();
+        for item in node.list()? {
+            let [state, units] = item.fields("state units")?;
+            let s = state.index(dims.len())?;
+            let units = units.list()?;
+            item.need(units.len() == dims[s], "interior", "one combination for each axis is needed")?;
+            let (mut largest, mut error) = (Q::zero(), Q::zero());
+            for (axis, unit) in units.iter().enumerate() {
+                let x = Matrix::ones(dims[s], self.width, |i, j| i == axis && j == 0);
+                let rest = self.rest(x, unit, s)?;
+                error = error.max(rest.vector.norm());
+                largest = largest.max(rest.total);
+            }
+            item.need(error < Q::one(), "interior", "the combinations are too far from the axes")?;
+            found[s] = Some(largest / (Q::one() - error));
+        }
+        node.some(found.into_iter().collect(), "interior", "a state without combinations of the axes")
+    }
+
+    /// Whether all points are nonnegative, and every coordinate of every state is positive at one of them.
+    fn is_positive(&self, dims: &[usize]) -> bool {
+        let at = |s: usize, i: usize| self.points.iter().any(|p| p.state == s && p.vector.data[i].is_positive());
+        let reached = dims.iter().enumerate().all(|(s, &d)| (0..d).all(|i| at(s, i)));
+        reached && self.points.iter().all(|p| !p.vector.has_negative())
+    }
+}
+
+/// A diagonal block: the arrows between its parts of the states.
+impl System {
+    /// Checks that the norm shows that products of `k` matrices are at most a constant times `bound^k`; says so.
+    fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<String> {
+        let kind = node.tag("norm")?;
+        match kind {
+            "zero" => {
+                let [_] = node.fields("norm")?;
+                need(self.arrows.iter().all(|a| a.2.is_zero()), "zero", "a matrix of the block is not 0")?;
+            }
+            "symmetric" | "monotone" | "balanced" => self.polytope(node, kind, bound)?,
+            "quadratic" => self.quadratic(node, bound)?,
+            "tree" => self.tree(node, bound)?,
+            _ => return node.reject("format", "unknown kind of norm"),
+        }
+        Ok(format!("block of dimensions {:?}: {kind}, at most {bound}", self.dims))
+    }
+
+    /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,
+    /// everything being nonnegative.
+    fn polytope(&self, node: &Node<'_>, kind: &str, bound: &Q) -> Checked<()> {
+        let [_, points, inclusions, axes] = node.fields("norm points inclusions axes")?;
+        let monotone = kind == "monotone";
+        let hull = Polytope::read(&points, if kind == "balanced" { 2 } else { 1 }, &self.dims)?;
+        let interior = if monotone {
+            let positive = hull.is_positive(&self.dims) && self.arrows.iter().all(|a| !a.2.has_negative());
+            points.need(positive, "monotone", "something is negative, or a coordinate is nowhere positive")?;
+            vec![Q::zero(); self.dims.len()]
+        } else {
+            hull.interiors(&axes, &self.dims)?
+        };
+        let mut seen = vec![vec![false; self.arrows.len()]; hull.points.len()];
+        for item in inclusions.list()? {
+            let [point, arrow, terms] = item.fields("point arrow terms")?;
+            let (k, a) = (point.index(hull.points.len())?, arrow.index(self.arrows.len())?);
+            let (from, to, matrix) = &self.arrows[a];
+            item.need(*to == hull.points[k].state, "inclusion", "the arrow does not end in the state of the point")?;
+            let Rest { vector, total, negative } = hull.rest(matrix.times(&hull.points[k].vector)?, &terms, *from)?;
+            let far = if monotone {
+                let under = !negative && !vector.data.iter().any(Signed::is_positive);
+                item.need(under, "inclusion", "the image does not lie below the combination")?;
+                total
+            } else {
+                total + &interior[*from] * vector.norm()
+            };
+            item.need(far <= *bound, "inclusion", "the image lies outside the multiple of the polytope")?;
+            seen[k][a] = true;
+        }
+        for (k, point) in hull.points.iter().enumerate() {
+            let missing = |a: &usize| !seen[k][*a] && self.arrows[*a].1 == point.state && !self.arrows[*a].2.is_zero();
+            let first = (0..self.arrows.len()).find(missing);
+            let why = format_args!("the image of point {k} under arrow {first:?} is missing");
+            inclusions.need(first.is_none(), "inclusion", why)?;
+        }
+        Ok(())
+    }
+
+    /// Positive definite forms with `Tᵗ P T <= square P`, `square <= bound²`.
+    fn quadratic(&self, node: &Node<'_>, bound: &Q) -> Checked<()> {
+        let [_, forms, square] = node.fields("norm forms square")?;
+        let square = square.rational()?;
+        let mut read: Vec<Matrix> = self.dims.iter().map(|d| Matrix::identity(*d)).collect();
+        for item in forms.list()? {
+            let [state, form] = item.fields("state form")?;
+            let s = state.index(self.dims.len())?;
+            read[s] = positive_definite(&form, self.dims[s])?;
+        }
+        need(square <= bound * bound, "quadratic", "the bound is below the root of the square")?;
+        for (from, to, m) in &self.arrows {
+            let image = m.transpose().times(&read[*from])?.times(m)?;
+            let shrinks = read[*to].scaled(&square).minus(&image).is_positive(false)?;
+            need(shrinks, "quadratic", "a matrix expands the form")?;
+        }
+        Ok(())
+    }
+
+    /// Complete prefix codes of words whose norms are at most `bound^length`, for weighted sums of absolute values.
+    fn tree(&self, node: &Node<'_>, bound: &Q) -> Checked<()> {
+        let [_, codes] = node.fields("norm codes")?;
+        let mut weights: Vec<Option<Vec<Q>>> = self.dims.iter().map(|d| (*d == 0).then(Vec::new)).collect();
+        let mut words: Vec<Vec<Vec<usize>>> = vec![Vec::new(); self.dims.len()];
+        for item in codes.list()? {
+            let [state, w, list] = item.fields("state weights words")?;
+            let s = state.index(self.dims.len())?;
+            let w = w.vector(self.dims[s])?;
+            item.need(w.iter().all(Signed::is_positive), "tree", "weights are positive")?;
+            weights[s] = Some(w);
+            for word in list.list()? {
+                let letters = word.indices(self.arrows.len())?;
+                // The empty word has norm 1 whatever the matrices are: it would be a code that proves every bound.
+                word.need((1..=MAX_LETTERS).contains(&letters.len()), "tree", "words have 1 to 1000 letters")?;
+                words[s].push(letters);
+            }
+            words[s].sort();
+        }
+        let weights = codes.some(weights.into_iter().collect(), "tree", "a state without a code")?;
+        let code = Code { block: self, weights, bound };
+        for from in (0..self.dims.len()).filter(|&from| self.dims[from] > 0) {
+            codes.at(code.descend(&words[from], 0, from, from, &Matrix::identity(self.dims[from])))?;
+        }
+        Ok(())
+    }
+}
+
+/// Prefix codes of paths through a block, with the weights of the norms in all states.
+struct Code<'a> {
+    block: &'a System,
+    weights: Vec<Vec<Q>>,
+    bound: &'a Q,
+}
+
+impl Code<'_> {
+    /// Every path from `from` begins with one of the words (which ascend), and these are short enough. All of them begin with
+    /// the word of this depth that leads to `at` with this product.
+    fn descend(&self, words: &[Vec<usize>], depth: usize, from: usize, at: usize, product: &Matrix) -> Checked<()> {
+        if words.first().is_some_and(|w| w.len() == depth) {
+            let weighed = |i: usize, j: usize| product.at(i, j).abs() * &self.weights[from][i];
+            let column = |j: usize| (0..product.rows).map(|i| weighed(i, j)).sum::<Q>() / &self.weights[at][j];
+            let most = power(self.bound, depth)?;
+            let within = words.len() == 1 && (0..product.cols).all(|j| column(j) <= most);
+            return need(within, "tree", format_args!("{:?} is too long, or a word begins with it", words[0]));
+        }
+        if product.is_zero() && depth > 0 {
+            // What follows is 0, whatever the code says about it.
+            return Ok(());
+        }
+        need(!words.is_empty(), "tree", "a path begins with no word of the code")?;
+        let mut used = 0;
+        for (a, (start, to, m)) in self.block.arrows.iter().enumerate() {
+            if *start == at && self.block.dims[*to] > 0 {
+                let begin = |letter: usize| words.partition_point(|w| w[depth] < letter);
+                let longer = &words[begin(a)..begin(a + 1)];
+                used += longer.len();
+                self.descend(longer, depth + 1, from, *to, &product.times(m)?)?;
+            }
+        }
+        need(used == words.len(), "tree", "a word of the code is no path")
+    }
+}
