@@ -238,6 +238,11 @@ enum Form {
     States,
 }
 
+/// Reads more of the states of a case.
+pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> Checked<T> {
+    file(source, CASE, |case| read(&items(case, "state")?))
+}
+
 /// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both
 /// are not read.
 ///

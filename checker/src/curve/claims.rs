@@ -74,6 +74,17 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     Ok(Accepted { case: case.name.clone(), verdict, claims: claims.lines, points })
 }
 
+/// All operators are injective on the visible quotients; whether the map into the space where the shape is looked at is, too.
+pub fn injective(model: &Model<'_>, rule: &str) -> Checked<bool> {
+    let Model { shape, spaces, .. } = model;
+    for (e, piece) in shape.pieces() {
+        let map = spaces.on_visible(e, piece)?;
+        need(map.rank()? == map.cols, rule, format_args!("an operator of state {e} is not injective"))?;
+    }
+    let start = spaces.of(shape.start)?;
+    Ok(shape.view.times(&start.basis)?.rank()? == start.visible.rows)
+}
+
 struct Claims<'a> {
     model: &'a Model<'a>,
     points: &'a [Point],
@@ -164,14 +175,8 @@ impl<'a> Claims<'a> {
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
     fn injective(&self, with_view: bool) -> Checked<()> {
-        let (shape, spaces) = (self.model.shape, &self.model.spaces);
-        for (e, piece) in shape.pieces() {
-            let map = spaces.on_visible(e, piece)?;
-            need(map.rank()? == map.cols, "joints", format_args!("an operator of state {e} is not injective"))?;
-        }
-        let start = spaces.of(shape.start)?;
-        let injective = !with_view || shape.view.times(&start.basis)?.rank()? == start.visible.rows;
-        need(injective, "joints", "the map into the space where the shape is looked at is not injective")
+        let view = injective(self.model, "joints")?;
+        need(view || !with_view, "joints", "the map into the space where the shape is looked at is not injective")
     }
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.

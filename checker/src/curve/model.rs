@@ -1,7 +1,7 @@
 //! Trees of words: contraction codes, and covers of a ring by cells on which a functional keeps its sign (theory §1, §7).
 
 use super::{Germ, Shape, Spaces};
-use crate::base::{Checked, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
+use crate::base::{Checked, Enclosed, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -49,14 +49,19 @@ pub struct Cell {
 type Visit<'v> = dyn FnMut(&Matrix, usize, &str) -> Checked<()> + 'v;
 
 impl<'a> Model<'a> {
+    /// The spaces of a shape, without anything that encloses the attractors: no cover may be checked with it.
+    pub fn unenclosed(shape: &'a Shape) -> Checked<Self> {
+        let spaces = Spaces::new(shape)?;
+        let radius = vec![Q::zero(); shape.states.len()];
+        let hulls = shape.states.iter().map(|s| Matrix::zeros(s.dim, 0)).collect();
+        Ok(Self { shape, spaces, radius, hulls })
+    }
+
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
     /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Checked<Self> {
-        let spaces = node.at(Spaces::new(shape))?;
-        let radius = vec![Q::zero(); shape.states.len()];
-        let hulls = shape.states.iter().map(|s| Matrix::zeros(s.dim, 0)).collect();
-        let mut model = Self { shape, spaces, radius, hulls };
+        let mut model = node.at(Self::unenclosed(shape))?;
         let mut entries = Vec::new();
         for (e, item) in model.for_states(node, "contraction")? {
             let [state, bound, code, hull] = item.fields("state radius code hull")?;
@@ -77,7 +82,13 @@ impl<'a> Model<'a> {
                 code.at(model.leaves(&identity, *e, code.value, "contraction", &mut leaf))?;
             }
         }
-        if !entries.iter().all(|(_, _, hull)| hull.is_null()) {
+        if entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Text(text) if text == "simplex")) {
+            for &e in &shape.reachable {
+                let maps = shape.states[e].pieces.iter().all(|p| !p.op.has_negative());
+                node.need(maps, "hull", "the simplices are mapped into themselves by nonnegative operators only")?;
+                model.hulls[e] = Matrix::identity(shape.states[e].dim);
+            }
+        } else if !entries.iter().all(|(_, _, hull)| hull.is_null()) {
             model.polytopes(entries.iter().map(|(e, _, hull)| (*e, hull)), false)?;
         }
         Ok(model)
@@ -168,9 +179,13 @@ impl<'a> Model<'a> {
 
     /// Functionals on the germ's quotient, given over a number field, as rows on points.
     pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Checked<Functionals> {
+        self.enclosed(germ, &rows.iter().map(|row| field.enclose(row)).collect::<Checked<Vec<_>>>()?)
+    }
+
+    /// Functionals on the germ's quotient, given by enclosures of their entries, as rows on points.
+    pub fn enclosed(&self, germ: &Germ, rows: &[Enclosed]) -> Checked<Functionals> {
         let (mut middles, mut errors) = (Matrix::empty(germ.dim()), Vec::new());
-        for row in rows {
-            let values = field.enclose(row)?;
+        for values in rows {
             middles = middles.stack(&values.lo.plus(&Q::one(), &values.hi).transpose());
             // |chart_k (x − q)| is at most osc(chart_k) times the radius, because both points lie in the ball.
             let spread = |k: usize| (&values.hi.data[k] - &values.lo.data[k]) * oscillation(germ.chart.integers(k));

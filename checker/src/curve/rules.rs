@@ -36,9 +36,12 @@ pub fn read_address(node: &Node<'_>) -> Checked<Address> {
     Ok(address)
 }
 
-struct Branch<'a> {
-    model: &'a Model<'a>,
-    germ: Germ,
+/// A branch with its germ.
+pub struct Branch<'a> {
+    /// The model.
+    pub model: &'a Model<'a>,
+    /// The germ.
+    pub germ: Germ,
 }
 
 /// Checks the certificate of the branch with this address.
@@ -236,14 +239,20 @@ impl Branch<'_> {
     fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, address, own] = node.fields("rule top address own")?;
         let top = Top::read(&top, &self.germ.linear)?;
-        let (y, _) = self.ring_point(&address)?;
+        let (own, view) = self.orbit_top(&address, &own)?;
+        let mut vectors = top.directions(&self.germ.view)?;
+        vectors.extend(own.directions(&view)?);
+        Self::plane("orbit", &vectors)
+    }
+
+    /// The top of `L` on the cyclic hull of a point of the ring, and `G` on that hull.
+    pub fn orbit_top(&self, address: &Node<'_>, own: &Node<'_>) -> Checked<(Top, Matrix)> {
+        let (y, _) = self.ring_point(address)?;
         let transposed = self.germ.linear.transpose();
         let (hull, pivots) = y.transpose().hull(&transposed)?;
         address.need(!pivots.is_empty(), "orbit", "this is the germ's point itself")?;
-        let own = Top::read(&own, &hull.times(&transposed)?.columns(&pivots).transpose())?;
-        let mut vectors = top.directions(&self.germ.view)?;
-        vectors.extend(own.directions(&self.germ.view.times(&hull.transpose())?)?);
-        Self::plane("orbit", &vectors)
+        let own = Top::read(own, &hull.times(&transposed)?.columns(&pivots).transpose())?;
+        Ok((own, self.germ.view.times(&hull.transpose())?))
     }
 
     /// Section 6: one real block of length 2, and a connected part of the ring on which `c_2` takes both signs while `c_1` has
