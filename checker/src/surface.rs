@@ -10,32 +10,8 @@ use branch::{Bounds, independent};
 use chart::Chart;
 use product::Product;
 
-/// A question of the case: a claim in words, and the places it is about; without places, the dense set.
-struct Question {
-    text: String,
-    places: Vec<usize>,
-}
-
-/// The questions of a case, and the places they are about, each with the addresses of its cells.
-#[derive(Default)]
-struct Questions {
-    asked: Vec<Question>,
-    places: Vec<Vec<Address>>,
-}
-
-impl Questions {
-    fn place(&mut self, addresses: Vec<Address>) -> usize {
-        let known = self.places.iter().position(|p| *p == addresses);
-        known.unwrap_or_else(|| {
-            self.places.push(addresses);
-            self.places.len() - 1
-        })
-    }
-
-    fn ask(&mut self, text: String, places: Vec<usize>) {
-        self.asked.push(Question { text, places });
-    }
-}
+/// A question of the case: a claim in words, and the points it is about, by their numbers; none for the dense set.
+type Question = (String, Vec<usize>);
 
 /// An address in words.
 fn name(address: &Address) -> String {
@@ -43,34 +19,42 @@ fn name(address: &Address) -> String {
     format!("{}({})", letters(&address.prefix), letters(&address.cycle))
 }
 
-/// What is asked of a patch with parameters (its vertices, the dense set, the addresses), or of single branches.
-fn questions(model: &Model<'_>, chart: Option<&Chart>, addresses: &[Address]) -> Checked<Questions> {
-    let (start, mut found) = (model.shape.start, Questions::default());
+/// What is asked of a patch with parameters (its vertices, the dense set, the addresses) or of single branches, and the points
+/// that are asked about, each with the addresses of the cells around it.
+fn questions(
+    model: &Model<'_>,
+    chart: Option<&Chart>,
+    addresses: Vec<Address>,
+) -> Checked<(Vec<Question>, Vec<Vec<Address>>)> {
+    let (start, mut asked, mut points) = (model.shape.start, Vec::new(), Vec::new());
+    let mut number = |addresses: Vec<Address>| -> usize {
+        let known = points.iter().position(|p| *p == addresses);
+        known.unwrap_or_else(|| {
+            points.push(addresses);
+            points.len() - 1
+        })
+    };
     if let Some(chart) = chart {
-        let mut vertices = Vec::new();
-        for vertex in chart.vertices()? {
-            vertices.push(found.place(chart.addresses(start, &vertex)?));
-        }
+        let vertices = chart.vertices()?;
+        let vertices = vertices.iter().map(|v| Ok(number(chart.addresses(start, v)?))).collect::<Checked<_>>()?;
         let text = "at every vertex of the first subdivision the cells around it have together a tangent plane";
-        found.ask(text.to_owned(), vertices);
-        found.ask(String::new(), Vec::new());
+        asked.extend([(text.to_owned(), vertices), (String::new(), Vec::new())]);
         for address in addresses {
-            let place = found.place(chart.addresses(start, &chart.locate(start, address)?)?);
-            let text = format!("the cells around the point {} have together a tangent plane there", name(address));
-            found.ask(text, vec![place]);
+            let text = format!("the cells around the point {} have together a tangent plane there", name(&address));
+            asked.push((text, vec![number(chart.addresses(start, &chart.locate(start, &address)?)?)]));
         }
-        return Ok(found);
+        return Ok((asked, points));
     }
     let pieces = model.shape.states[start].pieces.iter().enumerate().filter(|(_, p)| p.target == start);
     let own = pieces.map(|(i, _)| Address { prefix: Vec::new(), cycle: vec![i] });
-    for address in own.chain(addresses.iter().cloned()) {
-        let text = format!("the germ of the branch {} has a tangent plane", name(&address));
-        if found.asked.iter().all(|q| q.text != text) {
-            let place = found.place(vec![address]);
-            found.ask(text, vec![place]);
+    for address in own.chain(addresses) {
+        let question =
+            (format!("the germ of the branch {} has a tangent plane", name(&address)), vec![number(vec![address])]);
+        if !asked.contains(&question) {
+            asked.push(question);
         }
     }
-    Ok(found)
+    Ok((asked, points))
 }
 
 /// Checks the proof of a certificate of the kind `surface`.
@@ -90,46 +74,35 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     contraction.need(known, "contraction", "a reason is needed, or a patch with parameters that is a product")?;
     let surface = Surface { model: &model, product, cover };
     let mut addresses: Vec<Address> = Vec::new();
-    for address in case.examine {
-        if !addresses.contains(&address) {
-            addresses.push(address);
-        }
+    for address in &case.examine {
+        addresses.extend((!addresses.contains(address)).then(|| address.clone()));
     }
     for item in further.list()? {
         let address = read_address(&item)?;
-        let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
-        item.need(normal && !addresses.contains(&address), "answers", "not in its normal form, or asked for before")?;
+        let new = address.normalise(shape, shape.start).as_ref() == Some(&address) && !addresses.contains(&address);
+        item.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
         addresses.push(address);
     }
-    let mut questions = questions(&model, chart.as_ref(), &addresses)?;
-    let root = Root { state: case.shape.start, view: case.shape.view.clone() };
-    let items = points.list()?;
-    points.need(items.len() == questions.places.len(), "points", "one entry for each point is needed, in order")?;
+    let (asked, places) = questions(&model, chart.as_ref(), addresses)?;
+    let root = Root { state: shape.start, view: shape.view.clone() };
     let (mut verdicts, mut lines) = (Vec::new(), Vec::new());
-    for (item, place) in items.iter().zip(&questions.places) {
-        let check = || surface.point(&root, Some(place), item);
-        let verdict = if item.is_null() { Verdict::Undetermined } else { check()?.1 };
+    for (item, place) in points.exactly(places.len(), "points")?.iter().zip(&places) {
+        let check = || Ok(surface.point(&root, Some(place), item)?.1);
+        verdicts.push(if item.is_null() { Verdict::Undetermined } else { check()? });
         let names: Vec<String> = place.iter().map(name).collect();
-        lines.push(format!("{}: {}", verdict.word(), names.join(" = ")));
-        verdicts.push(verdict);
+        lines.push(format!("{}: {}", verdicts[verdicts.len() - 1].word(), names.join(" = ")));
     }
+    dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
     let (mut together, mut found) = (Vec::new(), Vec::new());
-    let listed = answers.list()?;
-    answers.need(listed.len() == questions.asked.len(), "answers", "one answer for each question is needed")?;
-    for (item, question) in listed.iter().zip(&mut questions.asked) {
-        let verdict = match (&chart, question.places.iter().map(|&k| verdicts[k]).min()) {
-            (Some(chart), None) => {
-                let (text, verdict) = surface.dense_set(chart, &dense)?;
-                question.text = text;
-                verdict
-            }
-            (_, verdict) => verdict.unwrap_or(Verdict::Undetermined),
+    for (item, (text, numbers)) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
+        let (text, verdict) = match (&chart, numbers.iter().map(|&k| verdicts[k]).min()) {
+            (Some(chart), None) => surface.dense_set(chart, &dense)?,
+            (_, verdict) => (text, verdict.unwrap_or(Verdict::Undetermined)),
         };
         item.follows("answers", verdict.word())?;
         together.push(verdict);
-        found.push(format!("{}: {}", verdict.word(), question.text));
+        found.push(format!("{}: {text}", verdict.word()));
     }
-    dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
     let verdict = together.into_iter().min().unwrap_or(Verdict::Undetermined);
     Ok(Accepted { case: case.name, verdict, claims: found, points: lines })
 }
@@ -158,8 +131,7 @@ impl Surface<'_> {
             return Ok((addresses, verdict));
         }
         rule.need(self.cover, "contraction", "without contraction only a product has points")?;
-        let items = branches.list()?;
-        branches.need(items.len() == addresses.len(), "point", "one entry for each address is needed")?;
+        let items = branches.exactly(addresses.len(), "point")?;
         let (mut found, mut position): (Vec<Option<Bounds>>, Option<Matrix>) = (Vec::new(), None);
         for (item, address) in items.iter().zip(&addresses) {
             let here = root.view.times(&model.shape.point(root.state, address)?)?;
@@ -179,12 +151,10 @@ impl Surface<'_> {
         if node.is_null() {
             return Ok((text, Verdict::Undetermined));
         }
-        let items = node.list()?;
-        node.need(items.len() == model.shape.reachable.len(), "dense", "one vertex for each reachable face is needed")?;
-        for (item, &e) in items.iter().zip(&model.shape.reachable) {
+        for (e, item) in model.for_states(node, "dense")? {
             let space = model.spaces.of(e)?;
             let (addresses, verdict) =
-                self.point(&Root { state: e, view: space.visible.times(&space.reading)? }, None, item)?;
+                self.point(&Root { state: e, view: space.visible.times(&space.reading)? }, None, &item)?;
             let parameter = chart.locate(e, &addresses[0])?;
             let all = chart.is_inside(&parameter) && chart.addresses(e, &parameter)? == addresses;
             item.need(all, "dense", "these are not all addresses of a point inside the face")?;

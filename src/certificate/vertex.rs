@@ -2,11 +2,12 @@
 
 use super::{Certificate, Doubt, number};
 use crate::algebraic::sqrt_down;
-use crate::arith::Rational;
+use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};
 use crate::scheme::Sector;
 use crate::theorem::Verdict;
 use crate::vertex::field::{Enclosures, Field};
+use crate::vertex::top::Top;
 use crate::vertex::{AtValence, Eigenvector, Ground};
 use malachite_base::num::arithmetic::traits::Floor;
 use serde_json::{Value, json};
@@ -67,12 +68,18 @@ fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Vec<Complex> {
     all
 }
 
+/// Whether the leading eigenvalue is so far from all others that the checker sees it in some forty squarings.
+fn apart(top: &Top) -> bool {
+    let size = abs(&top.enclosure.lo).min(abs(&top.enclosure.hi));
+    (&size - &top.others) << 24 > size
+}
+
 /// The evidence for one valence; `None` where the format has no rule for it.
 fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
     let (n, top) = (found.valence, found.top.as_ref()?);
     let (ground, vector) = (found.ground?, found.eigenvector.as_ref()?);
     let simple = matches!(top.members.as_slice(), [only] if only.blocks == [1]);
-    if !simple || !found.polynomial {
+    if !simple || !found.polynomial || !apart(top) {
         return None;
     }
     let rule = match ground {

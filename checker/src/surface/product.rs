@@ -72,8 +72,7 @@ impl<'a> Product<'a> {
 
     /// Whether both curves are differentiable at the parameters of an address; their points are named by two indices.
     pub fn verdict(&self, address: &Address, node: &Node<'_>) -> Checked<Verdict> {
-        let (columns, items) = (self.curves[0].0.shape.states[0].pieces.len(), node.list()?);
-        node.need(items.len() == 2, "product", "two points of the curves are needed here")?;
+        let (columns, items) = (self.curves[0].0.shape.states[0].pieces.len(), node.exactly(2, "product")?);
         let mut both = Verdict::Proved;
         for (k, ((model, points), item)) in self.curves.iter().zip(&items).enumerate() {
             let part = |word: &[usize]| word.iter().map(|l| [l % columns, l / columns][k]).collect();

@@ -7,7 +7,7 @@ use num_traits::{One, Signed, Zero};
 /// Binary places.
 const PLACES: usize = 256;
 /// How often a matrix is squared at most.
-const SQUARINGS: usize = 24;
+const SQUARINGS: usize = 40;
 
 /// All complex numbers within `error` of `x + iy`, in units of `2^-256`.
 #[derive(Debug, Clone)]
