@@ -12,7 +12,7 @@ pub fn curve(node: &Node<'_>) -> Checked<Shape> {
     for item in operators.list()? {
         let op = item.matrix(item.list()?.len())?;
         item.need(
-            op.is_affine() && op.rows == op.cols && op.rows > 0,
+            op.is_affine() && op.rows > 0,
             "product",
             "a matrix whose columns sum to 1 is needed",
         )?;
