@@ -672,6 +672,21 @@ fn bounds_of_the_tangent_subspace_of_a_surface() {
             ("format", &[(&format!("{bound}/by"), json!("trust"))]),
         ],
     );
+    // The coefficient of the shorter chain has a sign on every piece of the ring.
+    let cells = |signs: [&str; 3]| json!([1, 2, 3].map(|k| json!({"piece": [k], "cells": signs[k - 1]})));
+    let minus = json!([["1"], ["1"], ["1"]]);
+    let shorter = json!({"by": "leading", "functionals": [minus], "cover": cells(["-0", "-0", "+0"])});
+    let conformal = json!({"by": "leading", "functionals": [], "cover": [
+        {"piece": [0], "cells": "+0"}, {"piece": [2], "cells": "+0"}, {"piece": [3], "cells": "-0"}]});
+    all(
+        "surface-two-lengths",
+        &[
+            ("leading", &[(&bound, shorter)]),
+            ("leading", &[(&first(1, "/bound"), conformal)]),
+            ("tangent", &[(tangent, json!([["0", "1", "0"]]))]),
+            ("tangent", &[("/points/0/rule", json!("plane"))]),
+        ],
+    );
     let point = first(0, "/orbits/0");
     let all_positive = json!([1, 2, 3].map(|k| json!({"piece": [k], "cells": "+0"})));
     all(
@@ -687,6 +702,20 @@ fn bounds_of_the_tangent_subspace_of_a_surface() {
             ("group", &[(&rows, json!([["1", "1", "0"], ["0", "0", "1"]]))]),
             ("cover", &[(&rows, json!([["0", "1", "0"], ["0", "1", "0"], ["0", "0", "1"]]))]),
             ("group", &[(&first(0, "/bound/radius"), json!("7/16"))]),
+            // A row that is no left eigenvector, but has a sign on the ring and the right number in its leading place.
+            (
+                "group",
+                &[
+                    (
+                        &bound,
+                        json!({"by": "group", "radius": "7/16", "rows": [["0", "1", "1/2"]], "cover": all_positive}),
+                    ),
+                    (&first(0, "/orbits"), json!([])),
+                    (tangent, json!([["1", "0", "0"]])),
+                    ("/points/0/rule", json!("line")),
+                    ("/answers/0", json!("refuted")),
+                ],
+            ),
             ("disc", &[(&first(0, "/bound/radius"), json!("3/8"))]),
             ("ring", &[(&format!("{point}/address"), json!({"prefix": [], "cycle": [0]}))]),
             ("disc", &[(&format!("{point}/address"), json!({"prefix": [2], "cycle": [0]}))]),
@@ -789,6 +818,42 @@ fn how_the_faces_of_a_surface_are_divided() {
 }
 
 #[test]
+fn the_middle_of_a_triangle_is_turned() {
+    let text: Value = serde_json::from_str(&stored("surface-triangle").1).unwrap();
+    let at = |pointer: &str| text.pointer(&format!("/proof{pointer}")).unwrap().clone();
+    let mut two = at("/points/1");
+    two["addresses"].as_array_mut().unwrap().pop();
+    two["branches"].as_array_mut().unwrap().pop();
+    all(
+        "surface-triangle",
+        &[
+            ("point", &[("/points/1", two)]),
+            ("point", &[("/points/6/addresses", json!([{"prefix": [3], "cycle": [3]}]))]),
+            ("points", &[("/points", json!([]))]),
+            ("answers", &[("/points/7", Value::Null)]),
+            ("tangent", &[("/points/4/tangent", json!([["1", "0", "0"], ["0", "1", "-1"]]))]),
+            ("tangent", &[("/points/4/tangent", Value::Null)]),
+            ("dense", &[("/dense/0", at("/points/0")), ("/dense/0/tangent", Value::Null)]),
+        ],
+    );
+    let (case, certificate) = stored("surface-triangle");
+    let rule = |from: &str, to: &str| {
+        assert!(case.contains(from), "{from}");
+        secant_check::check(&case.replace(from, to), &certificate).unwrap_err().rule
+    };
+    let middle = "[[0, \"1/2\", \"1/2\"], [\"1/2\", 0, \"1/2\"], [\"1/2\", \"1/2\", 0]]";
+    let turned = "[[\"1/2\", 0, \"1/2\"], [\"1/2\", \"1/2\", 0], [0, \"1/2\", \"1/2\"]]";
+    // A middle that lies otherwise than the case says: the cells around a vertex do not meet.
+    assert_eq!(rule(middle, turned), "point");
+    let placed = |corners: &str| format!("{middle}\ncorners = {corners}");
+    assert_eq!(rule(middle, &placed("[1, 2, 0]")), "point");
+    assert_eq!(rule(middle, &placed("[0, 0, 2]")), "case");
+    assert_eq!(rule(middle, &placed("[0, 1, 3]")), "case");
+    assert_eq!(rule(middle, &placed("[0, 1]")), "case");
+    assert_eq!(rule("side01 =", "bottom ="), "case");
+}
+
+#[test]
 fn tensor_products_of_curves() {
     let text: Value = serde_json::from_str(&stored("surface-product").1).unwrap();
     let at = |pointer: &str| text.pointer(&format!("/proof{pointer}")).unwrap().clone();
@@ -836,6 +901,20 @@ fn tensor_products_of_curves() {
             ("answers", &[("/points/0", Value::Null)]),
         ],
     );
+    // Factors 2 and 1/2 leave the product as it is, but the curves are none.
+    let scaled = |curve: &str, factor: i64, divisor: i64| -> Value {
+        let times = |x: &Value| {
+            let x = secant_check::number::canonical(x.as_str().unwrap()).unwrap();
+            json!((x * secant_check::number::whole(factor) / secant_check::number::whole(divisor)).to_string())
+        };
+        let list = |v: &Value, f: &dyn Fn(&Value) -> Value| v.as_array().unwrap().iter().map(f).collect::<Value>();
+        let operators = at(&format!("/product/{curve}/operators"));
+        list(&operators, &|m| list(m, &|row| list(row, &times)))
+    };
+    let operators = [scaled("first", 2, 1), scaled("second", 1, 2)];
+    let changes =
+        [("/product/first/operators", operators[0].clone()), ("/product/second/operators", operators[1].clone())];
+    assert_eq!(rule("surface-product", &changes), "product");
     // A patch without contraction, whose other rules would see attractors in balls of radius 0.
     let spiral: Value = serde_json::from_str(&stored("surface-spiral").1).unwrap();
     assert_eq!(rule("surface-spiral", &[("/contraction", Value::Null)]), "contraction");

@@ -53,7 +53,7 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
         }
         Top::Conformal(_) => (Field::rational(&Zero::zero()), zero, 0, [].as_slice()),
     };
-    bound.need(parts > 0, "leading", "a top that is real or a pair is needed here")?;
+    bound.need(parts > 0, "leading", "a top that is real, or a pair, is needed here")?;
     let longest = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
     let mut rows = Vec::new();
     for item in list.list()? {

@@ -11,11 +11,7 @@ pub fn curve(node: &Node<'_>) -> Checked<Shape> {
     let mut pieces = Vec::new();
     for item in operators.list()? {
         let op = item.matrix(item.list()?.len())?;
-        item.need(
-            op.is_affine() && op.rows == op.cols && op.rows > 0,
-            "product",
-            "a matrix whose columns sum to 1 is needed",
-        )?;
+        item.need(op.is_affine() && op.rows > 0, "product", "a matrix whose columns sum to 1 is needed")?;
         pieces.push(Piece { target: 0, op, reversed: false });
     }
     let dim = pieces.first().map_or(0, |p| p.op.rows);
