@@ -129,11 +129,8 @@ fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
     let closed = (0..word.len()).all(|k| arrow(k).1 == arrow((k + 1) % word.len()).0);
     need(closed, "word", "the arrows form no closed path")?;
     let product = (1..word.len()).try_fold(arrow(0).2.clone(), |p, k| p.times(&arrow(k).2))?;
-    error.need(
-        has_root_near(&product.characteristic()?, &centre, &e)?,
-        "word",
-        "no eigenvalue is seen in this disc",
-    )?;
+    let near = has_root_near(&product.characteristic()?, &centre, &e)?;
+    error.need(near, "word", "no eigenvalue is seen in this disc")?;
     let reach = power(&bound, word.len())? + &e;
     let above = &reach * &reach <= &centre[0] * &centre[0] + &centre[1] * &centre[1];
     need(above, "word", "the bound is above the eigenvalue")?;
@@ -157,25 +154,12 @@ fn modulus(re: &Q, im: &Q) -> Checked<Q> {
     Ok(Q::new(scaled.sqrt() + BigInt::one(), scale))
 }
 
-/// A vector in a state. Scalars are real (`width` 1) or complex (`width` 2); a vector has a column for the real and one for the
-/// imaginary parts.
-struct Point {
-    state: usize,
-    vector: Matrix,
-}
-
-/// A polytope: all combinations `Σ c q` of its points with `Σ|c| <= 1`.
+/// A polytope: all combinations `Σ c q` of its points with `Σ|c| <= 1`. Scalars are real (`width` 1) or complex (`width` 2); a
+/// vector has a column for the real and one for the imaginary parts.
 struct Polytope {
     width: usize,
-    points: Vec<Point>,
-}
-
-/// What is left of a vector after a combination of points is taken off, and the coefficients of that.
-struct Rest {
-    vector: Matrix,
-    /// `Σ |c|`, rounded upwards.
-    total: Q,
-    negative: bool,
+    /// With the state of each.
+    points: Vec<(usize, Matrix)>,
 }
 
 impl Polytope {
@@ -186,18 +170,19 @@ impl Polytope {
             let scalar = |x: &Node<'_>| if width == 2 { x.vector(2) } else { Ok(vec![x.rational()?]) };
             let entries =
                 coordinates.exactly(dims[state], "format")?.iter().map(scalar).collect::<Checked<Vec<_>>>()?;
-            Ok(Point { state, vector: Matrix::from_rows(width, &entries) })
+            Ok((state, Matrix::from_rows(width, &entries)))
         };
         Ok(Self { width, points: node.each(read)? })
     }
 
-    /// Reads a combination of points of a state and takes it off a vector.
-    fn rest(&self, mut vector: Matrix, node: &Node<'_>, state: usize) -> Checked<Rest> {
+    /// Reads a combination of points of a state and takes it off a vector; says what is left, `Σ|c|` (rounded upwards), and
+    /// whether a real part is negative.
+    fn rest(&self, mut vector: Matrix, node: &Node<'_>, state: usize) -> Checked<(Matrix, Q, bool)> {
         let (mut total, mut negative) = (Q::zero(), false);
         for item in node.list()? {
             let parts = item.exactly(1 + self.width, "format")?;
-            let point = &self.points[parts[0].index(self.points.len())?];
-            item.need(point.state == state, "inclusion", "a point of another state")?;
+            let (at, point) = &self.points[parts[0].index(self.points.len())?];
+            item.need(*at == state, "inclusion", "a point of another state")?;
             let c = parts[1..].iter().map(Node::rational).collect::<Checked<Vec<_>>>()?;
             // Rows times this matrix are multiplied by the scalar.
             let (factor, modulus) = match &c[..] {
@@ -206,9 +191,9 @@ impl Polytope {
             };
             negative |= c[0].is_negative();
             total += modulus;
-            vector = vector.minus(&point.vector.times(&Matrix::new(self.width, self.width, &factor))?);
+            vector = vector.minus(&point.times(&Matrix::new(self.width, self.width, &factor))?);
         }
-        Ok(Rest { vector, total, negative })
+        Ok((vector, total, negative))
     }
 
     /// By state, `K` with all unit vectors in `K Q`: they are combinations but for rests whose 1-norm is below 1.
@@ -222,9 +207,9 @@ impl Polytope {
             let (mut largest, mut error) = (Q::zero(), Q::zero());
             for (axis, unit) in units.iter().enumerate() {
                 let x = Matrix::ones(dims[s], self.width, |i, j| i == axis && j == 0);
-                let rest = self.rest(x, unit, s)?;
-                error = error.max(rest.vector.norm());
-                largest = largest.max(rest.total);
+                let (rest, total, _) = self.rest(x, unit, s)?;
+                error = error.max(rest.norm());
+                largest = largest.max(total);
             }
             item.need(error < Q::one(), "interior", "the combinations are too far from the axes")?;
             found[s] = Some(largest / (Q::one() - error));
@@ -234,9 +219,9 @@ impl Polytope {
 
     /// Whether all points are nonnegative, and every coordinate of every state is positive at one of them.
     fn is_positive(&self, dims: &[usize]) -> bool {
-        let at = |s: usize, i: usize| self.points.iter().any(|p| p.state == s && p.vector.data[i].is_positive());
+        let at = |s: usize, i: usize| self.points.iter().any(|(at, p)| *at == s && p.data[i].is_positive());
         let reached = dims.iter().enumerate().all(|(s, &d)| (0..d).all(|i| at(s, i)));
-        reached && self.points.iter().all(|p| !p.vector.has_negative())
+        reached && self.points.iter().all(|(_, p)| !p.has_negative())
     }
 }
 
@@ -276,20 +261,17 @@ impl System {
             let [point, arrow, terms] = item.fields("point arrow terms")?;
             let (k, a) = (point.index(hull.points.len())?, arrow.index(self.arrows.len())?);
             let (from, to, matrix) = &self.arrows[a];
-            item.need(*to == hull.points[k].state, "inclusion", "the arrow does not end in the state of the point")?;
-            let Rest { vector, total, negative } = hull.rest(matrix.times(&hull.points[k].vector)?, &terms, *from)?;
-            let far = if monotone {
-                let under = !negative && !vector.data.iter().any(Signed::is_positive);
-                item.need(under, "inclusion", "the image does not lie below the combination")?;
-                total
-            } else {
-                total + &interior[*from] * vector.norm()
-            };
+            let (state, point) = &hull.points[k];
+            item.need(to == state, "inclusion", "the arrow does not end in the state of the point")?;
+            let (rest, total, negative) = hull.rest(matrix.times(point)?, &terms, *from)?;
+            let under = !monotone || !negative && !rest.data.iter().any(Signed::is_positive);
+            item.need(under, "inclusion", "the image does not lie below the combination")?;
+            let far = total + &interior[*from] * rest.norm();
             item.need(far <= *bound, "inclusion", "the image lies outside the multiple of the polytope")?;
             seen[k][a] = true;
         }
-        for (k, point) in hull.points.iter().enumerate() {
-            let missing = |a: &usize| !seen[k][*a] && self.arrows[*a].1 == point.state && !self.arrows[*a].2.is_zero();
+        for (k, (state, _)) in hull.points.iter().enumerate() {
+            let missing = |a: &usize| !seen[k][*a] && self.arrows[*a].1 == *state && !self.arrows[*a].2.is_zero();
             let first = (0..self.arrows.len()).find(missing);
             let why = format_args!("the image of point {k} under arrow {first:?} is missing");
             inclusions.need(first.is_none(), "inclusion", why)?;

@@ -9,6 +9,7 @@ mod jsr;
 mod regularity;
 mod solve;
 mod spectrum;
+mod surface;
 mod vertex;
 
 pub use base::{Accepted, Checked, Rejected, Verdict, number};
@@ -45,6 +46,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => spectrum::check(case, &proof)?,
         "jsr" => jsr::check(case, &proof)?,
+        "surface" => surface::check(case, &proof)?,
         "vertex" => vertex::check(case, &proof)?,
         _ => return kind.reject("format", "unknown kind of certificate"),
     };

@@ -12,7 +12,6 @@ const MAX_ORDERS: usize = 32;
 /// The derivatives of one order.
 struct Level<'a> {
     shape: &'a Shape,
-    reachable: &'a [usize],
     /// `N`, the number of pieces of every state.
     pieces: usize,
     /// `N^order`.
@@ -27,7 +26,7 @@ struct Level<'a> {
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, orders] = node.fields("contraction orders")?;
     let model = Model::read(&case.shape, &contraction)?;
-    contraction.at(case.shape.check_curves(&model.reachable))?;
+    contraction.at(case.shape.check_curves())?;
     let mut level = node.at(Level::first(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
@@ -37,7 +36,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         if k > 0 {
             level = item.at(level.next())?;
         }
-        let found: Vec<usize> = level.reachable.iter().map(|&e| level.families[e].rows).collect();
+        let found: Vec<usize> = case.shape.reachable.iter().map(|&e| level.families[e].rows).collect();
         dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {found:?}"))?;
         let (low, high) = level.radius(&radius)?;
         let text = format!("the joint spectral radius on the differences of derivatives of order {k}");
@@ -61,21 +60,21 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
 impl<'a> Level<'a> {
     /// The curve itself: every reachable state is an edge of the same number of pieces, none of them reversed.
     fn first(model: &'a Model<'a>) -> Checked<Self> {
-        let (shape, reachable) = (model.shape, model.reachable.as_slice());
+        let shape = model.shape;
         let pieces = shape.states[shape.start].pieces.len();
-        let uniform = reachable
-            .iter()
-            .map(|&e| &shape.states[e])
-            .all(|s| s.kind == Kind::Edge && s.pieces.len() == pieces && s.pieces.iter().all(|p| !p.reversed));
+        let uniform = shape.reachable.iter().all(|&e| {
+            let state = &shape.states[e];
+            state.kind == Kind::Edge && state.pieces.len() == pieces && state.pieces.iter().all(|p| !p.reversed)
+        });
         need(uniform && pieces >= 2, "orders", "a curve of one number of pieces, none reversed, is needed")?;
         let mut families = shape.no_rows();
         let mut ends: Vec<[Matrix; 2]> = shape.states.iter().map(|s| [0, 1].map(|_| Matrix::zeros(s.dim, 0))).collect();
-        for &e in reachable {
+        for &e in &shape.reachable {
             families[e] = model.spaces.of(e)?.basis.transpose();
             ends[e] = [shape.end_point(e, End::Start)?, shape.end_point(e, End::Finish)?];
         }
         need(families[shape.start].rows > 0, "orders", "the curve is a point")?;
-        Ok(Self { shape, reachable, pieces, scale: Q::one(), families, ends })
+        Ok(Self { shape, pieces, scale: Q::one(), families, ends })
     }
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
@@ -84,19 +83,17 @@ impl<'a> Level<'a> {
             node.need(self.families.iter().all(|f| f.rows == 0), "orders", "bounds of a radius are needed here")?;
             return Ok((Q::zero(), Q::zero()));
         }
-        let place = |e: usize| self.reachable.iter().position(|r| *r == e).unwrap_or(0);
+        let place = |e: usize| self.shape.reachable.iter().position(|r| *r == e).unwrap_or(0);
         let mut arrows = Vec::new();
-        for &e in self.reachable {
+        for (e, piece) in self.shape.pieces() {
             let pivots = self.families[e].echelon()?.1;
-            for piece in &self.shape.states[e].pieces {
-                let images = self.families[piece.target].times(&piece.op.transpose())?;
-                let matrix = images.columns(&pivots);
-                let closed = matrix.times(&self.families[e])? == images;
-                need(closed, "orders", "an operator does not act on the differences")?;
-                arrows.push((place(e), place(piece.target), matrix.transpose()));
-            }
+            let images = self.families[piece.target].times(&piece.op.transpose())?;
+            let matrix = images.columns(&pivots);
+            let closed = matrix.times(&self.families[e])? == images;
+            need(closed, "orders", "an operator does not act on the differences")?;
+            arrows.push((place(e), place(piece.target), matrix.transpose()));
         }
-        let dims = self.reachable.iter().map(|&e| self.families[e].rows).collect();
+        let dims = self.shape.reachable.iter().map(|&e| self.families[e].rows).collect();
         let found = bounds(&System { name: String::new(), dims, arrows }, node)?;
         Ok((found.lower, found.upper))
     }
@@ -106,15 +103,12 @@ impl<'a> Level<'a> {
     fn next(self) -> Checked<Self> {
         let scale = &self.scale * whole(self.pieces as i64);
         let mut families = self.shape.no_rows();
-        for &e in self.reachable {
-            for piece in &self.shape.states[e].pieces {
-                let image = piece.op.times(&self.chord(piece.target))?.scaled(&scale);
-                families[e] = families[e].stack(&image.minus(&self.chord(e)).transpose());
-            }
+        for (e, piece) in self.shape.pieces() {
+            let image = piece.op.times(&self.chord(piece.target))?.scaled(&scale);
+            families[e] = families[e].stack(&image.minus(&self.chord(e)).transpose());
         }
-        let families =
-            close(self.shape, self.reachable, families, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
-        let lower = self.reachable.iter().all(|&e| families[e].rows + 1 == self.families[e].rows);
+        let families = close(self.shape, families, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
+        let lower = self.shape.reachable.iter().all(|&e| families[e].rows + 1 == self.families[e].rows);
         need(lower, "orders", "the differences of the next derivative do not have codimension 1")?;
         Ok(Self { scale, families, ..self })
     }
@@ -126,7 +120,7 @@ impl<'a> Level<'a> {
     /// The values at the ends of the derivative of order `k`.
     fn limits(&self, k: usize) -> Checked<Vec<[Matrix; 2]>> {
         let mut ends = self.ends.clone();
-        for &e in self.reachable {
+        for &e in &self.shape.reachable {
             ends[e] = [self.limit(e, End::Start, k)?, self.limit(e, End::Finish, k)?];
         }
         Ok(ends)
@@ -152,7 +146,7 @@ impl<'a> Level<'a> {
     /// The joint equation: at the first-level joints of all states the derivatives of the two sides agree.
     fn joined(&self) -> Checked<bool> {
         let mut joined = true;
-        for &e in self.reachable {
+        for &e in &self.shape.reachable {
             for pair in self.shape.states[e].pieces.windows(2) {
                 let left = pair[0].op.times(&self.ends[pair[0].target][1])?;
                 joined &= left == pair[1].op.times(&self.ends[pair[1].target][0])?;

@@ -6,6 +6,7 @@ use crate::base::{
 };
 use crate::curve::{case, chain};
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::rc::Rc;
 
@@ -14,35 +15,25 @@ const MAX_SIZE: usize = 256;
 /// The modulus of a determinant lies below this.
 const MAX_MODULUS: usize = 1 << 31;
 
-/// A disc with one root of a factor; where its centre is not real, it stands for its mirror image too.
-struct Disc {
-    factor: Rc<Matrix>,
-    x: BigInt,
-    y: BigInt,
-    error: BigInt,
-}
-
-/// The discs of a matrix; all numbers are over one denominator.
+/// The discs of a matrix, each with one root of its factor: the centre (two numbers) and the error, over one denominator. Where
+/// the centre is not real, a disc stands for its mirror image too.
 struct Discs {
-    list: Vec<Disc>,
-    den: BigInt,
-    bits: u64,
+    rows: Matrix,
+    factors: Vec<Rc<Matrix>>,
 }
 
-impl Disc {
-    fn modulus_squared(&self) -> BigInt {
-        &self.x * &self.x + &self.y * &self.y
-    }
+/// Whether a disc, moved by at most `slack` (over the denominator of the discs), misses another one and its mirror image.
+fn misses(a: &[BigInt], b: &[BigInt], slack: &Q) -> bool {
+    let far = (&a[2] + &b[2]) * slack.denom() + slack.numer();
+    let x = (&a[0] - &b[0]) * slack.denom();
+    [&a[1] - &b[1], &a[1] + &b[1]].into_iter().all(|y| {
+        let y = y * slack.denom();
+        &x * &x + &y * &y > &far * &far
+    })
+}
 
-    /// Whether the disc, moved by at most `slack` (over the denominator of the discs), misses another one and its mirror image.
-    fn misses(&self, other: &Self, slack: &Q) -> bool {
-        let far = (&self.error + &other.error) * slack.denom() + slack.numer();
-        let x = (&self.x - &other.x) * slack.denom();
-        [&self.y - &other.y, &self.y + &other.y].into_iter().all(|y| {
-            let y = y * slack.denom();
-            &x * &x + &y * &y > &far * &far
-        })
-    }
+fn modulus_squared(disc: &[BigInt]) -> BigInt {
+    &disc[0] * &disc[0] + &disc[1] * &disc[1]
 }
 
 /// Reads `n` and then `n` rows of numbers; `#` starts a comment.
@@ -123,16 +114,11 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
         chains.need(descend, "chains", "there are chains, and the longest come first")?;
         lines.push(format!("each root of {} has Jordan blocks of the sizes {blocks:?}", text(&p)));
     }
-    let all = Matrix::new(factors.len(), 3, &numbers);
-    let disc = |(k, factor): (usize, Rc<Matrix>)| {
-        let [x, y, error] = [0, 1, 2].map(|j| all.integers(k)[j].clone());
-        Disc { factor, x, y, error }
-    };
-    let list: Vec<Disc> = factors.into_iter().enumerate().map(disc).collect();
-    let discs = Discs { list, bits: all.bits(), den: all.den };
-    for (k, a) in discs.list.iter().enumerate() {
-        spend(8 * k, discs.bits)?;
-        need(discs.list[..k].iter().all(|b| a.misses(b, &Q::zero())), "roots", "two discs meet")?;
+    let discs = Discs { rows: Matrix::new(factors.len(), 3, &numbers), factors };
+    for k in 0..discs.factors.len() {
+        spend(8 * k, discs.rows.bits())?;
+        let apart = (0..k).all(|j| misses(discs.rows.integers(k), discs.rows.integers(j), &Q::zero()));
+        need(apart, "roots", "two discs meet")?;
     }
     let why = format_args!("the chains have {} vectors, the matrix has size {}", basis.rows, matrix.rows);
     node.need(basis.rows == matrix.rows, "chains", why)?;
@@ -169,17 +155,13 @@ fn invertible(basis: &Matrix, modulus: &Node<'_>) -> Checked<bool> {
 
 /// The inverse of `a` modulo `p < 2^31`, if there is one.
 fn inverse(a: u64, p: u64) -> Option<u64> {
-    let (mut r, mut s) = ((p as i64, a as i64), (0, 1));
-    while r.1 != 0 {
-        let q = r.0 / r.1;
-        (r, s) = ((r.1, r.0 - q * r.1), (s.1, s.0 - q * s.1));
-    }
-    (r.0 == 1).then(|| s.0.rem_euclid(p as i64) as u64)
+    let found = (a as i64).extended_gcd(&(p as i64));
+    (found.gcd == 1).then(|| found.x.rem_euclid(p as i64) as u64)
 }
 
 /// Rule `moduli`: classes of equal modulus, the largest first, with radii that separate them.
 fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
-    let (mut listed, mut sizes) = (vec![false; discs.list.len()], Vec::new());
+    let (mut listed, mut sizes) = (vec![false; discs.factors.len()], Vec::new());
     let mut above: Option<Q> = None;
     let items = node.list()?;
     for (k, item) in items.iter().enumerate() {
@@ -201,7 +183,7 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
             let equal = square.as_ref().map_or_else(|| discs.opposite(chosen[0], m), |s| discs.inverted(m, s))?;
             item.need(equal, "moduli", "the roots of a class are not seen to have one modulus")?;
         }
-        sizes.push(chosen.iter().map(|&m| if discs.list[m].y.is_zero() { 1 } else { 2 }).sum::<usize>());
+        sizes.push(chosen.iter().map(|&m| if discs.rows.integers(m)[1].is_zero() { 1 } else { 2 }).sum::<usize>());
         above = below;
     }
     node.need(listed.iter().all(|l| *l), "moduli", "a root stands in no class")?;
@@ -211,10 +193,10 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
 impl Discs {
     /// Whether the modulus of the root of disc `m` lies above the radius (`side = 1`) or below it (`side = -1`).
     fn beyond(&self, m: usize, radius: &Q, side: i64) -> Checked<bool> {
-        spend(16, self.bits + bits(radius))?;
-        let disc = &self.list[m];
-        let (r, e) = (radius.numer() * &self.den, &disc.error * radius.denom());
-        let (modulus, r) = (disc.modulus_squared() * radius.denom() * radius.denom(), r + e * side);
+        spend(16, self.rows.bits() + bits(radius))?;
+        let disc = self.rows.integers(m);
+        let r = radius.numer() * &self.rows.den + &disc[2] * radius.denom() * side;
+        let modulus = modulus_squared(disc) * radius.denom() * radius.denom();
         let positive = !radius.is_negative() && !r.is_negative();
         Ok(positive && if side > 0 { modulus > &r * &r } else { modulus < &r * &r })
     }
@@ -222,27 +204,26 @@ impl Discs {
     /// Whether the root of disc `b` is minus that of disc `a`, or minus its mirror image: the factor of `b` is `±p(−x)`, and
     /// of its discs only `b` meets the reflected disc.
     fn opposite(&self, a: usize, b: usize) -> Checked<bool> {
-        let (p, q) = (&self.list[a].factor, &self.list[b].factor);
+        let (p, q) = (&self.factors[a], &self.factors[b]);
         let sign = |k: usize| if (p.cols - 1 - k).is_multiple_of(2) { 1 } else { -1 };
         let reflected = p.cols == q.cols && (0..p.cols).all(|k| &q.data[k] * &p.den == &p.data[k] * &q.den * sign(k));
-        let Disc { x, y, error, .. } = &self.list[a];
-        let mirror = Disc { factor: Rc::clone(q), x: -x, y: y.clone(), error: error.clone() };
+        let mut mirror = self.rows.integers(a).to_vec();
+        mirror[0] = -&mirror[0];
         Ok(reflected && self.others_miss(&mirror, b, &Q::zero())?)
     }
 
     /// Whether the other discs of the factor of disc `m` miss a disc that may move by at most `slack`.
-    fn others_miss(&self, disc: &Disc, m: usize, slack: &Q) -> Checked<bool> {
-        spend(8 * self.list.len(), self.bits + bits(slack))?;
-        let factor = &self.list[m].factor;
-        let mut others = self.list.iter().enumerate().filter(|(k, d)| *k != m && Rc::ptr_eq(&d.factor, factor));
-        Ok(others.all(|(_, d)| disc.misses(d, slack)))
+    fn others_miss(&self, disc: &[BigInt], m: usize, slack: &Q) -> Checked<bool> {
+        spend(8 * self.factors.len(), self.rows.bits() + bits(slack))?;
+        let mut others = (0..self.factors.len()).filter(|&k| k != m && Rc::ptr_eq(&self.factors[k], &self.factors[m]));
+        Ok(others.all(|k| misses(disc, self.rows.integers(k), slack)))
     }
 
     /// Whether the root `λ` of disc `m` has `|λ|² = s`: the roots of its factor are closed under `λ -> s/λ`, and `s/conj(λ)`,
     /// which is the multiple `s/|λ|²` of `λ`, is nearer to `λ` than the other roots.
     fn inverted(&self, m: usize, s: &Q) -> Checked<bool> {
-        let disc = &self.list[m];
-        let (p, d) = (&disc.factor, disc.factor.cols - 1);
+        let (disc, den, p) = (self.rows.integers(m), &self.rows.den, &self.factors[m]);
+        let d = p.cols - 1;
         spend(4 * p.cols, p.bits() + bits(s) * d as u64)?;
         // a_(d-j) s^(d-j) = a_0 a_j for all j.
         let (mut n, mut q, mut closed) = (BigInt::one(), BigInt::one(), s.is_positive());
@@ -251,13 +232,13 @@ impl Discs {
             n *= s.numer();
             q *= s.denom();
         }
-        let (x, y, e) = (disc.x.abs(), disc.y.abs(), &disc.error);
+        let (x, y, e) = (disc[0].abs(), disc[1].abs(), &disc[2]);
         let least = x.clone().max(y.clone()) - e;
         if !closed || !least.is_positive() {
             return Ok(false);
         }
         // | s - |c|^2 | + 2 (|x| + |y|) e + e^2 over the least modulus.
-        let apart = s.numer() * &self.den * &self.den - disc.modulus_squared() * s.denom();
+        let apart = s.numer() * den * den - modulus_squared(disc) * s.denom();
         let moved = apart.abs() + ((x + y) * e * 2 + e * e) * s.denom();
         self.others_miss(disc, m, &Q::new_raw(moved, least * s.denom()))
     }

@@ -92,7 +92,7 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
             "rule": if *block == 1 { "theorem-2" } else { "theorem-3" },
             "top": top(&b.linear, &b.spectrum, eigenvalue(lead), &branch_name(b))?,
             "functional": elements(functional),
-            "cover": tree::cover(shape, b, proof, None)?,
+            "cover": tree::cover(shape, &b.ring, proof, None)?,
         })),
         Outcome::AtLeast { statement, eigenvalues, isolation, witness, .. } => {
             let lead = eigenvalue(&eigenvalues[0]);
@@ -113,7 +113,7 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
                         "first": elements(&chain.vectors[1]),
                         "positive": address_json(positive),
                         "negative": address_json(negative),
-                        "cover": tree::cover(shape, b, cover, Some(*part))?,
+                        "cover": tree::cover(shape, &b.ring, cover, Some(*part))?,
                     }))
                 }
                 _ => unsupported("this evidence", branch_name(b)),
@@ -148,26 +148,17 @@ fn theorem4(
             "functional": functional,
             "address": address_json(address),
         })),
-        Witness::Point { address, offset } => {
-            let hull = krylov(&b.linear, offset);
-            let images = &hull.rows * &b.linear.transpose();
-            let k = hull.rows.rows();
-            let linear = Matrix::from_fn(k, k, |i, j| images[(j, hull.pivots[i])].clone());
-            let spectrum = Spectrum::of(&linear);
-            let longest = spectrum.classes[0].members.iter().max_by_key(|m| spectrum.factor(**m).blocks[0]);
-            let Some(&own) = longest else { return unsupported("an empty hull", branch_name(b)) };
-            Ok(json!({
-                "rule": "orbit",
-                "top": top,
-                "address": address_json(address),
-                "own": super::top::top(&linear, &spectrum, own, &branch_name(b))?,
-            }))
-        }
+        Witness::Point { address, offset } => Ok(json!({
+            "rule": "orbit",
+            "top": top,
+            "address": address_json(address),
+            "own": orbit_top(&b.linear, offset, &branch_name(b))?,
+        })),
         Witness::SignChange { positive, negative, .. } if simple => Ok(json!({
             "rule": "sign-change",
             "top": top,
             "functional": functional,
-            "isolation": tree::cover(shape, b, isolation, None)?,
+            "isolation": tree::cover(shape, &b.ring, isolation, None)?,
             "positive": address_json(positive),
             "negative": address_json(negative),
         })),
@@ -175,6 +166,20 @@ fn theorem4(
             unsupported("a change of sign seen through a map that is not injective", positive.to_string())
         }
         Witness::Crossing { positive, .. } => unsupported("this evidence", positive.to_string()),
+    }
+}
+
+/// The top of the spectrum of `linear` on the cyclic hull of `x`.
+pub fn orbit_top(linear: &Matrix, x: &[crate::arith::Rational], place: &str) -> Result<Value, Unsupported> {
+    let hull = krylov(linear, x);
+    let images = &hull.rows * &linear.transpose();
+    let k = hull.rows.rows();
+    let own = Matrix::from_fn(k, k, |i, j| images[(j, hull.pivots[i])].clone());
+    let spectrum = Spectrum::of(&own);
+    let members = spectrum.classes.first().map(|class| &class.members);
+    match members.and_then(|m| m.iter().max_by_key(|m| spectrum.factor(**m).blocks[0])) {
+        Some(&lead) => super::top::top(&own, &spectrum, lead, place),
+        None => unsupported("an empty hull", place),
     }
 }
 

@@ -11,6 +11,7 @@ mod radius;
 mod regularity;
 mod solve;
 mod spectrum;
+mod surface;
 mod top;
 mod tree;
 mod vertex;
@@ -103,8 +104,8 @@ fn laid_out(value: &Value, depth: usize) -> String {
 /// # Cost
 /// Linear in the evidence, apart from the choice of radii between neighbouring moduli.
 pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupported> {
-    if found.surface.is_some() {
-        return unsupported("the tangent planes of a surface", "points");
+    if let Some(found_surface) = &found.surface {
+        return surface::surface(case, found, found_surface);
     }
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
     let states = contraction(&case.shape, &found.contraction, radii, found.polygons.as_deref())?;

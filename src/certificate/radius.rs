@@ -9,9 +9,15 @@ const MAX_BITS: u64 = 4096;
 
 /// A radius `r > 0` below the modulus of the first class and above that of the second, if one is found.
 pub fn between(spectrum: &Spectrum) -> Option<Rational> {
+    below(spectrum, 1, &[])
+}
+
+/// A radius `r > 0` below the moduli of the first classes, so many, and above the others, for which the recursion is regular for
+/// another polynomial as well (given by its coefficients), if one is found.
+pub fn below(spectrum: &Spectrum, classes: usize, other: &[Rational]) -> Option<Rational> {
     let mut bits = 64;
     while bits <= MAX_BITS {
-        if let Some(radius) = with_bits(spectrum, bits) {
+        if let Some(radius) = with_bits(spectrum, classes, other, bits) {
             return Some(radius);
         }
         bits *= 4;
@@ -19,13 +25,13 @@ pub fn between(spectrum: &Spectrum) -> Option<Rational> {
     None
 }
 
-fn with_bits(spectrum: &Spectrum, precision: u64) -> Option<Rational> {
+fn with_bits(spectrum: &Spectrum, classes: usize, other: &[Rational], precision: u64) -> Option<Rational> {
     let modulus = |class: usize| {
         let class = spectrum.classes.get(class)?;
         Some(spectrum.root(class.members[0]).modulus(precision + 8))
     };
-    let upper = modulus(0)?.lo;
-    let lower = modulus(1).map_or_else(|| Rational::from(0), |m| m.hi);
+    let upper = modulus(classes - 1)?.lo;
+    let lower = modulus(classes).map_or_else(|| Rational::from(0), |m| m.hi);
     if lower >= upper {
         return None;
     }
@@ -37,7 +43,7 @@ fn with_bits(spectrum: &Spectrum, precision: u64) -> Option<Rational> {
             if radius >= upper {
                 break;
             }
-            if is_regular(spectrum.char_poly.coeffs(), &radius) {
+            if is_regular(spectrum.char_poly.coeffs(), &radius) && (other.is_empty() || is_regular(other, &radius)) {
                 return Some(radius);
             }
             multiple += Rational::from(1);

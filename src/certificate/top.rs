@@ -63,7 +63,7 @@ fn real(spectrum: &Spectrum, lead: Eigenvalue, radius: &Rational) -> Value {
 }
 
 /// The vector at `-θ` written at `θ`: `x` becomes `-x`.
-fn mirrored(v: &[Elem], same: bool) -> Vec<Elem> {
+pub fn mirrored(v: &[Elem], same: bool) -> Vec<Elem> {
     let flip = |e: &Elem| {
         let coefficients = e.0.coeffs().iter().enumerate();
         Elem(Poly::new(coefficients.map(|(k, c)| if k % 2 == 1 { -c } else { c.clone() }).collect()))

@@ -2,7 +2,7 @@
 
 use super::{Unsupported, unsupported};
 use crate::shape::{ContractingWord, Shape};
-use crate::theorem::{BranchReport, Position, RingProof};
+use crate::theorem::{Position, RingPiece, RingProof};
 use serde_json::{Value, json};
 
 /// JSON readers refuse deeper nesting.
@@ -41,7 +41,7 @@ pub fn code(shape: &Shape, state: usize, words: &[ContractingWord]) -> Result<Va
 /// The cover of the ring of a branch (or of one part of it) by discharged cells, piece by piece.
 pub fn cover(
     shape: &Shape,
-    branch: &BranchReport,
+    ring: &[RingPiece],
     proof: &RingProof,
     part: Option<Position>,
 ) -> Result<Value, Unsupported> {
@@ -54,7 +54,7 @@ pub fn cover(
     let leaf = |word: &[usize]| cells.binary_search_by(|c| c.0.cmp(word)).ok().map(|k| cells[k].1.clone());
     let mut pieces = Vec::new();
     let wanted = |p: Position| part.is_none_or(|part| p == part);
-    for piece in branch.ring.iter().filter(|p| !p.collapses && wanted(p.position)) {
+    for piece in ring.iter().filter(|p| !p.collapses && wanted(p.position)) {
         let tree = grow(shape, piece.end, &mut piece.word.clone(), 0, &leaf)?;
         pieces.push(json!({"piece": piece.word, "cells": tree}));
     }

@@ -31,6 +31,15 @@ pub struct Context<'a> {
     pub view: Matrix,
 }
 
+impl Context<'_> {
+    /// The convex polygons by state, where they were made.
+    pub(super) fn polygons(&self) -> Option<Vec<Vec<Vec<Rational>>>> {
+        let balls = self.hulls.get()?.as_ref()?;
+        let polygon = |e: usize| balls.hull(e).map(<[_]>::to_vec).unwrap_or_default();
+        Some((0..self.shape.states.len()).map(polygon).collect())
+    }
+}
+
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
 struct Quotient {
     /// `Y <- V`, reduced echelon form.

@@ -123,10 +123,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     } else {
         certify_set(&cx, &asked, &mut found);
     }
-    if let Some(Some(balls)) = hulls.get() {
-        let polygon = |e: usize| balls.hull(e).map(<[_]>::to_vec).unwrap_or_default();
-        found.polygons = Some((0..shape.states.len()).map(polygon).collect());
-    }
+    found.polygons = cx.polygons();
     if found.similarities.is_some() {
         found.claims.push(Claim {
             text: "some point of the shape has a tangent line".to_owned(),

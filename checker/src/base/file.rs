@@ -41,11 +41,10 @@ pub fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
 
 /// Whether a key is set to true.
 pub fn flag(node: &Node<'_>, key: &str) -> Checked<bool> {
-    match node.get(key).map(|n| (n.value, n)) {
-        None => Ok(false),
-        Some((Json::Flag(flag), _)) => Ok(*flag),
-        Some((_, n)) => n.reject("format", "true or false is needed here"),
-    }
+    node.get(key).map_or(Ok(false), |n| match n.value {
+        Json::Flag(flag) => Ok(*flag),
+        _ => n.reject("format", "true or false is needed here"),
+    })
 }
 
 /// A text that may be left out.

@@ -86,11 +86,6 @@ impl Matrix {
         Self { rows: self.rows, cols: chosen.len(), data: entries.collect(), den: self.den.clone() }
     }
 
-    /// All entries, row after row.
-    pub fn entries(&self) -> Vec<Q> {
-        self.data.iter().map(|x| ratio(x.clone(), self.den.clone())).collect()
-    }
-
     /// The transpose.
     pub fn transpose(&self) -> Self {
         let data = (0..self.data.len()).map(|k| self.data[k % self.rows * self.cols + k / self.rows].clone());
@@ -330,15 +325,7 @@ mod tests {
         assert_eq!(m.rank().unwrap(), 3);
         assert_eq!(matrix(&[&[1, 2], &[2, 4]]).echelon().unwrap().0, matrix(&[&[1, 2]]));
         let echelon = matrix(&[&[0, 2, 1], &[-3, 0, 5]]).echelon().unwrap();
-        assert_eq!(
-            echelon.0.entries(),
-            [3, 0, -5, 0, 3, 0]
-                .map(|x| whole(x) / whole(3))
-                .iter()
-                .enumerate()
-                .map(|(k, x)| if k == 5 { whole(1) / whole(2) } else { x.clone() })
-                .collect::<Vec<_>>()
-        );
+        assert_eq!(echelon.0, matrix(&[&[6, 0, -10], &[0, 6, 3]]).scaled(&Q::new(1.into(), 6.into())));
         assert_eq!(echelon.1, [0, 1]);
     }
 

@@ -12,7 +12,7 @@ pub use file::{MAX_COORDINATES, file, flag, index, items, matrix, number, word};
 pub use json::{Json, Node};
 pub use matrix::{Matrix, primitive};
 pub use number::{Q, bits, charge, spend, whole};
-pub use poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, roots_in_disc, values};
+pub use poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, products, roots_in_disc, values};
 
 /// Longest word of a certificate or address of a case.
 pub const MAX_LETTERS: usize = 1_000;

@@ -86,13 +86,9 @@ pub fn decimal_fraction(text: &str) -> Option<Q> {
     if text.len() > MAX_DIGITS {
         return None;
     }
-    match text.split_once('/') {
-        Some((p, q)) => {
-            let q = decimal(q.trim())?;
-            if q.is_zero() { None } else { Some(decimal(p.trim())? / q) }
-        }
-        None => decimal(text),
-    }
+    let (p, q) = text.split_once('/').unwrap_or((text, "1"));
+    let q = decimal(q.trim()).filter(|q| !q.is_zero())?;
+    Some(decimal(p.trim())? / q)
 }
 
 fn decimal(text: &str) -> Option<Q> {

@@ -21,7 +21,7 @@ fn sign_between<T: Signed>(lo: &T, hi: &T) -> i32 {
 }
 
 /// The least and the greatest product.
-fn products(a: &[BigInt; 2], b: &[BigInt; 2]) -> [BigInt; 2] {
+pub fn products(a: &[BigInt; 2], b: &[BigInt; 2]) -> [BigInt; 2] {
     let first = &a[0] * &b[0];
     if a[0] == a[1] && b[0] == b[1] {
         return [first.clone(), first];
@@ -55,10 +55,14 @@ impl Enclosed {
         (0..self.lo.rows).any(|k| self.sign(k) != 0)
     }
 
+    /// Bounds of an entry times the denominator.
+    pub fn ends(&self, k: usize) -> [BigInt; 2] {
+        [self.lo.data[k].clone(), self.hi.data[k].clone()]
+    }
+
     /// Whether this and another vector have a 2x2 minor that is certainly not 0.
     pub fn not_parallel(&self, other: &Self) -> bool {
-        let ends = |v: &Self, k: usize| [v.lo.data[k].clone(), v.hi.data[k].clone()];
-        let product = |i: usize, j: usize| products(&ends(self, i), &ends(other, j));
+        let product = |i: usize, j: usize| products(&self.ends(i), &other.ends(j));
         let minor = |i: usize, j: usize| {
             let (a, b) = (product(i, j), product(j, i));
             a[0] > b[1] || a[1] < b[0]

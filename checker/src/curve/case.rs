@@ -226,7 +226,7 @@ impl Reader {
             None => Matrix::identity(dim),
         };
         case.need(view.cols == dim, "case", "a wrong number of control points")?;
-        Ok(Shape { states, start, view })
+        Ok(Shape::new(states, start, view))
     }
 }
 
@@ -236,6 +236,11 @@ enum Form {
     Maps,
     Pieces,
     States,
+}
+
+/// Reads more of the states of a case.
+pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> Checked<T> {
+    file(source, CASE, |case| read(&items(case, "state")?))
 }
 
 /// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both

@@ -5,15 +5,8 @@ use super::{close, complete, everywhere, positive_definite, read_address};
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
 use num_traits::Signed;
 
-/// What a case asks.
-#[derive(Debug, PartialEq, Eq)]
-enum Question {
-    Ends,
-    Joints,
-    Address(Address),
-    AnyPoint,
-    EveryPoint,
-}
+/// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
+type Question = (&'static str, Option<Address>);
 
 /// The questions of a case: of a curve its end points and its joints, of a set the fixed points of the maps of the start state
 /// to itself; then the addresses to examine, each once.
@@ -21,14 +14,15 @@ fn questions(case: &Case) -> Vec<Question> {
     let start = &case.shape.states[case.shape.start];
     let mut questions = Vec::new();
     if start.kind == Kind::Edge {
-        questions = vec![Question::Ends, Question::Joints];
+        questions = vec![("ends", None), ("joints", None)];
     } else {
         let own = (0..start.pieces.len()).filter(|&i| start.pieces[i].target == case.shape.start);
-        questions.extend(own.map(|i| Question::Address(Address { prefix: Vec::new(), cycle: vec![i] })));
+        questions.extend(own.map(|i| ("address", Some(Address { prefix: Vec::new(), cycle: vec![i] }))));
     }
-    for address in case.examine.iter().cloned().map(Question::Address) {
-        if !questions.contains(&address) {
-            questions.push(address);
+    for address in case.examine.iter().cloned() {
+        let question = ("address", Some(address));
+        if !questions.contains(&question) {
+            questions.push(question);
         }
     }
     questions
@@ -37,14 +31,14 @@ fn questions(case: &Case) -> Vec<Question> {
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
 fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     match item.tag("question")? {
-        "any point" if last => return Ok(Question::AnyPoint),
-        "every point" if !asked.contains(&Question::EveryPoint) => return Ok(Question::EveryPoint),
+        "any point" if last => return Ok(("any point", None)),
+        "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
     let [_, of, _, _] = item.fields("question address verdict points")?;
     let address = read_address(&of)?;
     let normal = address.normalise(&case.shape, case.shape.start).as_ref() == Some(&address);
-    let question = Question::Address(address);
+    let question = ("address", Some(address));
     let new = normal && !asked.contains(&question);
     of.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
     Ok(question)
@@ -54,7 +48,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, points, answers] = node.fields("contraction points answers")?;
     let model = Model::read(&case.shape, &contraction)?;
-    contraction.at(case.shape.check_curves(&model.reachable))?;
+    contraction.at(case.shape.check_curves())?;
     let root = Root { state: case.shape.start, view: case.shape.view.clone() };
     let mut checked: Vec<Point> = Vec::new();
     for item in points.list()? {
@@ -71,13 +65,24 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((*question != Question::EveryPoint).then_some(verdict));
+        found.extend((question.0 != "every point").then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let verdict = found.into_iter().min().unwrap_or(Verdict::Undetermined);
     let line = |p: &Point| format!("{}: {:?}, {}", p.verdict.word(), p.place, p.kind);
     let points = checked.iter().map(line).collect();
     Ok(Accepted { case: case.name.clone(), verdict, claims: claims.lines, points })
+}
+
+/// All operators are injective on the visible quotients; whether the map into the space where the shape is looked at is, too.
+pub fn injective(model: &Model<'_>, rule: &str) -> Checked<bool> {
+    let Model { shape, spaces, .. } = model;
+    for (e, piece) in shape.pieces() {
+        let map = spaces.on_visible(e, piece)?;
+        need(map.rank()? == map.cols, rule, format_args!("an operator of state {e} is not injective"))?;
+    }
+    let start = spaces.of(shape.start)?;
+    Ok(shape.view.times(&start.basis)?.rank()? == start.visible.rows)
 }
 
 struct Claims<'a> {
@@ -90,36 +95,36 @@ struct Claims<'a> {
 impl<'a> Claims<'a> {
     /// Checks the answer to a question.
     fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
-        let (what, stated, verdict, claim) = match question {
-            Question::Ends => {
+        let (stated, verdict, claim) = match question {
+            ("ends", _) => {
                 let [_, stated, points] = node.fields("question verdict points")?;
                 let found = self.all(&points, &[Place::End(End::Start), Place::End(End::Finish)])?;
-                ("ends", stated, found, "the curve has a tangent line at both end points".to_owned())
+                (stated, found, "the curve has a tangent line at both end points".to_owned())
             }
-            Question::Address(address) => {
+            (_, Some(address)) => {
                 let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
                 let place = format!("the address {:?} ({:?})", address.prefix, address.cycle);
-                ("address", stated, found, format!("the shape has a tangent line at {place}"))
+                (stated, found, format!("the shape has a tangent line at {place}"))
             }
-            Question::Joints => {
+            ("joints", _) => {
                 let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
-                let (found, places) = self.joints(&theorem, &points, &upstairs)?;
-                ("joints", stated, found, format!("the curve has a tangent line at {places}"))
+                let (found, places) = self.joints([&theorem, &points, &upstairs])?;
+                (stated, found, format!("the curve has a tangent line at {places}"))
             }
-            Question::EveryPoint => {
+            ("every point", _) => {
                 let found = everywhere::check(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
-                ("every point", node.field("verdict")?, found.verdict, found.claim)
+                (node.field("verdict")?, found.verdict, found.claim)
             }
-            Question::AnyPoint => {
+            (_, None) => {
                 let [_, stated, products] = node.fields("question verdict products")?;
                 self.similarities(&products)?;
-                ("any point", stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
+                (stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
             }
         };
-        let asked = node.tag("question")? == what && stated.text()? == verdict.word();
+        let asked = node.tag("question")? == question.0 && stated.text()? == verdict.word();
         node.need(asked, "answers", format_args!("another question, or what follows is \"{}\"", verdict.word()))?;
         self.lines.push(format!("{}: {claim}", verdict.word()));
         Ok(verdict)
@@ -145,12 +150,7 @@ impl<'a> Claims<'a> {
     }
 
     /// The joints: refuted by one of them; proved by Theorem 5 or 5′. Says at which joints.
-    fn joints(
-        &mut self,
-        theorem: &Node<'_>,
-        points: &Node<'_>,
-        upstairs: &Node<'_>,
-    ) -> Checked<(Verdict, &'static str)> {
+    fn joints(&mut self, [theorem, points, upstairs]: [&Node<'_>; 3]) -> Checked<(Verdict, &'static str)> {
         let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
         let chosen = self.select(points)?;
         upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
@@ -175,24 +175,15 @@ impl<'a> Claims<'a> {
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.
     fn injective(&self, with_view: bool) -> Checked<()> {
-        let (shape, spaces) = (self.model.shape, &self.model.spaces);
-        for &e in &self.model.reachable {
-            for piece in &shape.states[e].pieces {
-                let map = spaces.on_visible(e, piece)?;
-                let injective = map.rank()? == map.cols;
-                need(injective, "joints", format_args!("an operator of state {e} is not injective"))?;
-            }
-        }
-        let start = spaces.of(shape.start)?;
-        let injective = !with_view || shape.view.times(&start.basis)?.rank()? == start.visible.rows;
-        need(injective, "joints", "the map into the space where the shape is looked at is not injective")
+        let view = injective(self.model, "joints")?;
+        need(view || !with_view, "joints", "the map into the space where the shape is looked at is not injective")
     }
 
     /// Theorem 5′: the joints in the visible quotients of their own states, and lines that span the quotients.
     fn upstairs(&self, items: &[Node<'_>], node: &Node<'_>) -> Checked<()> {
-        let Model { shape, reachable, spaces, .. } = self.model;
+        let Model { shape, spaces, .. } = self.model;
         let (mut listed, mut spans) = (Vec::new(), shape.no_rows());
-        for &e in reachable {
+        for &e in &shape.reachable {
             spans[e] = Matrix::empty(spaces.of(e)?.visible.rows);
         }
         for item in items {
@@ -205,8 +196,8 @@ impl<'a> Claims<'a> {
         }
         complete(self.model, &listed, node, "joints")?;
         let image = |e, p: &Piece, span: &Matrix| span.times(&spaces.on_visible(e, p)?.transpose());
-        let spans = close(shape, reachable, spans, Way::Up, image)?;
-        let all = reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
+        let spans = close(shape, spans, Way::Up, image)?;
+        let all = shape.reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
         node.need(all, "joints", "the tangent lines are not seen to span the visible quotients")
     }
 
@@ -219,15 +210,13 @@ impl<'a> Claims<'a> {
             item.need(n >= 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
             products[e] = positive_definite(&item, n)?;
         }
-        for &e in &self.model.reachable {
-            for piece in &shape.states[e].pieces {
-                let linear = spaces.linear(&piece.op, e, piece.target)?;
-                let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
-                let own = &products[piece.target];
-                let ratio = pulled.at(0, 0) / own.at(0, 0);
-                let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
-                node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
-            }
+        for (e, piece) in shape.pieces() {
+            let linear = spaces.linear(&piece.op, e, piece.target)?;
+            let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
+            let own = &products[piece.target];
+            let ratio = pulled.at(0, 0) / own.at(0, 0);
+            let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
+            node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
         }
         let start = spaces.of(shape.start)?;
         let injective = shape.view.times(&start.basis)?.rank()? == start.basis.cols;

@@ -2,7 +2,7 @@
 //! no tangent that turns continuously.
 
 use super::rate::Bounds;
-use super::{End, Kind, Leading, Line, Model, Place, Point, complete, joints};
+use super::{End, Kind, Leading, Line, Model, Place, Point, complete};
 use crate::base::{Checked, Matrix, Node, Verdict, need, whole};
 use num_traits::Signed;
 
@@ -49,7 +49,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<An
     let seen = view.at(found.seen(&cones, &view))?;
     slow.at(found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
     let rate = rate.at(found.rate(&rate))?;
-    let agree = !together.list()?.is_empty() || model.reachable.iter().all(|&e| joints(model, e).is_empty());
+    let agree = !together.list()?.is_empty() || model.joints().is_empty();
     if agree {
         together.at(regular_joints(model, points, &together))?;
     }
@@ -164,7 +164,8 @@ impl<'a> Cones<'a> {
     fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
         // With each word where it ends, and where the products of its ends are positive.
         let none = |&e: &usize| (e, e, Vec::new(), Vec::new());
-        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> = self.model.reachable.iter().map(none).collect();
+        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> =
+            self.model.shape.reachable.iter().map(none).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (from, to, word, ends) in words {
@@ -211,15 +212,19 @@ impl<'a> Cones<'a> {
             row
         };
         let reach: Vec<Vec<bool>> = (0..n).map(reached).collect();
-        let (mut cycles, mut seen) = (Vec::new(), vec![false; n]);
-        for k in (0..n).filter(|&k| reach[k][k]) {
-            let successors = next[k].iter().filter(|&&j| reach[j][k]).count();
-            need(successors == 1, "slow", "two cycles without positive products meet")?;
+        // The successor of each word on its cycle.
+        let mut step: Vec<Option<usize>> = Vec::new();
+        for k in 0..n {
+            let mut back = next[k].iter().copied().filter(|&j| j == k || reach[j][k]);
+            step.push(back.next());
+            need(back.next().is_none(), "slow", "two cycles without positive products meet")?;
+        }
+        let mut cycles = Vec::new();
+        for k in 0..n {
             let (mut at, mut word) = (k, Vec::new());
-            while !seen[at] {
-                seen[at] = true;
+            while let Some(next) = step[at].take() {
                 word.push(words[at].1[0]);
-                at = next[at].iter().copied().find(|&j| reach[j][at]).unwrap_or(at);
+                at = next;
             }
             if !word.is_empty() {
                 cycles.push((words[k].0, word));
@@ -241,7 +246,7 @@ impl<'a> Cones<'a> {
         let leading = Leading::read(&top, &linear)?;
         top.need(leading.eigenvalue_sign() > 0, "slow", "the leading eigenvalue must be positive")?;
         let (row, pairing) = leading.row(&linear, &functional)?;
-        let (field, v) = (&leading.field, &leading.vectors()[0]);
+        let (field, v) = (&leading.field, &leading.vectors[0]);
         let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
         for k in 0..rays.rows {
             let ray = rays.row(k);
@@ -265,7 +270,7 @@ impl<'a> Cones<'a> {
         bound.need(most >= whole(1), "rate", "no cross-ratio is smaller than 1 together with its inverse")?;
         let rounded: Vec<Vec<Bounds>> = self.maps.iter().map(|maps| maps.iter().map(Bounds::of).collect()).collect();
         let identity = |&e: &usize| (e, Bounds::of(&Matrix::identity(self.rays[e].rows)));
-        let mut layer: Vec<(usize, Bounds)> = self.model.reachable.iter().map(identity).collect();
+        let mut layer: Vec<(usize, Bounds)> = self.model.shape.reachable.iter().map(identity).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (e, product) in &layer {

@@ -3,17 +3,6 @@
 use super::{Address, Kind, Model};
 use crate::base::{Checked, Matrix, need};
 
-/// Where a piece of the ring lies with respect to the germ's point, in the order of the germ's state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Position {
-    /// Before it.
-    Before,
-    /// After it.
-    After,
-    /// The state has no order.
-    Unordered,
-}
-
 /// A piece of the ring that the germ sees.
 #[derive(Debug, Clone)]
 pub struct RingPiece {
@@ -23,8 +12,8 @@ pub struct RingPiece {
     pub end: usize,
     /// Its operator.
     pub op: Matrix,
-    /// Its place.
-    pub position: Position,
+    /// `-1` where it lies before the germ's point in the order of the germ's state, `1` after it, `0` where there is no order.
+    pub side: i32,
 }
 
 /// Where addresses are read and what is looked at: the start state with its view, or a state with its own visible quotient.
@@ -100,11 +89,8 @@ impl Germ {
             let (ordered, cycled) = (state.kind == Kind::Edge, &state.pieces[turn]);
             for (letter, piece) in state.pieces.iter().enumerate().filter(|(j, _)| *j != turn) {
                 let op = product.times(&piece.op)?;
-                let position = match (ordered, (letter < turn) == forward) {
-                    (false, _) => Position::Unordered,
-                    (true, true) => Position::Before,
-                    (true, false) => Position::After,
-                };
+                let after = if (letter < turn) == forward { -1 } else { 1 };
+                let side = if ordered { after } else { 0 };
                 let as_cycle = cycled.target == piece.target && cycled.op == piece.op;
                 let repeated = !ordered && (as_cycle || level.contains(&(piece.target, op.clone())));
                 let space = model.spaces.of(piece.target)?;
@@ -116,7 +102,7 @@ impl Germ {
                     && falls.times(&op)?.times(&space.basis)?.is_zero();
                 if !collapses {
                     let word = [&cycle[..i], &[letter]].concat();
-                    kept.push(RingPiece { word, end: piece.target, op: op.clone(), position });
+                    kept.push(RingPiece { word, end: piece.target, op: op.clone(), side });
                 }
                 level.push((piece.target, op));
             }

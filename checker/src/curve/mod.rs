@@ -12,10 +12,10 @@ mod shape;
 mod top;
 
 pub use case::Case;
-pub use claims::check;
-pub use germ::{Germ, Position, Root};
+pub use claims::{check, injective};
+pub use germ::{Germ, Root};
 pub use model::Model;
-pub use points::{Place, Point, complete, joints};
-pub use rules::{Found, Leading, Line, read_address};
+pub use points::{Place, Point, complete};
+pub use rules::{Branch, Found, Leading, Line, read_address};
 pub use shape::{Address, End, Kind, Op, Piece, Shape, Spaces, State, Way, close};
-pub use top::{Chain, Top, chain, positive_definite, residual, span_a_plane};
+pub use top::{Chain, Top, chain, outside, positive_definite, residual, span_a_plane};

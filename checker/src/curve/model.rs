@@ -1,7 +1,7 @@
 //! Trees of words: contraction codes, and covers of a ring by cells on which a functional keeps its sign (theory §1, §7).
 
-use super::{Germ, Position, Shape, Spaces};
-use crate::base::{Checked, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
+use super::{Germ, Shape, Spaces};
+use crate::base::{Checked, Enclosed, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -9,8 +9,6 @@ use num_traits::{One, Signed, Zero};
 pub struct Model<'a> {
     /// The shape.
     pub shape: &'a Shape,
-    /// Its reachable states, breadth first.
-    pub reachable: Vec<usize>,
     /// Their spaces.
     pub spaces: Spaces,
     radius: Vec<Q>,
@@ -39,24 +37,31 @@ pub struct Functionals {
 
 /// A cell of a cover.
 pub struct Cell {
-    /// On which side of the germ's point it lies.
-    pub position: Position,
+    /// On which side of the germ's point it lies: that of its piece.
+    pub side: i32,
     /// The index of the functional.
     pub functional: usize,
     /// Its sign there.
     pub sign: i32,
 }
 
+/// What is done with a leaf of a tree of words.
+type Visit<'v> = dyn FnMut(&Matrix, usize, &str) -> Checked<()> + 'v;
+
 impl<'a> Model<'a> {
+    /// The spaces of a shape, without anything that encloses the attractors: no cover may be checked with it.
+    pub fn unenclosed(shape: &'a Shape) -> Checked<Self> {
+        let spaces = Spaces::new(shape)?;
+        let radius = vec![Q::zero(); shape.states.len()];
+        let hulls = shape.states.iter().map(|s| Matrix::zeros(s.dim, 0)).collect();
+        Ok(Self { shape, spaces, radius, hulls })
+    }
+
     /// Rule `contraction`: for each reachable state a complete prefix code of words with `τ < 1` (Lemma 1), and a radius
     /// with `radius_e ≥ ‖T_w q − q_e‖ + τ(T_w) radius` for all its words, so that a ball around `q_e` holds the attractor; or for
     /// all of them polytopes (Lemma 1′).
     pub fn read(shape: &'a Shape, node: &Node<'_>) -> Checked<Self> {
-        let reachable = shape.reachable();
-        let spaces = node.at(Spaces::new(shape, &reachable))?;
-        let radius = vec![Q::zero(); shape.states.len()];
-        let hulls = shape.states.iter().map(|s| Matrix::zeros(s.dim, 0)).collect();
-        let mut model = Self { shape, reachable, spaces, radius, hulls };
+        let mut model = node.at(Self::unenclosed(shape))?;
         let mut entries = Vec::new();
         for (e, item) in model.for_states(node, "contraction")? {
             let [state, bound, code, hull] = item.fields("state radius code hull")?;
@@ -77,7 +82,13 @@ impl<'a> Model<'a> {
                 code.at(model.leaves(&identity, *e, code.value, "contraction", &mut leaf))?;
             }
         }
-        if !entries.iter().all(|(_, _, hull)| hull.is_null()) {
+        if entries.iter().all(|(_, _, hull)| matches!(hull.value, Json::Text(text) if text == "simplex")) {
+            for &e in &shape.reachable {
+                let maps = shape.states[e].pieces.iter().all(|p| !p.op.has_negative());
+                node.need(maps, "hull", "the simplices are mapped into themselves by nonnegative operators only")?;
+                model.hulls[e] = Matrix::identity(shape.states[e].dim);
+            }
+        } else if !entries.iter().all(|(_, _, hull)| hull.is_null()) {
             model.polytopes(entries.iter().map(|(e, _, hull)| (*e, hull)), false)?;
         }
         Ok(model)
@@ -86,21 +97,14 @@ impl<'a> Model<'a> {
     /// The elements of a list with one for each reachable state, breadth first, with the state.
     pub fn for_states<'n>(&self, node: &Node<'n>, rule: &str) -> Checked<Vec<(usize, Node<'n>)>> {
         let items = node.list()?;
-        let all = items.len() == self.reachable.len();
+        let all = items.len() == self.shape.reachable.len();
         node.need(all, rule, "one entry for each reachable state is needed, breadth first")?;
-        Ok(self.reachable.iter().copied().zip(items).collect())
+        Ok(self.shape.reachable.iter().copied().zip(items).collect())
     }
 
     /// Visits the leaves of a tree with one child for each letter of the state that is reached: the rows times the product of
     /// the word that leads to the leaf, the state there, and what stands at the leaf.
-    fn leaves(
-        &self,
-        rows: &Matrix,
-        state: usize,
-        tree: &Json,
-        rule: &str,
-        visit: &mut dyn FnMut(&Matrix, usize, &str) -> Checked<()>,
-    ) -> Checked<()> {
+    fn leaves(&self, rows: &Matrix, state: usize, tree: &Json, rule: &str, visit: &mut Visit<'_>) -> Checked<()> {
         let pieces = &self.shape.states[state].pieces;
         match tree {
             Json::Text(leaf) => visit(rows, state, leaf),
@@ -137,11 +141,7 @@ impl<'a> Model<'a> {
             images.at(self.hull_maps_into(e, &images, shrinking))?;
             if shrinking {
                 let hull = &self.hulls[e];
-                points.need(
-                    hull.rank()? == hull.rows,
-                    "contraction",
-                    "the points do not span the space of the state",
-                )?;
+                points.need(hull.rank()? == hull.rows, "contraction", "the points do not span the space")?;
                 let shift = hull.minus(&self.spaces.of(e)?.base.times(&Matrix::row_of_ones(hull.cols))?);
                 let near = (0..hull.cols).all(|j| shift.columns(&[j]).norm() <= self.radius[e]);
                 points.need(near, "contraction", "the ball of this radius does not hold the points")?;
@@ -179,9 +179,13 @@ impl<'a> Model<'a> {
 
     /// Functionals on the germ's quotient, given over a number field, as rows on points.
     pub fn functionals(&self, germ: &Germ, field: &Field, rows: &[&Matrix]) -> Checked<Functionals> {
+        self.enclosed(germ, &rows.iter().map(|row| field.enclose(row)).collect::<Checked<Vec<_>>>()?)
+    }
+
+    /// Functionals on the germ's quotient, given by enclosures of their entries, as rows on points.
+    pub fn enclosed(&self, germ: &Germ, rows: &[Enclosed]) -> Checked<Functionals> {
         let (mut middles, mut errors) = (Matrix::empty(germ.dim()), Vec::new());
-        for row in rows {
-            let values = field.enclose(row)?;
+        for values in rows {
             middles = middles.stack(&values.lo.plus(&Q::one(), &values.hi).transpose());
             // |chart_k (x − q)| is at most osc(chart_k) times the radius, because both points lie in the ball.
             let spread = |k: usize| (&values.hi.data[k] - &values.lo.data[k]) * oscillation(germ.chart.integers(k));
@@ -218,14 +222,8 @@ impl<'a> Model<'a> {
     /// Rule `cover`: every piece of the ring that is seen is cut into cells on each of which one of the functionals has one
     /// strict sign. The pieces come in the order of the ring (of one part of it, where `part` is given); leaves are `"+0"`,
     /// `"-0"`, `"+1"`, ….
-    pub fn cover(
-        &self,
-        germ: &Germ,
-        functionals: &Functionals,
-        part: Option<Position>,
-        node: &Node<'_>,
-    ) -> Checked<Vec<Cell>> {
-        let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.position == part)).collect();
+    pub fn cover(&self, germ: &Germ, by: &Functionals, part: Option<i32>, node: &Node<'_>) -> Checked<Vec<Cell>> {
+        let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.side == part)).collect();
         let mut cells = Vec::new();
         for (item, piece) in node.exactly(pieces.len(), "cover")?.iter().zip(pieces) {
             let [word, tree] = item.fields("piece cells")?;
@@ -236,11 +234,11 @@ impl<'a> Model<'a> {
                 let Some((functional, sign, _)) = named.into_iter().find(|(_, _, name)| name == leaf) else {
                     return reject("cover", "a leaf is a sign and the index of a functional, such as \"+0\"");
                 };
-                let keeps = self.keeps(rows, functional, &functionals.errors[functional], state, sign)?;
-                cells.push(Cell { position: piece.position, functional, sign });
+                let keeps = self.keeps(rows, functional, &by.errors[functional], state, sign)?;
+                cells.push(Cell { side: piece.side, functional, sign });
                 need(keeps, "cover", "a functional does not keep the sign of its cell")
             };
-            tree.at(self.leaves(&functionals.rows.times(&piece.op)?, piece.end, tree.value, "cover", &mut leaf))?;
+            tree.at(self.leaves(&by.rows.times(&piece.op)?, piece.end, tree.value, "cover", &mut leaf))?;
         }
         Ok(cells)
     }
@@ -261,12 +259,12 @@ mod tests {
         let op = row(&[3, 1]).stack(&row(&[1, 3])).scaled(&(whole(1) / whole(4)));
         let pieces = vec![Piece { target: 0, op, reversed: false }];
         let states = vec![State { kind: Kind::Set, dim: 2, pieces, ends: [None, None] }];
-        Shape { states, start: 0, view: Matrix::identity(2) }
+        Shape::new(states, 0, Matrix::identity(2))
     }
 
     fn model(shape: &Shape, radius: i64, hull: Matrix) -> Model<'_> {
-        let spaces = Spaces::new(shape, &[0]).unwrap();
-        Model { shape, reachable: vec![0], spaces, radius: vec![whole(radius)], hulls: vec![hull] }
+        let spaces = Spaces::new(shape).unwrap();
+        Model { shape, spaces, radius: vec![whole(radius)], hulls: vec![hull] }
     }
 
     #[test]

@@ -23,13 +23,11 @@ pub enum Place {
     OfSet(Address),
 }
 
-/// Which points a branch describes: earlier ones, later ones, or both.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Left,
-    Right,
-    Both,
-}
+/// Which points a branch describes: the earlier ones (at the finish of a curve), the later ones (at a start), or both.
+type Side = Option<End>;
+
+/// A branch: its side, and what its certificate proves, where it has one.
+type Branch = (Side, Option<Found>);
 
 /// A checked point.
 pub struct Point {
@@ -51,8 +49,7 @@ impl Place {
             "right end" => node.fields("at").map(|[_]| Self::End(End::Finish))?,
             "joint" => {
                 let [_, path, left, right] = node.fields("at path left right")?;
-                let pieces = MAX_PIECES;
-                Self::Joint { path: path.word()?, left: left.index(pieces)?, right: right.index(pieces)? }
+                Self::Joint { path: path.word()?, left: left.index(MAX_PIECES)?, right: right.index(MAX_PIECES)? }
             }
             "inside" => node.fields("at address").and_then(|[_, a]| Ok(Self::Inside(read_address(&a)?)))?,
             "of set" => node.fields("at address").and_then(|[_, a]| Ok(Self::OfSet(read_address(&a)?)))?,
@@ -63,12 +60,9 @@ impl Place {
     /// The branches of the point: for a curve through the outermost pieces that are more than a point.
     fn branches(&self, model: &Model<'_>, root: &Root) -> Checked<Vec<(Side, Address)>> {
         match self {
-            Self::End(end) => {
-                let side = if *end == End::Start { Side::Right } else { Side::Left };
-                Ok(vec![(side, end_branch(model, &[], root.state, *end)?)])
-            }
+            Self::End(end) => Ok(vec![(Some(*end), end_branch(model, &[], root.state, *end)?)]),
             Self::Joint { path, left, right } => {
-                let neighbours = self.joint(model, root.state).filter(|&(e, l, r)| joints(model, e).contains(&(l, r)));
+                let neighbours = self.joint(model, root.state).filter(|j| model.joints_of(j.0).contains(j));
                 let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
                 let (state, ..) = some(neighbours, "joint", why)?;
                 let branch = |letter: usize, end: End| {
@@ -78,13 +72,13 @@ impl Place {
                 let (before, after) = (branch(*left, End::Finish)?, branch(*right, End::Start)?);
                 let forward = model.shape.orientation(root.state, path)? > 0;
                 let (first, second) = if forward { (before, after) } else { (after, before) };
-                Ok(vec![(Side::Left, first), (Side::Right, second)])
+                Ok(vec![(Some(End::Finish), first), (Some(End::Start), second)])
             }
             Self::Inside(address) | Self::OfSet(address) => {
                 let normal = address.normalise(model.shape, root.state).as_ref() == Some(address);
                 let here = normal && root.state == model.shape.start && Self::of_address(model, address)? == *self;
                 need(here, "place", "the address is not in its normal form, or that of another kind of point")?;
-                Ok(vec![(Side::Both, address.clone())])
+                Ok(vec![(None, address.clone())])
             }
         }
     }
@@ -120,8 +114,8 @@ impl Place {
                     _ => return Ok(Self::Inside(address.clone())),
                 };
             }
-            let meets = |(l, r): &(usize, usize)| if end == End::Start { *r == letter } else { *l == letter };
-            if let Some((left, right)) = joints(model, states[k]).into_iter().find(meets) {
+            let meets = |&(_, l, r): &(_, usize, usize)| if end == End::Start { r == letter } else { l == letter };
+            if let Some((_, left, right)) = model.joints_of(states[k]).into_iter().find(meets) {
                 return Ok(Self::Joint { path: address.prefix[..k].to_vec(), left, right });
             }
         }
@@ -129,22 +123,23 @@ impl Place {
     }
 }
 
-/// The pairs of neighbouring pieces of a state that are more than points.
-pub fn joints(model: &Model<'_>, state: usize) -> Vec<(usize, usize)> {
-    let pieces = &model.shape.states[state].pieces;
-    let solid: Vec<usize> = (0..pieces.len()).filter(|&k| !model.spaces.is_point(state, k)).collect();
-    solid.windows(2).map(|w| (w[0], w[1])).collect()
+impl Model<'_> {
+    /// All first-level joints: the reachable states, and the pairs of neighbours among their pieces that are more than points.
+    pub fn joints(&self) -> Vec<(usize, usize, usize)> {
+        self.shape.reachable.iter().flat_map(|&e| self.joints_of(e)).collect()
+    }
+
+    fn joints_of(&self, e: usize) -> Vec<(usize, usize, usize)> {
+        let count = self.shape.states[e].pieces.len();
+        let solid: Vec<usize> = (0..count).filter(|&k| !self.spaces.is_point(e, k)).collect();
+        solid.windows(2).map(|w| (e, w[0], w[1])).collect()
+    }
 }
 
-/// Whether all first-level joints of all reachable states are among these (state and two pieces).
+/// Whether all first-level joints are among these.
 pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
-    for &e in &model.reachable {
-        for (left, right) in joints(model, e) {
-            let why = format_args!("the joint of the pieces {left} and {right} of state {e} is missing");
-            node.need(listed.contains(&(e, left, right)), rule, why)?;
-        }
-    }
-    Ok(())
+    let missing = model.joints().into_iter().find(|joint| !listed.contains(joint));
+    node.need(missing.is_none(), rule, format_args!("the joint {missing:?} (state and pieces) is missing"))
 }
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
@@ -185,7 +180,7 @@ impl Point {
         let [at, verdict, kind, rule, common, branches] = node.fields("place verdict kind rule common branches")?;
         let place = Place::read(&at)?;
         let addresses = at.at(place.branches(model, root))?;
-        let mut found: Vec<(Side, Option<Found>)> = Vec::new();
+        let mut found: Vec<Branch> = Vec::new();
         for ((side, address), item) in addresses.iter().zip(&branches.exactly(addresses.len(), "point")?) {
             let seen = if item.is_null() { None } else { Some(rules::check(model, root, address, item)?) };
             found.push((*side, seen));
@@ -199,45 +194,32 @@ impl Point {
 
 /// The conclusions: `plane` (a branch has more than one dimension), `line` (all branches have the same line), `differ` (the
 /// two branches have different lines, or their tangent subspaces contain different lines).
-fn conclude(
-    place: Place,
-    rule: &str,
-    common: &Node<'_>,
-    dimension: usize,
-    found: &[(Side, Option<Found>)],
-) -> Checked<Point> {
-    let planes = found.iter().filter(|(_, found)| matches!(found, Some(Found::Plane))).count();
-    let (mut lines, mut contained) = (Vec::new(), Vec::new());
-    for (side, found) in found {
-        if let Some(Found::Line(line)) = found {
-            lines.push((*side, line));
-        }
-        if let Some(Found::Line(line) | Found::Direction(line)) = found {
-            contained.push(line);
-        }
-    }
+fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[Branch]) -> Checked<Point> {
+    let given: Vec<(Side, &Found)> = found.iter().filter_map(|(side, found)| Some((*side, found.as_ref()?))).collect();
     let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
-    match rule {
-        "plane" => {
-            let alone = planes == 1 && contained.is_empty() && common.is_null();
-            need(alone, "plane", "one branch with a plane, and nothing else, is needed")?;
-            refuted(place, "none")
-        }
-        "differ" => {
-            let ([a, b], true) = (&contained[..], common.is_null() && found.len() == 2) else {
-                return reject("differ", "two branches with a line each, and nothing else, are needed");
-            };
+    match (rule, &given[..]) {
+        ("plane", [(_, Found::Plane)]) if common.is_null() => refuted(place, "none"),
+        ("plane", _) => reject("plane", "one branch with a plane, and nothing else, is needed"),
+        ("differ", [(_, Found::Line(a) | Found::Direction(a)), (_, Found::Line(b) | Found::Direction(b))])
+            if common.is_null() =>
+        {
             need(a.differs(b), "differ", "the two lines are not seen to be different")?;
-            let corner = lines.len() == 2 && a.left.len() == 1 && b.right.len() == 1;
-            refuted(place, if corner { "corner" } else { "none" })
+            // A line that is only contained has no rays.
+            refuted(place, if a.left.len() == 1 && b.right.len() == 1 { "corner" } else { "none" })
         }
-        "line" => {
+        ("differ", _) => reject("differ", "two branches with a line each, and nothing else, are needed"),
+        ("line", _) => {
+            let lines = found.iter().filter_map(|(side, found)| match found {
+                Some(Found::Line(line)) => Some((*side, line)),
+                _ => None,
+            });
+            let lines: Vec<(Side, &Line)> = lines.collect();
             need(lines.len() == found.len(), "point", "every branch needs a proved line")?;
-            let (relations, common) = relations(common, dimension, &lines)?;
+            let (relations, common) = relations(common, size, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
             for ((side, line), factor) in lines.iter().zip(relations) {
-                left.extend(line.left.iter().filter(|_| *side != Side::Right).map(|s| s * factor));
-                right.extend(line.right.iter().filter(|_| *side != Side::Left).map(|s| s * factor));
+                left.extend(line.left.iter().filter(|_| *side != Some(End::Start)).map(|s| s * factor));
+                right.extend(line.right.iter().filter(|_| *side != Some(End::Finish)).map(|s| s * factor));
             }
             let kind = kind(&place, &left, &right);
             Ok(Point { place, verdict: Verdict::Proved, kind, common })

@@ -14,33 +14,33 @@ const PLACES: u64 = 192;
 pub struct Bounds([Matrix; 2]);
 
 impl Bounds {
-    /// Rounds bounds downwards and upwards.
-    fn rounded([lo, hi]: [Matrix; 2]) -> Self {
-        charge(2 * lo.data.len(), lo.bits().max(hi.bits()) + PLACES);
-        let round = |m: &Matrix, to: fn(&BigInt, &BigInt) -> BigInt| {
+    /// Of a matrix.
+    pub fn of(m: &Matrix) -> Self {
+        charge(2 * m.data.len(), m.bits() + PLACES);
+        let round = |to: fn(&BigInt, &BigInt) -> BigInt| {
             let data = m.data.iter().map(|x| to(&(x << PLACES), &m.den)).collect();
             Matrix { data, den: BigInt::one() << PLACES, ..*m }
         };
-        Self([round(&lo, Integer::div_floor), round(&hi, Integer::div_ceil)])
-    }
-
-    /// Of a matrix.
-    pub fn of(m: &Matrix) -> Self {
-        Self::rounded([m.clone(), m.clone()])
+        Self([round(Integer::div_floor), round(Integer::div_ceil)])
     }
 
     /// Of the product: bounds of factors that are not negative give bounds of the product.
     pub fn times(&self, other: &Self) -> Checked<Self> {
-        Ok(Self::rounded([self.0[0].times(&other.0[0])?, self.0[1].times(&other.0[1])?]))
+        let mut product = [self.0[0].times(&other.0[0])?, self.0[1].times(&other.0[1])?];
+        // A shift to the right rounds down, also of negative numbers.
+        product[0].data.iter_mut().for_each(|x| *x >>= PLACES);
+        product[1].data.iter_mut().for_each(|x| *x = -(-&*x >> PLACES));
+        product.iter_mut().for_each(|m| m.den >>= PLACES);
+        Ok(Self(product))
     }
 
     /// Whether every matrix between the bounds is positive, with `b_ij b_kl <= D b_kj b_il` for all entries.
     pub fn within(&self, bound: &Q) -> Checked<bool> {
         let Self([lo, hi]) = self;
         spend(4 * hi.data.len() * hi.data.len(), hi.bits() + bits(bound))?;
-        let entry = |m: &Matrix, i: usize, j: usize| m.data[i * m.cols + j].clone();
         let pair = |i: usize, k: usize, j: usize, l: usize| {
-            bound.denom() * entry(hi, i, j) * entry(hi, k, l) <= bound.numer() * entry(lo, k, j) * entry(lo, i, l)
+            bound.denom() * &hi.integers(i)[j] * &hi.integers(k)[l]
+                <= bound.numer() * &lo.integers(k)[j] * &lo.integers(i)[l]
         };
         let columns = || (0..lo.cols).flat_map(|j| (0..lo.cols).filter(move |l| *l != j).map(move |l| (j, l)));
         let mut rows = (0..lo.rows).flat_map(|k| (0..k).map(move |i| (i, k)));

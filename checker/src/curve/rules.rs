@@ -1,6 +1,6 @@
 //! The rules for one branch: what its certificate proves about the tangent subspace of its germ.
 
-use super::{Address, Chain, Germ, Model, Position, Root, Top, residual, span_a_plane};
+use super::{Address, Chain, Germ, Model, Root, Top, residual, span_a_plane};
 use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, need};
 use num_traits::Zero;
 
@@ -36,9 +36,12 @@ pub fn read_address(node: &Node<'_>) -> Checked<Address> {
     Ok(address)
 }
 
-struct Branch<'a> {
-    model: &'a Model<'a>,
-    germ: Germ,
+/// A branch with its germ.
+pub struct Branch<'a> {
+    /// The model.
+    pub model: &'a Model<'a>,
+    /// The germ.
+    pub germ: Germ,
 }
 
 /// Checks the certificate of the branch with this address.
@@ -62,35 +65,33 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
 pub struct Leading {
     /// The field of the eigenvalues.
     pub field: Field,
-    chains: Vec<Chain>,
-    longest: usize,
+    /// The sign by which the root of the field is multiplied.
+    sign: i32,
+    /// The vectors of the longest chain.
+    pub vectors: Vec<Matrix>,
+    shorter: Vec<Chain>,
 }
 
 impl Leading {
     /// Reads and checks a top of this form.
     pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let Top::Real { field, chains } = Top::read(node, linear)? else {
+        let Top::Real { field, chains: mut shorter } = Top::read(node, linear)? else {
             return node.reject("leading", "a real top is needed here");
         };
-        let length = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
-        let longest: Vec<usize> = (0..chains.len()).filter(|&k| chains[k].vectors.len() == length).collect();
-        node.need(longest.len() == 1, "leading", "exactly one longest chain is needed here")?;
-        Ok(Self { field, longest: longest[0], chains })
+        shorter.sort_by_key(|c| c.vectors.len());
+        let longest = shorter.pop().filter(|c| shorter.last().is_none_or(|d| d.vectors.len() < c.vectors.len()));
+        let Chain { sign, vectors } = node.some(longest, "leading", "exactly one longest chain is needed here")?;
+        Ok(Self { field, sign, vectors, shorter })
     }
 
-    /// The vectors of the longest chain.
-    pub fn vectors(&self) -> &[Matrix] {
-        &self.chains[self.longest].vectors
-    }
-
-    /// The sign of its eigenvalue.
+    /// The sign of the eigenvalue of the longest chain.
     pub fn eigenvalue_sign(&self) -> i32 {
-        self.chains[self.longest].sign * self.field.root_sign()
+        self.sign * self.field.root_sign()
     }
 
     /// `g L − λ g` for a row over the field.
     fn residual(&self, linear: &Matrix, row: &Matrix) -> Checked<Matrix> {
-        residual(&self.field.by_root, &linear.transpose(), self.chains[self.longest].sign, row)
+        residual(&self.field.by_root, &linear.transpose(), self.sign, row)
     }
 
     /// Rule `leading`: a row `g` with `g L = λ g` that reads the coefficient of the last vector of the longest chain, up to
@@ -99,43 +100,37 @@ impl Leading {
         let row = self.field.vector(node, linear.rows)?;
         let left = self.residual(linear, &row)?.is_zero();
         node.need(left, "leading", "the row is no left eigenvector")?;
-        let mut sign = 0;
-        for (k, chain) in self.chains.iter().enumerate() {
-            let value = self.field.dot(&row, &chain.vectors[chain.vectors.len() - 1])?;
-            if k == self.longest {
-                sign = self.field.sign(&value)?;
-            } else {
-                node.need(value.is_zero(), "leading", "the row sees a shorter chain")?;
-            }
+        let on_last = |chain: &[Matrix]| self.field.dot(&row, &chain[chain.len() - 1]);
+        for chain in &self.shorter {
+            node.need(on_last(&chain.vectors)?.is_zero(), "leading", "the row sees a shorter chain")?;
         }
+        let sign = self.field.sign(&on_last(&self.vectors)?)?;
         node.need(sign != 0, "leading", "the row is not seen to be nonzero")?;
         Ok((row, sign))
     }
 }
 
 impl Branch<'_> {
-    /// A top with exactly one longest chain, and how long that is.
-    fn leading(&self, node: &Node<'_>) -> Checked<(Leading, usize)> {
-        let top = Leading::read(node, &self.germ.linear)?;
-        let length = top.vectors().len();
-        Ok((top, length))
+    /// A top with exactly one longest chain.
+    fn leading(&self, node: &Node<'_>) -> Checked<Leading> {
+        Leading::read(node, &self.germ.linear)
     }
 
     /// Theorems 2 and 3.
     fn line(&self, node: &Node<'_>, rule: &str) -> Checked<Found> {
         let [_, top, functional, cover] = node.fields("rule top functional cover")?;
-        let (top, length) = self.leading(&top)?;
-        let fits = (length == 1) == (rule == "theorem-2");
+        let top = self.leading(&top)?;
+        let fits = (top.vectors.len() == 1) == (rule == "theorem-2");
         need(fits, rule, "Theorem 2 is about chains of length 1, Theorem 3 about longer ones")?;
         let (row, pairing) = top.row(&self.germ.linear, &functional)?;
         let functional = self.model.functionals(&self.germ, &top.field, &[&row])?;
         let cells = self.model.cover(&self.germ, &functional, None, &cover)?;
-        let mut line = self.found_line(&top.field, &top.vectors()[0])?;
+        let mut line = self.found_line(&top.field, &top.vectors[0])?;
         // L^m x is about C(m, l) λ^(m-l) (g x / g v) v_1 with l = length - 1; m runs over all large numbers.
         let lambda = top.eigenvalue_sign();
-        let factor = if length % 2 == 0 { pairing * lambda } else { pairing };
+        let factor = if top.vectors.len() % 2 == 0 { pairing * lambda } else { pairing };
         for cell in cells {
-            let after = if cell.position == Position::Before { -1 } else { 1 };
+            let after = if cell.side < 0 { -1 } else { 1 };
             // An even and an odd number of turns.
             for (turn, power) in [(1, 1), (self.germ.turn, lambda)] {
                 let before = after * turn * self.germ.prefix_sign < 0;
@@ -164,8 +159,8 @@ impl Branch<'_> {
     /// The corollary for one direction: `G v_1` lies in `D*`.
     fn direction(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top] = node.fields("rule top")?;
-        let (top, _) = self.leading(&top)?;
-        Ok(Found::Direction(self.found_line(&top.field, &top.vectors()[0])?))
+        let top = self.leading(&top)?;
+        Ok(Found::Direction(self.found_line(&top.field, &top.vectors[0])?))
     }
 
     fn plane(rule: &str, vectors: &[Enclosed]) -> Checked<Found> {
@@ -181,18 +176,18 @@ impl Branch<'_> {
     }
 
     /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
-    fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix, Position)> {
+    fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix, i32)> {
         let address = read_address(node)?;
         let letters = self.germ.ring.iter().map(|p| p.word.len()).max().unwrap_or(0);
         let word: Vec<usize> = (0..letters).map(|k| address.letter(k)).collect();
         let piece = self.germ.ring.iter().find(|p| word.starts_with(&p.word));
         let piece = node.some(piece, "ring", "the address begins with no piece of the ring that is seen")?;
         let point = node.at(self.model.shape.point(self.germ.state, &address))?;
-        Ok((self.germ.coordinates(&point)?, piece.position))
+        Ok((self.germ.coordinates(&point)?, piece.side))
     }
 
     /// The part of the ring in which a row is positive at one point and negative at another.
-    fn changing_part(&self, field: &Field, row: &Matrix, points: [&Node<'_>; 2]) -> Checked<Position> {
+    fn changing_part(&self, field: &Field, row: &Matrix, points: [&Node<'_>; 2]) -> Checked<i32> {
         let mut parts = Vec::new();
         for (node, wanted) in points.into_iter().zip([1, -1]) {
             let (y, part) = self.ring_point(node)?;
@@ -200,14 +195,14 @@ impl Branch<'_> {
             let has = field.sign(&y.transpose().times(row)?)? == wanted;
             node.need(has, "sign-change", "the functional does not have this sign at the point")?;
         }
-        let connected = parts[0] == parts[1] && parts[0] != Position::Unordered;
+        let connected = parts[0] == parts[1] && parts[0] != 0;
         need(connected, "sign-change", "the points do not lie in one connected part of the ring")?;
         Ok(parts[0])
     }
 
     /// What both forms of Theorem 4 need: a simple eigenvalue, and `G` injective on `Y`.
-    fn theorem_4(&self, length: usize, rule: &str) -> Checked<Found> {
-        need(length == 1, rule, "a simple eigenvalue is needed")?;
+    fn theorem_4(&self, top: &Leading, rule: &str) -> Checked<Found> {
+        need(top.vectors.len() == 1, rule, "a simple eigenvalue is needed")?;
         let injective = self.germ.view.rank()? == self.germ.dim();
         need(injective, rule, "the map into the space where the shape is looked at is not injective on the quotient")?;
         Ok(Found::Plane)
@@ -216,42 +211,48 @@ impl Branch<'_> {
     /// Theorem 4 with a point of the ring at which the leading functional vanishes.
     fn null_point(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, address] = node.fields("rule top functional address")?;
-        let (top, length) = self.leading(&top)?;
+        let top = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
         let (y, _) = self.ring_point(&address)?;
         let vanishes = y.transpose().times(&row)?.is_zero();
         address.need(vanishes, "null-point", "the functional does not vanish at the point")?;
         let ends = self.germ.linear.power(self.germ.dim())?.times(&y)?.is_zero();
         address.need(!ends, "null-point", "the orbit of the point ends in the germ's point")?;
-        self.theorem_4(length, "null-point")
+        self.theorem_4(&top, "null-point")
     }
 
     /// Theorem 4 with two points of one connected part of the ring at which the leading functional has opposite signs.
     fn sign_change(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, functional, isolation, positive, negative] =
             node.fields("rule top functional isolation positive negative")?;
-        let (top, length) = self.leading(&top)?;
+        let top = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
         self.changing_part(&top.field, &row, [&positive, &negative])?;
         // Isolation: the rows of L^dim have no common zero on the ring.
         let rows = self.germ.linear.power(self.germ.dim())?.echelon()?.0;
         let rows = self.model.rows(&self.germ, &rows, vec![Q::zero(); rows.rows])?;
         self.model.cover(&self.germ, &rows, None, &isolation)?;
-        self.theorem_4(length, "sign-change")
+        self.theorem_4(&top, "sign-change")
     }
 
     /// Lower bound from the orbit of one point of the ring: its own leading directions and those of the corollary.
     fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, address, own] = node.fields("rule top address own")?;
         let top = Top::read(&top, &self.germ.linear)?;
-        let (y, _) = self.ring_point(&address)?;
+        let (own, view) = self.orbit_top(&address, &own)?;
+        let mut vectors = top.directions(&self.germ.view)?;
+        vectors.extend(own.directions(&view)?);
+        Self::plane("orbit", &vectors)
+    }
+
+    /// The top of `L` on the cyclic hull of a point of the ring, and `G` on that hull.
+    pub fn orbit_top(&self, address: &Node<'_>, own: &Node<'_>) -> Checked<(Top, Matrix)> {
+        let (y, _) = self.ring_point(address)?;
         let transposed = self.germ.linear.transpose();
         let (hull, pivots) = y.transpose().hull(&transposed)?;
         address.need(!pivots.is_empty(), "orbit", "this is the germ's point itself")?;
-        let own = Top::read(&own, &hull.times(&transposed)?.columns(&pivots).transpose())?;
-        let mut vectors = top.directions(&self.germ.view)?;
-        vectors.extend(own.directions(&self.germ.view.times(&hull.transpose())?)?);
-        Self::plane("orbit", &vectors)
+        let own = Top::read(own, &hull.times(&transposed)?.columns(&pivots).transpose())?;
+        Ok((own, self.germ.view.times(&hull.transpose())?))
     }
 
     /// Section 6: one real block of length 2, and a connected part of the ring on which `c_2` takes both signs while `c_1` has
@@ -259,8 +260,8 @@ impl Branch<'_> {
     fn crossing(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, second, first, positive, negative, cover] =
             node.fields("rule top second first positive negative cover")?;
-        let (top, length) = self.leading(&top)?;
-        need(top.chains.len() == 1 && length == 2, "crossing", "one block of length 2 is needed")?;
+        let top = self.leading(&top)?;
+        need(top.shorter.is_empty() && top.vectors.len() == 2, "crossing", "one block of length 2 is needed")?;
         let (c2, _) = top.row(&self.germ.linear, &second)?;
         let c1 = top.field.vector(&first, self.germ.dim())?;
         first.need(top.residual(&self.germ.linear, &c1)? == c2, "crossing", "g_1 L = λ g_1 + g_2 does not hold")?;
@@ -269,7 +270,7 @@ impl Branch<'_> {
         let cells = self.model.cover(&self.germ, &rows, Some(part), &cover)?;
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
         cover.need(signs.windows(2).all(|s| s[0] == s[1]), "crossing", "g_1 takes both signs where g_2 may vanish")?;
-        let vectors = top.vectors().iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
+        let vectors = top.vectors.iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
         Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }
 }

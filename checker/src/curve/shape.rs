@@ -55,6 +55,8 @@ pub struct Shape {
     pub start: usize,
     /// Control points (one column each), or the identity.
     pub view: Matrix,
+    /// The states that can be reached, breadth first.
+    pub reachable: Vec<usize>,
 }
 
 /// An eventually periodic address.
@@ -86,10 +88,7 @@ impl Address {
 
     /// The letter at a position of the infinite word.
     pub fn letter(&self, k: usize) -> usize {
-        match self.prefix.get(k) {
-            Some(letter) => *letter,
-            None => self.cycle[(k - self.prefix.len()) % self.cycle.len()],
-        }
+        *self.prefix.get(k).unwrap_or_else(|| &self.cycle[(k - self.prefix.len()) % self.cycle.len()])
     }
 
     /// The address whose sequence of (state, letter) pairs is written with the shortest prefix and the shortest period.
@@ -128,27 +127,30 @@ impl End {
     /// The end of a piece that lies at this end of its state.
     pub fn in_piece(self, piece: &Piece) -> Self {
         match (self, piece.reversed) {
-            (end, false) => end,
-            (Self::Start, true) => Self::Finish,
-            (Self::Finish, true) => Self::Start,
+            (Self::Start, false) | (Self::Finish, true) => Self::Start,
+            _ => Self::Finish,
         }
     }
 }
 
 impl Shape {
-    /// The states that can be reached, breadth first.
-    pub fn reachable(&self) -> Vec<usize> {
-        let mut order = vec![self.start];
-        let mut next = 0;
-        while next < order.len() {
-            for piece in &self.states[order[next]].pieces {
-                if !order.contains(&piece.target) {
-                    order.push(piece.target);
+    /// A shape with these states.
+    pub fn new(states: Vec<State>, start: usize, view: Matrix) -> Self {
+        let (mut reachable, mut next) = (vec![start], 0);
+        while next < reachable.len() {
+            for piece in &states[reachable[next]].pieces {
+                if !reachable.contains(&piece.target) {
+                    reachable.push(piece.target);
                 }
             }
             next += 1;
         }
-        order
+        Self { states, start, view, reachable }
+    }
+
+    /// The pieces of all reachable states, with the state.
+    pub fn pieces(&self) -> impl Iterator<Item = (usize, &Piece)> {
+        self.reachable.iter().flat_map(|&e| self.states[e].pieces.iter().map(move |p| (e, p)))
     }
 
     /// For each state a matrix without rows.
@@ -219,8 +221,8 @@ impl Shape {
     }
 
     /// Rule `curve`: in every reachable edge state each piece begins where the one before ends, and the identities hold.
-    pub fn check_curves(&self, reachable: &[usize]) -> Checked<()> {
-        for &e in reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
+    pub fn check_curves(&self) -> Checked<()> {
+        for &e in self.reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
             for (j, pair) in self.states[e].pieces.windows(2).enumerate() {
                 let end = |p: &Piece, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
                 let meet = end(&pair[0], End::Finish)? == end(&pair[1], End::Start)?;
@@ -295,23 +297,21 @@ impl Spaces {
     }
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
-    pub fn new(shape: &Shape, reachable: &[usize]) -> Checked<Self> {
+    pub fn new(shape: &Shape) -> Checked<Self> {
         let (mut base, mut offsets, mut rows) = (shape.no_rows(), shape.no_rows(), shape.no_rows());
-        for &e in reachable {
+        for &e in &shape.reachable {
             let zero = Address { prefix: Vec::new(), cycle: vec![0] };
             base[e] = shape.point(e, &some(zero.normalise(shape, e), "word", "a state without pieces")?)?;
         }
-        for &e in reachable {
-            for piece in &shape.states[e].pieces {
-                let offset = piece.op.times(&base[piece.target])?.minus(&base[e]);
-                offsets[e] = offsets[e].stack(&offset.transpose());
-            }
+        for (e, piece) in shape.pieces() {
+            let offset = piece.op.times(&base[piece.target])?.minus(&base[e]);
+            offsets[e] = offsets[e].stack(&offset.transpose());
         }
-        let spans = close(shape, reachable, offsets, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
+        let spans = close(shape, offsets, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
         rows[shape.start] = shape.view.clone();
-        let rows = close(shape, reachable, rows, Way::Down, |_, p, row| row.times(&p.op))?;
+        let rows = close(shape, rows, Way::Down, |_, p, row| row.times(&p.op))?;
         let mut spaces = vec![None; shape.states.len()];
-        for &e in reachable {
+        for &e in &shape.reachable {
             let (basis, pivots) = spans[e].echelon()?;
             let (basis, reading) = (basis.transpose(), Matrix::ones(pivots.len(), basis.cols, |i, j| pivots[i] == j));
             let (visible, leading) = rows[e].times(&basis)?.echelon()?;
@@ -357,23 +357,20 @@ pub enum Way {
 /// its members, which `image` computes for a state, one of its pieces and the space that is carried.
 pub fn close(
     shape: &Shape,
-    reachable: &[usize],
     mut family: Vec<Matrix>,
     way: Way,
     image: impl Fn(usize, &Piece, &Matrix) -> Checked<Matrix>,
 ) -> Checked<Vec<Matrix>> {
-    for &e in reachable {
+    for &e in &shape.reachable {
         family[e] = family[e].echelon()?.0;
     }
     let mut grown = true;
     while std::mem::take(&mut grown) {
-        for &e in reachable {
-            for piece in &shape.states[e].pieces {
-                spend(1, 0)?;
-                let (from, to) = if way == Way::Up { (piece.target, e) } else { (e, piece.target) };
-                if let Some((joined, _)) = family[to].joined(&image(e, piece, &family[from])?)? {
-                    (family[to], grown) = (joined, true);
-                }
+        for (e, piece) in shape.pieces() {
+            spend(1, 0)?;
+            let (from, to) = if way == Way::Up { (piece.target, e) } else { (e, piece.target) };
+            if let Some((joined, _)) = family[to].joined(&image(e, piece, &family[from])?)? {
+                (family[to], grown) = (joined, true);
             }
         }
     }

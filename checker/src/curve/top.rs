@@ -30,13 +30,15 @@ pub enum Top {
         value: [Interval; 2],
         /// Its eigenvector over `Q[x]/(m)`.
         vector: Matrix,
+        /// The matrix that multiplies by the root of `m`.
+        by_root: Matrix,
     },
     /// A rational invariant subspace on which `L` is a conformal map for some scalar product; its basis as rows.
     Conformal(Matrix),
 }
 
 /// The radius, and how many roots of the characteristic polynomial have a larger modulus; none has this one.
-fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
+pub fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
     let (r, n) = (radius.rational()?, chi.cols - 1);
     radius.need(r.is_positive(), "disc", "the radius must be positive")?;
     spend(3 * chi.cols, chi.bits() + bits(&r) * n as u64)?;
@@ -118,13 +120,14 @@ impl Top {
         node.need(fits, "top-pair", "an eigenvalue outside the disc and off the real axis is needed")?;
         let near = has_root_near(&Matrix::new(1, m.len(), &m), &c, &e)?;
         error.need(near, "top-pair", "no root is seen to lie within this distance of the centre")?;
-        let vectors = chain(&list, linear, &Field::companion(&m), 1, "top-pair")?;
+        let by_root = Field::companion(&m);
+        let vectors = chain(&list, linear, &by_root, 1, "top-pair")?;
         let around = |v: &Q| [v - &e, v + &e];
         let (value, vector) = ([around(x), around(y)], vectors[0].clone());
         let [re, im] = values(&vector, &value[0], &value[1])?;
         let all = 2 * vectors.len() == count && (re.is_nonzero() || im.is_nonzero());
         list.need(all, "top-pair", format_args!("{count} eigenvalues lie outside the disc, or the vector may be 0"))?;
-        Ok(Self::Pair { value, vector })
+        Ok(Self::Pair { value, vector, by_root })
     }
 
     fn conformal(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
@@ -144,20 +147,28 @@ impl Top {
         Ok(Self::Conformal(e))
     }
 
-    /// Enclosures of real vectors that span the image under `view` of the eigenvectors that end the longest chains.
-    pub fn directions(&self, view: &Matrix) -> Checked<Vec<Enclosed>> {
+    /// The image under `view` of the eigenvectors that end the longest chains, by their coefficients: over the field, over
+    /// `Q[x]/(m)` (which stands for real and imaginary part), or rational.
+    pub fn ends(&self, view: &Matrix) -> Checked<Vec<Matrix>> {
         match self {
-            Self::Real { field, chains } => {
+            Self::Real { chains, .. } => {
                 let longest = chains.iter().map(|c| c.vectors.len()).max();
                 let ending = chains.iter().filter(|c| Some(c.vectors.len()) == longest);
-                ending.map(|c| field.enclose(&view.times(&c.vectors[0])?)).collect()
+                ending.map(|c| view.times(&c.vectors[0])).collect()
             }
-            Self::Pair { value, vector } => Ok(values(&view.times(vector)?, &value[0], &value[1])?.into()),
-            Self::Conformal(basis) => {
-                let images = basis.times(&view.transpose())?;
-                Ok((0..images.rows).map(|i| Enclosed::exact(images.row(i).transpose())).collect())
-            }
+            Self::Pair { vector, .. } => Ok(vec![view.times(vector)?]),
+            Self::Conformal(basis) => (0..basis.rows).map(|i| view.times(&basis.row(i).transpose())).collect(),
         }
+    }
+
+    /// Enclosures of real vectors that span their real and imaginary parts.
+    pub fn directions(&self, view: &Matrix) -> Checked<Vec<Enclosed>> {
+        let ends = self.ends(view)?;
+        Ok(match self {
+            Self::Real { field, .. } => ends.iter().map(|v| field.enclose(v)).collect::<Checked<_>>()?,
+            Self::Pair { value, .. } => values(&ends[0], &value[0], &value[1])?.into(),
+            Self::Conformal(_) => ends.into_iter().map(Enclosed::exact).collect(),
+        })
     }
 }
 

@@ -13,7 +13,8 @@ pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
 pub use tensor::{factors, product_point};
 pub use verdict::{
-    ProductEvidence, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint, SurfaceWitness, Winding,
+    ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint, SurfaceWitness,
+    Winding,
 };
 
 use super::{
@@ -73,6 +74,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     let mut surface = Surface {
         points: Vec::new(),
         dense: None,
+        factors: None,
         unparametrised: chart.as_ref().err().cloned(),
         simplex: balls.in_simplex(),
     };
@@ -82,6 +84,8 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     } else {
         branches_only(&setting, &asked, &mut surface, &mut found.claims);
     }
+    found.polygons = setting.cx.polygons();
+    surface.factors = product.as_ref().map(tensor::Product::factors);
     found.surface = Some(surface);
     found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     Ok(found)

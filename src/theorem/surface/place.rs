@@ -108,8 +108,8 @@ pub struct Chart<'a> {
 }
 
 impl<'a> Chart<'a> {
-    /// The chart, where the sides of all faces that are reached are given, their pieces are faces, and every piece is placed
-    /// by a symmetry of its subcell; a reason where not. The identities are taken as checked.
+    /// The chart, where the sides of all faces that are reached are given, they are divided in both directions, their pieces are
+    /// faces, and every piece is placed by a symmetry of its subcell; a reason where not. The identities are taken as checked.
     ///
     /// # Errors
     /// The reason in words.
@@ -124,6 +124,9 @@ impl<'a> Chart<'a> {
             let Some(face) = complex.faces.get(&e) else {
                 return Err(format!("the sides of the face `{}` are not given", state.name));
             };
+            if matches!(face.layout, Layout::Quad { columns, rows } if columns.min(rows) < 2) {
+                return Err(format!("the cells of the face `{}` do not shrink in both directions", state.name));
+            }
             for letter in 0..state.pieces.len() {
                 let target = state.pieces[letter].target;
                 let fits = complex.faces.get(&target).is_some_and(|inside| {

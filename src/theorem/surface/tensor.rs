@@ -2,7 +2,7 @@
 
 use super::branch::Setting;
 use super::span::Subspace;
-use super::verdict::{ProductEvidence, SurfacePoint};
+use super::verdict::{ProductEvidence, ProductFactor, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
@@ -46,14 +46,28 @@ impl Factor {
         (base, norm1(base), self.balls.radius(self.shape.start))
     }
 
+    fn context(&self) -> Context<'_> {
+        let (shape, root) = (&self.shape, self.shape.start);
+        let Self { spaces, balls, hulls, .. } = self;
+        Context { shape, spaces, balls, hulls, root, view: shape.view() }
+    }
+
+    fn evidence(&self) -> ProductFactor {
+        let radius = |e: usize| (e, self.balls.radius(e).clone());
+        ProductFactor {
+            shape: self.shape.clone(),
+            contraction: self.contraction.clone(),
+            states: self.shape.reachable().into_iter().map(radius).collect(),
+            polygons: self.context().polygons(),
+        }
+    }
+
     fn point(&self, address: &Address) -> Option<PointReport> {
         let address = address.normalise(&self.shape, self.shape.start).ok()?;
         if let Some(known) = self.known.borrow().get(&address) {
             return known.clone();
         }
-        let (shape, root) = (&self.shape, self.shape.start);
-        let Self { spaces, balls, hulls, .. } = self;
-        let cx = Context { shape, spaces, balls, hulls, root, view: shape.view() };
+        let cx = self.context();
         let found = point::address_spec(&cx, &address).and_then(|spec| point::examine_point(&cx, &spec));
         self.known.borrow_mut().insert(address, found.clone());
         found
@@ -71,6 +85,11 @@ impl Product {
     pub fn of(complex: &Complex) -> Option<Self> {
         let (first, second) = factors(complex)?;
         Some(Self { first: Factor::new(&first)?, second: Factor::new(&second)? })
+    }
+
+    /// Both curves, and why they contract.
+    pub fn factors(&self) -> [ProductFactor; 2] {
+        [self.first.evidence(), self.second.evidence()]
     }
 
     /// Why the product contracts, and a ball that holds it: `|x ⊗ y − a ⊗ b| ≤ |x − a| |y| + |a| |y − b|`.

@@ -5,7 +5,7 @@ use super::span::Subspace;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
-use crate::shape::Address;
+use crate::shape::{Address, Contraction, Shape};
 use crate::theorem::{Dimension, Discharged, PointReport, RingPiece, RingProof, Statement, Verdict, Witness};
 
 /// A proof that a pair of functionals has a common zero on a cell of the ring: the image of its boundary winds around 0.
@@ -98,6 +98,19 @@ pub struct ProductEvidence {
     pub tangent: Option<Subspace>,
 }
 
+/// One of the curves that a surface is the product of, and why it contracts.
+#[derive(Debug, Clone)]
+pub struct ProductFactor {
+    /// The curve.
+    pub shape: Shape,
+    /// Why it contracts.
+    pub contraction: Contraction,
+    /// Radii of balls that hold it.
+    pub states: Vec<(usize, Rational)>,
+    /// Convex polygons that hold it, where they were made.
+    pub polygons: Option<Vec<Vec<Vec<Rational>>>>,
+}
+
 /// One examined point of a surface.
 #[derive(Debug, Clone)]
 pub struct SurfacePoint {
@@ -145,6 +158,8 @@ pub struct Surface {
     pub points: Vec<SurfacePoint>,
     /// The evidence for the dense set.
     pub dense: Option<SurfaceDense>,
+    /// The curves that it is the product of, where it is one.
+    pub factors: Option<[ProductFactor; 2]>,
     /// Why the parameters of the surface are not used, where they are not.
     pub unparametrised: Option<String>,
     /// Whether cells were enclosed by the simplex of the coordinates instead of balls: all operators are nonnegative.

@@ -1,0 +1,202 @@
+//! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 8.1).
+
+mod branch;
+mod chart;
+mod product;
+
+use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
+use crate::curve::{Address, Model, Root, case, injective, read_address};
+use branch::{Bounds, independent};
+use chart::Chart;
+use product::Product;
+
+/// A question of the case: a claim in words, and the points it is about, by their numbers; none for the dense set.
+type Question = (String, Vec<usize>);
+
+/// An address in words.
+fn name(address: &Address) -> String {
+    let letters = |word: &[usize]| word.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
+    format!("{}({})", letters(&address.prefix), letters(&address.cycle))
+}
+
+/// What is asked of a patch with parameters (its vertices, the dense set, the addresses) or of single branches, and the points
+/// that are asked about, each with the addresses of the cells around it.
+fn questions(
+    model: &Model<'_>,
+    chart: Option<&Chart>,
+    addresses: Vec<Address>,
+) -> Checked<(Vec<Question>, Vec<Vec<Address>>)> {
+    let (start, mut asked, mut points) = (model.shape.start, Vec::new(), Vec::new());
+    let mut number = |addresses: Vec<Address>| -> usize {
+        let known = points.iter().position(|p| *p == addresses);
+        known.unwrap_or_else(|| {
+            points.push(addresses);
+            points.len() - 1
+        })
+    };
+    if let Some(chart) = chart {
+        let vertices = chart.vertices()?;
+        let vertices = vertices.iter().map(|v| Ok(number(chart.addresses(start, v)?))).collect::<Checked<_>>()?;
+        let text = "at every vertex of the first subdivision the cells around it have together a tangent plane";
+        asked.extend([(text.to_owned(), vertices), (String::new(), Vec::new())]);
+        for address in addresses {
+            let text = format!("the cells around the point {} have together a tangent plane there", name(&address));
+            asked.push((text, vec![number(chart.addresses(start, &chart.locate(start, &address)?)?)]));
+        }
+        return Ok((asked, points));
+    }
+    let pieces = model.shape.states[start].pieces.iter().enumerate().filter(|(_, p)| p.target == start);
+    let own = pieces.map(|(i, _)| Address { prefix: Vec::new(), cycle: vec![i] });
+    for address in own.chain(addresses) {
+        let question =
+            (format!("the germ of the branch {} has a tangent plane", name(&address)), vec![number(vec![address])]);
+        if !asked.contains(&question) {
+            asked.push(question);
+        }
+    }
+    Ok((asked, points))
+}
+
+/// Checks the proof of a certificate of the kind `surface`.
+pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
+    let case = case::read(source, false)?;
+    let [contraction, product, further, points, dense, answers] =
+        node.fields("contraction product further points dense answers")?;
+    let shape = &case.shape;
+    let model = if contraction.is_null() { Model::unenclosed(shape)? } else { Model::read(shape, &contraction)? };
+    let chart = Chart::read(source, shape)?;
+    let factors = if product.is_null() { Vec::new() } else { product.fields::<2>("first second")?.into() };
+    let curves = factors.iter().map(product::curve).collect::<Checked<Vec<_>>>()?;
+    let read = |chart| Product::read(shape, chart, &curves, &factors);
+    let (cover, flat) = (!contraction.is_null(), curves.is_empty());
+    let product = chart.as_ref().filter(|_| !flat).map(read).transpose()?;
+    let known = product.is_some() || (cover && flat);
+    contraction.need(known, "contraction", "a reason is needed, or a patch with parameters that is a product")?;
+    let surface = Surface { model: &model, product, cover };
+    let mut addresses: Vec<Address> = Vec::new();
+    for address in &case.examine {
+        addresses.extend((!addresses.contains(address)).then(|| address.clone()));
+    }
+    for item in further.list()? {
+        let address = read_address(&item)?;
+        let new = address.normalise(shape, shape.start).as_ref() == Some(&address) && !addresses.contains(&address);
+        item.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
+        addresses.push(address);
+    }
+    let (asked, places) = questions(&model, chart.as_ref(), addresses)?;
+    let root = Root { state: shape.start, view: shape.view.clone() };
+    let (mut verdicts, mut lines) = (Vec::new(), Vec::new());
+    for (item, place) in points.exactly(places.len(), "points")?.iter().zip(&places) {
+        let check = || Ok(surface.point(&root, Some(place), item)?.1);
+        verdicts.push(if item.is_null() { Verdict::Undetermined } else { check()? });
+        let names: Vec<String> = place.iter().map(name).collect();
+        lines.push(format!("{}: {}", verdicts[verdicts.len() - 1].word(), names.join(" = ")));
+    }
+    dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
+    let (mut together, mut found) = (Vec::new(), Vec::new());
+    for (item, (text, numbers)) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
+        let (text, verdict) = match (&chart, numbers.iter().map(|&k| verdicts[k]).min()) {
+            (Some(chart), None) => surface.dense_set(chart, &dense)?,
+            (_, verdict) => (text, verdict.unwrap_or(Verdict::Undetermined)),
+        };
+        item.follows("answers", verdict.word())?;
+        together.push(verdict);
+        found.push(format!("{}: {text}", verdict.word()));
+    }
+    let verdict = together.into_iter().min().unwrap_or(Verdict::Undetermined);
+    Ok(Accepted { case: case.name, verdict, claims: found, points: lines })
+}
+
+/// A case with what is known of it.
+struct Surface<'a> {
+    model: &'a Model<'a>,
+    product: Option<Product<'a>>,
+    /// Whether the attractors are enclosed, so that there may be covers.
+    cover: bool,
+}
+
+impl Surface<'_> {
+    /// Checks a point, whose addresses may be known, and says what they are.
+    fn point(&self, root: &Root, place: Option<&[Address]>, node: &Node<'_>) -> Checked<(Vec<Address>, Verdict)> {
+        let [listed, rule, tangent, branches] = node.fields("addresses rule tangent branches")?;
+        let addresses = listed.each(read_address)?;
+        let known = place.is_none_or(|place| *place == addresses) && !addresses.is_empty();
+        listed.need(known, "point", "these are not the addresses of the point")?;
+        let model = self.model;
+        if let ("product", Some(product)) = (rule.text()?, &self.product) {
+            let basis = &model.spaces.of(root.state)?.basis;
+            let seen = root.view.times(basis)?.rank()? == basis.cols && tangent.is_null();
+            tangent.need(seen, "product", "the view must be injective, and no plane is given")?;
+            let verdict = product.verdict(&addresses[0], &branches)?;
+            return Ok((addresses, verdict));
+        }
+        rule.need(self.cover, "contraction", "without contraction only a product has points")?;
+        let items = branches.exactly(addresses.len(), "point")?;
+        let (mut found, mut position): (Vec<Option<Bounds>>, Option<Matrix>) = (Vec::new(), None);
+        for (item, address) in items.iter().zip(&addresses) {
+            let here = root.view.times(&model.shape.point(root.state, address)?)?;
+            let same = *position.get_or_insert_with(|| here.clone()) == here;
+            item.need(same, "point", "the cells around the point do not meet there")?;
+            let check = || branch::check(model, root, address, item);
+            found.push(if item.is_null() { None } else { Some(check()?) });
+        }
+        let verdict = conclude(rule.text()?, &tangent, root.view.rows, &found)?;
+        Ok((addresses, verdict))
+    }
+
+    /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
+    fn dense_set(&self, chart: &Chart, node: &Node<'_>) -> Checked<(String, Verdict)> {
+        let model = self.model;
+        let mut text = "the surface has a tangent plane at a dense set of points, one inside every cell".to_owned();
+        if node.is_null() {
+            return Ok((text, Verdict::Undetermined));
+        }
+        for (e, item) in model.for_states(node, "dense")? {
+            let space = model.spaces.of(e)?;
+            let (addresses, verdict) =
+                self.point(&Root { state: e, view: space.visible.times(&space.reading)? }, None, &item)?;
+            let parameter = chart.locate(e, &addresses[0])?;
+            let all = chart.is_inside(&parameter) && chart.addresses(e, &parameter)? == addresses;
+            item.need(all, "dense", "these are not all addresses of a point inside the face")?;
+            item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
+        }
+        if !injective(model, "dense")? {
+            text = "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
+                one where it does not fold that plane"
+            .to_owned();
+        }
+        Ok((text, Verdict::Proved))
+    }
+}
+
+/// The conclusions: the tangent subspace, the sum of those of all branches, has more than two dimensions (`space`), exactly two
+/// (`plane`), or less (`line`).
+fn conclude(rule: &str, tangent: &Node<'_>, width: usize, found: &[Option<Bounds>]) -> Checked<Verdict> {
+    let contains: Vec<_> = found.iter().flatten().flat_map(|b| &b.contains).collect();
+    if rule == "space" {
+        let more = tangent.is_null() && independent(&contains, 3)?;
+        tangent.need(more, "space", "the directions are not seen to span more than a plane")?;
+        return Ok(Verdict::Refuted);
+    }
+    let bounds: Vec<&Bounds> = found.iter().flatten().collect();
+    need(bounds.len() == found.len(), "point", "every branch needs a certificate here")?;
+    let dimension = if tangent.is_null() {
+        tangent.need(bounds.len() == 1, "tangent", "the space that the branches have in common is needed")?;
+        bounds[0].dimension
+    } else {
+        let space = tangent.matrix(width)?;
+        tangent.need(space.echelon()?.0 == space, "tangent", "a basis in reduced echelon form is needed")?;
+        for vector in bounds.iter().flat_map(|b| &b.within) {
+            let holds = space.joined(&vector.transpose())?.is_none();
+            tangent.need(holds, "tangent", "the tangent subspace of a branch does not lie in this space")?;
+        }
+        space.rows
+    };
+    let plane = dimension == 2 && independent(&contains, 2)?;
+    tangent.need(
+        if rule == "plane" { plane } else { dimension < 2 && rule == "line" },
+        "tangent",
+        "the rule is another",
+    )?;
+    Ok(if plane { Verdict::Proved } else { Verdict::Refuted })
+}
