@@ -101,20 +101,26 @@ fn parametrised(
     claims: &mut Vec<Claim>,
 ) {
     let start = setting.cx.root;
-    let mut vertices = Vec::new();
-    for param in chart.nodes(start, 1) {
-        vertices.extend(add_point(setting, chart, &param, None, product, surface));
+    let nodes = chart.nodes(start, 1);
+    let vertices: Vec<usize> =
+        nodes.iter().filter_map(|param| add_point(setting, chart, param, None, product, surface)).collect();
+    let text = "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)";
+    let mut all = together(text, &vertices, surface);
+    if vertices.len() < nodes.len() && all.verdict == Verdict::Proved {
+        (all.verdict, all.reason) =
+            (Verdict::Undetermined, Some("there are too many cells around a vertex".to_owned()));
     }
-    claims.push(together(
-        "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)",
-        &vertices,
-        surface,
-    ));
+    claims.push(all);
     dense::claim(setting, chart, product, surface, claims);
     for address in asked {
         let Some(param) = chart.locate(start, address) else { continue };
         if let Some(index) = add_point(setting, chart, &param, Some(address), product, surface) {
-            let text = format!("the parametrised surface has a tangent plane at the address {address}");
+            let text = match surface.points[index].spot {
+                Spot::Branch => {
+                    format!("the germ of the branch {address} has a tangent plane (too many cells meet there)")
+                }
+                _ => format!("the parametrised surface has a tangent plane at the address {address}"),
+            };
             claims.push(claim(text, &surface.points[index], (address, index)));
         }
     }
