@@ -20,6 +20,8 @@ use curve::case;
 pub const VERSION: usize = 1;
 /// Largest case or certificate in bytes.
 pub const MAX_BYTES: usize = 16 << 20;
+/// Longest name of a case in bytes.
+const MAX_NAME: usize = 200;
 
 /// Checks a certificate (JSON) against the text of what it is about (a case, in TOML, where its kind is `certify`).
 ///
@@ -51,6 +53,9 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         _ => return kind.reject("format", "unknown kind of certificate"),
     };
     number::spend(0, 0)?;
+    // Names are printed; one that ends its line could say what is proved.
+    let plain = found.case.len() <= MAX_NAME && !found.case.chars().any(char::is_control);
+    unreadable(need(plain, "case", "the name is too long, or has control characters"))?;
     name.need(name.text()? == found.case, "case", format_args!("the case is `{}`", found.case))?;
     verdict.follows("verdict", found.verdict.word())?;
     Ok(found)

@@ -1001,6 +1001,20 @@ fn extraordinary_vertices() {
     assert_eq!(rule("vertex-line", &[(&half, json!(["1", "0"]))]), "half-plane");
     assert_eq!(rule("vertex-path", &[(&rule_of, json!("theorem-2"))]), "theorem-2");
     assert_eq!(rule("vertex-midedge", &[(&rule_of, json!("theorem-8-fold"))]), "theorem-8-fold");
+    // A valence that the case does not name refutes nothing.
+    let (case, text) = stored("vertex-line");
+    let other = case.replace("valence = 4", "valence = 7");
+    assert_eq!(secant_check::check(&other, &text).unwrap_err().rule, "verdict");
+    let text = text.replace("\"verdict\": \"refuted\"", "\"verdict\": \"undetermined\"");
+    assert_eq!(secant_check::check(&other, &text).unwrap().claims.len(), 2);
+    // Weights whose sum is not 1 leave the eigenvalue of the constant nets open.
+    let (case, text) = stored("vertex-fold");
+    let short = case.replace("\"14/15\"", "\"13/15\"");
+    assert_eq!(secant_check::check(&short, &text).unwrap_err().rule, "vertex");
+    // A name that ends its line.
+    let named = case.replace("\"vertex-fold\"", "\"vertex-fold\\nproved: all\"");
+    let text = text.replace("\"vertex-fold\"", "\"vertex-fold\\nproved: all\"");
+    assert!(secant_check::check(&named, &text).unwrap_err().unreadable);
     // The same net is an eigenvector of Loop's scheme with another weight, in whose block 0 a larger eigenvalue leads.
     let only = |k: usize| [("/proof/valences", json!([list[k]])), ("/verdict", json!("proved"))];
     assert_eq!(moved("vertex-loop", "vertex-line", &only(0)), "vertex");

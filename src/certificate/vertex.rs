@@ -148,14 +148,14 @@ pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Op
     Ok(Some(certificate))
 }
 
-/// The verdict of the certificate: about all valences that the case names.
+/// The verdict of the certificate: about the valences that the case names, or about all where it names none.
 fn together(case: &VertexCase, claims: &[(usize, Verdict)]) -> Verdict {
-    let all = match &case.valences {
-        Some(Valences::List(list)) => list.iter().all(|n| claims.iter().any(|c| c.0 == *n)),
-        Some(Valences::All) => false,
-        None => true,
+    let (all, counts): (bool, &dyn Fn(usize) -> bool) = match &case.valences {
+        Some(Valences::List(list)) => (list.iter().all(|n| claims.iter().any(|c| c.0 == *n)), &|n| list.contains(&n)),
+        Some(Valences::All) => (false, &|_| true),
+        None => (true, &|_| true),
     };
-    match claims.iter().map(|c| c.1).reduce(Verdict::and) {
+    match claims.iter().filter(|c| counts(c.0)).map(|c| c.1).reduce(Verdict::and) {
         Some(Verdict::Proved) if !all => Verdict::Undetermined,
         found => found.unwrap_or(Verdict::Undetermined),
     }

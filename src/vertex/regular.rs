@@ -451,8 +451,7 @@ impl<'a> Bounds<'a> {
     /// words, and from the factors of the mask, where it has them (Lemma 4′).
     fn found(&self, mask: &Mask) -> Option<(i128, i128)> {
         let r = self.regular;
-        let factors =
-            (r.factor == 2).then(|| shrinking(mask, directions(r.triangles), &r.points, &r.parts)).flatten();
+        let factors = (r.factor == 2).then(|| shrinking(mask, directions(r.triangles), &r.points, &r.parts)).flatten();
         let mut length = 0;
         let (slope_scale, value_scale) = r.scales();
         let mut words = vec![self.first()];
