@@ -99,7 +99,7 @@ pub fn shrinking(mask: &Mask, directions: &[Place], points: &[Place], parts: &[C
     for steps in 1..=MAX_STEPS {
         let worst = pairs.iter().map(|m| norm(m, steps)).max()?;
         bounds.push(worst);
-        if abs(&bounds[bounds.len() - 1]) * Rational::from(ENOUGH.1) <= Rational::from(ENOUGH.0) {
+        if abs(&bounds[bounds.len() - 1]) * Rational::from(ENOUGH.1) <= ENOUGH.0 {
             break;
         }
     }
