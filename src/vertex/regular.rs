@@ -540,7 +540,8 @@ mod tests {
             seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             i128::from(seed >> 44) << 40
         };
-        for rule in rules() {
+        let others = [butterfly(ratio(1, 100)), butterfly(ratio(1, 10))];
+        for rule in rules().into_iter().chain(others) {
             let r = Regular::of(&rule).unwrap();
             let (slope_scale, value_scale) = r.scales();
             let depth = if r.factor == 3 { 3 } else { 5 };
@@ -580,7 +581,51 @@ mod tests {
                     }
                 }
             }
-            assert!(8 * closest > r.slope_bound, "{rule:?}: the bound is not idle");
+            assert!(64 * closest > r.slope_bound, "{rule:?}: the bound is idle");
+            assert!(!rules().contains(&rule) || 8 * closest > r.slope_bound, "{rule:?}: the bound is far off");
+        }
+    }
+
+    /// Lemma 4′: the bounds by factors, the first of them computed outside as well, and random nets, whose differences shrink no slower.
+    #[test]
+    fn differences_shrink_as_the_factors_say() {
+        let of = |rule: &MeshRule| {
+            let (triangles, _, mask) = mask(rule).unwrap();
+            let r = Regular::of(rule).unwrap();
+            (shrinking(&mask, directions(triangles), &r.points, &r.parts), r)
+        };
+        // Products of the divided mask, multiplied out in floating point by a script.
+        let (bounds, _) = of(&butterfly(ratio(1, 16)));
+        let first = [(1, 1), (1, 1), (7, 8), (11, 16), (1, 2), (11, 32)].map(|(p, q)| ratio(p, q));
+        assert_eq!(bounds.unwrap()[..6], first);
+        assert!(of(&MeshRule::Sqrt3(None)).0.is_none());
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            i128::from((state >> 44) as u32) << 24
+        };
+        for rule in [butterfly(ratio(1, 16)), butterfly(ratio(1, 100)), butterfly(ratio(1, 10)), MeshRule::FourEight] {
+            let (bounds, r) = of(&rule);
+            let bounds = bounds.unwrap();
+            for _ in 0..10 {
+                let net: Vec<i128> = r.points.iter().map(|_| random()).collect();
+                let rough = Rational::from(Integer::from(r.roughness(&net)));
+                let mut level = vec![net];
+                for (steps, bound) in bounds.iter().enumerate().take(5) {
+                    let size = Rational::from(Integer::from(1 << steps));
+                    for net in &level {
+                        let now = Rational::from(Integer::from(r.roughness(net))) * &size;
+                        assert!(now <= bound * &rough + ratio(1 << 12, 1), "{rule:?} after {steps} steps");
+                    }
+                    let next = |net: &Vec<i128>| {
+                        let row = |row: &Vec<(usize, i128)>| {
+                            row.iter().map(|(i, w)| net[*i] * w).sum::<i128>() / r.denominator
+                        };
+                        r.steps.iter().map(|step| step.iter().map(row).collect()).collect::<Vec<Vec<i128>>>()
+                    };
+                    level = level.iter().flat_map(next).collect();
+                }
+            }
         }
     }
 
