@@ -16,6 +16,9 @@ use serde_json::{Value, json};
 const PLACES: u64 = 96;
 /// Binary places of half-planes.
 const SHORT: u64 = 24;
+/// Binary places of the bound of the other eigenvalues, which was proposed in floating point: few enough for the same certificate
+/// everywhere, and more than [`apart`] asks for.
+const BOUND: u64 = 40;
 
 /// A complex number.
 type Complex = (Rational, Rational);
@@ -36,9 +39,12 @@ fn scaled(a: &Complex, factor: &Rational) -> Complex {
     (&a.0 * factor, &a.1 * factor)
 }
 
+fn rounded(x: &Rational, places: u64) -> Value {
+    number(&(Rational::from((x << places).floor()) >> places))
+}
+
 fn written(a: &Complex, places: u64) -> Value {
-    let one = |x: &Rational| number(&(Rational::from((x << places).floor()) >> places));
-    json!([one(&a.0), one(&a.1)])
+    json!([rounded(&a.0, places), rounded(&a.1, places)])
 }
 
 /// `e^(2πik/n)`, nearly, for `0 ≤ k ≤ n/2`.
@@ -105,7 +111,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
         "rule": rule,
         "frequency": vector.frequency,
         "turn": written(&unity(1, n), PLACES),
-        "others": number(&top.others),
+        "others": rounded(&top.others, BOUND),
         "vector": values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect::<Vec<_>>(),
         "half_plane": half_plane,
     }))
