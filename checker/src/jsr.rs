@@ -2,7 +2,7 @@
 
 use crate::base::{
     Accepted, Checked, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Verdict, bits, file, has_root_near, index,
-    matrix, need, spend, word,
+    matrix, need, spend, total, word,
 };
 use crate::curve::positive_definite;
 use num_bigint::BigInt;
@@ -190,6 +190,7 @@ impl Polytope {
                 _ => (c.clone(), c[0].abs()),
             };
             negative |= c[0].is_negative();
+            spend(64, bits(&total) + bits(&modulus))?;
             total += modulus;
             vector = vector.minus(&point.times(&Matrix::new(self.width, self.width, &factor))?);
         }
@@ -256,6 +257,7 @@ impl System {
         } else {
             hull.interiors(&axes, &self.dims)?
         };
+        spend(hull.points.len() * self.arrows.len(), 0)?;
         let mut seen = vec![vec![false; self.arrows.len()]; hull.points.len()];
         for item in inclusions.list()? {
             let [point, arrow, terms] = item.fields("point arrow terms")?;
@@ -338,10 +340,12 @@ impl Code<'_> {
     /// the word of this depth that leads to `at` with this product.
     fn descend(&self, words: &[Vec<usize>], depth: usize, from: usize, at: usize, product: &Matrix) -> Checked<()> {
         if words.first().is_some_and(|w| w.len() == depth) {
-            let weighed = |i: usize, j: usize| product.at(i, j).abs() * &self.weights[from][i];
-            let column = |j: usize| (0..product.rows).map(|i| weighed(i, j)).sum::<Q>() / &self.weights[at][j];
             let most = power(self.bound, depth)?;
-            let within = words.len() == 1 && (0..product.cols).all(|j| column(j) <= most);
+            let mut within = words.len() == 1;
+            for j in 0..product.cols {
+                let weighed = |i: usize| product.at(i, j).abs() * &self.weights[from][i];
+                within &= total((0..product.rows).map(weighed))? <= &most * &self.weights[at][j];
+            }
             return need(within, "tree", format_args!("{:?} is too long, or a word begins with it", words[0]));
         }
         if product.is_zero() && depth > 0 {

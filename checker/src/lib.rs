@@ -53,9 +53,10 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         _ => return kind.reject("format", "unknown kind of certificate"),
     };
     number::spend(0, 0)?;
-    // Names are printed; one that ends its line could say what is proved.
-    let plain = found.case.len() <= MAX_NAME && !found.case.chars().any(char::is_control);
-    unreadable(need(plain, "case", "the name is too long, or has control characters"))?;
+    // Names are printed; one that ends its line, or goes on after a colon, could say what is proved.
+    let plain = |c: char| c.is_alphanumeric() || " -_.,()/+'".contains(c);
+    let plain = found.case.len() <= MAX_NAME && found.case.chars().all(plain);
+    unreadable(need(plain, "case", "a name is made of letters, digits, spaces and -_.,()/+', and not too long"))?;
     name.need(name.text()? == found.case, "case", format_args!("the case is `{}`", found.case))?;
     verdict.follows("verdict", found.verdict.word())?;
     Ok(found)

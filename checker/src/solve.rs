@@ -1,6 +1,6 @@
 //! Certificates of the kind `solve`: the unknown entries of a case, from the identities of its curves and the column sums.
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, spend};
 use crate::curve::{Case, Op};
 use num_bigint::BigInt;
 use num_traits::One;
@@ -35,6 +35,7 @@ impl Equations {
         let mut sources = Vec::new();
         for e in 0..shape.states.len() {
             for [a, b, c, d] in shape.identities(e)? {
+                spend(4 * unknowns * holes.len(), 0)?;
                 let squared = is_open(a) && is_open(b) || is_open(c) && is_open(d);
                 need(!squared, "solve", "two operators with unknown entries are multiplied")?;
                 let change = |x: Op, y: Op, k: usize| match is_open(x) {
@@ -59,6 +60,9 @@ impl Equations {
 
     /// The rank of the equations of some sources, without and with their right sides.
     fn ranks(&self, chosen: impl Iterator<Item = usize>) -> Checked<(usize, usize)> {
+        // Each source is put below all before it.
+        let rows: usize = self.sources.iter().map(|s| s.rows).sum();
+        spend(self.sources.len() * rows * (self.unknowns + 1), 0)?;
         let all = chosen.fold(Matrix::empty(self.unknowns + 1), |all, k| all.stack(&self.sources[k]));
         let pivots = all.echelon()?.1;
         Ok((pivots.iter().filter(|j| **j < self.unknowns).count(), pivots.len()))

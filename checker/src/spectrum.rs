@@ -39,7 +39,7 @@ fn modulus_squared(disc: &[BigInt]) -> BigInt {
 /// Reads `n` and then `n` rows of numbers; `#` starts a comment.
 fn plain(source: &str) -> Checked<Matrix> {
     let words = source.lines().flat_map(|line| line.split('#').next().unwrap_or("").split_ascii_whitespace());
-    let mut words = words.map(decimal_fraction);
+    let mut words = words.take(MAX_SIZE * MAX_SIZE + 2).map(decimal_fraction);
     let size = words.next().flatten().and_then(|n| if n.is_integer() { n.numer().to_usize() } else { None });
     let n = some(size.filter(|n| (1..=MAX_SIZE).contains(n)), "matrix", "the size of a matrix is needed first")?;
     let entries = words.collect::<Option<Vec<Q>>>().filter(|entries| entries.len() == n * n);
@@ -107,6 +107,8 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
         let mut blocks: Vec<usize> = Vec::new();
         for item in chains.list()? {
             let vectors = chain(&item, matrix, &by_root, 1, "chains")?;
+            let coefficients = vectors.len() * (p.len() - 1);
+            item.need(basis.rows + coefficients <= matrix.rows, "chains", "there are more vectors than dimensions")?;
             basis = vectors.iter().fold(basis, |all, v| all.stack(&v.transpose()));
             blocks.push(vectors.len());
         }

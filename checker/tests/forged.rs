@@ -1022,3 +1022,62 @@ fn extraordinary_vertices() {
         assert_eq!(moved("vertex-loop", to, &only(1)), "vertex", "{to}");
     }
 }
+
+/// Orders of smoothness are those of the curve in barycentric space; this one is seen as a straight line.
+#[test]
+fn orders_of_a_curve_that_the_view_folds() {
+    let (case, text) = stored("regularity-before-the-projection");
+    let accepted = secant_check::check(&case, &text).unwrap();
+    assert!(accepted.claims.iter().all(|c| c.contains("the curve before the projection is C^")), "{accepted:?}");
+    let (case, text) = stored("regularity-takagi-third");
+    let accepted = secant_check::check(&case, &text).unwrap();
+    assert!(accepted.claims.iter().all(|c| c.contains(": the curve is C^")), "{accepted:?}");
+}
+
+/// An operator of a side of a face is open, whatever keys the face lacks: its identities are not read.
+#[test]
+fn unknown_entries_of_sides() {
+    let pieces = "[[state.piece]]\nto = \"e\"\nmatrix = [[1, \"?\"], [0, \"1/2\"]]\n";
+    let head = "name = \"sides\"\nconvention = \"columns\"\nstart = \"e\"\n[[state]]\nname = \"e\"\n";
+    let text = r#"{"format":"secant certificate","version":1,"kind":"solve","case":"sides","verdict":"proved",
+        "proof":{"solutions":"one","values":["1/2"],"directions":[],"conflict":[]}}"#;
+    secant_check::check(&format!("{head}{pieces}"), text).unwrap();
+    let piece = "[[state.piece]]\nto = \"f\"\nmatrix = [[1, \"1/2\"], [0, \"1/2\"]]\n";
+    for state in [
+        "kind = \"face\"\nbottom = { edge = \"e\", matrix = \"?\" }",
+        "kind = \"set\"\nleft = { edge = \"e\", matrix = \"?\" }",
+        "top = { edge = \"e\", matrix = \"?\" }",
+    ] {
+        let case = format!("{head}{pieces}[[state]]\nname = \"f\"\n{state}\n{piece}");
+        assert!(secant_check::check(&case, text).unwrap_err().unreadable, "{state}");
+    }
+}
+
+/// Much work or memory for few bytes: each is refused at once.
+#[test]
+fn little_texts_that_ask_for_much() {
+    let many = |item: &str, count: usize| vec![item; count].join(",");
+    // A hull of 20000 points of one coordinate, whose images would be a matrix of 400 million weights.
+    let case = "name = \"much\"\nconvention = \"columns\"\nkind = \"set\"\npieces = [[[1]]]\n";
+    let hull = format!("{{\"points\":[{}],\"images\":[[]]}}", many("[\"1\"]", 20_000));
+    let envelope = |kind: &str, name: &str, proof: String| {
+        format!(
+            "{{\"format\":\"secant certificate\",\"version\":1,\"kind\":\"{kind}\",\"case\":\"{name}\",\"verdict\":\"proved\",\"proof\":{proof}}}"
+        )
+    };
+    let state = format!("{{\"state\":0,\"radius\":\"0\",\"code\":{hull},\"hull\":null}}");
+    let proof = format!("{{\"contraction\":[{state}],\"points\":[],\"answers\":[]}}");
+    assert_eq!(secant_check::check(case, &envelope("certify", "much", proof)).unwrap_err().rule, "limit");
+    // A chain of far more vectors than there are dimensions.
+    let zeros = many("[[]]", 100_000);
+    let chain = format!("[[[\"1\"]],{zeros}]");
+    let factor = format!(
+        "{{\"polynomial\":[\"0\",\"1\"],\"roots\":[{{\"centre\":[\"0\",\"0\"],\"error\":\"0\"}}],\"chains\":[{chain}]}}"
+    );
+    let proof = format!("{{\"spectra\":[{{\"operator\":null,\"factors\":[{factor}],\"modulus\":7,\"classes\":[]}}]}}");
+    assert!(secant_check::check("1\n0\n", &envelope("spectrum", "matrix", proof)).is_err());
+    // Numbers of a plain matrix that are a few letters and many digits.
+    let long = "3e20000 ".repeat(10_000);
+    let proof = "{\"spectra\":[{\"operator\":null,\"factors\":[],\"modulus\":7,\"classes\":[]}]}".to_owned();
+    assert!(secant_check::check(&format!("100\n{long}"), &envelope("spectrum", "matrix", proof)).is_err());
+}

@@ -62,6 +62,14 @@ pub fn bits(x: &Q) -> u64 {
     x.numer().bits() + x.denom().bits()
 }
 
+/// A sum of numbers.
+pub fn total(numbers: impl IntoIterator<Item = Q>) -> Checked<Q> {
+    numbers.into_iter().try_fold(Q::zero(), |sum, x| {
+        spend(64, bits(&sum) + bits(&x))?;
+        Ok(sum + x)
+    })
+}
+
 /// A small whole number.
 pub fn whole(k: i64) -> Q {
     Q::from_integer(BigInt::from(k))
@@ -103,7 +111,8 @@ fn decimal(text: &str) -> Option<Q> {
         return None;
     }
     let scale = i64::from(exponent) - i64::try_from(after.len()).ok()?;
-    if scale.unsigned_abs() as usize > 2 * MAX_DIGITS {
+    let digit_bits = 4 * (digits.len() as u64 + scale.unsigned_abs());
+    if scale.unsigned_abs() as usize > 2 * MAX_DIGITS || !charge(4, digit_bits) {
         return None;
     }
     let power = num_traits::pow(BigInt::from(10), scale.unsigned_abs() as usize);

@@ -257,7 +257,10 @@ pub fn read(source: &str, open: bool) -> Checked<Case> {
             _ => return case.reject("format", "the convention is rows or columns"),
         };
         for state in if open { items(case, "state")? } else { Vec::new() } {
-            let beyond = state.get("reversal").is_some() || state.get("layout").is_some();
+            let sides = ["reversal", "layout", "bottom", "top", "side01", "side12", "side02"];
+            let along = |key| state.get(key).is_some_and(|b| b.get("edge").is_some());
+            let face = word(&state, "kind")? == Some("face") || along("left") || along("right");
+            let beyond = face || sides.iter().any(|key| state.get(key).is_some());
             state.need(!beyond, "case", "the identities of faces and reversals are not read")?;
         }
         let reader = Reader { by_rows, open, ..Reader::default() };

@@ -157,6 +157,7 @@ impl<'a> Model<'a> {
         need(own.is_affine(), "hull", "points have the sum 1")?;
         for (piece, list) in pieces.iter().zip(&images.exactly(pieces.len(), "hull")?) {
             let target = &self.hulls[piece.target];
+            spend(own.cols * target.cols, 0)?;
             let mut weights = vec![vec![Q::zero(); own.cols]; target.cols];
             for (row, combination) in weights.iter_mut().zip(&list.exactly(target.cols, "hull")?) {
                 let mut next = 0;

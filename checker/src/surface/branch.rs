@@ -5,6 +5,9 @@ use crate::curve::{Address, Branch, Germ, Model, Root, Top, outside, residual};
 use num_bigint::BigInt;
 use num_traits::Zero;
 
+/// Most vectors among which independent ones are looked for.
+const MAX_VECTORS: usize = 100;
+
 /// Bounds of the tangent subspace of a germ.
 pub struct Bounds {
     /// It contains these vectors.
@@ -108,7 +111,7 @@ fn minor(vectors: &[&Enclosed], rows: &[usize]) -> [BigInt; 2] {
 
 /// Whether some `k` of the vectors, `k ≤ 3`, have a minor that is certainly not 0.
 pub fn independent(vectors: &[&Enclosed], k: usize) -> Checked<bool> {
-    need(k <= 3, "limit", "no more than three dimensions are looked at")?;
+    need(k <= 3 && vectors.len() <= MAX_VECTORS, "limit", "too many dimensions, or vectors")?;
     let rows = subsets(vectors.first().map_or(0, |v| v.lo.rows), k);
     let bits = vectors.iter().map(|v| v.lo.bits().max(v.hi.bits())).max().unwrap_or(0);
     for chosen in subsets(vectors.len(), k) {

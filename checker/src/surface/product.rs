@@ -48,9 +48,13 @@ impl<'a> Product<'a> {
         need(pieces.len() == a.len() * b.len(), "product", "the patch has another number of pieces")?;
         for (k, piece) in pieces.iter().enumerate() {
             let fits = piece.target == case.start && chart.is_plain(k, a.len(), b.len());
-            let product = kronecker(&a[k % a.len()].op, &b[k / a.len()].op)?;
-            let same = (product.rows, product.cols) == (piece.op.rows, piece.op.cols) && product == piece.op;
-            need(fits && same, "product", "a piece is not the product of pieces of the curves")?;
+            let (first, second) = (&a[k % a.len()].op, &b[k / a.len()].op);
+            let sized = first.rows * second.rows == piece.op.rows && first.cols * second.cols == piece.op.cols;
+            need(
+                fits && sized && kronecker(first, second)? == piece.op,
+                "product",
+                "a piece is not the product of pieces of the curves",
+            )?;
         }
         let root = |shape: &Shape| Root { state: 0, view: shape.view.clone() };
         let mut read = Vec::new();
@@ -58,7 +62,10 @@ impl<'a> Product<'a> {
             let [_, contraction, points] = node.fields("operators contraction points")?;
             let model = Model::read(shape, &contraction)?;
             shape.check_curves()?;
-            node.need(model.spaces.of(0)?.basis.cols > 0, "product", "the curve is a point")?;
+            // Along a piece that is a point the curve is constant, and its germ at a parameter is not that of the set.
+            let moves = (0..shape.states[0].pieces.len()).all(|i| !model.spaces.is_point(0, i));
+            let moves = moves && model.spaces.of(0)?.basis.cols > 0;
+            node.need(moves, "product", "the curve or one of its pieces is a point")?;
             let check = |item: &Node<'_>| Point::check(&model, &root(shape), item);
             let points = points.each(check)?;
             read.push((model, points));

@@ -4,7 +4,7 @@
 //! and triangles), or the cell `[i, i+1] × [j, j+1]` (dual). In block `k` the value in sector `s` is `ω^ks` times that in sector 0.
 
 use super::ball::{Ball, Balls, dot};
-use crate::base::{Checked, Q, need, reject, whole};
+use crate::base::{Checked, Matrix, Q, need, reject, whole};
 use num_traits::{One, Signed, Zero};
 
 /// Most sectors.
@@ -84,7 +84,7 @@ impl Mesh {
         let n = powers.len();
         let fits = match &centre {
             Centre::Vertex(weights) => weights.iter().sum::<Q>().is_one(),
-            Centre::Face(w) => w.len() == n && w.iter().sum::<Q>().is_one() && (1..n).all(|j| w[j] == w[n - j]),
+            Centre::Face(w) => w.len() == n && Matrix::new(n, 1, w).is_affine() && (1..n).all(|j| w[j] == w[n - j]),
             Centre::Frequency(f) => f % n != 0,
             Centre::Loop => true,
         };

@@ -22,13 +22,16 @@ struct Factor {
 }
 
 impl Factor {
-    /// `None` where the curve is none, is a point in some state, or is not known to contract.
+    /// `None` where the curve is none, it or one of its pieces is a point, or it is not known to contract. (Where a piece is a point the
+    /// curve is constant along it, and the germ at a parameter there is not that of the curve as a set.)
     fn new(shape: &Shape) -> Option<Self> {
         shape.check().ok()?;
         let (found, _) = decide_contraction(shape).ok()?;
         shape.check_curves().ok()?;
         let spaces = Spaces::new(shape)?;
-        let moves = shape.reachable().into_iter().all(|e| spaces.of(e).basis.cols() > 0);
+        let moves = shape.reachable().into_iter().all(|e| {
+            spaces.of(e).basis.cols() > 0 && shape.states[e].pieces.iter().all(|p| !shape.is_point(&spaces, p))
+        });
         let balls = Balls::of(shape, &spaces, &found)?;
         moves.then(|| Self {
             shape: shape.clone(),
