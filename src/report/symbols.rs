@@ -59,6 +59,7 @@ pub(super) fn latex(c: char) -> Option<&'static str> {
         '⟩' => "\\rangle",
         '∀' => "\\forall",
         'Ψ' => "\\Psi",
+        'Ω' => "\\Omega",
         'ψ' => "\\psi",
         'Π' => "\\Pi",
         'Φ' => "\\Phi",
