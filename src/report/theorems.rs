@@ -272,7 +272,7 @@ pub const THEOREMS: &[Theorem] = &[
                $R=\\max |ℓ N^k T_w|$ over words $w$ of length $k$ and second differences $ℓ$ is below 1, then the limit $f$ of $p$ is C¹, and on the whole cell its \
                gradient differs from $F p$ by at most $e_1 D(p)$ with $e_1=\\max |σ_w N^k F T_w-F|/(1-R)$; the values differ in the same way from those of the fit, by at \
                most $e_0 D(p)$. Where $N=2$ and the mask has the factors $(1+z^u)(1+z^v)$ for all pairs of directions, second differences come from second \
-               differences by the divided masks, and $R$ may be $2^k$ times the largest sum of absolute weights in $k$ steps of these (Lemma 4′).",
+               differences by the divided masks, and $R$ may be $2^k$ times the largest sum of absolute weights in $k$ steps of these.",
         proof: "$D(N^{mk} T_w p)≤R^m D(p)$ for words of length $mk$, so the slopes of the fits converge uniformly, to the gradient of $f$. The best constant $e_1$ \
                 satisfies $e_1≤e_1 R+\\max |σ_w N^k F T_w-F|$, since the gradient on the part $w$ is $σ_w N^k$ times that of the limit of $T_w p$.",
         reference: "docs/theory.md §10.1.",
