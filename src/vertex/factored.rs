@@ -1,7 +1,7 @@
 //! Schemes whose masks are products: how much one step shrinks second differences (docs/theory.md, Lemma 4′).
 
 use super::regular::{Cell, Place, place};
-use crate::arith::{Integer, Natural, Rational, abs};
+use crate::arith::{Integer, Natural, Rational};
 use malachite_base::num::arithmetic::traits::{Abs, Lcm};
 use std::collections::BTreeMap;
 
@@ -98,8 +98,9 @@ pub fn shrinking(mask: &Mask, directions: &[Place], points: &[Place], parts: &[C
     let mut bounds = vec![Rational::from(1)];
     for steps in 1..=MAX_STEPS {
         let worst = pairs.iter().map(|m| norm(m, steps)).max()?;
+        let enough = &worst * Rational::from(ENOUGH.1) <= ENOUGH.0;
         bounds.push(worst);
-        if abs(&bounds[bounds.len() - 1]) * Rational::from(ENOUGH.1) <= ENOUGH.0 {
+        if enough {
             break;
         }
     }

@@ -532,6 +532,12 @@ mod tests {
         }
     }
 
+    /// The nets of the parts after one step.
+    fn refined(r: &Regular, net: &[i128]) -> Vec<Vec<i128>> {
+        let row = |row: &Vec<(usize, i128)>| row.iter().map(|(i, w)| net[*i] * w).sum::<i128>() / r.denominator;
+        r.steps.iter().map(|step| step.iter().map(row).collect()).collect()
+    }
+
     /// Random nets, refined five times: the linear fits of all parts, and their slopes, stay within the bounds.
     #[test]
     fn nets_stay_within_the_bounds() {
@@ -556,12 +562,9 @@ mod tests {
                     size *= r.factor;
                     let mut next = Vec::new();
                     for (values, (corner, sign)) in &level {
-                        for (part, step) in r.parts.iter().zip(&r.steps) {
-                            let row = |row: &Vec<(usize, i128)>| {
-                                row.iter().map(|(i, w)| values[*i] * w).sum::<i128>() / r.denominator
-                            };
+                        for (part, finer) in r.parts.iter().zip(refined(&r, values)) {
                             let at = place(&((r.factor * corner.0, r.factor * corner.1), *sign), part.0);
-                            next.push((step.iter().map(row).collect::<Vec<_>>(), (at, sign * part.1)));
+                            next.push((finer, (at, sign * part.1)));
                         }
                     }
                     level = next;
@@ -617,13 +620,7 @@ mod tests {
                         let now = Rational::from(Integer::from(r.roughness(net))) * &size;
                         assert!(now <= bound * &rough + ratio(1 << 12, 1), "{rule:?} after {steps} steps");
                     }
-                    let next = |net: &Vec<i128>| {
-                        let row = |row: &Vec<(usize, i128)>| {
-                            row.iter().map(|(i, w)| net[*i] * w).sum::<i128>() / r.denominator
-                        };
-                        r.steps.iter().map(|step| step.iter().map(row).collect()).collect::<Vec<Vec<i128>>>()
-                    };
-                    level = level.iter().flat_map(next).collect();
+                    level = level.iter().flat_map(|net| refined(&r, net)).collect();
                 }
             }
         }
