@@ -40,23 +40,20 @@
 //! [`theorem`], [`certificate`], [`report`]; [`case`] reads files, [`scheme`] makes shapes from masks and mesh rules.
 #![warn(clippy::float_arithmetic)]
 
-pub mod algebraic;
 pub mod approx;
-pub mod arith;
 pub mod case;
 pub mod certificate;
 pub mod cli;
 pub mod diagnostic;
-pub mod jordan;
-pub mod linalg;
 pub mod picture;
-pub mod poly;
 pub mod radius;
 pub mod report;
 pub mod scheme;
 pub mod shape;
 pub mod theorem;
 pub mod vertex;
+
+pub use secant_exact::{algebraic, arith, jordan, linalg, poly};
 
 /// What most programs need: reading, certifying, reporting, confirming.
 pub mod prelude {

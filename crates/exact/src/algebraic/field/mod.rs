@@ -16,7 +16,7 @@ mod named;
 mod over;
 
 pub use builder::{FieldBuilder, FieldError, Number};
-pub(crate) use expression::Expression;
+pub use expression::Expression;
 pub use expression::ExpressionError;
 pub use extension::Extension;
 pub(crate) use extension::place;

@@ -8,7 +8,6 @@ use crate::algebraic::Elem;
 use crate::arith::{Integer, Rational};
 use crate::linalg::{Matrix, char_poly_blocks};
 use crate::poly::{IntPoly, Poly, factor};
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// The action on an invariant subspace, in coordinates.
@@ -65,7 +64,7 @@ fn factors(summand: &Summand) -> Vec<(Poly, usize)> {
 }
 
 fn all_factors(summands: &[Summand]) -> Vec<Vec<(Poly, usize)>> {
-    if summands.len() > 1 { summands.par_iter().map(factors).collect() } else { summands.iter().map(factors).collect() }
+    crate::parallel::map(summands, summands.len() > 1, factors)
 }
 
 /// The irreducible factors of the characteristic polynomial with their exponents, in order.
@@ -139,8 +138,7 @@ pub(super) fn decompose_some(summands: &[Summand], wanted: &dyn Fn(&Poly) -> boo
         .filter(|(t, f)| wanted(&lists[t / 2][*f].0))
         .collect();
     let work = |(t, f): &(usize, usize)| tasks[*t].chains(*f, size);
-    let results: Vec<Vec<Chain>> =
-        if size < PARALLEL { jobs.iter().map(work).collect() } else { jobs.par_iter().map(work).collect() };
+    let results: Vec<Vec<Chain>> = crate::parallel::map(&jobs, size >= PARALLEL, work);
     let mut found: BTreeMap<Poly, Merged> = BTreeMap::new();
     for ((t, f), chains) in jobs.into_iter().zip(results) {
         let (poly, multiplicity) = &lists[t / 2][f];

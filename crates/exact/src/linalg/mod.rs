@@ -6,4 +6,4 @@ mod strong;
 pub use char_poly::char_poly;
 pub(crate) use char_poly::char_poly_blocks;
 pub use matrix::{Echelon, Matrix, dot};
-pub(crate) use strong::strong_components;
+pub use strong::strong_components;

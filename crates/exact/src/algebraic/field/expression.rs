@@ -32,7 +32,7 @@ enum Value {
 }
 
 /// Reads expressions from a text, from left to right.
-pub(crate) struct Expression<'a> {
+pub struct Expression<'a> {
     text: &'a str,
     at: usize,
     /// Whether white space outside brackets ends the expression.
@@ -76,10 +76,12 @@ const WRITE: &str = "write integers, fractions, decimals, sqrt(5), cbrt(2), cos(
                      with + - * / ^ and brackets";
 
 impl<'a> Expression<'a> {
+    /// A reader that starts at the byte `at` of a text; a `tight` one stops at white space outside brackets.
     pub fn new(text: &'a str, at: usize, tight: bool) -> Self {
         Self { text, at, tight, open: 0, decimals: 0, bits: 0 }
     }
 
+    /// The byte at which reading goes on.
     pub fn position(&self) -> usize {
         self.at
     }

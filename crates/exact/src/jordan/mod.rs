@@ -16,7 +16,6 @@ use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
 use malachite_base::num::logic::traits::SignificantBits;
-use rayon::prelude::*;
 
 pub use crate::linalg::char_poly;
 pub use field::{FieldFactor, FieldSpectrum, estimated_field_work};
@@ -117,16 +116,12 @@ impl Spectrum {
     fn from_summands(size: usize, summands: &[summand::Summand]) -> Self {
         let parts = summand::decompose(summands);
         let char_poly = summand::product(&parts);
-        let build = |part: summand::Merged| {
-            let roots = roots(&part.poly);
+        let found = crate::parallel::map(&parts, size >= PARALLEL, |part| roots(&part.poly));
+        let build = |(part, roots): (summand::Merged, Vec<Root>)| {
             let summand::Merged { poly, multiplicity, blocks, right, left } = part;
             Factor { poly, multiplicity, blocks, roots, right, left }
         };
-        let factors: Vec<Factor> = if size < PARALLEL {
-            parts.into_iter().map(build).collect()
-        } else {
-            parts.into_par_iter().map(build).collect()
-        };
+        let factors: Vec<Factor> = parts.into_iter().zip(found).map(build).collect();
         let classes = classes::modulus_classes(&factors);
         Self { size, char_poly, factors, classes }
     }
@@ -185,7 +180,7 @@ pub const BUDGET: u64 = 120_000_000_000;
 /// A rough estimate of the work of [`Spectrum::of`], in nanoseconds of one processor: what the modular characteristic
 /// polynomial, its reconstruction and the chains of a matrix without any structure cost. Structure makes it cheaper.
 ///
-/// A matrix over [`BUDGET`] is one for [`crate::approx::approximate_spectrum`].
+/// A matrix over [`BUDGET`] is one for an approximation in floating point.
 #[must_use]
 pub fn estimated_work(a: &Matrix) -> u64 {
     let n = a.rows() as u64;

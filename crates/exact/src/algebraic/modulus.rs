@@ -18,7 +18,7 @@ fn squared(root: &Root, bits: u64) -> Interval {
 }
 
 /// `√x` rounded down to a number of binary places.
-pub(crate) fn sqrt_down(x: &Rational, bits: u64) -> Rational {
+pub fn sqrt_down(x: &Rational, bits: u64) -> Rational {
     let scaled: Integer = (x << (2 * bits)).floor();
     let root = if scaled > 0 { scaled.unsigned_abs_ref().floor_sqrt() } else { Natural::from(0u32) };
     Rational::from(root) >> bits

@@ -6,7 +6,6 @@ use crate::poly::ints::{self, CrtPoly};
 use crate::poly::{IntPoly, Poly, modp};
 use malachite_base::num::arithmetic::traits::{AddMulAssign, CeilingSqrt, Lcm, Pow};
 use malachite_base::num::logic::traits::SignificantBits;
-use rayon::prelude::*;
 
 /// The characteristic polynomial `det(x - A)`, monic. For `n = 0` it is 1.
 ///
@@ -173,11 +172,7 @@ fn component(cleared: &Cleared) -> IntPoly {
             let field = PrimeField::new(*p);
             cleared.modulo(&field).map(|r| (field, r))
         };
-        let images: Vec<Option<(PrimeField, Vec<u64>)>> = if batch.len() == 1 || n < 24 {
-            batch.iter().map(compute).collect()
-        } else {
-            batch.par_iter().map(compute).collect()
-        };
+        let images = crate::parallel::map(&batch, batch.len() > 1 && n >= 24, compute);
         for (field, residues) in images.into_iter().flatten() {
             image.absorb(&field, &residues);
         }

@@ -4,7 +4,7 @@ use super::matrix::Matrix;
 /// each ascending. The characteristic polynomial is the product of those of the diagonal blocks.
 ///
 /// Source: Tarjan 1972, without recursion.
-pub(crate) fn strong_components(a: &Matrix) -> Vec<Vec<usize>> {
+pub fn strong_components(a: &Matrix) -> Vec<Vec<usize>> {
     let n = a.rows();
     let edges: Vec<Vec<usize>> = (0..n).map(|i| (0..n).filter(|&j| a[(i, j)] != 0).collect()).collect();
     let mut search =

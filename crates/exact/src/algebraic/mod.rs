@@ -20,7 +20,7 @@ mod relation;
 mod root;
 
 pub use elem::{Elem, cmp_real, locate};
-pub(crate) use modulus::sqrt_down;
+pub use modulus::sqrt_down;
 pub use root::{Root, roots};
 
 #[cfg(test)]

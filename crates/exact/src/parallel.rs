@@ -1,0 +1,12 @@
+//! One way to spread independent work over threads, which is the plain loop without the feature `parallel`.
+
+/// `f` of all items, in their order; in rayon's pool if `worth` it and the feature `parallel` is on.
+pub(crate) fn map<T: Sync, R: Send>(items: &[T], worth: bool, f: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
+    #[cfg(feature = "parallel")]
+    if worth {
+        use rayon::prelude::*;
+        return items.par_iter().map(f).collect();
+    }
+    let _ = worth;
+    items.iter().map(f).collect()
+}
