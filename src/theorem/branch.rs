@@ -3,6 +3,7 @@
 use super::direction::Direction;
 use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
 use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side, Statement};
+use super::viewpoint::Viewpoint;
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
 use crate::jordan::{Chain, Factor, Spectrum};
@@ -25,10 +26,8 @@ pub struct Context<'a> {
     pub balls: &'a Balls,
     /// The same with convex polygons, tried where the balls do not suffice.
     pub hulls: &'a OnceCell<Option<Balls>>,
-    /// The state from which addresses are read.
-    pub root: usize,
-    /// The map from that state into the space where the shape is looked at: control points, identity, or a quotient.
-    pub view: Matrix,
+    /// Where addresses are read from, and how the shape is seen there.
+    pub from: Viewpoint,
 }
 
 impl Context<'_> {
@@ -81,10 +80,10 @@ pub(super) struct Local {
 impl Local {
     /// `None` where the fixed point of the cycle is not unique.
     pub fn new(cx: &Context, address: &Address) -> Option<Self> {
-        let (prefix, state) = cx.shape.product(cx.root, &address.prefix);
+        let (prefix, state) = cx.shape.product(cx.from.root(), &address.prefix);
         let (cycle_operator, _) = cx.shape.product(state, &address.cycle);
         let fixed = crate::shape::fixed_point(&cycle_operator)?;
-        let transport = &cx.view * &prefix;
+        let transport = cx.from.map() * &prefix;
         let space = cx.spaces.of(state);
         let on_v = &transport * &space.basis;
         let linear_v = cx.spaces.linear(&cycle_operator, state, state);
@@ -116,7 +115,7 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         side,
         address: address.clone(),
         state,
-        prefix_sign: sign_along(cx.root, &address.prefix),
+        prefix_sign: sign_along(cx.from.root(), &address.prefix),
         cycle_sign: sign_along(state, &address.cycle),
         cycle_operator,
         fixed,

@@ -2,6 +2,7 @@
 
 use super::branch::Context;
 use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Statement, Verdict};
+use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::linalg::Matrix;
 use crate::shape::CellKind;
@@ -110,11 +111,8 @@ fn first_level_joints(cx: &Context) -> Vec<PointReport> {
 
 /// The joint of two pieces of a state in the visible quotient of that state.
 pub fn first_level_joint(cx: &Context, state: usize, (left, right): (usize, usize)) -> Option<PointReport> {
-    let space = cx.spaces.of(state);
-    let own = Context { root: state, view: &space.visible * &space.coordinates, ..*cx };
-    let mut report = point::examine_point(&own, &point::joint_spec(&own, &[], left, right)?)?;
-    report.image = None;
-    Some(report)
+    let own = Context { from: Viewpoint::quotient(cx.spaces, state), ..*cx };
+    point::examine_point(&own, &point::joint_spec(&own, &[], left, right)?)
 }
 
 /// Whether the smallest invariant family that contains the (rational) tangent lines is all of `W`.

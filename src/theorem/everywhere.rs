@@ -108,8 +108,8 @@ fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
     for state in cx.shape.reachable() {
         let space = cx.spaces.of(state);
         let injective = |path: &[usize]| {
-            let (op, _) = cx.shape.product(cx.root, path);
-            (&(&cx.view * &op) * &space.basis).rank() == space.visible.rows()
+            let (op, _) = cx.shape.product(cx.from.root(), path);
+            (&(cx.from.map() * &op) * &space.basis).rank() == space.visible.rows()
         };
         for pair in point::joint_pairs(cx, state) {
             let listed = found.points.iter().position(|p| match &p.role {
@@ -152,7 +152,7 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
 /// Examines the point with the address of an obstacle.
 fn periodic_point(cx: &Context, obstacle: &ConeObstacle, found: &mut Certified) -> Option<usize> {
     let (path, _) = shortest_paths(cx.shape).into_iter().find(|(_, e)| *e == obstacle.state)?;
-    let address = Address { prefix: path, cycle: obstacle.word.clone() }.normalise(cx.shape, cx.root).ok()?;
+    let address = Address { prefix: path, cycle: obstacle.word.clone() }.normalise(cx.shape, cx.from.root()).ok()?;
     let spec = point::address_spec(cx, &address)?;
     let known = found.points.iter().position(|p| match (&p.role, &spec.role) {
         (Role::Interior, Role::Interior) => p.branches[0].address == address,

@@ -14,6 +14,7 @@ mod slow;
 pub mod smoothness;
 pub mod surface;
 mod verdict;
+mod viewpoint;
 pub mod wavelet;
 
 pub use branch::Context;
@@ -26,6 +27,7 @@ pub use verdict::{
     BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
     StateReport, Statement, Verdict,
 };
+pub use viewpoint::Viewpoint;
 
 use crate::algebraic::Root;
 use crate::arith::Rational;
@@ -109,7 +111,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         return Ok(without_contraction(&contraction, None));
     };
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape) };
     let mut found = Certified::nothing(&contraction);
     found.states = shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect();
     found.similarities = similarity::similarities(&cx);

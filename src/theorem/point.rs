@@ -26,7 +26,7 @@ fn end_branch(cx: &Context, path: &[usize], state: usize, end: End) -> Option<Ad
 /// An end point of the start state.
 #[must_use]
 pub fn end_spec(cx: &Context, end: End) -> Option<PointSpec> {
-    let address = end_branch(cx, &[], cx.root, end)?;
+    let address = end_branch(cx, &[], cx.from.root(), end)?;
     let (role, side) = match end {
         End::Start => (Role::LeftEnd, Side::Right),
         End::Finish => (Role::RightEnd, Side::Left),
@@ -46,7 +46,7 @@ pub fn joint_pairs(cx: &Context, state: usize) -> Vec<(usize, usize)> {
 #[must_use]
 pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Option<PointSpec> {
     let shape = cx.shape;
-    let state = *shape.path(cx.root, path).last()?;
+    let state = *shape.path(cx.from.root(), path).last()?;
     let branch = |letter: usize, end: End| {
         let piece = &shape.states[state].pieces[letter];
         let path = [path, &[letter]].concat();
@@ -63,7 +63,7 @@ pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Op
 }
 
 fn orientation(cx: &Context, path: &[usize]) -> i32 {
-    let states = cx.shape.path(cx.root, path);
+    let states = cx.shape.path(cx.from.root(), path);
     path.iter().zip(&states).map(|(&i, &e)| if cx.shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
 }
 
@@ -71,10 +71,10 @@ fn orientation(cx: &Context, path: &[usize]) -> i32 {
 #[must_use]
 pub fn address_spec(cx: &Context, address: &Address) -> Option<PointSpec> {
     let shape = cx.shape;
-    let states = shape.path(cx.root, &address.prefix);
+    let states = shape.path(cx.from.root(), &address.prefix);
     let state = *states.last()?;
     let all = [address.prefix.as_slice(), &address.cycle].concat();
-    let is_curve = shape.path(cx.root, &all).iter().all(|&e| shape.states[e].kind == CellKind::Edge);
+    let is_curve = shape.path(cx.from.root(), &all).iter().all(|&e| shape.states[e].kind == CellKind::Edge);
     if !is_curve {
         return Some(PointSpec { role: Role::SetPoint, branches: vec![(Side::Both, address.clone())] });
     }
@@ -125,8 +125,8 @@ fn end_of_cell(cx: &Context, state: usize, cycle: &[usize]) -> Option<End> {
 pub fn examine_point(cx: &Context, spec: &PointSpec) -> Option<PointReport> {
     let branches: Vec<BranchReport> =
         spec.branches.iter().map(|(side, address)| examine(cx, address, *side)).collect::<Option<_>>()?;
-    let position = cx.shape.point(cx.root, &branches[0].address)?;
-    let image = cx.shape.control.as_ref().map(|p| p.apply(&position));
+    let position = cx.shape.point(cx.from.root(), &branches[0].address)?;
+    let image = cx.from.image(&position);
     Some(conclude(spec.role.clone(), position, image, branches))
 }
 

@@ -22,7 +22,7 @@ pub fn similarities(cx: &Context) -> Option<Similarities> {
     let reachable = cx.shape.reachable();
     let [state] = reachable[..] else { return None };
     let space = cx.spaces.of(state);
-    if space.basis.cols() != 2 || space.visible.rows() != 2 || (&cx.view * &space.basis).rank() != 2 {
+    if space.basis.cols() != 2 || space.visible.rows() != 2 || (cx.from.map() * &space.basis).rank() != 2 {
         return None;
     }
     let linear: Vec<Matrix> =

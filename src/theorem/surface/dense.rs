@@ -7,7 +7,7 @@ use super::verdict::{Surface, SurfaceDense, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::theorem::{Claim, Context, Statement, Verdict};
+use crate::theorem::{Claim, Context, Statement, Verdict, Viewpoint};
 
 /// Largest dimension of the space of bivectors in which density is decided.
 const MAX_BIVECTORS: usize = 300;
@@ -66,15 +66,14 @@ fn evidence(setting: &Setting, chart: &Chart, product: Option<&Product>) -> Opti
         }
         dense.vertices.push((e, vertex_inside(setting, chart, product, e)?));
     }
-    let start = cx.spaces.of(cx.root);
-    dense.view_injective = (&cx.view * &start.basis).rank() == start.visible.rows();
+    let start = cx.spaces.of(cx.from.root());
+    dense.view_injective = (cx.from.map() * &start.basis).rank() == start.visible.rows();
     Some(dense)
 }
 
 /// A vertex inside a face in its visible quotient: the first that is proved, or the first.
 fn vertex_inside(setting: &Setting, chart: &Chart, product: Option<&Product>, state: usize) -> Option<SurfacePoint> {
-    let space = setting.cx.spaces.of(state);
-    let cx = Context { root: state, view: &space.visible * &space.coordinates, ..setting.cx };
+    let cx = Context { from: Viewpoint::quotient(setting.cx.spaces, state), ..setting.cx };
     let own = Setting { cx, ..*setting };
     let mut first = None;
     for param in chart.inner_nodes(state) {
@@ -132,11 +131,11 @@ fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
         }
     }
     // T_i is injective on W, hence on bivectors; equal dimensions make it onto.
-    let equal = states.iter().all(|&e| spans[e].rows() == spans[cx.root].rows());
-    let start = cx.spaces.of(cx.root);
-    let view = &cx.view * &start.basis;
+    let equal = states.iter().all(|&e| spans[e].rows() == spans[cx.from.root()].rows());
+    let start = cx.spaces.of(cx.from.root());
+    let view = cx.from.map() * &start.basis;
     let on_quotient = start.visible.transpose().solve(&view.transpose())?.transpose();
-    let seen = &spans[cx.root] * &second_power(&on_quotient).transpose();
+    let seen = &spans[cx.from.root()] * &second_power(&on_quotient).transpose();
     Some(equal && !seen.is_zero())
 }
 

@@ -18,7 +18,7 @@ pub use verdict::{
 };
 
 use super::{
-    Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, decide_contraction, state_report,
+    Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, Viewpoint, decide_contraction, state_report,
     without_contraction,
 };
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};
@@ -61,7 +61,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     };
     let balls = balls.with_simplex(shape);
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, root: shape.start, view: shape.view() };
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape) };
     let chart = Chart::new(complex);
     let quick = product.is_some() && shape.states[shape.start].dim > LARGE_PRODUCT;
     let setting = Setting { cx, complex, chart: chart.as_ref().ok(), quick };
@@ -100,7 +100,7 @@ fn parametrised(
     surface: &mut Surface,
     claims: &mut Vec<Claim>,
 ) {
-    let start = setting.cx.root;
+    let start = setting.cx.from.root();
     let nodes = chart.nodes(start, 1);
     let vertices: Vec<usize> =
         nodes.iter().filter_map(|param| add_point(setting, chart, param, None, product, surface)).collect();
@@ -137,7 +137,7 @@ fn add_point(
     if let Some(known) = surface.points.iter().position(|p| p.parameter.as_ref() == Some(param)) {
         return Some(known);
     }
-    let start = setting.cx.root;
+    let start = setting.cx.from.root();
     let mut point = match (chart.addresses(start, param), asked) {
         (Some(mut all), _) => {
             // The address that was asked for comes first.
@@ -199,9 +199,8 @@ fn together(text: &str, indices: &[usize], surface: &Surface) -> Claim {
 /// Examines the branches of a point and adds up their tangent subspaces.
 fn conclude(setting: &Setting, spot: Spot, parameter: Option<Param>, addresses: &[Address]) -> Option<SurfacePoint> {
     let branches: Vec<SurfaceBranch> = addresses.iter().map(|a| examine(setting, a)).collect::<Option<_>>()?;
-    let position = setting.cx.shape.point(setting.cx.root, &branches.first()?.address)?;
-    let shape = setting.cx.shape;
-    let image = (setting.cx.root == shape.start).then(|| shape.control.as_ref().map(|p| p.apply(&position))).flatten();
+    let position = setting.cx.shape.point(setting.cx.from.root(), &branches.first()?.address)?;
+    let image = setting.cx.from.image(&position);
     let sum = branches.iter().fold(Subspace::default(), |s, b| s.join(&b.outcome.contains));
     let rank = sum.rank();
     let single = branches.iter().map(|b| b.outcome.dimension.at_least).max().unwrap_or(0);

@@ -7,7 +7,9 @@ use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
-use crate::theorem::{Context, Dimension, Direction, PointReport, Statement, Verdict, decide_contraction, point};
+use crate::theorem::{
+    Context, Dimension, Direction, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
+};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 
@@ -50,9 +52,8 @@ impl Factor {
     }
 
     fn context(&self) -> Context<'_> {
-        let (shape, root) = (&self.shape, self.shape.start);
-        let Self { spaces, balls, hulls, .. } = self;
-        Context { shape, spaces, balls, hulls, root, view: shape.view() }
+        let Self { shape, spaces, balls, hulls, .. } = self;
+        Context { shape, spaces, balls, hulls, from: Viewpoint::start(shape) }
     }
 
     fn evidence(&self) -> ProductFactor {
@@ -200,7 +201,7 @@ fn conclude(a: PointReport, b: PointReport, view: &Matrix) -> ProductEvidence {
 /// Adds the theorem on tensor products to a point; it decides where the general one does not, and must agree where it does.
 pub fn add(point: &mut SurfacePoint, product: &Product, setting: &Setting) {
     let Some(address) = point.branches.first().map(|b| b.address.clone()) else { return };
-    let Some(evidence) = product.point(&address, &setting.cx.view) else { return };
+    let Some(evidence) = product.point(&address, setting.cx.from.map()) else { return };
     let decided = |v: Verdict| v != Verdict::Undetermined;
     let agree = match (&point.tangent, &evidence.tangent) {
         (Some(a), Some(b)) => a.same(b) != Some(false),
