@@ -86,7 +86,11 @@ fn compare_surface(expect: &ExpectPoint, found: &SurfacePoint) -> Vec<String> {
             wrong.push(format!("{what} is {got}, expected {} ({:?})", wanted.unwrap_or_default(), found.reason));
         }
     };
-    let kind = if found.verdict == Verdict::Proved { "tangent-plane" } else { "none" };
+    let kind = match found.verdict {
+        Verdict::Proved => "tangent-plane",
+        Verdict::Refuted => "no tangent plane",
+        Verdict::Undetermined => "undetermined",
+    };
     check("kind", expect.kind.clone(), kind.to_owned());
     check("verdict", expect.verdict.clone(), found.verdict.word().to_owned());
     check("dimension", expect.dimension.map(|d| d.to_string()), found.dimension.at_least.to_string());

@@ -66,7 +66,18 @@ pub struct ExpectPoint {
 }
 
 const VERDICTS: [&str; 3] = ["proved", "refuted", "undetermined"];
-const KINDS: [&str; 7] = ["half-tangent", "regular", "cusp", "oscillating", "corner", "none", "tangent-plane"];
+const KINDS: [&str; 10] = [
+    "half-tangent",
+    "regular",
+    "cusp",
+    "oscillating",
+    "corner",
+    "tangent line",
+    "no tangent",
+    "tangent-plane",
+    "no tangent plane",
+    "undetermined",
+];
 
 impl Expect {
     pub(super) fn read(node: &Node<'_>, shape: &Shape) -> Result<Self, Problem> {

@@ -41,7 +41,7 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
     Ok(json!({
         "place": place,
         "verdict": point.verdict.word(),
-        "kind": point.kind.word(),
+        "kind": if point.kind.has_rays() { point.kind.word() } else { "none" },
         "rule": rule,
         "common": common,
         "branches": branches,

@@ -8,7 +8,7 @@ use crate::scheme::Sector;
 use crate::theorem::Verdict;
 use crate::vertex::field::{Enclosures, Field};
 use crate::vertex::top::Top;
-use crate::vertex::{AtValence, Eigenvector, Ground};
+use crate::vertex::{Again, AtValence, Eigenvector, Ground};
 use malachite_base::num::arithmetic::traits::Floor;
 use serde_json::{Value, json};
 
@@ -137,6 +137,7 @@ pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Option<Cert
 /// # Cost
 /// That of [`secant_check::check`].
 pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Option<Certificate>, Doubt> {
+    found.iter_mut().for_each(|f| f.again = Again::NoRule);
     let Some(certificate) = vertex_certificate(case, found) else { return Ok(None) };
     let accepted = match accepted(&case.text.text, &certificate) {
         Err(Doubt::Unsupported(_)) => return Ok(None),
@@ -151,10 +152,10 @@ pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Op
     let listed: Vec<usize> = listed.filter_map(|item| usize::try_from(item["valence"].as_u64()?).ok()).collect();
     let mut claims = accepted.claims.iter();
     for f in found.iter_mut().filter(|f| listed.contains(&f.valence)) {
-        f.checked = said(f).iter().all(|claim| claims.next() == Some(claim));
-        if !f.checked {
+        if !said(f).iter().all(|claim| claims.next() == Some(claim)) {
             return Err(Doubt::Differs(accepted.verdict.word()));
         }
+        f.again = Again::Proved;
     }
     Ok(Some(certificate))
 }

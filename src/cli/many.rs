@@ -9,7 +9,8 @@ use crate::case::VertexCase;
 use crate::diagnostic::Problem;
 use crate::report::document::{Block, Document, Inline, Line, Table, Tone, words};
 use crate::report::{json, text, vertex as report, words as phrases};
-use crate::theorem::{Certified, Kind, Verdict};
+use crate::theorem::{Certified, Verdict};
+use crate::vertex::Again;
 use rayon::prelude::*;
 use serde_json::Value;
 use std::path::Path;
@@ -132,7 +133,7 @@ fn about_vertices(path: &Path, no_check: bool) -> Outcome {
     let decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined).count();
     let checked = if no_check || decided == 0 {
         Checked::NotAsked
-    } else if every.is_none() && found.iter().filter(|f| f.checked).count() == decided {
+    } else if every.is_none() && found.iter().filter(|f| f.again == Again::Proved).count() == decided {
         Checked::Yes
     } else {
         Checked::NoRule
@@ -221,16 +222,7 @@ pub fn kinds(found: &Certified) -> Vec<String> {
         Verdict::Refuted => "no tangent plane",
         Verdict::Undetermined => "undetermined",
     });
-    counted(surface.chain(found.points.iter().map(|p| point_word(p.verdict, p.kind.word()))))
-}
-
-fn point_word(verdict: Verdict, kind: &str) -> &str {
-    match verdict {
-        Verdict::Undetermined => "undetermined",
-        Verdict::Proved if kind == Kind::None.word() => "tangent line",
-        Verdict::Refuted if kind == Kind::None.word() => "no tangent",
-        _ => kind,
-    }
+    counted(surface.chain(found.points.iter().map(|p| p.kind.word())))
 }
 
 fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {

@@ -66,7 +66,9 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
 
 fn witness(case: &Case, point: &PointReport) -> Line {
     let kind = match point.kind {
-        Kind::None => point.reason.clone().unwrap_or_else(|| "no tangent".to_owned()),
+        Kind::Line | Kind::NoTangent | Kind::Undetermined => {
+            point.reason.clone().unwrap_or_else(|| "no tangent".to_owned())
+        }
         kind => kind.word().to_owned(),
     };
     let mut out = words(format!("{}, address ", point_name(&case.shape, point)));

@@ -251,12 +251,7 @@ pub fn germ(case: &Case, point: &PointReport) -> Vec<Block> {
 }
 
 fn verdict_word(point: &PointReport) -> &'static str {
-    match (point.verdict, point.kind) {
-        (Verdict::Proved, Kind::None) => "tangent line",
-        (Verdict::Undetermined, _) => "undetermined",
-        (_, Kind::None) => "no tangent",
-        (_, kind) => kind.word(),
-    }
+    point.kind.word()
 }
 
 fn mark(point: &PointReport) -> Mark {

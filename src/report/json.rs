@@ -53,7 +53,11 @@ fn surface_point(p: &SurfacePoint) -> Value {
         "image": p.image.as_ref().map(|x| rationals(x)),
         "verdict": p.verdict.word(),
         "dimension": { "at_least": p.dimension.at_least, "exact": p.dimension.exact },
-        "kind": if p.verdict == Verdict::Proved { "tangent-plane" } else { "none" },
+        "kind": match p.verdict {
+            Verdict::Proved => "tangent-plane",
+            Verdict::Refuted => "no tangent plane",
+            Verdict::Undetermined => "undetermined",
+        },
         "plane": p.tangent.as_ref().map(subspace),
         "theorem": p.statement.map(|s| theorems::of(s).id),
         "reason": p.reason,
@@ -194,6 +198,7 @@ fn point(case: &Case, p: &PointReport) -> Value {
         "verdict": p.verdict.word(),
         "dimension": { "at_least": p.dimension.at_least, "exact": p.dimension.exact },
         "kind": p.kind.word(),
+        "about": p.about().word(),
         "rays": {
             "left": p.left.iter().map(direction).collect::<Vec<_>>(),
             "right": p.right.iter().map(direction).collect::<Vec<_>>(),

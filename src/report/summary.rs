@@ -142,10 +142,10 @@ fn point_blocks(case: &Case, point: &PointReport, verbose: bool) -> Vec<Block> {
 
 fn verdict_line(point: &PointReport) -> Line {
     let mut out = vec![mark(point.verdict)];
-    match (point.verdict, point.kind) {
-        (Verdict::Proved, Kind::None) => out.extend(words(": a tangent line exists (its rays are not settled)")),
-        (_, Kind::None) => {}
-        (_, kind) => {
+    match point.kind {
+        Kind::Line => out.extend(words(": a tangent line exists (its rays are not settled)")),
+        Kind::NoTangent | Kind::Undetermined => {}
+        kind => {
             out.extend(words(": "));
             out.push(Inline::Strong(kind.word().to_owned()));
         }

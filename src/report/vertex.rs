@@ -8,7 +8,7 @@ use crate::case::VertexCase;
 use crate::picture::characteristic::{Panel, sheet, tikz};
 use crate::poly::Poly;
 use crate::theorem::Verdict;
-use crate::vertex::{AtValence, Every, decimal};
+use crate::vertex::{Again, AtValence, Every, decimal};
 use serde_json::{Value, json};
 
 /// The place in the lattice of a sector where the Jacobian determinant has a sign.
@@ -18,8 +18,12 @@ type Spot = (usize, (Rational, Rational));
 #[must_use]
 pub fn twice(found: &[AtValence]) -> String {
     let decided = |f: &&AtValence| f.smooth != Verdict::Undetermined;
-    let (again, once): (Vec<&AtValence>, Vec<&AtValence>) = found.iter().filter(decided).partition(|f| f.checked);
+    let (again, once): (Vec<&AtValence>, Vec<&AtValence>) =
+        found.iter().filter(decided).partition(|f| f.again == Again::Proved);
     let list = |of: &[&AtValence]| ranges(&of.iter().map(|f| f.valence).collect::<Vec<_>>());
+    if !once.is_empty() && once.iter().all(|f| f.again == Again::NotAsked) {
+        return "the independent checker was not asked: the verdicts were proved once, not twice".to_owned();
+    }
     match (again.is_empty(), once.is_empty()) {
         (true, _) => {
             "the independent checker has no rule for these verdicts: they were proved once, not twice".to_owned()
@@ -364,7 +368,7 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
             "negative": place(&s.negative),
             "zero": place(&s.zero),
         })),
-        "checked": f.checked,
+        "checked": f.again == Again::Proved,
     })
 }
 

@@ -251,7 +251,7 @@ pub fn kind_meaning(kind: Kind) -> &'static str {
         Kind::Cusp => "one ray on each side, the same",
         Kind::Oscillating => "the tangent line exists, and both of its rays are limit rays on a side",
         Kind::Corner => "one ray on each side, on different lines",
-        Kind::None => "",
+        Kind::Line | Kind::NoTangent | Kind::Undetermined => "",
     }
 }
 

@@ -224,7 +224,7 @@ impl Analysis<'_> {
     fn outcome(&self) -> Outcome {
         let b = self.branch;
         if b.linear.rows() == 0 {
-            return Outcome::NoGerm { reason: "the shape is a single point near this address".to_owned() };
+            return Outcome::NoGerm { reason: "the cell of this address is a single point".to_owned() };
         }
         let Some(top) = top(&b.spectrum) else {
             return Outcome::NoGerm { reason: "the relevant space is 0".to_owned() };
@@ -270,7 +270,8 @@ impl Analysis<'_> {
             }
             turns += 1;
         }
-        Outcome::NoGerm { reason: "the point is isolated in the shape: no tangent question arises".to_owned() }
+        let place = if self.branch.is_shape() { "the shape" } else { "this branch" };
+        Outcome::NoGerm { reason: format!("the point is isolated in {place}: no tangent question arises") }
     }
 
     /// `dim U >= 2`: the corollary refutes without the ring, if the view does not fold `U`.

@@ -85,6 +85,17 @@ fn breaks(p: &PointReport) -> bool {
     p.verdict == Verdict::Refuted || has_no_cone(p)
 }
 
+/// What breaks at a point.
+fn broken(p: &PointReport) -> String {
+    let what = match p.kind {
+        Kind::Cusp => "the half-tangents of both sides are the same ray: a cusp",
+        Kind::Oscillating => "both rays of the line are limits of secants of one side",
+        Kind::Corner => "the half-tangents of the two sides lie on different lines: a corner",
+        _ => "there is no tangent line",
+    };
+    format!("at {} {what}", p.place())
+}
+
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
     let witness = found.points.iter().position(breaks);
@@ -93,7 +104,7 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let agree = joints.iter().all(|j| regular(j.report(found)));
     let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
-        Some(_) => (Verdict::Refuted, Some("the half-tangents at a joint differ".to_owned())),
+        Some(k) => (Verdict::Refuted, Some(broken(&found.points[k]))),
         None if !seen => (Verdict::Undetermined, Some(UNSEEN.to_owned())),
         None if agree => (Verdict::Proved, None),
         None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
@@ -136,9 +147,7 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
     }
     let (verdict, reason) = match (witness, &obstacle) {
-        (Some(_), _) => {
-            (Verdict::Refuted, "at a point the tangent does not exist or does not turn continuously".to_owned())
-        }
+        (Some(k), _) => (Verdict::Refuted, broken(&found.points[k])),
         (None, Some(o)) => {
             let word = crate::shape::word_text(&o.word);
             (Verdict::Undetermined, format!("no strictly invariant cone exists: the cycle {word} has {}", o.reason))

@@ -24,8 +24,8 @@ pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, Ri
 pub use similarity::Similarities;
 pub use slow::SlowCycle;
 pub use verdict::{
-    BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
-    StateReport, Statement, Verdict,
+    About, BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role,
+    Side, StateReport, Statement, Verdict,
 };
 pub use viewpoint::Viewpoint;
 
@@ -330,12 +330,12 @@ fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
 fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
     let point = &found.points[index];
     Claim {
-        text: match point.role {
-            Role::SetPoint if !address.prefix.is_empty() => format!(
+        text: match point.about() {
+            About::Branch => format!(
                 "the germ of the branch {address} has a tangent line (other addresses of the same point are not looked at)"
             ),
-            Role::SetPoint => format!("the shape has a tangent line at the address {address}"),
-            _ => format!("the parametrised curve has a tangent line at the address {address}"),
+            About::Shape => format!("the shape has a tangent line at the address {address}"),
+            About::Curve => format!("the parametrised curve has a tangent line at the address {address}"),
         },
         verdict: point.verdict,
         statement: None,

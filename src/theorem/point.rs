@@ -143,7 +143,7 @@ fn conclude(
         image,
         branches,
         verdict: Verdict::Undetermined,
-        kind: Kind::None,
+        kind: Kind::Undetermined,
         dimension: Dimension { at_least, exact: false },
         tangent: None,
         left: Vec::new(),
@@ -152,11 +152,13 @@ fn conclude(
     };
     if at_least >= 2 {
         report.verdict = Verdict::Refuted;
+        report.kind = Kind::NoTangent;
         report.reason = Some("the tangent subspace has more than one dimension".to_owned());
         return report;
     }
     if let Some(known) = spread(&report.branches) {
-        return PointReport { verdict: Verdict::Refuted, dimension: known, reason: Some(SPREAD.to_owned()), ..report };
+        let reason = Some(SPREAD.to_owned());
+        return PointReport { verdict: Verdict::Refuted, kind: Kind::NoTangent, dimension: known, reason, ..report };
     }
     let mut lines = Vec::new();
     for branch in &report.branches {
@@ -185,7 +187,7 @@ fn conclude(
         report.verdict = Verdict::Refuted;
         report.dimension = Dimension { at_least: 2, exact: true };
         let single = report.left.len() == 1 && report.right.len() == 1;
-        report.kind = if single { Kind::Corner } else { Kind::None };
+        report.kind = if single { Kind::Corner } else { Kind::NoTangent };
         report.reason = Some("the tangent lines of the two sides differ".to_owned());
         return report;
     }
@@ -231,6 +233,6 @@ fn kind(report: &PointReport) -> Kind {
         (1, 0) | (0, 1) if one_sided => Kind::HalfTangent,
         (1, 1) if opposite(&left[0], &right[0]) => Kind::Regular,
         (1, 1) => Kind::Cusp,
-        _ => Kind::None,
+        _ => Kind::Line,
     }
 }

@@ -84,8 +84,12 @@ pub enum Kind {
     Oscillating,
     /// One ray on each side, on different lines.
     Corner,
-    /// No tangent line, or none known.
-    None,
+    /// The tangent line exists; its rays are not settled.
+    Line,
+    /// There is no tangent line, and no more is known of the rays.
+    NoTangent,
+    /// Not decided.
+    Undetermined,
 }
 
 impl Kind {
@@ -98,7 +102,38 @@ impl Kind {
             Self::Cusp => "cusp",
             Self::Oscillating => "oscillating",
             Self::Corner => "corner",
-            Self::None => "none",
+            Self::Line => "tangent line",
+            Self::NoTangent => "no tangent",
+            Self::Undetermined => "undetermined",
+        }
+    }
+
+    /// Whether the rays of both sides, or of the only one, are known.
+    #[must_use]
+    pub fn has_rays(self) -> bool {
+        !matches!(self, Self::Line | Self::NoTangent | Self::Undetermined)
+    }
+}
+
+/// What the verdict on a point is about (theory §2 and §9, Branch and shape).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum About {
+    /// The germ of the parametrised curve.
+    Curve,
+    /// The shape as a set of points: nothing of it but the branch comes near the point, or the verdict is a refutation.
+    Shape,
+    /// The germ of the branch: other points of the shape may come as near.
+    Branch,
+}
+
+impl About {
+    /// `curve`, `shape` or `branch`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Curve => "curve",
+            Self::Shape => "shape",
+            Self::Branch => "branch",
         }
     }
 }
@@ -273,6 +308,50 @@ pub struct BranchReport {
     pub ring: Vec<RingPiece>,
     /// What follows.
     pub outcome: Outcome,
+}
+
+impl BranchReport {
+    /// Whether all points of the shape near the branch's point belong to the branch, as far as it is isolated (theory §9, Branch
+    /// and shape): it has no prefix, its cell is seen through a map that is injective on `Y`, and no piece of the ring was set
+    /// aside.
+    #[must_use]
+    pub fn is_shape(&self) -> bool {
+        let n = self.linear.rows();
+        let nilpotent = (0..n).fold(Matrix::identity(n), |p, _| &p * &self.linear).is_zero();
+        let nothing_aside = n <= 1 || nilpotent || self.ring.iter().all(|p| !p.collapses);
+        self.address.prefix.is_empty() && self.view.rank() == n && nothing_aside
+    }
+}
+
+impl PointReport {
+    /// What the verdict is about.
+    #[must_use]
+    pub fn about(&self) -> About {
+        match self.role {
+            Role::SetPoint if self.verdict == Verdict::Refuted => About::Shape,
+            Role::SetPoint if self.branches.iter().all(BranchReport::is_shape) => About::Shape,
+            Role::SetPoint => About::Branch,
+            _ => About::Curve,
+        }
+    }
+
+    /// Where the point lies, in words.
+    #[must_use]
+    pub fn place(&self) -> String {
+        let after = |path: &[usize]| match path {
+            [] => String::new(),
+            path => format!(" in cell {}", crate::shape::word_text(path)),
+        };
+        match (&self.role, self.branches.first()) {
+            (Role::LeftEnd, _) => "the left end".to_owned(),
+            (Role::RightEnd, _) => "the right end".to_owned(),
+            (Role::Joint { path, left, right, .. }, _) => {
+                format!("the joint of pieces {left} and {right}{}", after(path))
+            }
+            (_, Some(branch)) => format!("the point with the address {}", branch.address),
+            (_, None) => "a point".to_owned(),
+        }
+    }
 }
 
 /// One examined point.

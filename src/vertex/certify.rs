@@ -47,6 +47,17 @@ pub struct Eigenvector {
     pub points: Vec<((usize, usize), (Rational, Rational))>,
 }
 
+/// Whether the independent checker proved verdicts again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Again {
+    /// It was not asked.
+    NotAsked,
+    /// The certificate format has no rule for them.
+    NoRule,
+    /// It proved them.
+    Proved,
+}
+
 /// What holds at one valence.
 #[derive(Debug, Clone)]
 pub struct AtValence {
@@ -76,8 +87,8 @@ pub struct AtValence {
     pub ground: Option<Ground>,
     /// That eigenvector.
     pub eigenvector: Option<Eigenvector>,
-    /// Whether the independent checker proved the verdicts again.
-    pub checked: bool,
+    /// What the independent checker says of the verdicts.
+    pub again: Again,
     /// The patches of sector 0 as floats `x, y`, for pictures: nets of points in the true plane.
     pub outline: Vec<Net<(f64, f64)>>,
 }
@@ -98,7 +109,7 @@ impl AtValence {
             reason: String::new(),
             ground: None,
             eigenvector: None,
-            checked: false,
+            again: Again::NotAsked,
             outline: Vec::new(),
         }
     }

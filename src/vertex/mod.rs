@@ -15,5 +15,5 @@ pub mod solve;
 pub mod top;
 pub mod turning;
 
-pub use certify::{AtValence, Eigenvector, Ground, at_valence, decimal};
+pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, decimal};
 pub use every::{Condition, Every, every, strict_sign};

@@ -6,7 +6,7 @@ use super::super::words::{mark, point_name, tone};
 use super::{Quoted, quoted};
 use crate::case::Case;
 use crate::report::theorems;
-use crate::theorem::{Certified, DenseSet, Kind, Statement, Verdict};
+use crate::theorem::{Certified, DenseSet, Statement, Verdict};
 
 pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let Some(dense) = &found.dense else { return Vec::new() };
@@ -51,7 +51,7 @@ fn checks(case: &Case, found: &Certified, dense: &DenseSet, projected: bool, pro
         let Some(point) = found.points.get(index) else { continue };
         let mut text = words(format!("{}: ", point_name(shape, point)));
         text.push(mark(point.verdict));
-        if point.kind != Kind::None {
+        if point.kind.has_rays() {
             text.push(Inline::Text(format!(", {}", point.kind.word())));
         }
         checks.push(Check { tone: tone(point.verdict), text });

@@ -56,7 +56,7 @@ fn in_short(points: &[&PointReport]) -> Block {
             shown.extend(direction(d));
         }
         let mut result = vec![mark(point.verdict)];
-        if !point.kind.word().is_empty() && point.kind != Kind::None {
+        if point.kind.has_rays() {
             result.extend(words(format!(", {}", point.kind.word())));
         }
         let place = point.image.as_ref().unwrap_or(&point.position);
@@ -182,12 +182,12 @@ fn conclusion(point: &PointReport) -> Line {
     let no_germ = point.branches.iter().all(|b| matches!(b.outcome, Outcome::NoGerm { .. }));
     let mut out = line("**Conclusion.** ", []);
     out.push(mark(point.verdict));
-    let kind = match (point.verdict, point.kind) {
-        (Verdict::Proved, Kind::None) => "a tangent line exists; its rays are not settled",
-        (Verdict::Refuted, Kind::None) => "no tangent line",
-        (Verdict::Undetermined, _) if no_germ => "there is no tangent question",
-        (Verdict::Undetermined, _) => "",
-        (_, kind) => kind.word(),
+    let kind = match point.kind {
+        Kind::Line => "a tangent line exists; its rays are not settled",
+        Kind::NoTangent => "no tangent line",
+        Kind::Undetermined if no_germ => "there is no tangent question",
+        Kind::Undetermined => "",
+        kind => kind.word(),
     };
     if !kind.is_empty() {
         out.extend(words(": "));
