@@ -6,7 +6,7 @@ use secant::linalg::Matrix;
 use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
 use secant::shape::{CellKind, Shape, Spaces};
 use secant::theorem::cone::{CommonCone, Cone, ConeAnswer, ConeMap, common_cone};
-use secant::theorem::regularity::{digits, regularity};
+use secant::theorem::regularity::{Attained, digits, regularity};
 use secant::theorem::{Verdict, certify};
 
 fn rational(text: &str) -> Rational {
@@ -116,6 +116,24 @@ fn marginal_and_reducible_sets() {
     assert!(turned.exact && turned.upper == Some(Rational::from(1)));
     let alone = radius("[[[\"3/5\",\"-4/5\"],[\"4/5\",\"3/5\"]],[[\"1/2\",0],[0,\"1/4\"]]]");
     assert!(alone.exact && alone.upper == Some(Rational::from(1)));
+}
+
+/// A long Jordan block makes products unbounded only where its word attains the radius.
+#[test]
+fn a_jordan_block_below_the_radius_says_nothing() {
+    // Irreducible, and A^273 B grows faster than the word A with the Jordan block.
+    let pair = radius("[[[1,1],[0,1]],[[0,0],[\"1/100\",0]]]");
+    assert_eq!(pair.growth, Growth::Bounded);
+    assert!(pair.upper.is_none_or(|u| u > rational("1.00367")));
+    // Two blocks that may both attain the radius leave growth open.
+    assert_eq!(radius("[[[1,0],[0,1]],[[1,0],[0,\"1/2\"]]]").growth, Growth::Unknown);
+    assert_eq!(radius("[[[2,1],[0,2]],[[1,0],[0,1]]]").growth, Growth::Unbounded(2));
+    let mask: Vec<Rational> = "100/199 200/199 99/199 -1/199".split(' ').map(rational).collect();
+    assert_eq!(regularity(&mask, 2, &Options::default()).unwrap().attained, Attained::Yes);
+    // An integer exponent with bounded products: in the Zygmund sense.
+    let mask: Vec<Rational> = "-1/16 0 9/16 1 9/16 0 -1/16".split(' ').map(rational).collect();
+    let known = regularity(&mask, 2, &Options::default()).unwrap();
+    assert!(known.attained != Attained::Yes, "{:?}", known.attained);
 }
 
 #[test]

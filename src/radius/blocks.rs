@@ -14,7 +14,8 @@ pub struct Block {
     pub system: System,
     /// For every state of the block, the state of the whole system.
     pub states: Vec<usize>,
-    /// Whether it was shown that there is no common invariant subspace over the rationals.
+    /// Whether it was shown that there is no common invariant family of subspaces over the rationals or, of nonnegative
+    /// matrices, no common invariant face of the orthants. Either makes `‖T_w‖ <= C radius^|w|` (theory §11).
     pub irreducible: bool,
 }
 

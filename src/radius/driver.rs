@@ -60,12 +60,14 @@ pub struct BlockProof {
     pub proof: Option<Proof>,
 }
 
-/// How the largest products of `k` letters grow, relative to `radius^k`.
+/// How the largest products of `k` letters grow, relative to `radius^k`, `radius` being the joint spectral radius itself,
+/// whether it is known exactly or not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Growth {
-    /// They stay bounded: there is an extremal norm.
+    /// They stay bounded: one block only can attain the radius, and it has an extremal norm (an invariant body at the radius
+    /// itself, or no invariant subspace).
     Bounded,
-    /// They are unbounded: a product of a leading word has a Jordan block of this size at its largest modulus.
+    /// They are unbounded: a word that is *proved* to attain the radius has a Jordan block of this size at its largest modulus.
     Unbounded(usize),
     /// Not decided.
     Unknown,
@@ -205,15 +207,24 @@ fn conclude(system: &System, best: &(Best, Vec<Vec<Lower>>), proofs: Vec<BlockPr
     };
     // A bound below the lower one belongs to blocks that do not matter.
     let upper = upper.map(|u| u.max(lower.enclosure(64).hi));
-    let top = proofs.iter().filter(|p| p.bound.as_ref().is_none_or(|b| *b >= best.floor)).count();
-    let growth = if lower.block > 1 {
-        Growth::Unbounded(lower.block)
-    } else if exact && top == 1 {
-        Growth::Bounded
-    } else {
-        Growth::Unknown
-    };
+    let growth = growth(&lower, &best.floor, exact, &proofs);
     JointRadius { lower: Some(lower), upper, exact, growth, blocks: proofs, flag: Vec::new() }
+}
+
+/// Decides [`Growth`]: `floor` is at most the radius.
+///
+/// A word that attains the radius shows by its Jordan block that products are unbounded. They are bounded where all blocks but
+/// one have a radius below `floor`, and that one has an extremal norm: a norm (or invariant body) that proves its bound at the
+/// radius itself, or irreducibility (theory §11).
+fn growth(lower: &Lower, floor: &Rational, exact: bool, proofs: &[BlockProof]) -> Growth {
+    if exact && lower.block > 1 {
+        return Growth::Unbounded(lower.block);
+    }
+    let mut top = proofs.iter().filter(|p| p.bound.as_ref().is_none_or(|b| b >= floor));
+    match (top.next(), top.next()) {
+        (Some(only), None) if exact || only.block.irreducible => Growth::Bounded,
+        _ => Growth::Unknown,
+    }
 }
 
 fn prove(

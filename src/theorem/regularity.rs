@@ -8,6 +8,8 @@ use crate::arith::{Interval, Rational};
 use crate::linalg::Matrix;
 use crate::radius::{Growth, JointRadius, Options, System, joint_radius};
 use crate::shape::{fixed_point, norm1};
+use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
+use malachite_base::num::conversion::traits::IsInteger;
 use thiserror::Error;
 
 /// Why a mask has no regularity.
@@ -120,7 +122,7 @@ pub fn regularity(mask: &[Rational], arity: usize, options: &Options) -> Result<
     let enclosure = enclosure(&radius);
     let exponent = enclosure.as_ref().and_then(|e| minus_log(e, arity));
     let orders = orders(arity, sum_rules, enclosure.as_ref());
-    let attained = attained(&radius, arity, factor.len());
+    let attained = attained(&radius, exponent.as_ref(), factor.len());
     let independent = independent(&mask, arity);
     Ok(Regularity { arity, mask, sum_rules, factor, matrices, radius, exponent, attained, independent, orders })
 }
@@ -272,18 +274,20 @@ fn orders(arity: usize, sum_rules: usize, radius: Option<&Interval>) -> Vec<Orde
     rows
 }
 
-fn attained(radius: &JointRadius, arity: usize, length: usize) -> Attained {
-    let integer = radius
-        .lower
-        .as_ref()
-        .and_then(|l| l.rational())
-        .is_some_and(|r| digits_of_log(&(Rational::from(1) / r), arity).is_some_and(|e| e.lo == e.hi));
-    match radius.growth {
+/// What the growth of products says of the exponent: with bounded products it is attained, but in the Zygmund sense only where it is
+/// an integer. Where an enclosure does not tell whether it is one, nothing is claimed.
+fn attained(radius: &JointRadius, exponent: Option<&Interval>, length: usize) -> Attained {
+    let integer = exponent.and_then(|e| match (e.lo == e.hi && e.lo.is_integer(), (&e.lo).ceiling() > (&e.hi).floor()) {
+        (true, _) => Some(true),
+        (_, true) => Some(false),
+        _ => None,
+    });
+    match (radius.growth, integer) {
         _ if length == 1 => Attained::Yes,
-        Growth::Unbounded(_) => Attained::No,
-        Growth::Bounded if integer => Attained::Zygmund,
-        Growth::Bounded => Attained::Yes,
-        Growth::Unknown => Attained::Unknown,
+        (Growth::Unbounded(_), _) => Attained::No,
+        (Growth::Bounded, Some(true)) => Attained::Zygmund,
+        (Growth::Bounded, Some(false)) => Attained::Yes,
+        (Growth::Bounded, None) | (Growth::Unknown, _) => Attained::Unknown,
     }
 }
 
