@@ -68,8 +68,10 @@ pub fn joint_radius(radius: &JointRadius) -> String {
         match radius.growth {
             Growth::Bounded => "bounded: products of k letters stay below a constant times radius^k".to_owned(),
             Growth::Unbounded(size) => {
-                format!("marginal: the word attains the radius, with a Jordan block of size {size} at the largest modulus")
-            },
+                format!(
+                    "marginal: the word attains the radius, with a Jordan block of size {size} at the largest modulus"
+                )
+            }
             Growth::Unknown => "not decided".to_owned(),
         }
     );

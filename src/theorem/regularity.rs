@@ -277,11 +277,12 @@ fn orders(arity: usize, sum_rules: usize, radius: Option<&Interval>) -> Vec<Orde
 /// What the growth of products says of the exponent: with bounded products it is attained, but in the Zygmund sense only where it is
 /// an integer. Where an enclosure does not tell whether it is one, nothing is claimed.
 fn attained(radius: &JointRadius, exponent: Option<&Interval>, length: usize) -> Attained {
-    let integer = exponent.and_then(|e| match (e.lo == e.hi && e.lo.is_integer(), (&e.lo).ceiling() > (&e.hi).floor()) {
-        (true, _) => Some(true),
-        (_, true) => Some(false),
-        _ => None,
-    });
+    let integer =
+        exponent.and_then(|e| match (e.lo == e.hi && e.lo.is_integer(), (&e.lo).ceiling() > (&e.hi).floor()) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        });
     match (radius.growth, integer) {
         _ if length == 1 => Attained::Yes,
         (Growth::Unbounded(_), _) => Attained::No,
