@@ -45,11 +45,14 @@ pub mod case;
 pub mod certificate;
 pub mod cli;
 pub mod diagnostic;
+pub mod laws;
 pub mod picture;
 pub mod radius;
 pub mod report;
 pub mod scheme;
 pub mod shape;
+#[cfg(feature = "strategies")]
+pub mod strategies;
 pub mod theorem;
 pub mod vertex;
 

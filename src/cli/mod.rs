@@ -5,6 +5,8 @@ mod cards;
 mod certify;
 mod expand;
 mod explain;
+#[cfg(feature = "strategies")]
+mod fuzz;
 mod gallery;
 mod import;
 mod init;
@@ -97,6 +99,9 @@ enum Command {
     },
     /// Certify all cases of a directory and write a page of pictures and verdicts, with reports of a selection or of all.
     Gallery(GalleryArgs),
+    /// Hold verdicts on random cases against the laws that they obey; print the simplest case that breaks one (exit code 1).
+    #[cfg(feature = "strategies")]
+    Fuzz(fuzz::FuzzArgs),
     /// Print the completions for a shell.
     Completions {
         /// The shell.
@@ -304,6 +309,8 @@ pub fn main() -> ExitCode {
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),
+        #[cfg(feature = "strategies")]
+        Command::Fuzz(args) => fuzz::run(&args),
         Command::Completions { shell } => completions(shell),
         Command::Man => man(),
     };
