@@ -8,7 +8,7 @@ use secant::jordan::Spectrum;
 use secant::laws::{Law, hold};
 use secant::scheme::{Heading, case_text};
 use secant::shape::Shape;
-use secant::strategies::{AutomatonOptions, automaton, mask, planted_jordan, plane_set};
+use secant::strategies::{AutomatonOptions, automaton, mask, plane_set, planted_jordan};
 
 /// How often a strategy is asked: `SECANT_STRESS` times as often as usual.
 fn runner(cases: u32, seed: u8) -> TestRunner {
@@ -35,7 +35,8 @@ fn run<S: Strategy>(cases: u32, seed: u8, strategy: &S, test: impl Fn(S::Value) 
 
 #[test]
 fn curves_of_one_state_keep_the_laws() {
-    let options = AutomatonOptions { states: 1..=1, dimensions: 2..=2, transient: false, ..AutomatonOptions::default() };
+    let options =
+        AutomatonOptions { states: 1..=1, dimensions: 2..=2, transient: false, ..AutomatonOptions::default() };
     run(8, 1, &automaton(options), |shape| keeps(&shape));
 }
 

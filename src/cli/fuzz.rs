@@ -11,11 +11,11 @@ use crate::laws::{Broken, Law, Tally, hold};
 use crate::scheme::{Heading, case_text};
 use crate::shape::Shape;
 use crate::strategies::{
-    AutomatonOptions, PlantedJordan, VertexPlan, automaton, mask, planted_jordan, plane_set, vertex_weights,
+    AutomatonOptions, PlantedJordan, VertexPlan, automaton, mask, plane_set, planted_jordan, vertex_weights,
 };
+use clap::{Args, ValueEnum};
 use proptest::strategy::Strategy;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
-use clap::{Args, ValueEnum};
 use std::cell::RefCell;
 
 /// What is fuzzed.
@@ -187,7 +187,9 @@ impl Fuzz<'_> {
         }
         if !self.args.quiet {
             let (cases, refused, compared) = (seen.cases, seen.refused, seen.tally.compared);
-            print(&format!("{cases} cases, {refused} of them no models; {compared} answers compared, none contradicts\n"));
+            print(&format!(
+                "{cases} cases, {refused} of them no models; {compared} answers compared, none contradicts\n"
+            ));
             for law in &self.laws {
                 let lost = seen.tally.lost.iter().filter(|(l, _)| l == law).count();
                 if lost > 0 {

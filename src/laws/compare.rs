@@ -109,15 +109,15 @@ impl Comparison<'_> {
     }
 
     fn rays(&self, of: &str, map: &Matrix, old: &PointReport, new: &PointReport) -> Result<(), Broken> {
-        let (left, right) =
-            if self.image.backwards { (&new.right, &new.left) } else { (&new.left, &new.right) };
+        let (left, right) = if self.image.backwards { (&new.right, &new.left) } else { (&new.left, &new.right) };
         for (side, mine, theirs) in [("left", &old.left, left), ("right", &old.right, right)] {
             // Rays that are not settled on one of the sides are no contradiction.
             if mine.is_empty() || theirs.is_empty() {
                 continue;
             }
             let mapped: Vec<Direction> = mine.iter().map(|d| applied(map, d)).collect();
-            let within = |a: &[Direction], b: &[Direction]| a.iter().all(|x| b.iter().any(|y| x.same_line(y) == Some(1)));
+            let within =
+                |a: &[Direction], b: &[Direction]| a.iter().all(|x| b.iter().any(|y| x.same_line(y) == Some(1)));
             if !within(&mapped, theirs) || !within(theirs, &mapped) {
                 return Err(self.broken(format!("{of}: other rays on the {side}")));
             }

@@ -68,7 +68,9 @@ fn changes(shape: &Shape, seed: u64) -> Vec<(&'static str, Shape)> {
     let mut all = Vec::new();
     let state = random.rand_range(0..shape.states.len() as u32) as usize;
     let dim = shape.states[state].dim;
-    if let Some(start) = (0..shape.states.len()).find(|&e| e != shape.start && shape.states[e].dim == shape.view().cols()) {
+    if let Some(start) =
+        (0..shape.states.len()).find(|&e| e != shape.start && shape.states[e].dim == shape.view().cols())
+    {
         all.push(("another start", Shape { start, ..shape.clone() }));
     }
     let pieces = &shape.states[state].pieces;

@@ -33,7 +33,8 @@ enum Letters {
 pub fn image(law: Law, shape: &Shape, seed: u64) -> Option<Image> {
     let mut random = Rand32::new(seed);
     let bare = without_boundaries(shape);
-    let same = |shape, directions| Image { shape, directions: Some(directions), backwards: false, letters: Letters::Same };
+    let same =
+        |shape, directions| Image { shape, directions: Some(directions), backwards: false, letters: Letters::Same };
     let seen = Matrix::identity(shape.view().rows());
     match law {
         Law::Conjugated => {
@@ -290,7 +291,8 @@ fn hidden(shape: &Shape, random: &mut Rand32) -> Shape {
         state.dim = n + 1;
     }
     if let Some(control) = &shape.control {
-        let wide = |i: usize, j: usize| if j < control.cols() { control[(i, j)].clone() } else { ratio(i as i64 + 1, 1) };
+        let wide =
+            |i: usize, j: usize| if j < control.cols() { control[(i, j)].clone() } else { ratio(i as i64 + 1, 1) };
         new.control = Some(Matrix::from_fn(control.rows(), control.cols() + 1, wide));
     }
     new

@@ -65,7 +65,8 @@ impl VertexPlan {
     /// The plan as a case file.
     #[must_use]
     pub fn case(&self) -> String {
-        let mut text = format!("name = \"vertex\"\n\n[vertex]\nmesh = \"{}\"\nvalence = \"{}\"\n", self.mesh, self.valence);
+        let mut text =
+            format!("name = \"vertex\"\n\n[vertex]\nmesh = \"{}\"\nvalence = \"{}\"\n", self.mesh, self.valence);
         for (name, value) in &self.parameters {
             // Writing to a string does not fail.
             let _ = writeln!(text, "{name} = \"{value}\"");
