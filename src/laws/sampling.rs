@@ -19,6 +19,7 @@ const SMALL: f64 = 0.02;
 ///
 /// Branch and bound proves a tangent for all points of the ring; here a few are looked at, in exact arithmetic and with the
 /// operators of the shape itself, not those of the visible quotient.
+#[allow(clippy::float_arithmetic, reason = "it looks for contradictions and decides nothing")]
 pub(super) fn check(shape: &Shape, found: &Certified) -> Result<Agreement, Broken> {
     let mut agreement = Agreement::default();
     for point in found.points.iter().filter(|p| p.verdict == Verdict::Proved) {
