@@ -51,6 +51,7 @@ pub mod radius;
 pub mod report;
 pub mod scheme;
 pub mod shape;
+pub mod statement;
 #[cfg(feature = "strategies")]
 pub mod strategies;
 pub mod theorem;

@@ -4,7 +4,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 use secant::case::{Valences, VertexCase};
 use secant::prelude::*;
 use secant::report::proof::vertex_document;
-use secant::report::theorems::{THEOREMS, find};
+use secant::statement::Statement;
 use secant::theorem::surface::certify_complex;
 use secant::vertex::at_valence;
 use std::collections::BTreeMap;
@@ -210,18 +210,18 @@ fn every_citation_resolves() {
     for (name, document) in all_reports() {
         let text = markdown::render(&document);
         for cited in citations(&text) {
-            assert!(find(&cited).is_ok(), "{name} cites {cited}, which `secant explain` does not know");
+            assert!(Statement::named(&cited).is_some(), "{name} cites {cited}, which `secant explain` does not know");
         }
         let listed = text.lines().find_map(|l| l.strip_prefix("- Statements applied: "));
         assert!(listed.is_some() || !text.contains("\n> **"), "{name}: a statement is quoted and not listed");
         for statement in listed.iter().flat_map(|l| l.split(". Proofs:").next()).flat_map(|l| l.split("; ")) {
-            assert!(THEOREMS.iter().any(|t| t.name == statement), "{name}: {statement}");
+            assert!(Statement::ALL.iter().any(|s| s.name() == statement), "{name}: {statement}");
             assert!(text.contains(&format!("> **{statement}.**")), "{name}: {statement} is not quoted");
         }
     }
-    for theorem in THEOREMS {
-        for cited in citations(&format!("{} {}", theorem.body, theorem.proof)) {
-            assert!(find(&cited).is_ok(), "{} cites {cited}", theorem.id);
+    for statement in Statement::ALL {
+        for cited in citations(statement.source()) {
+            assert!(Statement::named(&cited).is_some(), "{} cites {cited}", statement.id());
         }
     }
 }
@@ -230,9 +230,9 @@ fn every_citation_resolves() {
 fn a_statement_is_quoted_once_and_every_symbol_of_functionals_is_listed() {
     for (name, document) in all_reports() {
         let text = markdown::render(&document);
-        for theorem in THEOREMS {
-            let quoted = text.matches(&format!("> **{}.**", theorem.name)).count();
-            assert!(quoted <= 1, "{name}: {} is quoted {quoted} times", theorem.name);
+        for statement in Statement::ALL {
+            let quoted = text.matches(&format!("> **{}.**", statement.name())).count();
+            assert!(quoted <= 1, "{name}: {} is quoted {quoted} times", statement.name());
         }
         // Tables that name functionals follow a list of these functionals.
         for letter in ["g", "h", "k"] {

@@ -2,6 +2,7 @@
 //! they cannot differ in what they say.
 
 use super::math::Math;
+use crate::statement::{Hypothesis, Statement};
 
 /// A report: a title and blocks in reading order.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,13 +30,8 @@ pub enum Block {
     Checks(Vec<Check>),
     /// A table.
     Table(Table),
-    /// A theorem, quoted.
-    Statement {
-        /// Its number and name.
-        name: String,
-        /// Its words.
-        body: Line,
-    },
+    /// A statement of the theory, quoted in full.
+    Statement(Statement),
     /// A picture.
     Figure {
         /// A complete SVG document.
@@ -171,6 +167,15 @@ pub fn code(text: impl Into<String>) -> Line {
 #[must_use]
 pub fn formula(math: Math) -> Line {
     vec![Inline::Math(math)]
+}
+
+/// A hypothesis with its name before it.
+#[must_use]
+pub fn hypothesis(h: &Hypothesis) -> Line {
+    let mut out = vec![Inline::Strong(h.name.clone())];
+    out.extend(words(": "));
+    out.extend(line(&h.text, []));
+    out
 }
 
 impl Block {

@@ -6,6 +6,7 @@ use super::values::root_math;
 use super::words::{count, listed, mark, point_name};
 use crate::case::Case;
 use crate::shape::word_text;
+use crate::statement::Statement;
 use crate::theorem::cone::{CommonCone, ConeObstacle};
 use crate::theorem::{Certified, Everywhere, Kind, PointReport, Verdict};
 use serde_json::{Value, json};
@@ -15,8 +16,8 @@ const PLACES: u64 = 6;
 
 /// The theorem that gives the cones.
 #[must_use]
-pub fn theorem(cone: &CommonCone) -> &'static str {
-    if cone.slow.is_empty() { "theorem-6" } else { "theorem-6-slow" }
+pub fn theorem(cone: &CommonCone) -> Statement {
+    if cone.slow.is_empty() { Statement::Theorem6 } else { Statement::Theorem6Slow }
 }
 
 /// What is claimed, in a few words.
@@ -122,7 +123,7 @@ pub fn value(found: &Certified) -> Value {
     let matrix = |m: &crate::linalg::Matrix| (0..m.rows()).map(|i| text(m.row(i))).collect::<Vec<_>>();
     let cone = every.cone.as_ref().map(|c| {
         json!({
-            "theorem": theorem(c),
+            "theorem": theorem(c).id(),
             "cones": c.cones.iter().map(|k| json!({
                 "state": k.state,
                 "rays": matrix(&k.rays.transpose()),

@@ -1,6 +1,6 @@
 //! Documents as self-contained HTML: MathML formulas, inline SVG, light and dark, fit for printing.
 
-use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::math::Math;
 use super::mathml::{inline_elements, math_element};
 use crate::picture;
@@ -65,9 +65,17 @@ fn write_block(out: &mut String, block: &Block) {
             out.push_str("</ul>\n");
         }
         Block::Table(table) => write_table(out, table),
-        Block::Statement { name, body } => {
-            let name = escaped(name);
-            out.push_str(&format!("<blockquote><p><strong>{name}.</strong> {}</p></blockquote>\n", inline(body)));
+        Block::Statement(statement) => {
+            let text = statement.text();
+            out.push_str(&format!("<blockquote><p><strong>{}.</strong> Hypotheses:</p>\n<ul>\n", escaped(&text.name)));
+            for h in &text.hypotheses {
+                out.push_str(&format!("<li>{}</li>\n", inline(&hypothesis(h))));
+            }
+            out.push_str("</ul>\n");
+            for paragraph in &text.body {
+                out.push_str(&format!("<p>{}</p>\n", inline(&line(paragraph, []))));
+            }
+            out.push_str("</blockquote>\n");
         }
         Block::Figure { svg, alt, caption, .. } => {
             let svg = svg.replacen("<svg ", &format!("<svg aria-label=\"{}\" ", escaped(alt)), 1);

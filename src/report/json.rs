@@ -1,7 +1,6 @@
 //! The JSON report, version 1; documented in `docs/json.md`.
 
 use super::text::math_line;
-use super::theorems;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
 use super::words::{deciding, ratio};
 use crate::algebraic::Root;
@@ -59,7 +58,7 @@ fn surface_point(p: &SurfacePoint) -> Value {
             Verdict::Undetermined => "undetermined",
         },
         "plane": p.tangent.as_ref().map(subspace),
-        "theorem": p.statement.map(|s| theorems::of(s).id),
+        "theorem": p.statement.map(|s| s.id()),
         "reason": p.reason,
         "product": p.product.as_ref().map(|e| json!({
             "verdict": e.verdict.word(),
@@ -111,7 +110,7 @@ fn surface_branch(b: &SurfaceBranch) -> Value {
         "visible": b.linear.rows(),
         "spectrum": spectrum_value(&b.spectrum),
         "top": o.row,
-        "theorem": o.statement.map(|s| theorems::of(s).id),
+        "theorem": o.statement.map(|s| s.id()),
         "dimension": { "at_least": o.dimension.at_least, "exact": o.dimension.exact, "at_most": o.at_most },
         "contains": subspace(&o.contains),
         "cells": o.ring.as_ref().map(|r| r.discharged.len()),
@@ -155,7 +154,7 @@ fn claim(c: &Claim) -> Value {
     json!({
         "claim": c.text,
         "verdict": c.verdict.word(),
-        "theorem": deciding(c).map(|s| theorems::of(s).id),
+        "theorem": deciding(c).map(|s| s.id()),
         "reason": c.reason,
     })
 }
@@ -244,7 +243,7 @@ fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
             vec![
                 ("eigenvalue", root_value(root)),
                 ("jordan", json!({ "block": block, "blocks": b.spectrum.factors[eigenvalue.0].blocks })),
-                ("theorem", json!(theorems::of(*statement).id)),
+                ("theorem", json!(statement.id())),
                 ("rate", where_known(rate_value(rate), proof.is_some())),
                 (
                     "holder",
@@ -256,7 +255,7 @@ fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
             ]
         }
         Outcome::AtLeast { statement, eigenvalues, witness, .. } => {
-            let mut fields = vec![("theorem", json!(theorems::of(*statement).id))];
+            let mut fields = vec![("theorem", json!(statement.id()))];
             if let Some(&(f, r)) = eigenvalues.first() {
                 fields.insert(0, ("eigenvalue", root_value(&b.spectrum.factors[f].roots[r])));
                 fields.insert(1, ("jordan", json!({ "blocks": b.spectrum.factors[f].blocks })));

@@ -1,6 +1,6 @@
 //! Documents as LaTeX that a stock TeX compiles (article, amsmath, amsthm, longtable, TikZ).
 
-use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::tex::math_tex;
 
 const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
@@ -80,8 +80,15 @@ fn write_block(out: &mut String, block: &Block) {
             out.push_str("\\end{itemize}\n");
         }
         Block::Table(table) => write_table(out, table),
-        Block::Statement { name, body } => {
-            out.push_str(&format!("\\begin{{quoted}}[{}]\n{}\n\\end{{quoted}}\n", escaped(name), inline(body)));
+        Block::Statement(statement) => {
+            let text = statement.text();
+            out.push_str(&format!("\\begin{{quoted}}[{}]\nHypotheses:\n\\begin{{itemize}}\n", escaped(&text.name)));
+            for h in &text.hypotheses {
+                out.push_str(&format!("\\item {}\n", inline(&hypothesis(h))));
+            }
+            out.push_str("\\end{itemize}\n");
+            let body: Vec<String> = text.body.iter().map(|paragraph| inline(&line(paragraph, []))).collect();
+            out.push_str(&format!("{}\n\\end{{quoted}}\n", body.join("\n\n")));
         }
         Block::Figure { tikz, caption, .. } => {
             out.push_str(&format!(

@@ -1,6 +1,6 @@
 //! Documents as Markdown (CommonMark with tables, `$…$` for formulas).
 
-use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::math::Math;
 use super::tex::math_tex;
 
@@ -45,8 +45,15 @@ fn write_block(out: &mut String, block: &Block) {
             }
         }
         Block::Table(table) => write_table(out, table),
-        Block::Statement { name, body } => {
-            out.push_str(&format!("> **{}.** {}\n", escaped(name), inline(body)));
+        Block::Statement(statement) => {
+            let text = statement.text();
+            out.push_str(&format!("> **{}.** Hypotheses:\n>\n", escaped(&text.name)));
+            for h in &text.hypotheses {
+                out.push_str(&format!("> - {}\n", inline(&hypothesis(h))));
+            }
+            for paragraph in &text.body {
+                out.push_str(&format!(">\n> {}\n", inline(&line(paragraph, []))));
+            }
         }
         Block::Figure { svg, alt, caption, .. } => {
             // A data URI keeps the file self-contained, and Markdown viewers show it.

@@ -100,8 +100,9 @@ impl Math {
         Self::Row(row)
     }
 
-    /// The formula written in a small notation: letters stand for themselves, `\word` is upright, `_` and `^` take the
-    /// next letter, number or `{group}`, and `@` stands for the next of `values`.
+    /// The formula written in a small notation: letters stand for themselves, `\word` and
+    /// `\operatorname{word}` are upright, `\sqrt` takes the next letter, number or `{group}` as a root, `_` and `^` take it
+    /// as a script, and `@` stands for the next of `values`.
     ///
     /// It never fails: a stray brace or `@` is dropped.
     #[must_use]
@@ -172,7 +173,11 @@ fn parse_atom(chars: &mut Chars<'_>, values: &mut dyn Iterator<Item = Math>, dep
             while let Some(c) = chars.next_if(|c| c.is_alphabetic()) {
                 word.push(c);
             }
-            Math::Word(word)
+            match word.as_str() {
+                "sqrt" => Math::Root(Box::new(parse_atom(chars, values, depth)?)),
+                "operatorname" => Math::Word(braced(chars)),
+                _ => Math::Word(word),
+            }
         }
         '-' => Math::Symbol('−'),
         '½' => Math::Digits("½".to_owned()),
@@ -186,6 +191,18 @@ fn parse_atom(chars: &mut Chars<'_>, values: &mut dyn Iterator<Item = Math>, dep
         c if c.is_alphabetic() => Math::Letter(c),
         c => Math::Symbol(c),
     })
+}
+
+/// What stands between the braces that follow, literally.
+fn braced(chars: &mut Chars<'_>) -> String {
+    let mut out = String::new();
+    if chars.next_if_eq(&'{').is_some() {
+        while let Some(c) = chars.next_if(|c| *c != '}') {
+            out.push(c);
+        }
+        chars.next();
+    }
+    out
 }
 
 /// How a symbol stands between its neighbours.
@@ -277,6 +294,8 @@ mod tests {
         assert_eq!(shown("ρ_{i+1}/ρ_i"), "ρ_(i+1)/ρ_i");
         assert_eq!(shown("\\dim D^*=r"), "dim D* = r");
         assert_eq!(shown("-x^2+1"), "−x² + 1");
+        assert_eq!(shown("½ \\operatorname{osc}(h)"), "½ osc(h)");
+        assert!(shown("\\sqrt{D}").starts_with('√'), "{}", shown("\\sqrt{D}"));
         let mut values = [Math::number(&ratio(-3, 4))].into_iter();
         assert_eq!(math_line(&Math::parse("λ=@", &mut values)), "λ = −3/4");
     }

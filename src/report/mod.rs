@@ -18,7 +18,6 @@ pub mod surface;
 mod symbols;
 pub mod tex;
 pub mod text;
-pub mod theorems;
 pub mod values;
 pub mod vertex;
 pub mod words;

@@ -62,6 +62,7 @@ pub(super) fn latex(c: char) -> Option<&'static str> {
         'Ω' => "\\Omega",
         'ψ' => "\\psi",
         'Π' => "\\Pi",
+        'Λ' => "\\Lambda",
         'Φ' => "\\Phi",
         '⊃' => "\\supset",
         '∘' => "\\circ",

@@ -1,6 +1,6 @@
 //! Documents as text for a terminal, at most 80 columns wide.
 
-use super::document::{Block, Check, Document, Inline, Line, Table, Tone};
+use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::math::{Math, Spacing, parts, sign_and_size, spacing};
 use unicode_width::UnicodeWidthStr;
 
@@ -80,9 +80,15 @@ impl Writer {
                 }
             }
             Block::Table(table) => self.table(table, indent + 2),
-            Block::Statement { name, body } => {
-                self.raw(&format!("{pad}  {}", self.painted("1", name)));
-                self.paragraph(body, &format!("{pad}    "), &format!("{pad}    "));
+            Block::Statement(statement) => {
+                let text = statement.text();
+                self.raw(&format!("{pad}  {}", self.painted("1", &text.name)));
+                for h in &text.hypotheses {
+                    self.paragraph(&hypothesis(h), &format!("{pad}    - "), &format!("{pad}      "));
+                }
+                for paragraph in &text.body {
+                    self.paragraph(&line(paragraph, []), &format!("{pad}    "), &format!("{pad}    "));
+                }
             }
             Block::Figure { caption, .. } => self.paragraph(caption, &format!("{pad}  "), &format!("{pad}  ")),
             Block::Details { summary, blocks } => {

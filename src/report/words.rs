@@ -2,7 +2,6 @@
 
 use super::document::{Inline, Line, Tone, line, words};
 use super::math::Math;
-use super::theorems;
 use super::values::{
     decimal_math, decimals_math, direction_decimals, direction_math, exponent, is_rational, polynomial, root_math,
 };
@@ -311,7 +310,7 @@ pub fn witness(w: &Witness) -> Line {
 /// The name of a statement.
 #[must_use]
 pub fn statement(s: Statement) -> &'static str {
-    theorems::of(s).name
+    s.name()
 }
 
 /// How the ring condition was proved.

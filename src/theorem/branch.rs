@@ -2,13 +2,14 @@
 
 use super::direction::Direction;
 use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
-use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side, Statement};
+use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side};
 use super::viewpoint::Viewpoint;
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
+use crate::statement::Statement;
 use std::cell::OnceCell;
 
 /// Products of a row and an operator that one ring condition may cost.

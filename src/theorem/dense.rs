@@ -1,11 +1,12 @@
 //! Theorem 5 and Theorem 5′: a dense set by finitely many checks.
 
 use super::branch::Context;
-use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Statement, Verdict};
+use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Verdict};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::linalg::Matrix;
 use crate::shape::CellKind;
+use crate::statement::Statement;
 
 /// How many levels of joints are examined where Theorem 5 does not apply.
 const DEEP_LEVELS: usize = 4;

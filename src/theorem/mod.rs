@@ -17,6 +17,7 @@ mod verdict;
 mod viewpoint;
 pub mod wavelet;
 
+pub use crate::statement::Statement;
 pub use branch::Context;
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
@@ -25,7 +26,7 @@ pub use similarity::Similarities;
 pub use slow::SlowCycle;
 pub use verdict::{
     About, BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role,
-    Side, StateReport, Statement, Verdict,
+    Side, StateReport, Verdict,
 };
 pub use viewpoint::Viewpoint;
 

@@ -6,6 +6,7 @@ use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction};
+use crate::statement::Statement;
 
 /// The three answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -38,37 +39,6 @@ impl Verdict {
             _ => Self::Undetermined,
         }
     }
-}
-
-/// The statement of `docs/theory.md` that was applied.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Statement {
-    /// Theorem 2, complete set of eigenvectors.
-    Theorem2,
-    /// Theorem 3, incomplete set (Jordan blocks).
-    Theorem3,
-    /// Theorem 4, null component.
-    Theorem4,
-    /// The corollary: `U ⊂ D*` with no ring condition.
-    Corollary,
-    /// The corollary where the visible relevant space is a line: `U ⊂ D* ⊂ V`.
-    CorollaryLine,
-    /// The precise statement of §6 for one real block of length 2.
-    Section6,
-    /// The joint rule of §9.
-    Joint,
-    /// Theorem 5, a dense set by finitely many checks.
-    Theorem5,
-    /// All maps are similarities: no tangent line at any point.
-    Similarities,
-    /// Theorem 5′, the same for a projection that is not injective.
-    Theorem5Projected,
-    /// The rule of §9 for a point of a surface: the sum of the tangent subspaces of its branches.
-    SurfacePoint,
-    /// Theorem 5″, a dense set of points of a surface.
-    Theorem5Surface,
-    /// The theorem on tensor products.
-    TensorProduct,
 }
 
 /// Kinds of points (theory §2).

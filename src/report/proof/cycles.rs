@@ -11,6 +11,7 @@ use crate::linalg::Matrix;
 use crate::report::figures;
 use crate::report::values::decimal_math;
 use crate::shape::{Spaces, word_text};
+use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified};
 
 /// One branch for each different analysis.
@@ -175,7 +176,7 @@ fn ring_blocks(branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
     if !dropped.is_empty() {
         let text =
             format!("By Lemma 2 these cells, which fall into $q$ as a whole, are left out: {}.", listed(&dropped));
-        blocks.extend(seen.once_id("lemma-2"));
+        blocks.extend(seen.once_id(Statement::Lemma2));
         blocks.push(Block::text(&text, []));
     }
     blocks

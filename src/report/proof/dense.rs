@@ -5,7 +5,6 @@ use super::super::values::direction_math;
 use super::super::words::{mark, point_name, tone};
 use super::{Quoted, quoted};
 use crate::case::Case;
-use crate::report::theorems;
 use crate::theorem::{Certified, DenseSet, Statement, Verdict};
 
 pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
@@ -13,7 +12,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     let is_dense = |s: Statement| matches!(s, Statement::Theorem5 | Statement::Theorem5Projected);
     let Some(claim) = found.claims.iter().find(|c| c.statement.is_some_and(is_dense)) else { return Vec::new() };
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    let statement = claim.statement.map(theorems::of);
+    let statement = claim.statement;
     match (claim.verdict, statement) {
         (Verdict::Proved, Some(theorem)) => blocks.push(seen.once(theorem)),
         (Verdict::Undetermined, Some(theorem)) => {

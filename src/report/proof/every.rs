@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::linalg::{Matrix, dot};
 use crate::report::figures;
 use crate::shape::word_text;
+use crate::statement::Statement;
 use crate::theorem::Certified;
 use crate::theorem::cone::CommonCone;
 use malachite_base::num::arithmetic::traits::Pow;
@@ -21,7 +22,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     if let Some(cone) = &result.cone {
         if !cone.slow.is_empty() {
             // Theorem 6′ refers to Theorem 6.
-            blocks.extend(seen.once_id("theorem-6"));
+            blocks.extend(seen.once_id(Statement::Theorem6));
         }
         blocks.extend(seen.once_id(every::theorem(cone)));
         blocks.extend(cones(case, found, cone));

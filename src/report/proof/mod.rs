@@ -17,11 +17,11 @@ use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
 use super::summary::{claim_line, shape_line};
-use super::theorems::{self, Theorem};
 use super::words::mark;
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, Spaces};
+use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified, Verdict};
 
 /// Matrices with more rows or columns than this are folded.
@@ -56,31 +56,29 @@ pub fn document(case: &Case, found: &Certified) -> Document {
 
 /// The statements quoted so far, in order: each is quoted in full where it is first used.
 #[derive(Default)]
-struct Quoted(Vec<&'static Theorem>);
+struct Quoted(Vec<Statement>);
 
 impl Quoted {
     /// Whether the statement was not quoted before; from now on it was.
-    fn is_new(&mut self, theorem: &'static Theorem) -> bool {
-        let new = self.0.iter().all(|t| t.id != theorem.id);
+    fn is_new(&mut self, statement: Statement) -> bool {
+        let new = !self.0.contains(&statement);
         if new {
-            self.0.push(theorem);
+            self.0.push(statement);
         }
         new
     }
 
     /// The statement in full, or a reference to where it stands.
-    fn once(&mut self, theorem: &'static Theorem) -> Block {
-        if self.is_new(theorem) {
-            return quoted(theorem);
+    fn once(&mut self, statement: Statement) -> Block {
+        if self.is_new(statement) {
+            return quoted(statement);
         }
-        let name = theorem.name.split(" (").next().unwrap_or(theorem.name);
-        Block::text(&format!("**{name}** (above) applies:"), [])
+        Block::text(&format!("**{}** (above) applies:", statement.short_name()), [])
     }
 
-    /// The statement with an id in full, or nothing where it was quoted before.
-    fn once_id(&mut self, id: &'static str) -> Option<Block> {
-        let theorem = theorems::by_id(id);
-        self.is_new(theorem).then(|| quoted(theorem))
+    /// The statement in full, or nothing where it was quoted before.
+    fn once_id(&mut self, statement: Statement) -> Option<Block> {
+        self.is_new(statement).then(|| quoted(statement))
     }
 }
 
@@ -173,8 +171,8 @@ fn has_long_numbers(case: &Case) -> bool {
 }
 
 /// A statement, quoted.
-fn quoted(theorem: &Theorem) -> Block {
-    Block::Statement { name: theorem.name.to_owned(), body: line(theorem.body, []) }
+fn quoted(statement: Statement) -> Block {
+    Block::Statement(statement)
 }
 
 /// What identifies the case and its certificate.
@@ -209,7 +207,7 @@ fn references(seen: &Quoted) -> Vec<Block> {
          models, chapter 4 for the conditions.",
     )];
     if !seen.0.is_empty() {
-        let used: Vec<&str> = seen.0.iter().map(|t| t.name).collect();
+        let used: Vec<&str> = seen.0.iter().map(|s| s.name()).collect();
         let text = format!("Statements applied: {}. Proofs: docs/theory.md, or `secant explain`.", used.join("; "));
         items.push(line(&text, []));
     }

@@ -7,6 +7,7 @@ use super::{Quoted, cycles, matrix};
 use crate::case::Case;
 use crate::report::figures;
 use crate::shape::{CellKind, word_text};
+use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
 
 /// So many points are shown enlarged.
@@ -18,7 +19,7 @@ const MAX_FULL: usize = 8;
 pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "The points")];
     if found.points.iter().any(|p| p.branches.len() > 1) {
-        blocks.extend(seen.once_id("joint"));
+        blocks.extend(seen.once_id(Statement::Joint));
     }
     let refuted = found.points.iter().position(|p| p.verdict == Verdict::Refuted);
     let open = found.points.iter().position(|p| p.verdict == Verdict::Undetermined);

@@ -7,6 +7,7 @@ use super::{Quoted, matrix};
 use crate::case::{Case, Convention};
 use crate::report::figures;
 use crate::shape::{Balls, CellKind, Contraction, End, Frame, Shape, Spaces, word_text};
+use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified, Outcome, Witness};
 
 /// Most code words that are listed.
@@ -32,7 +33,9 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
         blocks.push(matrix(Math::Letter('P'), control));
     }
     blocks.push(Block::heading(2, "Contraction"));
-    let by = |c: &Contraction| if matches!(c, Contraction::Polytopes(_)) { "lemma-1-prime" } else { "lemma-1" };
+    let by = |c: &Contraction| {
+        if matches!(c, Contraction::Polytopes(_)) { Statement::Lemma1Prime } else { Statement::Lemma1 }
+    };
     match &found.contraction {
         Contraction::Product(proof) => proof.factors.iter().for_each(|c| blocks.extend(seen.once_id(by(c)))),
         one => blocks.extend(seen.once_id(by(one))),
@@ -285,7 +288,7 @@ fn spaces(shape: &Shape, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     blocks.push(Block::Table(by_state(shape, Table { caption: Line::new(), header, rows: rows.collect() })));
     blocks.extend(polygons(shape, found));
     if let Some(similar) = &found.similarities {
-        blocks.extend(seen.once_id("similarities"));
+        blocks.extend(seen.once_id(Statement::Similarities));
         blocks.push(Block::Checks(vec![Check {
             tone: Tone::Good,
             text: line(

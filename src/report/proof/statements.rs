@@ -2,7 +2,6 @@
 
 use super::super::document::{Block, Check, Inline, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
-use super::super::theorems;
 use super::super::values::{decimal_math, elem_math, polynomial, root_math};
 use super::super::words::{cell, count, holder, listed, rate, witness};
 use super::Quoted;
@@ -22,12 +21,12 @@ const MAX_CELLS: usize = 400;
 pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
     match &branch.outcome {
         Outcome::Line { statement, .. } => {
-            let mut blocks = vec![seen.once(theorems::of(*statement))];
+            let mut blocks = vec![seen.once(*statement)];
             blocks.extend(line_blocks(case, branch, *statement, seen));
             blocks
         }
         Outcome::AtLeast { statement, .. } => {
-            let mut blocks = vec![seen.once(theorems::of(*statement))];
+            let mut blocks = vec![seen.once(*statement)];
             blocks.extend(many_blocks(case, branch, *statement));
             blocks
         }
@@ -45,7 +44,7 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
             let place = place.as_ref().map(|p| format!(" The cell in which it failed is {}.", cell(p)));
             let mut text = format!("**Not decided**: {reason}.{}", place.unwrap_or_default());
             if *at_least > 0 {
-                blocks.extend(seen.once_id("corollary"));
+                blocks.extend(seen.once_id(Statement::Corollary));
                 text.push_str(
                     " What is proved is $\\dim D^*≥@$, by the corollary: $L$ is not nilpotent, so that $U⊂D^*$, and the way to the point \
                      does not kill $U$. Nothing more is claimed.",
@@ -236,7 +235,7 @@ fn ray_blocks(case: &Case, branch: &BranchReport, sign: i32, proof: &RingProof, 
     } else {
         facts.extend(on(&[Position::Unordered]).map(|s| format!("$g$ is {s} on the ring")));
     }
-    let mut blocks: Vec<Block> = seen.once_id("rays").into_iter().collect();
+    let mut blocks: Vec<Block> = seen.once_id(Statement::Rays).into_iter().collect();
     let text = format!("For the rays: {}. The rays that follow are listed with the points.", listed(&facts));
     blocks.push(Block::text(&text, []));
     blocks

@@ -3,7 +3,6 @@
 use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
 use super::super::math::Math;
 use super::super::surface::{head, product_line, span, verdict};
-use super::super::theorems;
 use super::super::words::{listed, mark, tone};
 use super::{Quoted, surface_cycle};
 use crate::case::Case;
@@ -27,10 +26,10 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
     }
     blocks.push(Block::heading(2, "The points"));
     if surface.points.iter().any(|p| p.branches.len() > 1) {
-        blocks.extend(seen.once_id("surface-point"));
+        blocks.extend(seen.once_id(Statement::SurfacePoint));
     }
     if surface.points.iter().any(|p| p.product.is_some()) {
-        blocks.extend(seen.once_id("tensor-product"));
+        blocks.extend(seen.once_id(Statement::TensorProduct));
     }
     for point in &surface.points {
         blocks.push(Block::Heading(3, head(point)));
@@ -94,7 +93,7 @@ fn subspace(branch: &SurfaceBranch) -> Line {
 
 fn dense(case: &Case, dense: &SurfaceDense, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    blocks.push(seen.once(theorems::of(Statement::Theorem5Surface)));
+    blocks.push(seen.once(Statement::Theorem5Surface));
     let name = |e: usize| case.shape.states[e].name.clone();
     let mut checks = Vec::new();
     for (state, point) in &dense.vertices {

@@ -3,7 +3,6 @@
 use super::super::document::{Block, Check, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
 use super::super::surface::witness;
-use super::super::theorems::{self, Theorem};
 use super::super::words::{cell, dimension, listed};
 use super::cycles::{cycle_operator, spectrum_blocks};
 use super::statements::{cell_table_of, eigenvector_blocks, functional_list, names, on_cells, one_of};
@@ -86,7 +85,7 @@ fn ring(branch: &SurfaceBranch, quotes: &mut Quoted) -> Vec<Block> {
         _ => Block::text(&format!("The ring $K$ consists of the cells {}.", listed(&kept)), []),
     });
     if !dropped.is_empty() {
-        blocks.extend(quotes.once_id("lemma-2"));
+        blocks.extend(quotes.once_id(Statement::Lemma2));
         let text =
             format!("By Lemma 2 these cells, which fall into $q$ as a whole, are left out: {}.", listed(&dropped));
         blocks.push(Block::text(&text, []));
@@ -95,21 +94,21 @@ fn ring(branch: &SurfaceBranch, quotes: &mut Quoted) -> Vec<Block> {
 }
 
 /// The statements that are applied to a branch.
-fn cited(o: &SurfaceOutcome, seen: usize) -> Vec<&'static Theorem> {
+fn cited(o: &SurfaceOutcome, seen: usize) -> Vec<Statement> {
     let mut cited = Vec::new();
     match o.statement {
         // The image of U is all that is seen.
         Some(Statement::Corollary) if o.dimension.exact && o.dimension.at_least == seen => {
-            cited.push(theorems::by_id("corollary-image"));
+            cited.push(Statement::CorollaryImage);
         }
-        Some(Statement::Section6) => cited.push(theorems::by_id("section-6-surface")),
-        Some(s) => cited.push(theorems::of(s)),
+        Some(Statement::Section6) => cited.push(Statement::Section6Surface),
+        Some(s) => cited.push(s),
         None => {}
     }
     if o.depth.is_some() {
-        cited.push(theorems::by_id("theorem-1"));
+        cited.push(Statement::Theorem1);
         if o.dimension.exact {
-            cited.push(theorems::by_id("both-bounds"));
+            cited.push(Statement::BothBounds);
         }
     }
     cited

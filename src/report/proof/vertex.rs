@@ -2,12 +2,12 @@
 //! evidence for every valence.
 
 use super::super::document::{Block, Document, Inline, Line, code, line, words};
-use super::super::theorems;
 use super::super::vertex::{evidence_by_valence, overall, ranges, summary_by_valence, twice};
 use super::super::words::mark;
 use super::{Quoted, references};
 use crate::case::VertexCase;
 use crate::scheme::mesh_rules;
+use crate::statement::Statement;
 use crate::theorem::Verdict;
 use crate::vertex::{AtValence, Every};
 
@@ -121,18 +121,18 @@ fn definitions() -> Vec<Block> {
 }
 
 /// The statements that the reasons name, in the order of the theory.
-fn cited(found: &[AtValence], every: Option<&Every>) -> Vec<&'static str> {
+fn cited(found: &[AtValence], every: Option<&Every>) -> Vec<Statement> {
     let says = |what: &str| found.iter().any(|f| f.reason.contains(what));
     let planes = found.iter().any(|f| f.plane == Verdict::Proved && f.winding.is_some());
     let listed = [
-        ("theorem-2", says("(Theorem 2)") || planes),
-        ("theorem-3", says("(Theorem 3)")),
-        ("corollary", says("corollary")),
-        ("lemma-3", planes || every.is_some()),
-        ("lemma-4", says("(Lemma 4)") || found.iter().any(|f| !f.polynomial && f.jacobian.is_some())),
-        ("theorem-7", says("(Theorem 7)") || every.is_some()),
-        ("theorem-8", says("(Theorem 8)")),
-        ("theorem-9", every.is_some_and(Every::proved)),
+        (Statement::Theorem2, says("(Theorem 2)") || planes),
+        (Statement::Theorem3, says("(Theorem 3)")),
+        (Statement::Corollary, says("corollary")),
+        (Statement::Lemma3, planes || every.is_some()),
+        (Statement::Lemma4, says("(Lemma 4)") || found.iter().any(|f| !f.polynomial && f.jacobian.is_some())),
+        (Statement::Theorem7, says("(Theorem 7)") || every.is_some()),
+        (Statement::Theorem8, says("(Theorem 8)")),
+        (Statement::Theorem9, every.is_some_and(Every::proved)),
     ];
-    listed.into_iter().filter(|(_, used)| *used).map(|(id, _)| theorems::by_id(id).id).collect()
+    listed.into_iter().filter(|(_, used)| *used).map(|(s, _)| s).collect()
 }
