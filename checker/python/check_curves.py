@@ -1413,17 +1413,21 @@ class Solved:
         self.lines = [f"{self.verdict}: {n} unknowns, {solutions}, {len(directions)} parameters"]
 
 
-def check(case_text, certificate_text):
+def read(certificate_text):
     refuse = lambda text: need(False, "format")
-    value = json.loads(certificate_text, object_pairs_hook=no_duplicates, parse_float=refuse, parse_constant=refuse)
+    return json.loads(certificate_text, object_pairs_hook=no_duplicates, parse_float=refuse, parse_constant=refuse)
+
+
+def check(case_text, certificate_text):
+    value = read(certificate_text)
     kind = value.get("kind") if isinstance(value, dict) else None
     others = {"spectrum": Spectra, "solve": Solved}
     return others[kind](case_text, value) if kind in others else Certificate(Case(case_text), value)
 
 
-def main(arguments):
+def main(arguments, check=check, usage=__doc__):
     if len(arguments) != 2:
-        print(__doc__, file=sys.stderr)
+        print(usage, file=sys.stderr)
         return 2
     try:
         texts = [open(name, encoding="utf-8").read() for name in arguments]

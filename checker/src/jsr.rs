@@ -129,6 +129,7 @@ fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
     let closed = (0..word.len()).all(|k| arrow(k).1 == arrow((k + 1) % word.len()).0);
     need(closed, "word", "the arrows form no closed path")?;
     let product = (1..word.len()).try_fold(arrow(0).2.clone(), |p, k| p.times(&arrow(k).2))?;
+    need(product.rows > 0, "word", "the path lies in spaces of dimension 0")?;
     let near = has_root_near(&product.characteristic()?, &centre, &e)?;
     error.need(near, "word", "no eigenvalue is seen in this disc")?;
     let reach = power(&bound, word.len())? + &e;

@@ -1,25 +1,26 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
-//! the joint equation of every order (theory §11).
+//! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
 use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, some, whole};
-use crate::curve::{Case, End, Kind, Model, Shape, Way, close};
+use crate::curve::{Case, End, Kind, Model, Piece, Shape, Spaces, Way, close};
 use crate::jsr::{System, bounds};
 use num_traits::{One, Zero};
 
 /// Most orders of one certificate.
 const MAX_ORDERS: usize = 32;
 
-/// The derivatives of one order.
+/// The curves in their visible quotients, and the derivatives of one order.
 struct Level<'a> {
     shape: &'a Shape,
+    spaces: &'a Spaces,
     /// `N`, the number of pieces of every state.
     pieces: usize,
-    /// `N^order`.
-    scale: Q,
+    /// The order `k`.
+    order: usize,
     /// By state: the differences of the derivatives of this order as rows in echelon form.
     families: Vec<Matrix>,
-    /// By state: the derivatives at the start and the finish.
-    ends: Vec<[Matrix; 2]>,
+    /// By state: the derivative of the order before at the finish minus that at the start; for order 0 and 1 the chord.
+    chords: Vec<Matrix>,
 }
 
 /// Checks the proof of a certificate of the kind `regularity`.
@@ -28,132 +29,206 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let model = Model::read(&case.shape, &contraction)?;
     contraction.at(case.shape.check_curves())?;
     let mut level = node.at(Level::first(&model))?;
-    // Orders and radii are those of the curve in barycentric space; a view that folds it may do anything.
-    let start = model.spaces.of(case.shape.start)?;
-    let seen = case.shape.view.times(&start.basis)?.rank()? == start.basis.cols;
-    let curve = if seen { "the curve" } else { "the curve before the projection" };
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
+    let mut exponent = None;
     for (k, item) in items.iter().enumerate() {
-        let [order, dims, radius, joints] = item.fields("order dims radius joints")?;
+        let [order, dims, radius, outcome] = item.fields("order dims radius outcome")?;
         order.need(order.index(MAX_ORDERS)? == k, "orders", "the orders come one after the other")?;
+        let before = level.families.clone();
         if k > 0 {
             level = item.at(level.next())?;
         }
-        let found: Vec<usize> = case.shape.reachable.iter().map(|&e| level.families[e].rows).collect();
+        let found: Vec<usize> = level.shape.reachable.iter().map(|&e| level.families[e].rows).collect();
         dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {found:?}"))?;
         let (low, high) = level.radius(&radius)?;
         let text = format!("the joint spectral radius on the differences of derivatives of order {k}");
         lines.push(format!("proved: {text} is at least {low} and at most {high}"));
-        let joined = if k == 0 {
-            "none"
-        } else {
-            radius.need(&high * &level.scale < Q::one(), "orders", "the radius is not below N to the power -k")?;
-            level.ends = item.at(level.limits(k))?;
-            if level.joined()? { "holds" } else { "fails" }
+        let (smooth, last) = match outcome.text()? {
+            "curve" if k == 0 => (true, false),
+            word @ ("holds" | "joint") if k > 0 => {
+                radius.need(
+                    &high * &level.power(k) < Q::one(),
+                    "orders",
+                    "the radius is not below N to the power -k",
+                )?;
+                let ends = item.at(level.ends())?;
+                let agree = level.joined(&ends)?;
+                outcome.need(agree == (word == "holds"), "orders", "the joint equations say something else")?;
+                level.chords = ends.iter().map(|[start, finish]| finish.minus(start)).collect();
+                (agree, found.iter().all(|d| *d == 0) || !agree)
+            }
+            "cycle" if k > 0 => {
+                let slow = &low * &level.power(k) >= Q::one();
+                radius.need(slow, "orders", "no cycle with a radius of N to the power -k or more")?;
+                (false, true)
+            }
+            "chord" if k > 0 => {
+                outcome.need(level.turns_back(&before)?, "orders", "no chord among the differences")?;
+                (false, true)
+            }
+            _ => return outcome.reject("orders", "an outcome that this order cannot have"),
         };
-        joints.follows("orders", joined)?;
-        let last = found.iter().all(|d| *d == 0) || joined == "fails";
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
-        let smooth = if joined == "fails" { "refuted" } else { "proved" };
-        claims.push(format!("{smooth}: {curve} is C^{k} in the uniform parameter"));
+        let word = if smooth { "proved" } else { "refuted" };
+        claims.push(format!("{word}: the curve is C^{k} in the uniform parameter"));
+        if smooth {
+            exponent = (!found.iter().all(|d| *d == 0)).then(|| (k, low, high));
+        }
     }
+    claims.push(match exponent {
+        None => "proved: the curve is a polynomial in the uniform parameter".to_owned(),
+        Some((k, low, high)) => format!(
+            "proved: the supremum of its exponents k + a, with Hölder exponents a of the derivative of order k = {k}, is the \
+             logarithm of 1/r to the base {}, at least {k} and at most {}, for a number r from {low} to {high}",
+            level.pieces,
+            k + 1
+        ),
+    });
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
 }
 
 impl<'a> Level<'a> {
-    /// The curve itself: every reachable state is an edge of the same number of pieces, none of them reversed.
+    /// The curve itself: every reachable state is an edge of the same number of pieces, and more than a point is seen.
     fn first(model: &'a Model<'a>) -> Checked<Self> {
-        let shape = model.shape;
+        let (shape, spaces) = (model.shape, &model.spaces);
         let pieces = shape.states[shape.start].pieces.len();
         let uniform = shape.reachable.iter().all(|&e| {
             let state = &shape.states[e];
-            state.kind == Kind::Edge && state.pieces.len() == pieces && state.pieces.iter().all(|p| !p.reversed)
+            state.kind == Kind::Edge && state.pieces.len() == pieces
         });
-        need(uniform && pieces >= 2, "orders", "a curve of one number of pieces, none reversed, is needed")?;
+        need(uniform && pieces >= 2, "orders", "a curve of one number of pieces is needed")?;
         let mut families = shape.no_rows();
-        let mut ends: Vec<[Matrix; 2]> = shape.states.iter().map(|s| [0, 1].map(|_| Matrix::zeros(s.dim, 0))).collect();
+        let mut chords = shape.no_rows();
         for &e in &shape.reachable {
-            families[e] = model.spaces.of(e)?.basis.transpose();
-            ends[e] = [shape.end_point(e, End::Start)?, shape.end_point(e, End::Finish)?];
+            let space = spaces.of(e)?;
+            families[e] = Matrix::identity(space.visible.rows);
+            let chord = shape.end_point(e, End::Finish)?.minus(&shape.end_point(e, End::Start)?);
+            chords[e] = space.visible.times(&space.reading.times(&chord)?)?;
         }
         need(families[shape.start].rows > 0, "orders", "the curve is a point")?;
-        Ok(Self { shape, pieces, scale: Q::one(), families, ends })
+        Ok(Self { shape, spaces, pieces, order: 0, families, chords })
+    }
+
+    /// `N^k`.
+    fn power(&self, k: usize) -> Q {
+        num_traits::pow(whole(self.pieces as i64), k)
+    }
+
+    /// `(ε N)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece.
+    fn scaled(&self, e: usize, piece: &Piece) -> Checked<Matrix> {
+        let one = if piece.reversed && self.order % 2 == 1 { -Q::one() } else { Q::one() };
+        Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.power(self.order))))
     }
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
     fn radius(&self, node: &Node<'_>) -> Checked<(Q, Q)> {
+        let reachable = &self.shape.reachable;
         if node.is_null() {
-            node.need(self.families.iter().all(|f| f.rows == 0), "orders", "bounds of a radius are needed here")?;
+            let zero = reachable.iter().all(|&e| self.families[e].rows == 0);
+            node.need(zero, "orders", "bounds of a radius are needed here")?;
             return Ok((Q::zero(), Q::zero()));
         }
-        let place = |e: usize| self.shape.reachable.iter().position(|r| *r == e).unwrap_or(0);
+        let place = |e: usize| some(reachable.iter().position(|r| *r == e), "orders", "a state that is not reached");
         let mut arrows = Vec::new();
         for (e, piece) in self.shape.pieces() {
             let pivots = self.families[e].echelon()?.1;
-            let images = self.families[piece.target].times(&piece.op.transpose())?;
+            let images = self.families[piece.target].times(&self.spaces.on_visible(e, piece)?.transpose())?;
             let matrix = images.columns(&pivots);
             let closed = matrix.times(&self.families[e])? == images;
             need(closed, "orders", "an operator does not act on the differences")?;
-            arrows.push((place(e), place(piece.target), matrix.transpose()));
+            arrows.push((place(e)?, place(piece.target)?, matrix.transpose()));
         }
-        let dims = self.shape.reachable.iter().map(|&e| self.families[e].rows).collect();
+        let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
         let found = bounds(&System { name: String::new(), dims, arrows }, node)?;
         Ok((found.lower, found.upper))
     }
 
-    /// The differences of the next derivative: the smallest families with `N^k T_i c_δ − c_e ∈ F_e`, `T_i F_δ ⊂ F_e`, which must
-    /// have codimension 1. Its values at the ends are not computed yet: the ends are still those of the derivative before.
+    /// The differences of the next derivative: the smallest families with `(ε N)^k T_i c_δ − c_e ∈ F_e`, `T_i F_δ ⊂ F_e`. The
+    /// chords are still those of the derivative before.
     fn next(self) -> Checked<Self> {
-        let scale = &self.scale * whole(self.pieces as i64);
-        let mut families = self.shape.no_rows();
-        for (e, piece) in self.shape.pieces() {
-            let image = piece.op.times(&self.chord(piece.target))?.scaled(&scale);
-            families[e] = families[e].stack(&image.minus(&self.chord(e)).transpose());
+        let next = Self { order: self.order + 1, ..self };
+        let mut families = next.shape.no_rows();
+        for &e in &next.shape.reachable {
+            families[e] = Matrix::empty(next.spaces.of(e)?.visible.rows);
         }
-        let families = close(self.shape, families, Way::Up, |_, p, span| span.times(&p.op.transpose()))?;
-        let lower = self.shape.reachable.iter().all(|&e| families[e].rows + 1 == self.families[e].rows);
-        need(lower, "orders", "the differences of the next derivative do not have codimension 1")?;
-        Ok(Self { scale, families, ..self })
+        for (e, piece) in next.shape.pieces() {
+            let image = next.scaled(e, piece)?.times(&next.chords[piece.target])?;
+            families[e] = families[e].stack(&image.minus(&next.chords[e]).transpose());
+        }
+        let image = |e: usize, p: &Piece, span: &Matrix| span.times(&next.spaces.on_visible(e, p)?.transpose());
+        let families = close(next.shape, families, Way::Up, image)?;
+        Ok(Self { families, ..next })
     }
 
-    fn chord(&self, e: usize) -> Matrix {
-        self.ends[e][1].minus(&self.ends[e][0])
-    }
-
-    /// The values at the ends of the derivative of order `k`.
-    fn limits(&self, k: usize) -> Checked<Vec<[Matrix; 2]>> {
-        let mut ends = self.ends.clone();
+    /// Whether, in a strongly connected part that no arrow leaves, a chord lies among the differences of its derivative, although
+    /// the curve of the order before, whose differences are given, is more than a point.
+    fn turns_back(&self, before: &[Matrix]) -> Checked<bool> {
+        let reached = |from: usize| {
+            let (mut list, mut next) = (vec![from], 0);
+            while next < list.len() {
+                for piece in &self.shape.states[list[next]].pieces {
+                    if !list.contains(&piece.target) {
+                        list.push(piece.target);
+                    }
+                }
+                next += 1;
+            }
+            list
+        };
         for &e in &self.shape.reachable {
-            ends[e] = [self.limit(e, End::Start, k)?, self.limit(e, End::Finish, k)?];
+            let inside = self.families[e].stack(&self.chords[e].transpose()).rank()? == self.families[e].rows;
+            if before[e].rows > 0 && inside && reached(e).iter().all(|&d| reached(d).contains(&e)) {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The derivatives at the start and the finish, by state.
+    fn ends(&self) -> Checked<Vec<[Matrix; 2]>> {
+        let mut ends: Vec<[Matrix; 2]> = self.chords.iter().map(|c| [c.clone(), c.clone()]).collect();
+        for &e in &self.shape.reachable {
+            ends[e] = [self.limit(e, End::Start)?, self.limit(e, End::Finish)?];
         }
         Ok(ends)
     }
 
-    /// Along the address of an end `N^k T c` tends to the fixed vector of the scaled cycle in `c + F`, which is unique because the
-    /// radius on `F` is below `N^-k`.
-    fn limit(&self, e: usize, end: End, k: usize) -> Checked<Matrix> {
+    /// Along the address of an end `(ε N)^k T c` tends to the fixed vector of the scaled cycle in `c + F`, which is unique because
+    /// the radius on `F` is below `N^-k`.
+    fn limit(&self, e: usize, end: End) -> Checked<Matrix> {
         let address = some(self.shape.end_address(e, end, &|_, _| false), "orders", "a state without pieces")?;
-        // The scale is `N^k` for each letter.
-        let power = |letters: usize| num_traits::pow(whole(self.pieces as i64), k * letters);
-        let (prefix, home) = self.shape.product(e, &address.prefix)?;
-        let (cycle, _) = self.shape.product(home, &address.cycle)?;
-        let shifted = cycle.scaled(&power(address.cycle.len())).minus(&Matrix::identity(cycle.rows));
-        let (chord, family) = (self.chord(home), self.families[home].transpose());
+        let (prefix, home) = self.product(e, &address.prefix)?;
+        let (cycle, back) = self.product(home, &address.cycle)?;
+        need(home == back, "orders", "the cycle of an end does not return to its state")?;
+        let shifted = cycle.minus(&Matrix::identity(cycle.rows));
+        let (chord, family) = (&self.chords[home], self.families[home].transpose());
         // c + F y is fixed.
         let y = shifted.times(&family)?.solve(&shifted.times(&chord.scaled(&-Q::one()))?)?;
         let y = some(y, "orders", "the derivative at an end is not unique")?;
-        let fixed = family.times(&y)?.plus(&Q::one(), &chord);
-        prefix.scaled(&power(address.prefix.len())).times(&fixed)
+        let fixed = family.times(&y)?.plus(&Q::one(), chord);
+        prefix.times(&fixed)
+    }
+
+    /// The product of the scaled operators along a word, and the state where it ends.
+    fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
+        let (mut product, mut at) = (Matrix::identity(self.spaces.of(from)?.visible.rows), from);
+        for &letter in word {
+            let piece = some(self.shape.states[at].pieces.get(letter), "word", "a letter that does not exist")?;
+            (product, at) = (product.times(&self.scaled(at, piece)?)?, piece.target);
+        }
+        Ok((product, at))
     }
 
     /// The joint equation: at the first-level joints of all states the derivatives of the two sides agree.
-    fn joined(&self) -> Checked<bool> {
+    fn joined(&self, ends: &[[Matrix; 2]]) -> Checked<bool> {
         let mut joined = true;
         for &e in &self.shape.reachable {
             for pair in self.shape.states[e].pieces.windows(2) {
-                let left = pair[0].op.times(&self.ends[pair[0].target][1])?;
-                joined &= left == pair[1].op.times(&self.ends[pair[1].target][0])?;
+                let value = |piece: &Piece, end: End| {
+                    self.scaled(e, piece)?.times(&ends[piece.target][end.in_piece(piece) as usize])
+                };
+                joined &= value(&pair[0], End::Finish)? == value(&pair[1], End::Start)?;
             }
         }
         Ok(joined)

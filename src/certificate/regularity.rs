@@ -3,11 +3,12 @@
 use super::joint::radius_proof;
 use super::{Certificate, Unsupported, contraction, unsupported};
 use crate::case::Case;
+use crate::radius::{JointRadius, Lower, System};
 use crate::shape::{Balls, Contraction, Spaces};
-use crate::theorem::smoothness::{CurveOrder, CurveRegularity, JointEquation};
+use crate::theorem::smoothness::{CurveOrder, CurveRegularity, Outcome};
 use serde_json::{Value, json};
 
-/// The certificate of the orders that were decided: their radii, and whether their joint equations hold.
+/// The certificate of the orders that were decided: their radii and what follows.
 ///
 /// # Errors
 /// [`Unsupported`] where contraction is not proved, or a radius has no certificate.
@@ -23,7 +24,7 @@ pub fn regularity_certificate(
     };
     let radii = shape.reachable().into_iter().map(|e| (e, balls.radius(e)));
     let states = contraction(shape, contracts, radii, None)?;
-    let decided = found.orders.iter().take_while(|o| o.smooth.is_some());
+    let decided = found.orders.iter().take_while(|o| o.smooth().is_some());
     let orders = decided.map(order).collect::<Result<Vec<Value>, _>>()?;
     let proof = json!({"contraction": states, "orders": orders});
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
@@ -32,13 +33,30 @@ pub fn regularity_certificate(
 fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
     let radius = match (&order.system, &order.radius) {
         (None, _) => Value::Null,
-        (Some(system), Some(radius)) => radius_proof(system, radius)?,
+        (Some(system), Some(radius)) => radius_proof(system, &radius_with_a_rational_word(system, radius))?,
         (Some(_), None) => return unsupported("a radius without bounds", format!("order {}", order.order)),
     };
-    let joints = match &order.joints {
-        None => "none",
-        Some(JointEquation::Holds) => "holds",
-        Some(JointEquation::Fails { .. }) => "fails",
+    let outcome = match &order.outcome {
+        Outcome::Curve => "curve",
+        Outcome::Holds => "holds",
+        Outcome::Joint(_) => "joint",
+        Outcome::Cycle => "cycle",
+        Outcome::Chord(_) => "chord",
+        Outcome::Open => return unsupported("an order that is not decided", format!("order {}", order.order)),
     };
-    Ok(json!({"order": order.order, "dims": order.dims, "radius": radius, "joints": joints}))
+    Ok(json!({"order": order.order, "dims": order.dims, "radius": radius, "outcome": outcome}))
+}
+
+/// Powers of the leading word that are tried.
+const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
+
+/// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
+/// words a certificate says more than an inequality with room.
+fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
+    let irrational = radius.lower.as_ref().filter(|l| l.root.rational().is_none());
+    let power = irrational.and_then(|lower| {
+        let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
+        powers.into_iter().find(|l| l.root.rational().is_some())
+    });
+    JointRadius { lower: power.or_else(|| radius.lower.clone()), ..radius.clone() }
 }

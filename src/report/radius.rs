@@ -5,7 +5,7 @@ use crate::radius::{Growth, JointRadius, Proof};
 use crate::shape::Shape;
 use crate::shape::word_text;
 use crate::theorem::regularity::{Attained, Regularity};
-use crate::theorem::smoothness::{CurveRegularity, JointEquation};
+use crate::theorem::smoothness::{CurveOrder, CurveRegularity, Outcome};
 use crate::theorem::wavelet::Wavelet;
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor, Pow};
 use std::fmt::Write as _;
@@ -161,56 +161,99 @@ pub fn wavelet(w: &Wavelet) -> String {
 pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
     let mut out = String::new();
     let _ = writeln!(out, "curve of {} pieces in every state, in the uniform parameter", r.pieces);
-    if r.projected {
-        out.push_str("note        this is about the curve before the projection by the control points\n");
-    }
-    condition(&mut out, r.pieces);
+    let _ = writeln!(
+        out,
+        "condition   C^k if and only if C^(k-1), products of k-th derivatives tend to 0 on their differences\n            \
+         (JSR < {}^-k), and the two values agree at every joint",
+        r.pieces
+    );
     out.push_str("k   dims      JSR on differences of derivatives  bound    joints  C^k    word\n");
     let mut notes = String::new();
     for o in &r.orders {
         let radius = o.enclosure.as_ref().map_or_else(|| "-".to_owned(), interval);
-        let joint = match &o.joints {
-            None => "-".to_owned(),
-            Some(JointEquation::Holds) => "holds".to_owned(),
-            Some(JointEquation::Fails { state, right, .. }) => {
-                let of = if shape.states.len() > 1 {
-                    format!(" of state {}", shape.states[*state].name)
-                } else {
-                    String::new()
-                };
-                let _ = writeln!(notes, "joints      the equation of order {} fails before piece {right}{of}", o.order);
-                "fail".to_owned()
-            }
+        let joint = match &o.outcome {
+            Outcome::Holds => "agree",
+            Outcome::Joint(_) => "differ",
+            _ => "-",
         };
-        let word = match o.smooth {
+        let word = match o.smooth() {
             Some(true) => "yes",
             Some(false) => "no",
             None => "open",
         };
-        let letters = o.radius.as_ref().and_then(|r| r.lower.as_ref()).map(|l| l.word.clone());
-        let letters = letters.map_or_else(|| "-".to_owned(), |w| word_text(&w));
+        let letters = o.radius.as_ref().and_then(|r| r.lower.as_ref());
+        let letters = letters.map_or_else(|| "-".to_owned(), |l| cycle(shape, r.pieces, &l.path));
         let dims = format!("{:?}", o.dims);
         let threshold = o.threshold.to_string();
         let _ = writeln!(out, "{:<3} {dims:<9} {radius:<34} {threshold:<8} {joint:<7} {word:<6} {letters}", o.order);
-    }
-    out.push_str(&notes);
-    let k = r.smoothness();
-    if r.polynomial {
-        out.push_str("smoothness  the curve is a polynomial in the parameter\n");
-        return out;
-    }
-    let _ = writeln!(out, "smoothness  C^{k} proved");
-    if let Some(e) = &r.exponent {
-        let most = Rational::from(k as u64 + 1);
-        if e.lo >= most {
-            let _ = writeln!(out, "exponent    >= {most} (as a supremum of exponents)");
-        } else if e.hi > most {
-            let _ = writeln!(out, "exponent    >= {}", decimal(&e.lo, false, PLACES));
-        } else {
-            let _ = writeln!(out, "exponent    {}", interval(e));
+        if let Some(note) = outcome(shape, o) {
+            let _ = writeln!(notes, "order {:<5} {note}", o.order);
         }
     }
+    out.push_str(&notes);
+    smoothness(&mut out, r);
     out
+}
+
+/// The letters of a cycle of arrows, which are numbered by state and letter, and the state where it begins.
+fn cycle(shape: &Shape, pieces: usize, path: &[usize]) -> String {
+    let word = word_text(&path.iter().map(|a| a % pieces).collect::<Vec<_>>());
+    match path.first().and_then(|a| shape.reachable().get(a / pieces).copied()) {
+        Some(e) if shape.states.len() > 1 => format!("{word} at {}", shape.states[e].name),
+        _ => word,
+    }
+}
+
+/// Why an order is refuted or open.
+fn outcome(shape: &Shape, o: &CurveOrder) -> Option<String> {
+    let k = o.order;
+    let state = |e: usize| match shape.states.len() {
+        1 => String::new(),
+        _ => format!(" of state {}", shape.states[e].name),
+    };
+    Some(match &o.outcome {
+        Outcome::Curve | Outcome::Holds => return None,
+        Outcome::Joint(jump) => {
+            let at = format!("the derivative has two values before piece {}{}", jump.right, state(jump.state));
+            match &jump.seen {
+                None => at,
+                Some(seen) => {
+                    let inside = match seen.path.is_empty() {
+                        true => String::new(),
+                        false => format!(" in the cell {}", word_text(&seen.path)),
+                    };
+                    let point = |v: &[Rational]| v.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+                    format!("{at}{inside}: ({}) and ({})", point(&seen.left), point(&seen.right))
+                }
+            }
+        }
+        Outcome::Cycle => format!("products along the word of the radius do not tend to 0: not C^{k}"),
+        Outcome::Chord(e) => {
+            format!("the chord{} of order {} is among the differences of the derivative: not C^{k}", state(*e), k - 1)
+        }
+        Outcome::Open => "the bounds of the radius do not decide whether it is below the bound".to_owned(),
+    })
+}
+
+fn smoothness(out: &mut String, r: &CurveRegularity) {
+    let k = r.smoothness();
+    if r.polynomial {
+        out.push_str("smoothness  the curve is a polynomial in the parameter: C^k for all k\n");
+        return;
+    }
+    let exact = match r.orders.get(k + 1).and_then(CurveOrder::smooth) {
+        Some(false) => format!(", and not C^{}", k + 1),
+        _ => String::new(),
+    };
+    let _ = writeln!(out, "smoothness  C^{k}{exact}: proved");
+    if let Some(e) = &r.exponent {
+        let note = match r.attained {
+            Some(true) => "attained",
+            Some(false) => "the supremum, not attained",
+            None => "the supremum; attained or not: not decided",
+        };
+        let _ = writeln!(out, "exponent    {} ({note})", interval(e));
+    }
 }
 
 #[cfg(test)]

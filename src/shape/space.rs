@@ -69,6 +69,24 @@ impl Spaces {
     pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Matrix {
         &self.of(to).coordinates * &(op * &self.of(from).basis)
     }
+
+    /// The coordinates of a vector of `V_state` in the visible quotient `W_state`.
+    #[must_use]
+    pub fn in_visible(&self, state: usize, v: &[Rational]) -> Vec<Rational> {
+        let space = self.of(state);
+        space.visible.apply(&space.coordinates.apply(v))
+    }
+
+    /// The map `W_from -> W_to` of visible quotients (theory §9) that `op : X_from -> X_to` induces; `None` where it induces
+    /// none, which happens for no piece of a shape.
+    #[must_use]
+    pub fn on_visible(&self, op: &Matrix, to: usize, from: usize) -> Option<Matrix> {
+        let onto = &self.of(to).visible * &self.linear(op, to, from);
+        // The rows of `onto` are combinations of the echelon rows of `from`, with the coefficients in their leading columns.
+        let target = self.of(from).visible.echelon();
+        let map = Matrix::from_fn(onto.rows(), target.pivots.len(), |i, j| onto[(i, target.pivots[j])].clone());
+        (&map * &target.rows == onto).then_some(map)
+    }
 }
 
 /// Reads letter 0 from every state until a state repeats.

@@ -1,0 +1,367 @@
+//! Smoothness of curves in the uniform parameter, in the visible quotients: worked values, and systems with killed directions
+//! against systems without them, closed forms and exact difference quotients.
+
+use proptest::prelude::*;
+use secant::arith::{Integer, Rational, abs, ratio, to_f64};
+use secant::linalg::Matrix;
+use secant::radius::Options;
+use secant::shape::{CellKind, End, Frame, Piece, Shape, Spaces, State};
+use secant::theorem::smoothness::{CurveRegularity, Outcome, Seen, curve_regularity};
+
+/// An affine map `R^m -> R^n` as rows `[shift, coefficients…]`, on the simplices `0, e_1, …`.
+fn map(rows: &[Vec<Rational>]) -> Matrix {
+    let inputs = rows[0].len() - 1;
+    let image = |j: usize| -> Vec<Rational> {
+        let x = rows.iter().map(|r| if j == 0 { r[0].clone() } else { &r[0] + &r[j] }).collect::<Vec<_>>();
+        let rest = Rational::from(1) - x.iter().fold(Rational::from(0), |s, v| s + v);
+        std::iter::once(rest).chain(x).collect()
+    };
+    Matrix::from_columns(rows.len() + 1, &(0..=inputs).map(image).collect::<Vec<_>>())
+}
+
+fn integers(rows: &[&[(i64, i64)]]) -> Matrix {
+    map(&rows.iter().map(|r| r.iter().map(|&(p, q)| ratio(p, q)).collect()).collect::<Vec<_>>())
+}
+
+fn state(name: &str, pieces: Vec<(usize, Matrix)>) -> State {
+    let dim = pieces[0].1.rows();
+    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false }).collect();
+    State { name: name.into(), kind: CellKind::Edge, dim, pieces, left: None, right: None }
+}
+
+fn automaton(states: Vec<State>) -> Shape {
+    let shape = Shape { states, start: 0, control: None, frame: Frame::Barycentric };
+    shape.check().unwrap();
+    shape.check_curves().unwrap();
+    shape
+}
+
+fn analysed(shape: &Shape) -> CurveRegularity {
+    curve_regularity(shape, &Spaces::new(shape).unwrap(), &Options::default()).unwrap()
+}
+
+/// `S` sees the first coordinate of Takagi–Landsberg curves only, whose jumps the path from the start kills.
+fn killed_jump(factor: &Rational) -> Shape {
+    let half = || ratio(1, 2);
+    let zero = || ratio(0, 1);
+    let left = map(&[vec![zero(), half(), zero()], vec![zero(), half(), factor.clone()]]);
+    let right = map(&[vec![half(), half(), zero()], vec![half(), -half(), factor.clone()]]);
+    let seen = |shift: i64| integers(&[&[(shift, 2), (1, 2), (0, 1)]]);
+    automaton(vec![state("S", vec![(1, seen(0)), (1, seen(1))]), state("B", vec![(1, left), (1, right)])])
+}
+
+#[test]
+fn a_jump_that_the_path_from_the_start_kills() {
+    for factor in [ratio(1, 3), ratio(2, 3), ratio(3, 4), ratio(-1, 2)] {
+        let found = analysed(&killed_jump(&factor));
+        assert!(found.polynomial, "{factor}");
+        assert_eq!(found.orders[0].dims, [1, 1]);
+        assert_eq!(found.orders[1].dims, [0, 0]);
+        assert!(found.orders.iter().all(|o| o.smooth() == Some(true)));
+    }
+}
+
+#[test]
+fn powers_in_a_transient_state_are_smooth() {
+    // (t, t², t³) in its two halves.
+    let power = |from: i64| {
+        let (a, h) = (ratio(from, 2), ratio(1, 2));
+        let of = |k: usize| (0..k).fold(ratio(1, 1), |p, _| p * &a);
+        let half = |k: usize| (0..k).fold(ratio(1, 1), |p, _| p * &h);
+        let z = || ratio(0, 1);
+        vec![
+            vec![a.clone(), h.clone(), z(), z()],
+            vec![of(2), ratio(2, 1) * &a * &h, half(2), z()],
+            vec![of(3), ratio(3, 1) * of(2) * &h, ratio(3, 1) * &a * half(2), half(3)],
+        ]
+    };
+    let curve = || state("a", vec![(1, map(&power(0))), (1, map(&power(1)))]);
+    for degree in [2_usize, 3] {
+        let seen = |from: i64| map(&[power(from)[degree - 1].clone()]);
+        let own = || map(&[vec![ratio(0, 1), ratio(1, 1 << degree)]]);
+        // I -> I, a and s -> a, a.
+        for first in [(0, own()), (1, seen(0))] {
+            let found = analysed(&automaton(vec![state("I", vec![first, (1, seen(1))]), curve()]));
+            assert!(found.polynomial && found.smoothness() == degree, "{degree}: {:?}", found.orders);
+        }
+        let found = analysed(&automaton(vec![state("I", vec![(0, own()), (1, seen(1))]), curve()]));
+        let dims: Vec<usize> = found.orders.iter().map(|o| o.dims[0]).collect();
+        assert_eq!(dims, [vec![1; degree], vec![0]].concat());
+    }
+}
+
+fn takagi(factor: Rational) -> CurveRegularity {
+    analysed(&secant::scheme::build("takagi", &[("alpha".to_owned(), factor)].into()).unwrap())
+}
+
+fn jump(found: &CurveRegularity) -> &Seen {
+    match &found.orders.last().unwrap().outcome {
+        Outcome::Joint(jump) => jump.seen.as_ref().unwrap(),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn takagi_and_landsberg() {
+    // Factor 1/4: a parabola; 1/2: products along a letter do not tend to 0; 1/3 and 1/8: the slopes at the joint differ.
+    let quarter = takagi(ratio(1, 4));
+    assert!(quarter.polynomial && quarter.smoothness() == 2);
+    let half = takagi(ratio(1, 2));
+    assert_eq!((half.smoothness(), &half.orders[1].outcome), (0, &Outcome::Cycle));
+    assert_eq!(half.exponent.as_ref().unwrap().lo, 1);
+    assert_eq!(half.attained, Some(false));
+    for (factor, left, right) in [(ratio(1, 3), -1, 1), (ratio(1, 8), 2, -2)] {
+        let found = takagi(factor.clone());
+        let scale = if factor == ratio(1, 8) { 3 } else { 1 };
+        let seen = jump(&found);
+        assert_eq!(seen.path, Vec::<usize>::new());
+        let height = |v: &[Rational]| v.last().unwrap().clone();
+        assert_eq!((height(&seen.left), height(&seen.right)), (ratio(left, scale), ratio(right, scale)), "{factor}");
+        assert_eq!(found.smoothness(), 0);
+    }
+    let rough = takagi(ratio(2, 3));
+    assert_eq!(rough.orders[1].outcome, Outcome::Cycle);
+    assert!((to_f64(&rough.exponent.unwrap().lo) - 0.584_962_500_721).abs() < 1e-9);
+}
+
+/// The second integral of the Takagi function: C², its second derivative has the exponent 1 as a supremum only.
+#[test]
+fn twice_integrated() {
+    let left: &[&[(i64, i64)]] = &[
+        &[(0, 1), (1, 2), (0, 1), (0, 1), (0, 1)],
+        &[(0, 1), (0, 1), (1, 4), (0, 1), (0, 1)],
+        &[(0, 1), (0, 1), (0, 1), (1, 8), (0, 1)],
+        &[(0, 1), (0, 1), (0, 1), (1, 48), (1, 8)],
+    ];
+    let right: &[&[(i64, i64)]] = &[
+        &[(1, 2), (1, 2), (0, 1), (0, 1), (0, 1)],
+        &[(1, 4), (1, 2), (1, 4), (0, 1), (0, 1)],
+        &[(1, 8), (3, 8), (3, 8), (1, 8), (0, 1)],
+        &[(5, 96), (1, 8), (1, 16), (-1, 48), (1, 8)],
+    ];
+    let found = analysed(&automaton(vec![state("A", vec![(0, integers(left)), (0, integers(right))])]));
+    assert_eq!(found.smoothness(), 2);
+    assert_eq!(found.orders.iter().map(|o| o.dims[0]).collect::<Vec<_>>(), [4, 3, 2, 1]);
+    assert_eq!(found.orders[3].outcome, Outcome::Cycle);
+    assert_eq!(found.exponent.unwrap(), secant::arith::Interval::point(ratio(3, 1)));
+    assert_eq!(found.attained, Some(false));
+}
+
+#[test]
+fn splines_and_the_four_point_scheme() {
+    let of = |name: &str, parameters: &[(&str, i64)]| {
+        let values = parameters.iter().map(|(k, v)| ((*k).to_owned(), ratio(*v, 1))).collect();
+        analysed(&secant::scheme::build(name, &values).unwrap())
+    };
+    // One span of a B-spline is a polynomial.
+    for degree in 1..=5 {
+        let spline = of("bspline", &[("degree", degree)]);
+        assert!(spline.polynomial && spline.smoothness() == usize::try_from(degree).unwrap());
+    }
+    let four = of("four-point", &[]);
+    assert_eq!((four.smoothness(), four.attained), (1, Some(false)));
+}
+
+/// A curve that comes back to where it begins has the chord 0.
+#[test]
+fn a_closed_curve_has_a_chord_among_the_differences() {
+    let found = analysed(&secant::scheme::build("koch", &[].into()).unwrap());
+    assert!(matches!(found.orders[1].outcome, Outcome::Cycle | Outcome::Chord(_)));
+    assert_eq!(found.smoothness(), 0);
+}
+
+/// A function over the parameter: `y ↦ factor y + first x + second x² + shift` on the halves, from `(0, 0)` over
+/// `(1/2, height)` to `(1, end)`.
+#[derive(Debug, Clone)]
+struct Function {
+    factors: [Rational; 2],
+    second: [Rational; 2],
+    height: Rational,
+    end: Rational,
+}
+
+impl Function {
+    /// `[shift, x, x², y]` of a half.
+    fn row(&self, piece: usize) -> Vec<Rational> {
+        let (a, d) = (&self.factors[piece], &self.second[piece]);
+        let (shift, target) = match piece {
+            0 => (ratio(0, 1), self.height.clone()),
+            _ => (self.height.clone(), self.end.clone()),
+        };
+        let first = target - &shift - a * &self.end - d;
+        vec![shift, first, d.clone(), a.clone()]
+    }
+
+    /// The slopes of the two pieces at 1/2, where both factors are below 1/2.
+    fn slopes(&self) -> [Rational; 2] {
+        let rows = [self.row(0), self.row(1)];
+        let slope = |piece: usize, x: i64| &rows[piece][1] + ratio(2 * x, 1) * &rows[piece][2];
+        let end = |piece: usize, x: i64| slope(piece, x) / (ratio(1, 2) - &self.factors[piece]);
+        let (start, finish) = (end(0, 0), end(1, 1));
+        let at = |piece: usize, x: i64, y: &Rational| (&self.factors[piece] * y + slope(piece, x)) * ratio(2, 1);
+        [at(0, 1, &finish), at(1, 0, &start)]
+    }
+}
+
+fn parabola(piece: i64) -> [Vec<Rational>; 2] {
+    let q = |p: i64, r: i64| ratio(p, r);
+    [vec![q(piece, 2), q(1, 2), q(0, 1)], vec![q(piece, 4), q(piece, 2), q(1, 4)]]
+}
+
+/// Rows of a map of `(x, x², y)` or, with a function below it that nobody sees, of `(x, x², y, z)`.
+fn rows(top: &Function, below: Option<(&Function, &[Rational; 2])>, piece: usize) -> Vec<Vec<Rational>> {
+    let size = if below.is_some() { 5 } else { 4 };
+    let mut out = parabola(i64::try_from(piece).unwrap()).to_vec();
+    out.push(top.row(piece));
+    if let Some((function, mixed)) = below {
+        // z ↦ … + c (y − end x) keeps the values at the ends.
+        let mut row = function.row(piece);
+        let own = row.pop().unwrap();
+        row[1] -= &mixed[piece] * &top.end;
+        row.extend([mixed[piece].clone(), own]);
+        out.push(row);
+    }
+    out.iter_mut().for_each(|r| r.resize(size, ratio(0, 1)));
+    out
+}
+
+fn small(numerator: i64) -> impl Strategy<Value = Rational> {
+    (-numerator..=numerator, 1i64..=4).prop_map(|(p, q)| ratio(p, q))
+}
+
+fn function() -> impl Strategy<Value = Function> {
+    let factor = || (-9i64..=9).prop_map(|p| ratio(p, 10));
+    (factor(), factor(), small(3), small(3), small(3), small(3), prop::bool::ANY).prop_map(
+        |(a, b, c, d, height, end, joined)| {
+            let mut f = Function { factors: [a, b], second: [c, d], height, end };
+            if joined && f.factors.iter().all(|x| abs(x) < ratio(1, 2)) {
+                // The slopes at 1/2 are affine in the height.
+                let gap = |f: &Function| {
+                    let [l, r] = f.slopes();
+                    l - r
+                };
+                let at = |h: i64| gap(&Function { height: ratio(h, 1), ..f.clone() });
+                let (g, step) = (at(0), at(1) - at(0));
+                if step != 0 {
+                    f.height = -g / step;
+                }
+            }
+            f
+        },
+    )
+}
+
+fn shear() -> impl Strategy<Value = Matrix> {
+    prop::collection::vec((0usize..5, 0usize..5, -2i64..=2), 6).prop_map(|moves| {
+        let mut s = Matrix::identity(5);
+        for (i, j, c) in moves {
+            // Columns keep their sums: subtract a row from two.
+            let k = (0..5).find(|k| *k != i && *k != j).unwrap();
+            if i != j {
+                for col in 0..5 {
+                    let change = &s[(j, col)] * ratio(c, 1);
+                    s[(i, col)] += &change;
+                    s[(k, col)] -= change;
+                }
+            }
+        }
+        s
+    })
+}
+
+/// The same outcomes, where both are decided.
+fn agree(a: &CurveRegularity, b: &CurveRegularity) {
+    for (x, y) in a.orders.iter().zip(&b.orders) {
+        assert!(x.smooth().is_none() || y.smooth().is_none() || x.smooth() == y.smooth(), "{x:?}\n{y:?}");
+        assert_eq!(x.dims.last(), y.dims.last());
+        let (p, q) = (x.enclosure.as_ref().unwrap(), y.enclosure.as_ref().unwrap());
+        assert!(p.lo <= q.hi && q.lo <= p.hi, "{p:?} {q:?}");
+    }
+    assert_eq!(a.polynomial, b.polynomial);
+}
+
+/// Difference quotients of a curve at a joint tend to the two values.
+fn quotients(shape: &Shape, right: usize, seen: &Seen) {
+    let view = shape.view();
+    let chord = |word: &[usize]| -> Vec<Rational> {
+        let (product, state) = shape.product(shape.start, word);
+        let end = |end| shape.end_point(state, end).unwrap();
+        let (start, finish) = (end(End::Start), end(End::Finish));
+        let scale = Rational::from(Integer::from(1) << (word.len() as u64));
+        let d: Vec<Rational> = finish.iter().zip(&start).map(|(a, b)| (a - b) * &scale).collect();
+        view.apply(&product.apply(&d))
+    };
+    let distance = |depth: usize| {
+        let word = |side: usize, letter: usize| [seen.path.clone(), vec![right - side], vec![letter; depth]].concat();
+        let far =
+            |a: Vec<Rational>, b: &[Rational]| a.iter().zip(b).map(|(x, y)| to_f64(&(x - y)).abs()).fold(0.0, f64::max);
+        far(chord(&word(1, 1)), &seen.left).max(far(chord(&word(0, 0)), &seen.right))
+    };
+    let (near, far) = (distance(60), distance(5));
+    assert!(near < 1e-6 || near < far / 2.0, "{far} {near}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    /// Directions that no path from the start sees change nothing, in whatever coordinates they are written.
+    #[test]
+    fn killed_directions(
+        top in function(),
+        below in function(),
+        mixed in [small(2), small(2)],
+        shear in shear(),
+        only_height in prop::bool::ANY,
+        levels in 1usize..=2,
+    ) {
+        let plain = {
+            let pieces = (0..2).map(|k| (0, map(&rows(&top, None, k)))).collect();
+            let mut shape = automaton(vec![state("E", pieces)]);
+            if only_height {
+                shape.control = Some(Matrix::from_fn(1, 4, |_, j| ratio(i64::from(j == 3), 1)));
+            }
+            shape
+        };
+        let killed = {
+            let inverse = shear.inverse().unwrap();
+            let whole: Vec<Matrix> = (0..2).map(|k| map(&rows(&top, Some((&below, &mixed)), k))).collect();
+            let inside = whole.iter().map(|m| (levels, &(&shear * m) * &inverse)).collect();
+            let keep = |rows: Vec<Vec<Rational>>| if only_height { vec![rows[2].clone()] } else { rows[..3].to_vec() };
+            let seen = (0..2).map(|k| (levels, &map(&keep(rows(&top, Some((&below, &mixed)), k))) * &inverse)).collect();
+            let mut states = vec![state("S", seen), state("B", inside)];
+            if levels == 2 {
+                // Two levels of the curve of B in one state more.
+                let upper = (0..2).map(|k| {
+                    let one = map(&keep(rows(&top, Some((&below, &mixed)), k)));
+                    (1, one)
+                }).collect();
+                let middle = (0..2).map(|k| (2, &whole[k] * &inverse)).collect();
+                states = vec![state("S", upper), state("M", middle), states.pop().unwrap()];
+            }
+            automaton(states)
+        };
+        if Spaces::new(&plain).unwrap().of(0).visible.rows() == 0 {
+            return Ok(());
+        }
+        let (a, b) = (analysed(&plain), analysed(&killed));
+        agree(&a, &b);
+        // Barnsley and Harrington: C¹ if and only if the factors are below 1/2 and the slopes agree, but for polynomials.
+        let steep = top.factors.iter().any(|f| abs(f) >= ratio(1, 2));
+        for found in [&a, &b] {
+            if !found.polynomial {
+                let expected = !steep && { let [l, r] = top.slopes(); l == r };
+                prop_assert_eq!(found.orders[1].smooth(), Some(expected));
+            }
+        }
+        if let Outcome::Joint(jump) = &a.orders.last().unwrap().outcome {
+            if a.orders.len() == 2 {
+                quotients(&plain, jump.right, jump.seen.as_ref().unwrap());
+            }
+        }
+        if let Outcome::Joint(jump) = &b.orders.last().unwrap().outcome {
+            if b.orders.len() == 2 {
+                quotients(&killed, jump.right, jump.seen.as_ref().unwrap());
+            }
+        }
+    }
+}
