@@ -73,7 +73,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         let word = if smooth { "proved" } else { "refuted" };
         claims.push(format!("{word}: the curve is C^{k} in the uniform parameter"));
         if smooth {
-            exponent = (!found.iter().all(|d| *d == 0)).then(|| (k, low, high));
+            exponent = (!found.iter().all(|d| *d == 0)).then_some((k, low, high));
         }
     }
     claims.push(match exponent {
