@@ -353,14 +353,10 @@ proptest! {
                 prop_assert_eq!(found.orders[1].smooth(), Some(expected));
             }
         }
-        if let Outcome::Joint(jump) = &a.orders.last().unwrap().outcome {
-            if a.orders.len() == 2 {
-                quotients(&plain, jump.right, jump.seen.as_ref().unwrap());
-            }
-        }
-        if let Outcome::Joint(jump) = &b.orders.last().unwrap().outcome {
-            if b.orders.len() == 2 {
-                quotients(&killed, jump.right, jump.seen.as_ref().unwrap());
+        for (shape, found) in [(&plain, &a), (&killed, &b)] {
+            // Of the first derivative, which chords of cells approach.
+            if let Outcome::Joint(jump) = &found.orders[1].outcome {
+                quotients(shape, jump.right, jump.seen.as_ref().unwrap());
             }
         }
     }
