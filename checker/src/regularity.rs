@@ -1,7 +1,8 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order (theory §11).
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, some, whole};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, whole};
+use crate::claim::Claim;
 use crate::curve::{Case, End, Kind, Model, Shape, Way, close};
 use crate::jsr::{System, bounds};
 use num_traits::{One, Zero};
@@ -31,7 +32,6 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     // Orders and radii are those of the curve in barycentric space; a view that folds it may do anything.
     let start = model.spaces.of(case.shape.start)?;
     let seen = case.shape.view.times(&start.basis)?.rank()? == start.basis.cols;
-    let curve = if seen { "the curve" } else { "the curve before the projection" };
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
     for (k, item) in items.iter().enumerate() {
@@ -41,10 +41,9 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
             level = item.at(level.next())?;
         }
         let found: Vec<usize> = case.shape.reachable.iter().map(|&e| level.families[e].rows).collect();
-        dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {found:?}"))?;
+        dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {}", list(&found)))?;
         let (low, high) = level.radius(&radius)?;
-        let text = format!("the joint spectral radius on the differences of derivatives of order {k}");
-        lines.push(format!("proved: {text} is at least {low} and at most {high}"));
+        lines.push(Claim::RadiusOfOrder(k, low, high.clone()).is(Verdict::Proved));
         let joined = if k == 0 {
             "none"
         } else {
@@ -55,8 +54,8 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         joints.follows("orders", joined)?;
         let last = found.iter().all(|d| *d == 0) || joined == "fails";
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
-        let smooth = if joined == "fails" { "refuted" } else { "proved" };
-        claims.push(format!("{smooth}: {curve} is C^{k} in the uniform parameter"));
+        let smooth = if joined == "fails" { Verdict::Refuted } else { Verdict::Proved };
+        claims.push(Claim::Smooth { order: k, projected: !seen }.is(smooth));
     }
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
 }
@@ -87,7 +86,10 @@ impl<'a> Level<'a> {
             node.need(self.families.iter().all(|f| f.rows == 0), "orders", "bounds of a radius are needed here")?;
             return Ok((Q::zero(), Q::zero()));
         }
-        let place = |e: usize| self.shape.reachable.iter().position(|r| *r == e).unwrap_or(0);
+        let place = |e: usize| {
+            let known = self.shape.reachable.iter().position(|r| *r == e);
+            some(known, "orders", "a state that cannot be reached")
+        };
         let mut arrows = Vec::new();
         for (e, piece) in self.shape.pieces() {
             let pivots = self.families[e].echelon()?.1;
@@ -95,7 +97,7 @@ impl<'a> Level<'a> {
             let matrix = images.columns(&pivots);
             let closed = matrix.times(&self.families[e])? == images;
             need(closed, "orders", "an operator does not act on the differences")?;
-            arrows.push((place(e), place(piece.target), matrix.transpose()));
+            arrows.push((place(e)?, place(piece.target)?, matrix.transpose()));
         }
         let dims = self.shape.reachable.iter().map(|&e| self.families[e].rows).collect();
         let found = bounds(&System { name: String::new(), dims, arrows }, node)?;

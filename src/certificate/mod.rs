@@ -169,7 +169,7 @@ pub enum Doubt {
 pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
     let certificate = certificate(case, found)?;
     let accepted = accepted(&case.checked_text(), &certificate)?;
-    if accepted.verdict.word() == found.verdict.word() {
+    if same_verdict(found.verdict, accepted.verdict) {
         Ok(certificate)
     } else {
         Err(Doubt::Differs(accepted.verdict.word()))
@@ -186,6 +186,15 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
 pub fn checked(source: &str, certificate: Certificate) -> Result<Certificate, Doubt> {
     accepted(source, &certificate)?;
     Ok(certificate)
+}
+
+/// Whether the checker comes to the same verdict.
+fn same_verdict(own: Verdict, checked: secant_check::Verdict) -> bool {
+    match own {
+        Verdict::Proved => checked == secant_check::Verdict::Proved,
+        Verdict::Refuted => checked == secant_check::Verdict::Refuted,
+        Verdict::Undetermined => checked == secant_check::Verdict::Undetermined,
+    }
 }
 
 /// What the checker says. Where its budget does not last, nothing was found to be wrong: there is just no second proof.
