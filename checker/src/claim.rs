@@ -9,8 +9,9 @@ use std::fmt::{Display, Formatter, Result};
 pub enum Subject {
     /// The curve near the parameter with this address, to both sides where it has two.
     Curve,
-    /// All of the set near the point: the address has no prefix, the view is injective, and no piece is left out of the ring
-    /// because it collapses, so that the germ of the branch is that of the set.
+    /// All of the set near the point: what is refuted of a branch, or what is proved of one to which everything near the point
+    /// belongs, because its address has no prefix, different points are seen as different ones, and no piece of the ring is
+    /// left out that collapses.
     Set,
     /// The germ of the branch with this address: what else comes near the point is not looked at.
     Branch,

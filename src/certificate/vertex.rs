@@ -1,6 +1,7 @@
 //! Certificates of a scheme at the vertices of a mesh.
 
-use super::{Certificate, Doubt, accepted, number, same_verdict};
+use super::confirm::{accepted, same_verdict};
+use super::{Certificate, Doubt, number};
 use crate::algebraic::sqrt_down;
 use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};

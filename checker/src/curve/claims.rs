@@ -107,7 +107,7 @@ impl<'a> Claims<'a> {
                 let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
-                (stated, found, Claim::TangentAt { address: address.clone(), of: self.subject(address)? })
+                (stated, found, Claim::TangentAt { address: address.clone(), of: self.subject(address, found)? })
             }
             ("joints", _) => {
                 let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
@@ -134,20 +134,23 @@ impl<'a> Claims<'a> {
         Ok(verdict)
     }
 
-    /// What the claim about an address is about. The germ of a branch of a set is that of the whole set near its point where
-    /// everything near the point is in it: all of the start state is the point and the images of the ring, different points
-    /// are seen as different ones, and no piece that `L` collapses, which would stay near the point, is left out.
-    fn subject(&self, address: &Address) -> Checked<Subject> {
-        let Model { shape, spaces, .. } = self.model;
+    /// What the claim about an address is about (theory §9, Branch and shape). Of a set every refutation by a branch is one of the
+    /// whole set. What is proved of the germ of a branch, which every rule for a line proves to be isolated unless `Y` is a line,
+    /// is proved of the set where everything near the point belongs to the branch: it has no prefix, different points are seen
+    /// as different ones, and no piece that `L` collapses, which may pass through the point, was left out.
+    fn subject(&self, address: &Address, verdict: Verdict) -> Checked<Subject> {
+        let shape = self.model.shape;
         if shape.states[shape.start].kind == Kind::Edge {
             return Ok(Subject::Curve);
         }
-        let start = spaces.of(shape.start)?;
-        if !address.prefix.is_empty() || shape.view.times(&start.basis)?.rank()? < start.basis.cols {
-            return Ok(Subject::Branch);
+        match verdict {
+            Verdict::Refuted => return Ok(Subject::Set),
+            Verdict::Undetermined => return Ok(Subject::Branch),
+            Verdict::Proved => {}
         }
-        let root = Root { state: shape.start, view: shape.view.clone() };
-        let whole = start.basis.cols > 0 && !Germ::new(self.model, &root, address)?.collapses;
+        let germ = Germ::new(self.model, &Root { state: shape.start, view: shape.view.clone() }, address)?;
+        let nothing_aside = germ.dim() == 1 || !germ.collapses;
+        let whole = address.prefix.is_empty() && germ.view.rank()? == germ.dim() && nothing_aside;
         Ok(if whole { Subject::Set } else { Subject::Branch })
     }
 
