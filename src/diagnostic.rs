@@ -40,7 +40,8 @@ impl SourceText {
     }
 }
 
-/// A mistake in the input, with its code, place and remedy. Never a defect of the program.
+/// A mistake in the input, with its code, place and remedy; a defect of the program itself has the code
+/// [`Problem::INTERNAL`].
 ///
 /// It implements [`miette::Diagnostic`]; [`Problem::render`] prints it as the program does.
 #[derive(Clone)]
@@ -57,6 +58,9 @@ struct Inner {
 }
 
 impl Problem {
+    /// The code of a defect of the program itself (see [`crate::guard`]).
+    pub const INTERNAL: &str = "secant::internal";
+
     /// A problem with a code such as `secant::case::sum` and one sentence saying what is wrong.
     #[must_use]
     pub fn new(code: impl Into<String>, message: impl AsRef<str>) -> Self {
@@ -102,6 +106,12 @@ impl Problem {
     #[must_use]
     pub fn id(&self) -> &str {
         &self.0.code
+    }
+
+    /// Whether this is a defect of the program, and not of the input.
+    #[must_use]
+    pub fn is_internal(&self) -> bool {
+        self.0.code == Self::INTERNAL
     }
 
     /// What is wrong, in one sentence.

@@ -45,6 +45,7 @@ pub mod case;
 pub mod certificate;
 pub mod cli;
 pub mod diagnostic;
+pub mod guard;
 pub mod laws;
 pub mod picture;
 pub mod radius;

@@ -1,11 +1,13 @@
 //! `secant certify --approx`: the float fallback, always labelled approximate, never exit code 0.
 
 use super::certify::{json_text, read};
-use super::output::{complain, print, stdout_colour};
-use super::{BAD_INPUT, CertifyArgs, UNDETERMINED};
+use super::many::gravest;
+use super::output::{complain, print, problem_code, stdout_colour};
+use super::{CertifyArgs, UNDETERMINED};
 use crate::approx::{PointLook, look};
 use crate::case::Case;
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
 use crate::report::document::{Block, Document, Inline, Tone, code, words};
 use crate::report::{json, text};
 use serde_json::{Value, json};
@@ -15,13 +17,13 @@ use std::path::Path;
 pub fn run(args: &CertifyArgs) -> u8 {
     let mut worst = UNDETERMINED;
     for path in &args.cases {
-        match one(path, args) {
+        match guarded(|| one(path, args)) {
             Ok((case, seen)) if args.json || args.jsonl => print(&json_text(&value(&case, &seen), args.json)),
             Ok((case, seen)) if !args.quiet => print(&text::render(&document(&case, &seen), stdout_colour())),
             Ok(_) => {}
             Err(problem) => {
                 complain(&problem);
-                worst = BAD_INPUT;
+                worst = gravest([worst, problem_code(&problem)].into_iter());
             }
         }
     }

@@ -4,6 +4,7 @@
 use super::many::kinds;
 use crate::case::{Case, Valences, VertexCase};
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
 use crate::picture::characteristic::thumbnail;
 use crate::report::html::escaped;
 use crate::report::vertex::{overall, panel, ranges};
@@ -18,6 +19,8 @@ use std::path::Path;
 pub const OPEN: &str = "open entries";
 /// How cases that are refused are counted.
 pub const REFUSED: &str = "refused";
+/// How cases on which the program fails are counted.
+pub const FAILED: &str = "internal error";
 
 /// Cases whose reports are written without `--all`: one of each kind.
 const SELECTED: [&str; 13] = [
@@ -73,24 +76,33 @@ pub struct Entry {
 
 /// Certifies or solves a case and writes its card.
 pub fn entry(path: &Path, wanted: Report) -> Entry {
+    entry_by(path, wanted, &made)
+}
+
+/// The same with what makes the card of a named case; a panic there costs this card only.
+fn entry_by(path: &Path, wanted: Report, make: &dyn Fn(&Path, &str, Report) -> Result<Made, Problem>) -> Entry {
     let (family, stem) = names(path);
     let name = if wanted.linked {
         format!("<a href=\"{}/{stem}.html\">{stem}</a>", escaped(&family), stem = escaped(&stem))
     } else {
         escaped(&stem)
     };
-    let made = if super::vertex::is_about_vertices(path) {
-        vertex(path, &name, wanted)
-    } else {
-        Case::read_open(path).and_then(|case| {
-            if case.unknown.is_empty() { shape(&case, &name, wanted) } else { open(&case, &escaped(&stem)) }
-        })
-    };
-    let (card, verdict, report) = made.unwrap_or_else(|problem| (refused(&escaped(&stem), &problem), REFUSED, None));
+    let (card, verdict, report) = guarded(|| make(path, &name, wanted)).unwrap_or_else(|problem| {
+        let word = if problem.is_internal() { FAILED } else { REFUSED };
+        (refused(&escaped(&stem), word, &problem), word, None)
+    });
     Entry { family, stem, card, verdict, report }
 }
 
 type Made = (String, &'static str, Option<String>);
+
+fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
+    if super::vertex::is_about_vertices(path) {
+        return vertex(path, name, wanted);
+    }
+    let case = Case::read_open(path)?;
+    if case.unknown.is_empty() { shape(&case, name, wanted) } else { open(&case, &escaped(&names(path).1)) }
+}
 
 fn tone(verdict: Verdict) -> &'static str {
     match verdict {
@@ -161,10 +173,24 @@ fn card(picture: &str, name: &str, title: &str, what: &str) -> String {
     format!("<li>{picture}<h3>{name}</h3>\n<p>{}</p>\n<p>{what}</p></li>\n", escaped(title))
 }
 
-fn refused(name: &str, problem: &Problem) -> String {
+fn refused(name: &str, word: &str, problem: &Problem) -> String {
     format!(
-        "<li><h3>{name}</h3>\n<p><strong class=\"neutral\">refused</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
+        "<li><h3>{name}</h3>\n<p><strong class=\"neutral\">{word}</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
         escaped(problem.message()),
         escaped(problem.id())
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_that_fails_has_a_card_like_the_others() {
+        let wanted = Report { linked: true, written: false };
+        let failed = entry_by("cases/classical/levy.toml".as_ref(), wanted, &|_, _, _| panic!("a broken <step>"));
+        assert_eq!((failed.family.as_str(), failed.stem.as_str(), failed.verdict), ("classical", "levy", FAILED));
+        assert!(failed.card.contains("internal error</strong>") && failed.card.contains("a broken &lt;step&gt;"));
+        assert!(failed.report.is_none());
+    }
 }

@@ -1,12 +1,13 @@
 //! `secant certify` of a single case.
 
-use super::output::{complain, print, stdout_colour, write_file};
+use super::output::{complain, print, problem_code, stdout_colour, write_file};
 use super::progress::Waiting;
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::arith::Rational;
 use crate::case::{Case, MAX_LETTERS};
 use crate::certificate::{Certificate, Doubt, Unsupported, certificate, confirm};
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
 use crate::report::document::Block;
 use crate::report::math::Math;
 use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
@@ -42,7 +43,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
         return super::vertex::run(path, args);
     }
     let waiting = Waiting::new(args.quiet);
-    let certified = one(path, args);
+    let certified = guarded(|| one(path, args));
     waiting.finish();
     let done = certified.and_then(|(case, found, evidence)| {
         write_files(&case, &found, evidence.as_ref(), args)?;
@@ -64,7 +65,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
                 print(&json_text(&json::refusal(&path.display().to_string(), &problem), args.json));
             }
             complain(&problem);
-            BAD_INPUT
+            problem_code(&problem)
         }
     }
 }

@@ -22,6 +22,7 @@ mod solve;
 mod spectrum;
 mod vertex;
 
+use crate::guard::guarded;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -35,8 +36,12 @@ pub const BAD_INPUT: u8 = 2;
 /// Something is neither proved nor refuted.
 pub const UNDETERMINED: u8 = 3;
 
-const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input. Of several cases: 2 if one cannot be read, \
-                     otherwise 1 if one is refuted, otherwise 3 if one is undetermined.";
+/// A mistake in the program itself: there is no result.
+pub const INTERNAL: u8 = 4;
+
+const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input, 4 internal error. Of several cases: 4 if \
+                     the program failed on one, otherwise 2 if one cannot be read, otherwise 1 if one is refuted, \
+                     otherwise 3 if one is undetermined; the results of the others are printed all the same.";
 
 /// Proves, in exact arithmetic, where self-similar shapes have tangents.
 #[derive(Debug, Parser)]
@@ -296,7 +301,11 @@ pub fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
-    let code = match cli.command {
+    ExitCode::from(output::settle(guarded(|| Ok(run(cli.command)))))
+}
+
+fn run(command: Command) -> u8 {
+    match command {
         Command::Certify(args) => certify::run(&args),
         Command::Spectrum(args) => spectrum::run(&args),
         Command::Jsr(args) => radius::jsr(&args),
@@ -313,8 +322,7 @@ pub fn main() -> ExitCode {
         Command::Fuzz(args) => fuzz::run(&args),
         Command::Completions { shell } => completions(shell),
         Command::Man => man(),
-    };
-    ExitCode::from(code)
+    }
 }
 
 fn completions(shell: clap_complete::Shell) -> u8 {
