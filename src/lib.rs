@@ -40,6 +40,7 @@
 //! [`theorem`], [`certificate`], [`report`]; [`case`] reads files, [`scheme`] makes shapes from masks and mesh rules.
 #![warn(clippy::float_arithmetic)]
 
+pub mod answer;
 pub mod approx;
 pub mod case;
 pub mod certificate;

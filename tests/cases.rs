@@ -5,6 +5,7 @@ mod corpus;
 use corpus::case_files;
 use secant::arith::Rational;
 use secant::case::{Case, ExpectPoint, expected_error};
+use secant::report::claims;
 use secant::shape::Contraction;
 use secant::theorem::surface::{Subspace, SurfacePoint, certify_complex};
 use secant::theorem::{Certified, Direction, PointReport, Verdict};
@@ -44,7 +45,7 @@ fn compare(case: &Case, found: &Certified) -> Vec<String> {
     let expect = case.expect.as_ref().unwrap();
     let mut wrong = Vec::new();
     if expect.verdict.as_deref().is_some_and(|v| v != found.verdict.word()) {
-        let reasons: Vec<_> = found.claims.iter().filter_map(|c| c.reason.clone()).collect();
+        let reasons: Vec<_> = found.claims.iter().filter_map(|c| claims::reason(case, found, c)).collect();
         wrong.push(format!("verdict {} instead of {:?} {reasons:?}", found.verdict.word(), expect.verdict));
     }
     let contraction = match found.contraction {

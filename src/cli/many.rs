@@ -169,13 +169,9 @@ fn about_vertices(path: &Path, no_check: bool) -> Outcome {
 
 /// A stored result, read back; `None` where it is not what this version writes.
 fn kept(Kept { report: json, kinds }: Kept) -> Option<Done> {
-    let verdict = verdict_of(json["verdict"].as_str()?)?;
+    let verdict = Verdict::of_word(json["verdict"].as_str()?)?;
     let (name, checked) = (json["case"].as_str()?.to_owned(), Checked::of(&json)?);
     Some(Done { name, verdict, kinds, checked, json, kept: true })
-}
-
-fn verdict_of(word: &str) -> Option<Verdict> {
-    [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined].into_iter().find(|v| v.word() == word)
 }
 
 /// The gravest of several exit codes.

@@ -146,18 +146,12 @@ fn frequencies(found: &AtValence) -> String {
     top.members.iter().map(name).collect::<Vec<_>>().join("; ")
 }
 
-/// The gravest verdict of several.
+/// The verdict on all valences together, and on those that one proof covers.
 #[must_use]
 pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
-    if every.is_some_and(|e| !e.proved()) && found.iter().all(|f| f.smooth != Verdict::Refuted) {
-        Verdict::Undetermined
-    } else if found.iter().any(|f| f.smooth == Verdict::Refuted) {
-        Verdict::Refuted
-    } else if found.iter().all(|f| f.smooth == Verdict::Proved) {
-        Verdict::Proved
-    } else {
-        Verdict::Undetermined
-    }
+    let common = every.map(|e| if e.proved() { Verdict::Proved } else { Verdict::Undetermined });
+    let count = found.len() + usize::from(every.is_some());
+    Verdict::all(count, found.iter().map(|f| f.smooth).chain(common))
 }
 
 /// The table by valence, with reasons below it and, in full, the evidence for each.
