@@ -121,7 +121,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
 #[must_use]
 pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Option<Certificate> {
     let covered: Vec<(&AtValence, Value)> = found.iter().filter_map(|f| Some((f, evidence(case, f)?))).collect();
-    if covered.is_empty() || !VertexCase::is_one(&case.text.text) {
+    if covered.is_empty() || !case.declared {
         return None;
     }
     let valences: Vec<(usize, Verdict)> = covered.iter().map(|(f, _)| (f.valence, f.smooth)).collect();

@@ -1,0 +1,95 @@
+//! The one door: a question in, findings out, for the library, the command line, the gallery and the tests.
+
+mod findings;
+mod model;
+
+pub use findings::{Findings, confirm};
+pub use model::model_problem;
+
+use crate::case::{Question, Valences, VertexCase};
+use crate::diagnostic::Problem;
+use crate::theorem::certify_complex;
+use crate::vertex::{AtValence, Every, at_valence, every};
+use rayon::prelude::*;
+
+/// Answers a question: the verdict depends on the case and the budget only.
+///
+/// # Errors
+/// A [`Problem`] where the shape is no model (pieces that do not meet, a product that expands), where no valence is named, or
+/// where nothing is known of the valences.
+///
+/// # Examples
+/// ```
+/// use secant::prelude::*;
+///
+/// let question = Question::read("cases/surfaces/bicubic-space.toml".as_ref())?;
+/// assert_eq!(prove(&question)?.verdict(), Verdict::Proved);
+/// # Ok::<(), Problem>(())
+/// ```
+pub fn prove(question: &Question) -> Result<Findings, Problem> {
+    prove_with(question, &|| {})
+}
+
+/// As [`prove`]; `step` is called after each valence, from any thread.
+///
+/// # Errors
+/// As [`prove`].
+pub fn prove_with(question: &Question, step: &(dyn Fn() + Sync)) -> Result<Findings, Problem> {
+    match question {
+        Question::Tangents { case, further } => {
+            let addresses = [case.examine.as_slice(), further].concat();
+            let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(case, &error))?;
+            Ok(Findings::Tangents(Box::new(found)))
+        }
+        Question::Vertices { case, valences } => {
+            let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, step)?;
+            Ok(Findings::Vertices { found, every })
+        }
+    }
+}
+
+fn no_valence() -> Problem {
+    Problem::new("secant::usage::valence", "no valence is given")
+        .with_help("add --valence 3..32, or a line such as  valence = \"3..32\"  to the [vertex] table")
+}
+
+/// What is found at the valences that were asked for; for all of them, the common proof and the small ones it leaves out.
+fn at_valences(
+    case: &VertexCase,
+    asked: &Valences,
+    step: &(dyn Fn() + Sync),
+) -> Result<(Vec<AtValence>, Option<Every>), Problem> {
+    match asked {
+        Valences::List(list) => Ok((examine(case, list, step)?, None)),
+        Valences::All => {
+            let every = all_at_once(case)?;
+            let rest: Vec<usize> = (3..every.from).collect();
+            Ok((examine(case, &rest, step)?, Some(every)))
+        }
+    }
+}
+
+/// The proof for all valences from some valence on.
+fn all_at_once(case: &VertexCase) -> Result<Every, Problem> {
+    let found = every(&case.rule)
+        .map_err(|error| Problem::new("secant::scheme", format!("{}: {error}", case.name)).with_source(&case.text))?;
+    found.ok_or_else(|| {
+        let message = format!("no proof for all valences at once is known for {}", case.scheme);
+        Problem::new("secant::usage::valence", message).with_help(
+            "there is one for catmull-clark, loop, loop-warren, doo-sabin, doo-sabin-catmull-clark and midedge; give a \
+             range such as --valence 3..32",
+        )
+    })
+}
+
+fn examine(case: &VertexCase, list: &[usize], step: &(dyn Fn() + Sync)) -> Result<Vec<AtValence>, Problem> {
+    let one = |&n: &usize| {
+        let found = at_valence(&case.rule, n);
+        step();
+        found.map_err(|error| {
+            Problem::new("secant::scheme", format!("{} at valence {n}: {error}", case.name)).with_source(&case.text)
+        })
+    };
+    // The first problem in the order of the valences, whichever thread is the first to find one.
+    list.par_iter().map(one).collect::<Vec<_>>().into_iter().collect()
+}
