@@ -3,14 +3,15 @@
 mod findings;
 mod model;
 
-pub use findings::{Findings, confirm};
+pub use findings::{Findings, confirm, unconfirmed};
 pub use model::model_problem;
 
 use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
-use crate::theorem::certify_complex;
+use crate::theorem::surface::certify_complex;
 use crate::vertex::{AtValence, Every, at_valence, every};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Answers a question: the verdict depends on the case and the budget only.
 ///
@@ -39,11 +40,11 @@ pub fn prove_with(question: &Question, step: &(dyn Fn() + Sync)) -> Result<Findi
         Question::Tangents { case, further } => {
             let addresses = [case.examine.as_slice(), further].concat();
             let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(case, &error))?;
-            Ok(Findings::Tangents(Box::new(found)))
+            Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
             let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, step)?;
-            Ok(Findings::Vertices { found, every })
+            Ok(Findings::Vertices { case: Arc::clone(case), found, every })
         }
     }
 }

@@ -3,8 +3,10 @@
 use super::node::{File, Table};
 use super::{Case, MAX_LETTERS, Valences, VertexCase};
 use crate::diagnostic::{Problem, SourceText};
-use crate::shape::{Address, CellKind};
+use crate::scheme::{Heading, complex_text};
+use crate::shape::{Address, CellKind, Complex};
 use std::path::Path;
+use std::sync::Arc;
 
 /// A question that [`crate::prove`] answers.
 #[derive(Debug, Clone)]
@@ -13,14 +15,14 @@ pub enum Question {
     /// The tangents of a curve, a set or a surface, at its own points, at those that its file names, and at further ones.
     Tangents {
         /// The shape and the points that the file names.
-        case: Box<Case>,
+        case: Arc<Case>,
         /// Further points, after those of the file.
         further: Vec<Address>,
     },
     /// Smoothness at the extraordinary vertices of a rule on meshes.
     Vertices {
         /// The rule.
-        case: Box<VertexCase>,
+        case: Arc<VertexCase>,
         /// The valences; `None` where neither the file nor anybody else names any.
         valences: Option<Valences>,
     },
@@ -75,26 +77,38 @@ impl Question {
         super::read::parsed(name, text, File::new, Self::of_table)?.closed()
     }
 
+    /// The tangents of a shape that was made in the program; the name is made of letters, digits, `-`, `_` and `.`.
+    ///
+    /// # Errors
+    /// As [`Question::parse`]: the shape is written as a case, which is what a checker reads, and read back.
+    pub fn of_complex(name: &str, complex: &Complex) -> Result<Self, Problem> {
+        let heading = Heading { name: name.to_owned(), ..Heading::default() };
+        Self::parse(name, &complex_text(complex, &heading))
+    }
+
     /// The question about the vertices of a mesh of a file, which may also be a `[scheme]` of a mesh.
     ///
     /// # Errors
     /// As [`VertexCase::read`].
     pub fn at_valences(path: &Path, valences: Valences) -> Result<Self, Problem> {
-        Ok(Self::Vertices { case: Box::new(VertexCase::read(path)?), valences: Some(valences) })
+        Ok(Self::Vertices { case: Arc::new(VertexCase::read(path)?), valences: Some(valences) })
     }
 
     fn of_table(file: &File, table: &Table<'_>) -> Result<Self, Problem> {
         if table.get("vertex").is_some() {
-            let case = Box::new(VertexCase::of_table(file, table)?);
+            let case = Arc::new(VertexCase::of_table(file, table)?);
             let valences = case.valences.clone();
             return Ok(Self::Vertices { case, valences });
         }
-        Ok(Self::Tangents { case: Box::new(Case::of_table(file, table)?), further: Vec::new() })
+        Ok(Self::Tangents { case: Arc::new(Case::of_table(file, table)?), further: Vec::new() })
     }
 
     fn closed(self) -> Result<Self, Problem> {
         match self {
-            Self::Tangents { case, further } => Ok(Self::Tangents { case: Box::new(case.closed()?), further }),
+            Self::Tangents { case, further } => {
+                case.refuse_open()?;
+                Ok(Self::Tangents { case, further })
+            }
             vertices @ Self::Vertices { .. } => Ok(vertices),
         }
     }

@@ -48,7 +48,13 @@ impl Case {
 
     /// The case, if no entry was left open.
     pub(super) fn closed(self) -> Result<Self, Problem> {
-        let Some(first) = self.unknown.first() else { return Ok(self) };
+        self.refuse_open()?;
+        Ok(self)
+    }
+
+    /// The problem of the first entry that was left open.
+    pub(super) fn refuse_open(&self) -> Result<(), Problem> {
+        let Some(first) = self.unknown.first() else { return Ok(()) };
         let count = self.unknown.len();
         let message =
             if count == 1 { "an entry is unknown".to_owned() } else { format!("{count} entries are unknown") };

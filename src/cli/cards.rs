@@ -1,18 +1,18 @@
 //! The cards of the gallery: a shape with its verdict, a scheme at extraordinary vertices, a case with open entries, a
 //! case that is refused.
 
-use super::many::kinds;
-use crate::case::{Case, Valences, VertexCase};
+use super::answered::answered;
+use crate::answer::Verdict;
+use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::picture::characteristic::thumbnail;
+use crate::prove::Findings;
 use crate::report::html::escaped;
-use crate::report::vertex::{overall, panel, ranges};
-use crate::report::{figures, html, proof, words};
+use crate::report::vertex::{panel, ranges};
+use crate::report::{figures, findings, html, words};
 use crate::shape::Solution;
-use crate::theorem::Verdict;
-use crate::theorem::surface::certify_complex;
-use crate::vertex::AtValence;
+use crate::vertex::{AtValence, Every};
 use std::path::Path;
 
 /// How cases with open entries are counted.
@@ -97,11 +97,24 @@ fn entry_by(path: &Path, wanted: Report, make: &dyn Fn(&Path, &str, Report) -> R
 type Made = (String, &'static str, Option<String>);
 
 fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
-    if super::vertex::is_about_vertices(path) {
-        return vertex(path, name, wanted);
-    }
-    let case = Case::read_open(path)?;
-    if case.unknown.is_empty() { shape(&case, name, wanted) } else { open(&case, &escaped(&names(path).1)) }
+    let question = match Question::read_open(path)? {
+        Question::Tangents { case, .. } if !case.unknown.is_empty() => return open(&case, &escaped(&names(path).1)),
+        Question::Vertices { case, valences: None } => {
+            Question::Vertices { case, valences: Some(Valences::List((3..=12).collect())) }
+        }
+        question => question,
+    };
+    let answered = answered(&question, true, &|| {})?;
+    let report = wanted.written.then(|| html::render(&findings::proof(&answered.findings)));
+    let (picture, what) = match &answered.findings {
+        Findings::Tangents { case, found } => {
+            let picture = figures::attractor(case, found).map(|p| p.thumbnail);
+            (picture, format!("{}: {}", marked(found.verdict), escaped(&answered.kinds().join(", "))))
+        }
+        Findings::Vertices { found, every, .. } => vertices(found, every.as_ref()),
+    };
+    let verdict = answered.findings.verdict().word();
+    Ok((card(&picture.unwrap_or_default(), name, answered.findings.title(), &what), verdict, report))
 }
 
 fn tone(verdict: Verdict) -> &'static str {
@@ -116,25 +129,13 @@ fn marked(verdict: Verdict) -> String {
     format!("<strong class=\"{}\">{}</strong>", tone(verdict), verdict.word())
 }
 
-fn shape(case: &Case, name: &str, wanted: Report) -> Result<Made, Problem> {
-    let found = certify_complex(&case.complex(), &case.examine).map_err(|e| super::certify::model_problem(case, &e))?;
-    let report = wanted.written.then(|| html::render(&proof::document(case, &found)));
-    let picture = figures::attractor(case, &found).map(|p| p.thumbnail).unwrap_or_default();
-    let what = format!("{}: {}", marked(found.verdict), escaped(&kinds(&found).join(", ")));
-    Ok((card(&picture, name, &case.title, &what), found.verdict.word(), report))
-}
-
-/// A case about the vertices of a mesh: its verdicts by valence, and the characteristic map where one is refuted, or else of
-/// the first valence that is not regular.
-fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
-    let case = VertexCase::read(path)?;
-    let asked = case.valences.clone().unwrap_or(Valences::List((3..=12).collect()));
-    let (mut found, every) = super::vertex::at(&case, &asked, true)?;
-    super::vertex::confirmed(&case, &mut found)?;
-    let report = wanted.written.then(|| html::render(&proof::vertex_document(&case, &found, every.as_ref())));
-    let verdict = overall(&found, every.as_ref());
-    let mut parts: Vec<String> =
-        every.iter().filter(|e| e.proved()).map(|e| format!("proved at every valence from {} on", e.from)).collect();
+/// The verdicts by valence, and the characteristic map where one is refuted, or else of the first valence that is not regular.
+fn vertices(found: &[AtValence], every: Option<&Every>) -> (Option<String>, String) {
+    let mut parts: Vec<String> = every
+        .into_iter()
+        .filter(|e| e.proved())
+        .map(|e| format!("proved at every valence from {} on", e.from))
+        .collect();
     for kind in [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined] {
         let list: Vec<usize> = found.iter().filter(|f| f.smooth == kind).map(|f| f.valence).collect();
         if !list.is_empty() {
@@ -145,8 +146,7 @@ fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
     let rank = |f: &&AtValence| (f.smooth != Verdict::Refuted, f.valence < 5, f.valence);
     let picture = shown.min_by_key(rank).and_then(|f| Some((panel(f)?, f.valence)));
     let picture = picture.map(|(panel, n)| thumbnail(&panel, &format!("The characteristic map at valence {n}")));
-    let what = format!("C¹: {}", parts.join("; "));
-    Ok((card(&picture.unwrap_or_default(), name, &case.title, &what), verdict.word(), report))
+    (picture, format!("C¹: {}", parts.join("; ")))
 }
 
 /// A case with unknown entries: what its identities force.

@@ -1,17 +1,17 @@
 //! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
-use super::certify::{Evidence, NOT_ASKED, check_json, examined, exit_code, json_text, read};
+use super::answered::{Checked, Evidence, NOT_ASKED, answered, question};
+use super::certify::{exit_code, json_text};
 use super::output::{complain, print, problem_code, stdout_colour};
 use super::progress::Progress;
 use super::resume::{Kept, Store};
 use super::{BAD_INPUT, CertifyArgs, INTERNAL, PROVED, REFUTED, UNDETERMINED};
-use crate::case::VertexCase;
+use crate::answer::Verdict;
+use crate::case::Subject;
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::report::document::{Block, Document, Inline, Line, Table, Tone, words};
-use crate::report::{json, text, vertex as report, words as phrases};
-use crate::theorem::{Certified, Verdict};
-use crate::vertex::Again;
+use crate::report::{json, text, words as phrases};
 use rayon::prelude::*;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -28,32 +28,22 @@ struct Done {
     kept: bool,
 }
 
-/// Whether the checker proved a verdict again.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Checked {
-    Yes,
-    NoRule,
-    NotAsked,
+/// What the report of an earlier run says of the checker; `None` where it does not say it.
+fn checked_in(report: &Value) -> Option<Checked> {
+    let said = &report["certificate"];
+    Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
+        (true, None) => Checked::Yes,
+        (false, Some(NOT_ASKED)) => Checked::NotAsked,
+        (false, Some(_)) => Checked::NoRule,
+        _ => return None,
+    })
 }
 
-impl Checked {
-    /// As [`check_json`] says it; `None` where a report does not say it.
-    fn of(report: &Value) -> Option<Self> {
-        let said = &report["certificate"];
-        Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
-            (true, None) => Self::Yes,
-            (false, Some(NOT_ASKED)) => Self::NotAsked,
-            (false, Some(_)) => Self::NoRule,
-            _ => return None,
-        })
-    }
-
-    fn word(self) -> &'static str {
-        match self {
-            Self::Yes => "yes",
-            Self::NoRule => "no rule",
-            Self::NotAsked => "–",
-        }
+fn checked_word(checked: Checked) -> &'static str {
+    match checked {
+        Checked::Yes => "yes",
+        Checked::NoRule => "no rule",
+        Checked::NotAsked => "–",
     }
 }
 
@@ -109,68 +99,34 @@ fn code(outcome: &Outcome) -> u8 {
     outcome.as_ref().map_or_else(problem_code, |done| exit_code(done.verdict))
 }
 
-/// One case: from the store where its result is up to date, otherwise certified and stored.
+/// One case: from the store where its result is up to date, otherwise answered and stored.
 fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
-    if super::vertex::is_about_vertices(path) {
-        return about_vertices(path, args.no_check);
-    }
-    let (case, addresses) = read(path, args)?;
-    if let Some(done) = store.and_then(|s| s.find(path, &case)).and_then(kept) {
+    let question = question(path, args)?;
+    let store = store.filter(|_| question.subject() != Subject::Vertices);
+    if let Some(done) = store.and_then(|s| s.find(path, &question)).and_then(kept) {
         return Ok(done);
     }
-    let (found, evidence) = examined(&case, &addresses, args)?;
-    let json = check_json(json::report(&case, &found), evidence.as_ref());
+    let answered = answered(&question, !args.no_check, &|| {})?;
     let done = Done {
-        name: case.name.clone(),
-        verdict: found.verdict,
-        kinds: kinds(&found).join(", "),
-        checked: Checked::of(&json).unwrap_or(Checked::NotAsked),
-        json,
+        name: answered.findings.name().to_owned(),
+        verdict: answered.findings.verdict(),
+        kinds: answered.kinds().join(", "),
+        checked: answered.checked(),
+        json: answered.json(),
         kept: false,
     };
     if let Some(store) = store {
-        let certificate = evidence.and_then(Evidence::ok).map(|c| c.text());
+        let certificate = answered.evidence.and_then(Evidence::ok).map(|c| c.text());
         let kept = Kept { report: done.json.clone(), kinds: done.kinds.clone() };
-        store.keep(path, &case.text.text, &kept, certificate.as_deref())?;
+        store.keep(path, &question.text().text, &kept, certificate.as_deref())?;
     }
     Ok(done)
-}
-
-/// A case about the vertices of a mesh: the verdicts at the valences of its file.
-fn about_vertices(path: &Path, no_check: bool) -> Outcome {
-    let case = VertexCase::read(path)?;
-    let asked = super::vertex::valences(&case, None)?;
-    let (mut found, every) = super::vertex::at(&case, &asked, true)?;
-    if !no_check {
-        super::vertex::confirmed(&case, &mut found)?;
-    }
-    let decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined).count();
-    let checked = if no_check || decided == 0 {
-        Checked::NotAsked
-    } else if every.is_none() && found.iter().filter(|f| f.again == Again::Proved).count() == decided {
-        Checked::Yes
-    } else {
-        Checked::NoRule
-    };
-    let smooth = found.iter().map(|f| match f.smooth {
-        Verdict::Proved => "C¹ valence",
-        Verdict::Refuted => "valence not C¹",
-        Verdict::Undetermined => "open valence",
-    });
-    Ok(Done {
-        name: case.name.clone(),
-        verdict: report::overall(&found, every.as_ref()),
-        kinds: counted(smooth).join(", "),
-        checked,
-        json: report::json(&case, &found, every.as_ref()),
-        kept: false,
-    })
 }
 
 /// A stored result, read back; `None` where it is not what this version writes.
 fn kept(Kept { report: json, kinds }: Kept) -> Option<Done> {
     let verdict = Verdict::of_word(json["verdict"].as_str()?)?;
-    let (name, checked) = (json["case"].as_str()?.to_owned(), Checked::of(&json)?);
+    let (name, checked) = (json["case"].as_str()?.to_owned(), checked_in(&json)?);
     Some(Done { name, verdict, kinds, checked, json, kept: true })
 }
 
@@ -185,7 +141,7 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         match outcome {
             Ok(done) => {
                 let mark = vec![phrases::mark(done.verdict)];
-                vec![words(done.name.clone()), mark, words(done.checked.word()), words(done.kinds.clone())]
+                vec![words(done.name.clone()), mark, words(checked_word(done.checked)), words(done.kinds.clone())]
             }
             Err(problem) => {
                 let word = if problem.is_internal() { "internal error" } else { "refused" };
@@ -227,27 +183,6 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
 /// The name of the file without directory and ending.
 fn stem(path: &str) -> String {
     Path::new(path).file_stem().map_or_else(|| path.to_owned(), |s| s.to_string_lossy().into_owned())
-}
-
-/// The kinds of the examined points, each with its number.
-pub fn kinds(found: &Certified) -> Vec<String> {
-    let surface = found.surface.iter().flat_map(|s| &s.points).map(|p| match p.verdict {
-        Verdict::Proved => "tangent plane",
-        Verdict::Refuted => "no tangent plane",
-        Verdict::Undetermined => "undetermined",
-    });
-    counted(surface.chain(found.points.iter().map(|p| p.kind.word())))
-}
-
-fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut counted: Vec<(&str, usize)> = Vec::new();
-    for word in items {
-        match counted.iter_mut().find(|(w, _)| *w == word) {
-            Some((_, n)) => *n += 1,
-            None => counted.push((word, 1)),
-        }
-    }
-    counted.into_iter().map(|(w, n)| if n == 1 { w.to_owned() } else { format!("{n} {w}") }).collect()
 }
 
 #[cfg(test)]

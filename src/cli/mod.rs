@@ -1,5 +1,6 @@
 //! The command line: arguments, one file for each command, exit codes.
 
+mod answered;
 mod approximate;
 mod cards;
 mod certify;
@@ -20,7 +21,6 @@ mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
-mod vertex;
 
 use crate::guard::guarded;
 use clap::{Args, CommandFactory, Parser, Subcommand};

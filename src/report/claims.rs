@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::theorem::surface::Surface;
 use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, PointReport, Reason, Role, Seen, Verdict};
+use crate::vertex::AtValence;
 
 /// What is claimed, as a sentence without a capital and a full stop.
 #[must_use]
@@ -90,6 +91,17 @@ pub fn reason(case: &Case, found: &Certified, claim: &Claim) -> Option<String> {
     claim.reason().map(|reason| sentence(case, found, claim.verdict(), reason))
 }
 
+/// The same of a claim about the vertices of a mesh.
+#[must_use]
+pub fn reason_at_vertices(found: &[AtValence], claim: &Claim) -> Option<String> {
+    let said = |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| f.reason.clone());
+    claim.reason().map(|reason| match reason {
+        Reason::Valence(n) => said(*n),
+        Reason::Conditions => "a condition of the proof for all valences is not shown to hold".to_owned(),
+        _ => unknown(),
+    })
+}
+
 fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -> String {
     let refuted = verdict == Verdict::Refuted;
     let either = |no: &str, open: &str| if refuted { no.to_owned() } else { open.to_owned() };
@@ -134,6 +146,7 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
         Reason::SurfacePoint(_) | Reason::SurfaceVertex(_) | Reason::VertexInside(_) => {
             found.surface.as_ref().map_or_else(unknown, |surface| of_surface(case, surface, reason))
         }
+        Reason::Valence(_) | Reason::Conditions => unknown(),
     }
 }
 

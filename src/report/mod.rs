@@ -5,6 +5,7 @@ pub mod document;
 pub mod every;
 pub mod field_spectrum;
 pub mod figures;
+pub mod findings;
 pub mod html;
 pub mod json;
 pub mod latex;

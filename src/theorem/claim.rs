@@ -267,6 +267,10 @@ pub enum Reason {
         /// The letter of the operator.
         letter: usize,
     },
+    /// What was found at a valence.
+    Valence(usize),
+    /// A condition of the proof for all valences at once is not shown.
+    Conditions,
     /// What was found at the vertices inside a state, by the index in the `vertices` of [`super::surface::SurfaceDense`].
     VertexInside(usize),
 }
