@@ -59,6 +59,7 @@ pub mod answer;
 pub mod approx;
 pub mod case;
 pub mod certificate;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod diagnostic;
 pub mod guard;

@@ -10,7 +10,6 @@ use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
 use crate::theorem::surface::certify_complex;
 use crate::vertex::{AtValence, Every, at_valence, every};
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Answers a question: the verdict depends on the case and the budget only.
@@ -92,5 +91,12 @@ fn examine(case: &VertexCase, list: &[usize], step: &(dyn Fn() + Sync)) -> Resul
         })
     };
     // The first problem in the order of the valences, whichever thread is the first to find one.
-    list.par_iter().map(one).collect::<Vec<_>>().into_iter().collect()
+    #[cfg(feature = "parallel")]
+    let all: Vec<Result<AtValence, Problem>> = {
+        use rayon::prelude::*;
+        list.par_iter().map(one).collect()
+    };
+    #[cfg(not(feature = "parallel"))]
+    let all: Vec<Result<AtValence, Problem>> = list.iter().map(one).collect();
+    all.into_iter().collect()
 }
