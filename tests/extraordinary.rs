@@ -28,27 +28,6 @@ fn secant(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_secant")).args(arguments).current_dir(root()).output().unwrap()
 }
 
-#[test]
-fn every_case_comes_out_as_its_file_expects() {
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(root().join("cases/surfaces")).unwrap().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    let mut seen = 0;
-    for file in files {
-        if !corpus::about_vertices(&file) {
-            continue;
-        }
-        let case = VertexCase::read(&file).unwrap_or_else(|p| panic!("{}", p.render(false)));
-        assert!(!case.expect.is_empty(), "{} expects nothing", case.name);
-        for (n, verdict) in &case.expect {
-            let found = at(&case.rule, *n);
-            assert_eq!(found.smooth, *verdict, "{} at {n}: {}", case.name, found.reason);
-        }
-        seen += 1;
-    }
-    assert!(seen >= 20, "{seen} cases");
-}
-
 /// Splines with one leading eigenvalue: all of them are proved again by the checker, which builds the schemes from their masks.
 #[test]
 fn the_checker_proves_the_verdicts_again() {

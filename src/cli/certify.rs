@@ -178,8 +178,10 @@ fn picture(answered: &Answered, what: Drawn) -> Result<String, Problem> {
 fn png(answered: &Answered) -> Result<Vec<u8>, Problem> {
     match &answered.findings {
         Findings::Tangents { case, found } => figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name)),
-        Findings::Vertices { .. } => Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
-            .with_help("--svg draws their characteristic maps")),
+        Findings::Vertices { .. } => {
+            Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
+                .with_help("--svg draws their characteristic maps"))
+        }
     }
 }
 

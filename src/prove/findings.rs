@@ -99,7 +99,9 @@ impl Findings {
 pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
     match findings {
         Findings::Tangents { case, found } => certificate::confirm(case, found),
-        Findings::Vertices { case, found, .. } => certificate::confirm_vertices(case, found)?.ok_or_else(|| none().into()),
+        Findings::Vertices { case, found, .. } => {
+            certificate::confirm_vertices(case, found)?.ok_or_else(|| none().into())
+        }
     }
 }
 

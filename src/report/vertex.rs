@@ -8,8 +8,8 @@ use crate::arith::Rational;
 use crate::case::VertexCase;
 use crate::picture::characteristic::{Panel, sheet, tikz};
 use crate::poly::Poly;
-use crate::theorem::Verdict;
 use crate::theorem::Claim;
+use crate::theorem::Verdict;
 use crate::vertex::{Again, AtValence, Every, decimal, overall};
 use serde_json::{Value, json};
 
