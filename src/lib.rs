@@ -7,7 +7,7 @@
 //! use secant::prelude::*;
 //!
 //! let question = Question::read("cases/classical/takagi.toml".as_ref())?;
-//! let mut findings = prove(&question)?;
+//! let mut findings = prove(&question, &Budget::default())?;
 //! for claim in findings.claims() {
 //!     println!("{}: {}", claim.verdict(), claims::assertion(&claim.what));
 //! }
@@ -24,7 +24,7 @@
 //! use secant::prelude::*;
 //!
 //! let question = Question::read("cases/classical/takagi.toml".as_ref())?;
-//! let Findings::Tangents { case, found } = prove(&question)? else { unreachable!("a curve") };
+//! let Findings::Tangents { case, found } = prove(&question, &Budget::default())? else { unreachable!("a curve") };
 //! for point in &found.points {
 //!     println!("{}: {}", point.branches[0].address, point.kind.word());
 //! }
@@ -46,7 +46,7 @@
 //! let quarters = |rows: [[i64; 3]; 3]| Matrix::from_fn(3, 3, |i, j| ratio(rows[i][j], 4));
 //! let pieces = vec![quarters([[3, 1, 0], [1, 3, 3], [0, 0, 1]]), quarters([[1, 0, 0], [3, 3, 1], [0, 1, 3]])];
 //! let shape = Complex::of_curves(Shape::single(CellKind::Edge, pieces));
-//! assert_eq!(prove(&Question::of_complex("b-spline", &shape)?)?.verdict(), Verdict::Proved);
+//! assert_eq!(prove(&Question::of_complex("b-spline", &shape)?, &Budget::default())?.verdict(), Verdict::Proved);
 //! # Ok::<(), Problem>(())
 //! ```
 //!
@@ -57,6 +57,7 @@
 
 pub mod answer;
 pub mod approx;
+pub mod budget;
 pub mod case;
 pub mod certificate;
 #[cfg(feature = "cli")]
@@ -83,6 +84,7 @@ pub use prove::{Findings, prove};
 /// What most programs need: reading, proving, reporting, confirming.
 pub mod prelude {
     pub use crate::answer::Verdict;
+    pub use crate::budget::{Budget, Effort};
     pub use crate::case::{Question, Subject};
     pub use crate::diagnostic::Problem;
     pub use crate::prove::{Findings, confirm, prove};

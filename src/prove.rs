@@ -6,10 +6,11 @@ mod model;
 pub use findings::{Findings, confirm, unconfirmed};
 pub use model::model_problem;
 
+use crate::budget::Budget;
 use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
-use crate::theorem::surface::certify_complex;
-use crate::vertex::{AtValence, Every, at_valence, every};
+use crate::theorem::surface::certify_complex_within;
+use crate::vertex::{AtValence, Every, at_valence_within, every};
 use std::sync::Arc;
 
 /// Answers a question: the verdict depends on the case and the budget only.
@@ -23,26 +24,26 @@ use std::sync::Arc;
 /// use secant::prelude::*;
 ///
 /// let question = Question::read("cases/surfaces/bicubic-space.toml".as_ref())?;
-/// assert_eq!(prove(&question)?.verdict(), Verdict::Proved);
+/// assert_eq!(prove(&question, &Budget::default())?.verdict(), Verdict::Proved);
 /// # Ok::<(), Problem>(())
 /// ```
-pub fn prove(question: &Question) -> Result<Findings, Problem> {
-    prove_with(question, &|| {})
+pub fn prove(question: &Question, budget: &Budget) -> Result<Findings, Problem> {
+    prove_with(question, budget, &|| {})
 }
 
 /// As [`prove`]; `step` is called after each valence, from any thread.
 ///
 /// # Errors
 /// As [`prove`].
-pub fn prove_with(question: &Question, step: &(dyn Fn() + Sync)) -> Result<Findings, Problem> {
+pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Findings, Problem> {
     match question {
         Question::Tangents { case, further } => {
             let addresses = [case.examine.as_slice(), further].concat();
-            let found = certify_complex(&case.complex(), &addresses).map_err(|error| model_problem(case, &error))?;
+            let found = certify_complex_within(&case.complex(), &addresses, budget).map_err(|error| model_problem(case, &error))?;
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
-            let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, step)?;
+            let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, budget, step)?;
             Ok(Findings::Vertices { case: Arc::clone(case), found, every })
         }
     }
@@ -57,14 +58,15 @@ fn no_valence() -> Problem {
 fn at_valences(
     case: &VertexCase,
     asked: &Valences,
+    budget: &Budget,
     step: &(dyn Fn() + Sync),
 ) -> Result<(Vec<AtValence>, Option<Every>), Problem> {
     match asked {
-        Valences::List(list) => Ok((examine(case, list, step)?, None)),
+        Valences::List(list) => Ok((examine(case, list, budget, step)?, None)),
         Valences::All => {
             let every = all_at_once(case)?;
             let rest: Vec<usize> = (3..every.from).collect();
-            Ok((examine(case, &rest, step)?, Some(every)))
+            Ok((examine(case, &rest, budget, step)?, Some(every)))
         }
     }
 }
@@ -82,9 +84,9 @@ fn all_at_once(case: &VertexCase) -> Result<Every, Problem> {
     })
 }
 
-fn examine(case: &VertexCase, list: &[usize], step: &(dyn Fn() + Sync)) -> Result<Vec<AtValence>, Problem> {
+fn examine(case: &VertexCase, list: &[usize], budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Vec<AtValence>, Problem> {
     let one = |&n: &usize| {
-        let found = at_valence(&case.rule, n);
+        let found = at_valence_within(&case.rule, n, budget);
         step();
         found.map_err(|error| {
             Problem::new("secant::scheme", format!("{} at valence {n}: {error}", case.name)).with_source(&case.text)

@@ -73,7 +73,7 @@ fn page(name: &str) -> String {
     if let Question::Vertices { valences, .. } = &mut question {
         *valences = Some(Valences::List(vec![3, 5]));
     }
-    html::render(&findings::proof(&prove(&question).unwrap()))
+    html::render(&findings::proof(&prove(&question, &Budget::default()).unwrap()))
 }
 
 fn title(dom: &str) -> &str {

@@ -7,6 +7,7 @@ mod corpus;
 use libtest_mimic::{Arguments, Failed, Trial};
 use secant::answer::Verdict;
 use secant::arith::Rational;
+use secant::budget::Budget;
 use secant::case::{Case, ExpectPoint, Question, Valences, VertexCase, expected_error};
 use secant::certificate::{Certificate, Doubt};
 use secant::prove::{Findings, confirm, prove, unconfirmed};
@@ -57,7 +58,7 @@ fn mistakes(path: &Path) -> Vec<String> {
         Ok(Question::Vertices { case, .. }) => expected_valences(case),
         Ok(question) => question,
     };
-    let mut findings = match prove(&question) {
+    let mut findings = match prove(&question, &Budget::default()) {
         Err(problem) => return refused(Some(problem.id())),
         Ok(findings) => findings,
     };

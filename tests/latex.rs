@@ -75,7 +75,7 @@ fn report(file: &Path) -> Option<String> {
         let Some(Valences::List(list)) = valences else { return None };
         list.truncate(4);
     }
-    Some(latex::render(&findings::proof(&prove(&question).ok()?)))
+    Some(latex::render(&findings::proof(&prove(&question, &Budget::default()).ok()?)))
 }
 
 /// Preamble and body of a report.

@@ -3,7 +3,7 @@
 mod corpus;
 
 use secant::case::{Question, Subject, Valences};
-use secant::prelude::{Findings, Verdict, confirm, findings, prove};
+use secant::prelude::{Budget, Findings, Verdict, confirm, findings, prove};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -39,7 +39,7 @@ fn a_vertex_table_may_be_written_in_any_way_that_toml_has() {
         let text = format!("name = \"cc\"\n{spelling}");
         let question = Question::parse("cc.toml", &text).unwrap_or_else(|p| panic!("{spelling}: {p:?}"));
         assert_eq!(question.subject(), Subject::Vertices, "{spelling}");
-        let mut found = prove(&question).unwrap();
+        let mut found = prove(&question, &Budget::default()).unwrap();
         assert_eq!(found.verdict(), Verdict::Proved, "{spelling}");
         // The checker reads the same text.
         confirm(&mut found).unwrap_or_else(|doubt| panic!("{spelling}: {doubt}"));
@@ -57,21 +57,21 @@ fn a_line_of_a_title_is_no_table() {
     let odd = format!("title = \"\"\"a set\n[vertex]\nbeta = 9/10\"\"\"\n{body}");
     let question = Question::parse("odd", &odd).unwrap();
     assert_eq!(question.subject(), Subject::Set);
-    assert_eq!(prove(&question).unwrap().verdict(), prove(&plain).unwrap().verdict());
-    assert_eq!(program(&odd).0["verdict"], prove(&plain).unwrap().verdict().word());
+    assert_eq!(prove(&question, &Budget::default()).unwrap().verdict(), prove(&plain, &Budget::default()).unwrap().verdict());
+    assert_eq!(program(&odd).0["verdict"], prove(&plain, &Budget::default()).unwrap().verdict().word());
 }
 
 #[test]
 fn addresses_and_valences_of_the_caller_come_after_those_of_the_file() {
     let path = root().join("cases/thesis/half-tangent.toml");
     let question = Question::read(&path).unwrap().with_address("(01)").unwrap();
-    let Findings::Tangents { found, .. } = prove(&question).unwrap() else { panic!("a curve") };
+    let Findings::Tangents { found, .. } = prove(&question, &Budget::default()).unwrap() else { panic!("a curve") };
     assert!(found.claims.last().unwrap().what.asked().is_some_and(|(a, _)| a.to_string() == "(01)"));
     assert!(Question::read(&path).unwrap().with_address("9(0)").is_err());
 
     let path = root().join("cases/surfaces/catmull-clark.toml");
     let asked = Question::at_valences(&path, Valences::parse("6").unwrap()).unwrap();
-    let found = prove(&asked).unwrap();
+    let found = prove(&asked, &Budget::default()).unwrap();
     assert_eq!(found.claims().len(), 1);
     assert!(asked.with_address("(0)").is_err());
 }
@@ -79,7 +79,7 @@ fn addresses_and_valences_of_the_caller_come_after_those_of_the_file() {
 #[test]
 fn no_valences_are_no_success() {
     let question = Question::parse("cc.toml", "name = \"cc\"\nvertex.mesh = \"catmull-clark\"\n").unwrap();
-    assert_eq!(prove(&question).err().map(|p| p.id().to_owned()).as_deref(), Some("secant::usage::valence"));
+    assert_eq!(prove(&question, &Budget::default()).err().map(|p| p.id().to_owned()).as_deref(), Some("secant::usage::valence"));
 }
 
 /// The example of README.md and of the library's page answers as the program does: on every case, with the same claims.
@@ -105,7 +105,7 @@ fn the_library_agrees_with_the_program() {
 }
 
 fn agrees(path: &Path, printed: &serde_json::Value) {
-    match Question::read(path).and_then(|question| prove(&question)) {
+    match Question::read(path).and_then(|question| prove(&question, &Budget::default())) {
         Ok(found) => {
             let mine = findings::json(&found);
             for field in ["case", "verdict", "claims"] {
@@ -124,7 +124,7 @@ fn agrees(path: &Path, printed: &serde_json::Value) {
 #[test]
 fn a_surface_has_one_verdict() {
     let path = root().join("cases/surfaces/bicubic-space.toml");
-    let found = prove(&Question::read(&path).unwrap()).unwrap();
+    let found = prove(&Question::read(&path).unwrap(), &Budget::default()).unwrap();
     assert_eq!(found.verdict(), Verdict::Proved);
     let (json, code) = program(&std::fs::read_to_string(&path).unwrap());
     assert_eq!((json["verdict"].as_str(), code), (Some("proved"), Some(0)));

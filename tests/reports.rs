@@ -49,7 +49,7 @@ fn report(name: &str) -> secant::report::document::Document {
             _ => vec![3, 5],
         }));
     }
-    findings::proof(&prove(&question).expect("the case is certified"))
+    findings::proof(&prove(&question, &Budget::default()).expect("the case is certified"))
 }
 
 fn vertex_report(name: &str) -> secant::report::document::Document {

@@ -2,6 +2,7 @@
 
 use super::CertifyArgs;
 use crate::answer::Verdict;
+use crate::budget::Budget;
 use crate::case::{Question, Valences};
 use crate::certificate::{Certificate, Doubt, Unsupported};
 use crate::diagnostic::Problem;
@@ -60,8 +61,8 @@ fn valences(text: &str) -> Result<Valences, Problem> {
 ///
 /// # Errors
 /// The [`Problem`] of the model, or of a certificate that the checker does not accept.
-pub fn answered(question: &Question, check: bool, step: &(dyn Fn() + Sync)) -> Result<Answered, Problem> {
-    let mut findings = prove_with(question, step)?;
+pub fn answered(question: &Question, check: bool, budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Answered, Problem> {
+    let mut findings = prove_with(question, budget, step)?;
     let decided = match &findings {
         Findings::Tangents { found, .. } => found.verdict != Verdict::Undetermined,
         Findings::Vertices { found, .. } => !found.is_empty(),

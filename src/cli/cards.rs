@@ -3,6 +3,7 @@
 
 use super::answered::answered;
 use crate::answer::Verdict;
+use crate::budget::Budget;
 use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
@@ -104,7 +105,7 @@ fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
         }
         question => question,
     };
-    let answered = answered(&question, true, &|| {})?;
+    let answered = answered(&question, true, &Budget::default(), &|| {})?;
     let report = wanted.written.then(|| html::render(&findings::proof(&answered.findings)));
     let (picture, what) = match &answered.findings {
         Findings::Tangents { case, found } => {

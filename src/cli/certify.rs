@@ -68,12 +68,12 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
     let check = !args.no_check;
     if let Question::Vertices { valences: Some(Valences::List(list)), .. } = &question {
         let progress = Progress::of(list.len(), "valences", args.quiet);
-        let found = answered(&question, check, &|| progress.step());
+        let found = answered(&question, check, &args.budget(), &|| progress.step());
         progress.finish();
         return found;
     }
     let waiting = Waiting::new(args.quiet);
-    let found = answered(&question, check, &|| {});
+    let found = answered(&question, check, &args.budget(), &|| {});
     waiting.finish();
     found
 }

@@ -106,7 +106,7 @@ fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
     if let Some(done) = store.and_then(|s| s.find(path, &question)).and_then(kept) {
         return Ok(done);
     }
-    let answered = answered(&question, !args.no_check, &|| {})?;
+    let answered = answered(&question, !args.no_check, &args.budget(), &|| {})?;
     let done = Done {
         name: answered.findings.name().to_owned(),
         verdict: answered.findings.verdict(),

@@ -22,6 +22,7 @@ mod schemes;
 mod solve;
 mod spectrum;
 
+use crate::budget::{Budget, Effort};
 use crate::guard::guarded;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
@@ -155,6 +156,15 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
+    #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
+    effort: Effort,
+    /// Cells into which the ring of a branch may be divided (normal: 6000).
+    #[arg(long, value_name = "COUNT")]
+    cells: Option<usize>,
+    /// Words whose products may be formed to show contraction (normal: 20000).
+    #[arg(long, value_name = "COUNT")]
+    words: Option<usize>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
     #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
@@ -164,6 +174,23 @@ struct CertifyArgs {
     /// Print whole spectra, rates and exponents.
     #[arg(short, long)]
     verbose: bool,
+}
+
+impl CertifyArgs {
+    /// The budget that the options name.
+    fn budget(&self) -> Budget {
+        let mut budget = Budget::of(self.effort);
+        budget.cells = self.cells.unwrap_or(budget.cells);
+        budget.words = self.words.unwrap_or(budget.words);
+        budget
+    }
+}
+
+fn effort(word: &str) -> Result<Effort, String> {
+    [Effort::Quick, Effort::Normal, Effort::Hard]
+        .into_iter()
+        .find(|e| e.word() == word)
+        .ok_or_else(|| "it is quick, normal or hard".to_owned())
 }
 
 #[derive(Debug, Args)]

@@ -14,7 +14,7 @@ mod unknown;
 
 pub use address::{Address, AddressError, fixed_point, word_text};
 pub use contraction::{
-    Contracting, ContractingWord, Contraction, MAX_WORDS, ProductContraction, contraction, dobrushin, linear_part,
+    Contracting, ContractingWord, Contraction, MAX_WORDS, ProductContraction, contraction, contraction_within, dobrushin, linear_part,
     norm1,
 };
 pub use curve::{CurveError, End};

@@ -27,8 +27,6 @@ impl Frame {
     }
 }
 
-/// The arithmetic that a search may do.
-pub(super) const BUDGET: usize = 300_000_000;
 
 type Rays = Vec<Vec<f64>>;
 

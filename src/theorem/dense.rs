@@ -10,10 +10,6 @@ use crate::linalg::Matrix;
 use crate::shape::CellKind;
 use crate::statement::Statement;
 
-/// How many levels of joints are examined where Theorem 5 does not apply.
-const DEEP_LEVELS: usize = 4;
-/// How many joints at most.
-const DEEP_JOINTS: usize = 40;
 
 /// The hypotheses of Theorem 5 on injectivity, in the visible quotients.
 pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
@@ -133,7 +129,7 @@ fn tangents_span(cx: &Context, upstairs: &[PointReport]) -> bool {
 fn deep_joints(cx: &Context) -> Vec<(Vec<usize>, usize, usize)> {
     let mut joints = Vec::new();
     let mut level: Vec<(Vec<usize>, usize)> = vec![(Vec::new(), cx.shape.start)];
-    for _ in 1..DEEP_LEVELS {
+    for _ in 1..cx.budget.levels {
         let mut next = Vec::new();
         for (path, state) in level {
             for (letter, piece) in cx.shape.states[state].pieces.iter().enumerate() {
@@ -146,10 +142,10 @@ fn deep_joints(cx: &Context) -> Vec<(Vec<usize>, usize, usize)> {
             }
         }
         level = next;
-        if joints.len() >= DEEP_JOINTS {
+        if joints.len() >= cx.budget.joints {
             break;
         }
     }
-    joints.truncate(DEEP_JOINTS);
+    joints.truncate(cx.budget.joints);
     joints
 }

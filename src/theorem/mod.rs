@@ -34,12 +34,13 @@ pub use viewpoint::Viewpoint;
 
 use crate::algebraic::Root;
 use crate::arith::Rational;
+use crate::budget::Budget;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
-use crate::radius::{NormContraction, Options, contraction_by_norms, polytopes};
+use crate::radius::{NormContraction, contraction_by_norms, polytopes};
 use crate::shape::{
     Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, Shape, ShapeError, Spaces,
-    contraction,
+    contraction_within,
 };
 use thiserror::Error;
 
@@ -95,7 +96,8 @@ impl ModelError {
     }
 }
 
-/// Certifies a shape: end points, first-level joints of all reachable states, further addresses, and the dense set.
+/// Certifies the tangent lines of a shape: end points, first-level joints of all reachable states, further addresses, and the
+/// dense set. [`prove`](crate::prove::prove) is the door for questions of any kind, surfaces among them.
 ///
 /// # Errors
 /// [`ModelError`] where the shape is not a model, does not contract, or an address does not exist.
@@ -103,8 +105,16 @@ impl ModelError {
 /// # Cost
 /// Dominated by contraction (at most [`crate::shape::MAX_WORDS`] products) and the ring conditions of the branches.
 pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelError> {
+    certify_within(shape, addresses, &Budget::default())
+}
+
+/// As [`certify`] with a budget of its own.
+///
+/// # Errors
+/// As [`certify`].
+pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> Result<Certified, ModelError> {
     shape.check()?;
-    let (contraction, norm) = decide_contraction(shape)?;
+    let (contraction, norm) = decide_contraction(shape, budget)?;
     if !contraction.is_proved() {
         return Ok(without_contraction(&contraction, norm));
     }
@@ -114,7 +124,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         return Ok(without_contraction(&contraction, None));
     };
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape) };
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape), budget };
     let mut found = Certified::nothing(&contraction);
     found.states = shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect();
     found.similarities = similarity::similarities(&cx);
@@ -146,7 +156,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
 /// At most [`crate::shape::MAX_WORDS`] products, then polytopes or a joint spectral radius.
 pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
     shape.check()?;
-    Ok(decide_contraction(shape)?.0)
+    Ok(decide_contraction(shape, &Budget::default())?.0)
 }
 
 /// Largest number of coordinates of a state for which norms other than those of words are tried.
@@ -162,12 +172,12 @@ fn slow_words() -> Rational {
 
 /// Decides contraction of a checked shape by words, then by norms; with an upper bound below 1 of the joint spectral radius of
 /// the linear parts where that is known, but nothing that encloses the attractor.
-fn decide_contraction(shape: &Shape) -> Result<(Contraction, Option<Rational>), ModelError> {
+fn decide_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Option<Rational>), ModelError> {
     let expanding = |index: usize, word: &[usize]| {
         let state = shape.states[index].name.clone();
         Err(ModelError::Expands { state, index, word: word.to_vec() })
     };
-    let found = contraction(shape, expands);
+    let found = contraction_within(shape, budget.words, budget.work, expands);
     let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).max().unwrap_or(0);
     match &found {
         Contraction::Refuted { state, word } => return expanding(*state, word),
@@ -178,7 +188,7 @@ fn decide_contraction(shape: &Shape) -> Result<(Contraction, Option<Rational>), 
         Contraction::Undetermined { .. } if largest <= MAX_NORM_DIMENSION => {}
         _ => return Ok((found, None)),
     }
-    match contraction_by_norms(shape, &Options::default()) {
+    match contraction_by_norms(shape, &budget.radius) {
         Some(NormContraction::Enclosed(polytopes)) => Ok((Contraction::Polytopes(polytopes), None)),
         Some(NormContraction::Refuted { state, word, .. }) => expanding(state, &word),
         Some(NormContraction::Proved(radius)) => Ok((found, radius.upper)),

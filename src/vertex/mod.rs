@@ -15,7 +15,7 @@ pub mod solve;
 pub mod top;
 pub mod turning;
 
-pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, decimal};
+pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, at_valence_within, decimal};
 pub use every::{Condition, Every, every, strict_sign};
 
 use crate::answer::Verdict;

@@ -21,6 +21,7 @@ use super::{
     AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, Reason, Statement, Verdict, Viewpoint,
     decide_contraction, state_report, without_contraction,
 };
+use crate::budget::Budget;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};
 use branch::{Setting, examine};
 use place::Chart;
@@ -39,15 +40,27 @@ const LARGE_PRODUCT: usize = 16;
 /// # Cost
 /// As for [`super::certify`], for each branch of each point examined.
 pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certified, ModelError> {
+    certify_complex_within(complex, addresses, &Budget::default())
+}
+
+/// As [`certify_complex`] with a budget of its own.
+///
+/// # Errors
+/// As [`certify_complex`].
+pub fn certify_complex_within(
+    complex: &Complex,
+    addresses: &[Address],
+    budget: &Budget,
+) -> Result<Certified, ModelError> {
     let shape = &complex.shape;
     let faces = shape.reachable().into_iter().any(|e| shape.states[e].kind == CellKind::Face);
     if !faces || matches!(shape.states[shape.start].kind, CellKind::Edge | CellKind::Vertex) {
-        return super::certify(shape, addresses);
+        return super::certify_within(shape, addresses, budget);
     }
     shape.check()?;
     complex.check()?;
-    let product = tensor::Product::of(complex);
-    let (words, norm) = decide_contraction(shape)?;
+    let product = tensor::Product::of(complex, budget);
+    let (words, norm) = decide_contraction(shape, budget)?;
     let contraction = match &product {
         Some(product) if !words.is_proved() => Contraction::Product(product.contraction()),
         _ => words,
@@ -61,7 +74,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     };
     let balls = balls.with_simplex(shape);
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape) };
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape), budget };
     let chart = Chart::new(complex);
     let quick = product.is_some() && shape.states[shape.start].dim > LARGE_PRODUCT;
     let setting = Setting { cx, complex, chart: chart.as_ref().ok(), quick };
