@@ -63,6 +63,7 @@ pub mod certificate;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod diagnostic;
+pub mod escape;
 pub mod guard;
 pub mod laws;
 pub mod picture;

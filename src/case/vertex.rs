@@ -4,7 +4,7 @@ use super::node::{File, Node, Table};
 use crate::arith::{Rational, ratio};
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{DualWeights, MAX_VALENCE, MeshRule, SchemeError, mesh_rule, mesh_rules};
-use crate::theorem::Verdict;
+use crate::answer::Verdict;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

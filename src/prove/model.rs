@@ -3,8 +3,6 @@
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::diagnostic::Problem;
-use crate::report::math::Math;
-use crate::report::text;
 use crate::shape::{CurveError, Frame, word_text};
 use crate::theorem::ModelError;
 
@@ -15,7 +13,7 @@ pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
         ModelError::Curve(CurveError::Apart { state, index, piece, ends, begins }) => {
             // Affine maps are read as operators on the simplex 0, e_1, …; the user knows the coordinates after the first.
             let skip = usize::from(case.shape.frame == Frame::Affine);
-            let tuple = |v: &[Rational]| text::math_line(&Math::vector(v.get(skip..).unwrap_or_default()));
+            let tuple = |v: &[Rational]| tuple(v.get(skip..).unwrap_or(v));
             let place = if case.shape.states.len() > 1 { format!(" of state `{state}`") } else { String::new() };
             let before = piece.saturating_sub(1);
             let (begins, ends) = (tuple(begins), tuple(ends));
@@ -43,4 +41,9 @@ pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
         }
         _ => case.problem_at_state(case.shape.start, code, &error.to_string(), "see docs/theory.md §1"),
     }
+}
+
+fn tuple(point: &[Rational]) -> String {
+    let coordinates: Vec<String> = point.iter().map(|x| x.to_string().replace('-', "−")).collect();
+    format!("({})", coordinates.join(", "))
 }

@@ -17,7 +17,7 @@ pub mod radius;
 pub mod spectrum;
 pub mod summary;
 pub mod surface;
-mod symbols;
+use crate::escape::symbols;
 pub mod tex;
 pub mod text;
 pub mod values;

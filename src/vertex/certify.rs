@@ -13,7 +13,7 @@ use crate::budget::Budget;
 use crate::arith::{Interval, Rational, to_f64};
 use crate::poly::{Poly, factor};
 use crate::scheme::{MeshRule, SchemeError};
-use crate::theorem::Verdict;
+use crate::answer::Verdict;
 
 /// Polynomials up to this degree are factored for display.
 const DISPLAY_DEGREE: usize = 24;
