@@ -39,7 +39,8 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
     match question {
         Question::Tangents { case, further } => {
             let addresses = [case.examine.as_slice(), further].concat();
-            let found = certify_complex_within(&case.complex(), &addresses, budget).map_err(|error| model_problem(case, &error))?;
+            let found = certify_complex_within(&case.complex(), &addresses, budget)
+                .map_err(|error| model_problem(case, &error))?;
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
@@ -84,7 +85,12 @@ fn all_at_once(case: &VertexCase) -> Result<Every, Problem> {
     })
 }
 
-fn examine(case: &VertexCase, list: &[usize], budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Vec<AtValence>, Problem> {
+fn examine(
+    case: &VertexCase,
+    list: &[usize],
+    budget: &Budget,
+    step: &(dyn Fn() + Sync),
+) -> Result<Vec<AtValence>, Problem> {
     let one = |&n: &usize| {
         let found = at_valence_within(&case.rule, n, budget);
         step();

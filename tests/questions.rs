@@ -57,7 +57,10 @@ fn a_line_of_a_title_is_no_table() {
     let odd = format!("title = \"\"\"a set\n[vertex]\nbeta = 9/10\"\"\"\n{body}");
     let question = Question::parse("odd", &odd).unwrap();
     assert_eq!(question.subject(), Subject::Set);
-    assert_eq!(prove(&question, &Budget::default()).unwrap().verdict(), prove(&plain, &Budget::default()).unwrap().verdict());
+    assert_eq!(
+        prove(&question, &Budget::default()).unwrap().verdict(),
+        prove(&plain, &Budget::default()).unwrap().verdict()
+    );
     assert_eq!(program(&odd).0["verdict"], prove(&plain, &Budget::default()).unwrap().verdict().word());
 }
 
@@ -79,7 +82,10 @@ fn addresses_and_valences_of_the_caller_come_after_those_of_the_file() {
 #[test]
 fn no_valences_are_no_success() {
     let question = Question::parse("cc.toml", "name = \"cc\"\nvertex.mesh = \"catmull-clark\"\n").unwrap();
-    assert_eq!(prove(&question, &Budget::default()).err().map(|p| p.id().to_owned()).as_deref(), Some("secant::usage::valence"));
+    assert_eq!(
+        prove(&question, &Budget::default()).err().map(|p| p.id().to_owned()).as_deref(),
+        Some("secant::usage::valence")
+    );
 }
 
 /// The example of README.md and of the library's page answers as the program does: on every case, with the same claims.

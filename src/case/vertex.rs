@@ -1,10 +1,10 @@
 //! Case files about the vertices of a mesh: a `[vertex]` table names the rule on meshes, its weights and the valences.
 
 use super::node::{File, Node, Table};
+use crate::answer::Verdict;
 use crate::arith::{Rational, ratio};
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{DualWeights, MAX_VALENCE, MeshRule, SchemeError, mesh_rule, mesh_rules};
-use crate::answer::Verdict;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 

@@ -61,7 +61,12 @@ fn valences(text: &str) -> Result<Valences, Problem> {
 ///
 /// # Errors
 /// The [`Problem`] of the model, or of a certificate that the checker does not accept.
-pub fn answered(question: &Question, check: bool, budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Answered, Problem> {
+pub fn answered(
+    question: &Question,
+    check: bool,
+    budget: &Budget,
+    step: &(dyn Fn() + Sync),
+) -> Result<Answered, Problem> {
     let mut findings = prove_with(question, budget, step)?;
     let decided = match &findings {
         Findings::Tangents { found, .. } => found.verdict != Verdict::Undetermined,

@@ -1,9 +1,9 @@
 //! Documents as self-contained HTML: MathML formulas, inline SVG, light and dark, fit for printing.
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
-pub use crate::escape::html as escaped;
 use super::math::Math;
 use super::mathml::{inline_elements, math_element};
+pub use crate::escape::html as escaped;
 use crate::picture;
 
 const STYLE: &str = include_str!("style.css");

@@ -5,14 +5,13 @@ use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingP
 use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side};
 use super::viewpoint::Viewpoint;
 use crate::algebraic::{Elem, Root};
-use crate::budget::Budget;
 use crate::arith::Rational;
+use crate::budget::Budget;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
 use crate::statement::Statement;
 use std::cell::OnceCell;
-
 
 /// What all branches of a shape share.
 pub struct Context<'a> {
@@ -210,7 +209,8 @@ impl Analysis<'_> {
     /// The ring condition with balls, then with polygons where there are any.
     fn decide(&self, functionals: &[Functional]) -> RingAnswer {
         let small = self.branch.relevant <= 2;
-        let answer = self.ring().decide(functionals, if small { self.cx.budget.first_cells } else { self.cx.budget.cells });
+        let answer =
+            self.ring().decide(functionals, if small { self.cx.budget.first_cells } else { self.cx.budget.cells });
         if !small || !matches!(answer, RingAnswer::Open { .. }) {
             return answer;
         }

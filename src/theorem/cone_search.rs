@@ -27,7 +27,6 @@ impl Frame {
     }
 }
 
-
 type Rays = Vec<Vec<f64>>;
 
 /// Rays for cones that the maps do not leave, though images may lie on the boundary: chords and the rays to which short cycles

@@ -10,7 +10,6 @@ use crate::linalg::Matrix;
 use crate::shape::CellKind;
 use crate::statement::Statement;
 
-
 /// The hypotheses of Theorem 5 on injectivity, in the visible quotients.
 pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
     let mut injective = Vec::new();

@@ -9,11 +9,11 @@ use super::regular::Regular;
 use super::ring::{self, Values, jacobian, patches};
 use super::top::{Top, TopError, leading_value, leading_values, top};
 use super::turning::{Rotation, Turning};
-use crate::budget::Budget;
+use crate::answer::Verdict;
 use crate::arith::{Interval, Rational, to_f64};
+use crate::budget::Budget;
 use crate::poly::{Poly, factor};
 use crate::scheme::{MeshRule, SchemeError};
-use crate::answer::Verdict;
 
 /// Polynomials up to this degree are factored for display.
 const DISPLAY_DEGREE: usize = 24;

@@ -117,7 +117,13 @@ impl Ring {
     /// # Cost
     /// Stencils of a wider neighbourhood; see [`Regular::of`].
     #[must_use]
-    pub fn new(vertex: &Vertex, field: &Enclosures, values: &Values<Fixed>, eigenvalue: &Fixed, most: usize) -> Option<Self> {
+    pub fn new(
+        vertex: &Vertex,
+        field: &Enclosures,
+        values: &Values<Fixed>,
+        eigenvalue: &Fixed,
+        most: usize,
+    ) -> Option<Self> {
         let regular = Regular::of(&vertex.rule)?;
         let rings = usize::try_from(regular.factor * RADIUS + REACH).ok()?;
         let wide = Vertex::new(&vertex.rule, vertex.valence, rings).ok()?;

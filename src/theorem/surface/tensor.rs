@@ -4,8 +4,8 @@ use super::branch::Setting;
 use super::span::Subspace;
 use super::verdict::{ProductEvidence, ProductFactor, SurfacePoint};
 use crate::algebraic::Elem;
-use crate::budget::Budget;
 use crate::arith::Rational;
+use crate::budget::Budget;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
@@ -177,7 +177,8 @@ fn parts(address: &Address, columns: usize) -> (Address, Address) {
 /// Returns `None` where a curve is not certified: it does not contract, is a point, or the address is not decided.
 #[must_use]
 pub fn product_point(first: &Shape, second: &Shape, address: &Address, view: &Matrix) -> Option<ProductEvidence> {
-    Product { first: Factor::new(first)?, second: Factor::new(second)? }.point(address, view)
+    let budget = Budget::default();
+    Product { first: Factor::new(first, &budget)?, second: Factor::new(second, &budget)? }.point(address, view)
 }
 
 fn conclude(a: PointReport, b: PointReport, view: &Matrix) -> ProductEvidence {
