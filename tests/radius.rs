@@ -1,6 +1,7 @@
 //! Joint spectral radii, regularity and cones against known values.
 
 use secant::arith::{Rational, parse_rational, to_f64};
+use secant::budget::Budget;
 use secant::certificate::radius_certificate;
 use secant::linalg::Matrix;
 use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
@@ -205,7 +206,7 @@ fn family(a: &str, b: &str) -> Shape {
 }
 
 fn cone(shape: &Shape) -> Option<ConeAnswer> {
-    common_cone(shape, &Spaces::new(shape).expect("base points"))
+    common_cone(shape, &Spaces::new(shape).expect("base points"), Budget::default().cone_steps)
 }
 
 #[test]

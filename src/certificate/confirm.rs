@@ -2,7 +2,7 @@
 
 use super::{Certificate, Unsupported, certificate};
 use crate::case::Case;
-use crate::theorem::{About, Certified, PointReport, Statement, Verdict};
+use crate::theorem::{About, Assertion, Certified, Verdict};
 use secant_check::{Accepted, Decided, Joints, Subject};
 use thiserror::Error;
 
@@ -45,23 +45,24 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
 /// Whether the checker's claims about curves and sets say of what secant's claims are said: the verdicts are those of the
 /// certificate, which it has compared.
 fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
-    for claim in found.claims.iter().filter(|c| c.verdict != Verdict::Undetermined) {
-        let expected = match (&claim.asked, claim.statement) {
-            (Some((address, k)), _) => {
+    for claim in found.claims.iter().filter(|c| c.verdict() != Verdict::Undetermined) {
+        let expected = match &claim.what {
+            Assertion::TangentAt { address, about, .. } => {
                 let address = secant_check::Address { prefix: address.prefix.clone(), cycle: address.cycle.clone() };
-                let of = match found.points.get(*k).map(PointReport::about) {
-                    Some(About::Curve) => Subject::Curve,
-                    Some(About::Shape) => Subject::Set,
-                    Some(About::Branch) => Subject::Branch,
-                    None => return Err(Doubt::Claims(format!("about a point that is not listed: {}", claim.text))),
+                let of = match about {
+                    About::Curve => Subject::Curve,
+                    About::Shape => Subject::Set,
+                    About::Branch => Subject::Branch,
                 };
                 secant_check::Claim::TangentAt { address, of }
             }
-            (None, Some(Statement::Theorem5)) => secant_check::Claim::TangentAtJoints(Joints::All),
-            (None, Some(Statement::Theorem5Projected)) => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
-            (None, _) => continue,
+            Assertion::TangentAtEnds => secant_check::Claim::TangentAtEnds,
+            Assertion::DenseJoints => secant_check::Claim::TangentAtJoints(Joints::All),
+            Assertion::ProjectedJoints => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
+            // The certificate's answers about single points and about all of them carry these.
+            _ => continue,
         };
-        let known = |d: &Decided| d.claim == expected && same_verdict(claim.verdict, d.verdict);
+        let known = |d: &Decided| d.claim == expected && same_verdict(claim.verdict(), d.verdict);
         if !accepted.claims.iter().any(known) {
             let said: Vec<String> = accepted.claims.iter().map(ToString::to_string).collect();
             return Err(Doubt::Claims(format!("{}, not {expected}", said.join("; "))));

@@ -135,7 +135,7 @@ fn covered(case: &VertexCase, found: &[AtValence]) -> Option<Covered> {
             valences.push(evidence);
         }
     }
-    if claims.is_empty() || !VertexCase::is_one(&case.text.text) {
+    if claims.is_empty() || !case.declared {
         return None;
     }
     let verdict = together(case, &claims);
@@ -188,8 +188,7 @@ fn together(case: &VertexCase, claims: &[(usize, Verdict)]) -> Verdict {
         Some(Valences::All) => (false, &|_| true),
         None => (true, &|_| true),
     };
-    match claims.iter().filter(|c| counts(c.0)).map(|c| c.1).reduce(Verdict::and) {
-        Some(Verdict::Proved) if !all => Verdict::Undetermined,
-        found => found.unwrap_or(Verdict::Undetermined),
-    }
+    let counted: Vec<Verdict> = claims.iter().filter(|c| counts(c.0)).map(|c| c.1).collect();
+    let missing = usize::from(!all);
+    Verdict::all(counted.len() + missing, counted)
 }
