@@ -64,6 +64,7 @@ pub mod certificate;
 pub mod cli;
 pub mod diagnostic;
 pub mod escape;
+pub mod glossary;
 pub mod guard;
 pub mod laws;
 pub mod picture;

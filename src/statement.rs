@@ -104,6 +104,7 @@ statements! {
     Theorem5Surface = "theorem-5-surface",
     TensorProduct = "tensor-product",
     ProductContraction = "product-contraction",
+    NoLimit = "no-limit",
     Lemma3 = "lemma-3",
     Theorem7 = "theorem-7",
     Theorem8 = "theorem-8",

@@ -207,6 +207,7 @@ fn every_citation_resolves() {
         for cited in citations(&text) {
             assert!(Statement::named(&cited).is_some(), "{name} cites {cited}, which `secant explain` does not know");
         }
+        assert!(!text.contains("This report is not complete"), "{name} leaves out a hypothesis");
         let listed = text.lines().find_map(|l| l.strip_prefix("- Statements applied: "));
         assert!(listed.is_some() || !text.contains("\n> **"), "{name}: a statement is quoted and not listed");
         for statement in listed.iter().flat_map(|l| l.split(". Proofs:").next()).flat_map(|l| l.split("; ")) {

@@ -8,6 +8,9 @@ use std::path::Path;
 const BEFORE: &str = "<!-- statement: ";
 const AFTER: &str = "<!-- end -->\n";
 
+/// Pages, besides the statements, whose lines of prose are short.
+const SHORT: [&str; 3] = ["docs/theory.md", "docs/glossary.md", "docs/reports.md"];
+
 /// Lines of prose are at most this long.
 const WIDTH: usize = 120;
 
@@ -109,6 +112,17 @@ fn explain_prints_the_statements_of_the_theory() {
     }
 }
 
+#[test]
+fn explain_knows_the_words() {
+    for word in secant::glossary::words() {
+        let output = assert_cmd::Command::cargo_bin("secant").unwrap().args(["explain", &word.name]).output().unwrap();
+        assert!(output.status.success(), "{}", word.name);
+    }
+    let output = assert_cmd::Command::cargo_bin("secant").unwrap().args(["explain", "theorm-2"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8(output.stderr).unwrap().contains("theorem-2"));
+}
+
 /// One line, one space between words.
 fn plain(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
@@ -131,7 +145,7 @@ fn long_lines(text: &str) -> Vec<usize> {
 #[test]
 fn lines_of_prose_are_short() {
     let statements = std::fs::read_dir(root().join("docs/statements")).unwrap().map(|f| f.unwrap().path());
-    let files = statements.chain([root().join("docs/theory.md")]);
+    let files = statements.chain(SHORT.iter().map(|name| root().join(name)));
     let mut wrong = Vec::new();
     for file in files {
         let long = long_lines(&std::fs::read_to_string(&file).unwrap());

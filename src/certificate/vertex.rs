@@ -96,6 +96,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
         Ground::Fold => "theorem-8-fold",
         Ground::Line => "theorem-2",
         Ground::Path => "theorem-8-path",
+        Ground::Sectors | Ground::Span | Ground::NoLimit => return None,
     };
     let values = values(case, vector, n);
     let largest = values.iter().max_by_key(|v| square(v))?;

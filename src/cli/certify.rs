@@ -3,7 +3,7 @@
 use super::answered::{Answered, answered, question};
 use super::output::{complain, print, problem_code, stdout_colour, write_file};
 use super::progress::{Progress, Waiting};
-use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, UNDETERMINED, approximate, many};
+use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many};
 use crate::answer::Verdict;
 use crate::case::{Case, Question, Valences};
 use crate::certificate::Unsupported;
@@ -12,6 +12,7 @@ use crate::guard::guarded;
 use crate::picture::characteristic::sheet;
 use crate::prove::Findings;
 use crate::report::document::Block;
+use crate::report::proof::Level;
 use crate::report::{figures, findings, html, json, latex, markdown, text, vertex as at_vertices};
 use std::path::Path;
 
@@ -136,7 +137,12 @@ pub(super) fn extension(path: &Path) -> String {
 /// Writes the report and the picture that were asked for; both are made before the first is written.
 fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
     let report = args.report.as_deref().map(|path| {
-        let document = findings::proof(&answered.findings);
+        let level = match args.report_level {
+            ReportLevel::Summary => Level::Summary,
+            ReportLevel::Proof => Level::Proof,
+            ReportLevel::Full => Level::Full,
+        };
+        let document = findings::proof_at(&answered.findings, level);
         let written = match extension(path).as_str() {
             "md" => markdown::render(&document),
             "tex" => latex::render(&document),

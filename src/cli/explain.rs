@@ -1,8 +1,9 @@
-//! `secant explain`: the statements.
+//! `secant explain`: the statements, and the words of the glossary.
 
 use super::output::{complain, print, stdout_colour};
 use super::{BAD_INPUT, PROVED};
 use crate::diagnostic::Problem;
+use crate::glossary;
 use crate::report::document::{Block, Document, Inline, Line, line, words};
 use crate::report::text;
 use crate::statement::Statement;
@@ -11,10 +12,16 @@ use crate::statement::Statement;
 pub fn run(name: Option<&str>) -> u8 {
     let Some(name) = name else {
         let items = Statement::ALL.iter().map(|s| (s.id().to_owned(), words(s.name())));
-        show("Statements", vec![Block::Facts(items.collect())]);
+        let names: Vec<&str> = glossary::words().iter().map(|w| w.name.as_str()).collect();
+        let listed = format!("Words: {}.", names.join(", "));
+        show("Statements and words", vec![Block::Facts(items.collect()), Block::Paragraph(words(listed))]);
         return PROVED;
     };
     let Some(statement) = Statement::named(name) else {
+        if let Some(word) = glossary::word(name) {
+            show(&word.name, vec![Block::text(&word.text, [])]);
+            return PROVED;
+        }
         complain(&unknown(name));
         return BAD_INPUT;
     };
@@ -24,6 +31,8 @@ pub fn run(name: Option<&str>) -> u8 {
         blocks.push(Block::Paragraph(if k == 0 { headed("Proof.", paragraph) } else { line(paragraph, []) }));
     }
     blocks.push(Block::Paragraph(headed("Reference.", &text.reference)));
+    let symbols = "$V, L, K, X, q, E_i, F_i, π_i, U, u, G, D^*$ are defined in docs/theory.md §§2–5; words such as `ring` have an entry of their own here.";
+    blocks.push(Block::Paragraph(headed("Symbols.", symbols)));
     show(&text.name, blocks);
     PROVED
 }
@@ -37,13 +46,16 @@ fn headed(head: &str, body: &str) -> Line {
 
 /// What to say about a name that is unknown, with the names that resemble it.
 fn unknown(name: &str) -> Problem {
-    let near = Statement::near(name);
+    let mut near = Statement::near(name);
+    let small = name.trim().to_lowercase();
+    let like = |w: &&glossary::Word| strsim::jaro_winkler(&w.name.to_lowercase(), &small) > 0.85;
+    near.extend(glossary::words().iter().filter(like).map(|w| w.name.as_str()));
     let help = if near.is_empty() {
-        "`secant explain` without a name lists all statements".to_owned()
+        "`secant explain` without a name lists all statements and words".to_owned()
     } else {
         format!("did you mean {}?", near.join(", "))
     };
-    Problem::new("secant::usage::explain", format!("there is no statement `{name}`")).with_help(help)
+    Problem::new("secant::usage::explain", format!("there is no statement or word `{name}`")).with_help(help)
 }
 
 fn show(title: &str, blocks: Vec<Block>) {

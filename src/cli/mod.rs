@@ -137,6 +137,9 @@ struct CertifyArgs {
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    /// How much of the proof the report has: its first page, all of it, or all of it with nothing folded.
+    #[arg(long, value_enum, default_value_t, value_name = "LEVEL")]
+    report_level: ReportLevel,
     /// Draw the attractor with the tangents found.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -290,6 +293,18 @@ struct JsrArgs {
     /// Write a certificate of the bounds that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+}
+
+/// How much of a proof a report has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+enum ReportLevel {
+    /// The first page: statement, results, picture, verdict, digests.
+    Summary,
+    /// The whole proof.
+    #[default]
+    Proof,
+    /// The whole proof with nothing folded.
+    Full,
 }
 
 /// What a picture shows.

@@ -88,7 +88,7 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
     let canvas = draw(shape, &projection, title, marks)?;
     let what = match shape.states[shape.start].kind {
         CellKind::Edge => "curve",
-        CellKind::Face => "surface",
+        CellKind::Face => "face",
         CellKind::Vertex | CellKind::Set => "set",
     };
     let drawn = match marks.len() {

@@ -43,6 +43,8 @@ pub enum Block {
         /// The words below it.
         caption: Line,
     },
+    /// The headings of the second level that follow, as a table of contents.
+    Contents(Vec<Line>),
     /// Blocks that a reader may skip, such as long lists.
     Details {
         /// What they are.
@@ -189,6 +191,18 @@ impl Block {
     #[must_use]
     pub fn heading(level: u8, template: &str) -> Self {
         Self::Heading(level, line(template, []))
+    }
+}
+
+impl Document {
+    /// Puts a table of contents at a place: the headings of the second level from there on.
+    pub fn insert_contents(&mut self, at: usize) {
+        let heads = self.blocks.iter().skip(at).filter_map(|b| match b {
+            Block::Heading(2, text) => Some(text.clone()),
+            _ => None,
+        });
+        let contents = Block::Contents(heads.collect());
+        self.blocks.insert(at.min(self.blocks.len()), contents);
     }
 }
 

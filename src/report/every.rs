@@ -14,23 +14,24 @@ use serde_json::{Value, json};
 /// Places of an exponent.
 const PLACES: u64 = 6;
 
-/// The theorem that gives the cones.
+/// The theorem that gives the cones: where single pieces have coefficients 0 it is Theorem 6′.
 #[must_use]
 pub fn theorem(cone: &CommonCone) -> Statement {
-    if cone.slow.is_empty() { Statement::Theorem6 } else { Statement::Theorem6Slow }
+    if cone.slow.is_empty() && cone.window == 1 { Statement::Theorem6 } else { Statement::Theorem6Slow }
 }
 
 /// What is claimed, in a few words.
 #[must_use]
 pub fn claim(every: &Everywhere) -> String {
     match (every.verdict, &every.cone) {
-        (Verdict::Proved, _) => "G¹: a tangent at every point, which turns continuously".to_owned(),
+        (Verdict::Proved, _) => "G¹: an oriented tangent at every point, which turns continuously".to_owned(),
         (Verdict::Refuted, Some(_)) if every.seen => {
-            "G¹; but both half-tangents exist at every point, and tangents everywhere but at joints".to_owned()
+            "G¹; but both half-tangents exist at every point, and they are opposite at every inner point that is no image of a \
+             first-level joint".to_owned()
         }
         (_, Some(_)) if every.seen => "G¹; but both half-tangents exist at every point".to_owned(),
         (_, Some(_)) => "G¹; but before the projection both half-tangents exist at every point".to_owned(),
-        (_, None) => "G¹ (a tangent at every point, which turns continuously)".to_owned(),
+        (_, None) => "G¹ (an oriented tangent at every point, which turns continuously)".to_owned(),
     }
 }
 
@@ -49,7 +50,7 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
     if let (Some(exponent), Some(rate)) = (&every.exponent, every.cone.as_ref().and_then(|c| c.rate.as_ref())) {
         let text = format!(
             "the tangent is Hölder-continuous in the uniform parameter with an exponent of at least {} (products of {} \
-             shrink the cones by {})",
+             shrink the Hilbert diameter of the cones to at most {} of its size)",
             decimal(exponent, false, PLACES),
             count(rate.length, "letter"),
             decimal(&rate.shrink().hi, true, PLACES)
@@ -59,8 +60,8 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
     if let Some(point) = every.witness.and_then(|k| found.points.get(k)) {
         facts.push(("witness".to_owned(), witness(case, point)));
     }
-    if let Some(o) = &every.obstacle {
-        facts.push(("obstacle".to_owned(), obstacle(case, o)));
+    if let Some(o) = every.obstacle.as_ref().filter(|_| every.witness.is_none()) {
+        facts.push(("no cone".to_owned(), obstacle(case, o)));
     }
     facts
 }
@@ -82,7 +83,12 @@ fn witness(case: &Case, point: &PointReport) -> Line {
 #[must_use]
 pub fn obstacle(case: &Case, o: &ConeObstacle) -> Line {
     let place = state_place(case, o.state);
-    let mut out = line(&format!("the cycle `{}`{place} has {}: ", word_text(&o.word), o.reason), []);
+    let text = format!(
+        "no cone is mapped strictly into itself (Theorem 6), because the product along the cycle `{}`{place} has {}: ",
+        word_text(&o.word),
+        o.reason
+    );
+    let mut out = line(&text, []);
     for (k, root) in o.leading.iter().enumerate() {
         if k > 0 {
             out.extend(words(", "));

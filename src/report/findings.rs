@@ -1,6 +1,7 @@
 //! Findings of any kind as a proof, a summary, or data.
 
 use super::document::Document;
+use super::proof::Level;
 use super::{json, proof, summary, vertex};
 use crate::prove::Findings;
 use serde_json::Value;
@@ -8,8 +9,14 @@ use serde_json::Value;
 /// The proof.
 #[must_use]
 pub fn proof(findings: &Findings) -> Document {
+    proof_at(findings, Level::Proof)
+}
+
+/// The proof, or its first page; vertices have no levels.
+#[must_use]
+pub fn proof_at(findings: &Findings, level: Level) -> Document {
     match findings {
-        Findings::Tangents { case, found } => proof::document(case, found),
+        Findings::Tangents { case, found } => proof::document_at(case, found, level),
         Findings::Vertices { case, found, every } => proof::vertex_document(case, found, every.as_ref()),
     }
 }

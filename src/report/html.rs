@@ -38,11 +38,19 @@ fn one_style(page: &str) -> String {
     }
 }
 
+/// The anchor of a heading: its letters and digits.
+fn anchor(head: &[Inline]) -> String {
+    let text = super::text::plain(head);
+    let sign = |c: char| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    text.chars().map(sign).collect()
+}
+
 fn write_block(out: &mut String, block: &Block) {
     match block {
         Block::Heading(level, text) => {
             let level = (*level).clamp(2, 6);
-            out.push_str(&format!("<h{level}>{}</h{level}>\n", inline(text)));
+            let id = if level == 2 { format!(" id=\"{}\"", anchor(text)) } else { String::new() };
+            out.push_str(&format!("<h{level}{id}>{}</h{level}>\n", inline(text)));
         }
         Block::Paragraph(text) => out.push_str(&format!("<p>{}</p>\n", inline(text))),
         Block::Formula(math) => {
@@ -66,6 +74,11 @@ fn write_block(out: &mut String, block: &Block) {
             out.push_str("</ul>\n");
         }
         Block::Table(table) => write_table(out, table),
+        Block::Contents(heads) => {
+            let link = |head: &Line| format!("<li><a href=\"#{}\">{}</a></li>\n", anchor(head), inline(head));
+            let items: String = heads.iter().map(link).collect();
+            out.push_str(&format!("<nav aria-label=\"Contents\"><ol>\n{items}</ol></nav>\n"));
+        }
         Block::Statement(statement) => {
             let text = statement.text();
             out.push_str(&format!("<blockquote><p><strong>{}.</strong> Hypotheses:</p>\n<ul>\n", escaped(&text.name)));

@@ -55,7 +55,11 @@ fn write_block(out: &mut String, block: &Block) {
                 3 => "subsection",
                 _ => "subsubsection",
             };
-            out.push_str(&format!("\\{command}*{{{}}}\n", inline(text)));
+            let text = inline(text);
+            out.push_str(&format!("\\{command}*{{{text}}}\n"));
+            if command == "section" {
+                out.push_str(&format!("\\addcontentsline{{toc}}{{section}}{{{text}}}\n"));
+            }
         }
         Block::Paragraph(text) => out.push_str(&format!("{}\n", inline(text))),
         Block::Formula(math) => {
@@ -81,6 +85,7 @@ fn write_block(out: &mut String, block: &Block) {
             out.push_str("\\end{itemize}\n");
         }
         Block::Table(table) => write_table(out, table),
+        Block::Contents(_) => out.push_str("\\setcounter{tocdepth}{1}\n\\tableofcontents\n"),
         Block::Statement(statement) => {
             let text = statement.text();
             out.push_str(&format!("\\begin{{quoted}}[{}]\nHypotheses:\n\\begin{{itemize}}\n", escaped(&text.name)));

@@ -45,6 +45,12 @@ fn write_block(out: &mut String, block: &Block) {
             }
         }
         Block::Table(table) => write_table(out, table),
+        Block::Contents(heads) => {
+            for head in heads {
+                let text = inline(head);
+                out.push_str(&format!("- [{text}](#{})\n", anchor(&text)));
+            }
+        }
         Block::Statement(statement) => {
             let text = statement.text();
             out.push_str(&format!("> **{}.** Hypotheses:\n>\n", escaped(&text.name)));
@@ -68,6 +74,12 @@ fn write_block(out: &mut String, block: &Block) {
             }
         }
     }
+}
+
+/// The anchor that Markdown viewers give a heading.
+fn anchor(text: &str) -> String {
+    let letters = text.chars().filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+    letters.map(|c| if c == ' ' { '-' } else { c }).collect::<String>().to_lowercase()
 }
 
 fn write_table(out: &mut String, table: &Table) {

@@ -56,7 +56,8 @@ fn element(math: &Math) -> String {
             let cell = |m: &Math| format!("<mtd>{}</mtd>", element(m));
             let row = |cells: &Vec<Math>| format!("<mtr>{}</mtr>", cells.iter().map(cell).collect::<String>());
             let body: String = rows.iter().map(row).collect();
-            format!("<mrow><mo>(</mo><mtable>{body}</mtable><mo>)</mo></mrow>")
+            // The brackets are drawn by the style sheet: browsers without a font for formulas do not stretch them.
+            format!("<mtable class=\"matrix\">{body}</mtable>")
         }
     }
 }

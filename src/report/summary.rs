@@ -65,12 +65,13 @@ pub(super) fn claim_line(case: &Case, found: &Certified, claim: &Claim) -> Line 
 }
 
 /// What the shape is, in one line.
-pub(super) fn shape_line(case: &Case) -> Line {
+pub(super) fn shape_line(case: &Case, found: &Certified) -> Line {
     let shape = &case.shape;
     let start = &shape.states[shape.start];
     let what = match start.kind {
         CellKind::Edge => "curve",
-        CellKind::Face => "surface",
+        CellKind::Face if found.surface.as_ref().is_some_and(|s| s.unparametrised.is_none()) => "surface",
+        CellKind::Face => "set declared as a face (that it is a surface was not shown)",
         CellKind::Vertex | CellKind::Set => "set",
     };
     let pieces = count(start.pieces.len(), "piece");
@@ -97,7 +98,7 @@ pub(super) fn shape_line(case: &Case) -> Line {
 }
 
 fn shape_facts(case: &Case, found: &Certified) -> Vec<(String, Line)> {
-    let mut facts = vec![("shape".to_owned(), shape_line(case))];
+    let mut facts = vec![("shape".to_owned(), shape_line(case, found))];
     facts.push(("contraction".to_owned(), contraction(&found.contraction)));
     if let Some(start) = found.states.iter().find(|s| s.state == case.shape.start) {
         let text = if start.visible == start.relevant {

@@ -80,6 +80,8 @@ impl Writer {
                 }
             }
             Block::Table(table) => self.table(table, indent + 2),
+            // A terminal has no pages.
+            Block::Contents(_) => {}
             Block::Statement(statement) => {
                 let text = statement.text();
                 self.raw(&format!("{pad}  {}", self.painted("1", &text.name)));

@@ -1,5 +1,6 @@
 //! Exact algebraic values as formulas and decimals.
 
+use super::document::{Line, line};
 use super::math::{Math, shortened};
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Integer, Interval, Rational, abs};
@@ -70,6 +71,44 @@ pub fn root_math(root: &Root) -> Math {
     }
     Math::Row(row)
 }
+
+/// `λ = 3/4`, or `λ ≈ 0.549988` where there is no short exact form.
+#[must_use]
+pub fn lambda_math(root: &Root) -> Math {
+    let value = root_math(root);
+    let rounded = matches!(&value, Math::Row(row) if row.first() == Some(&Math::Symbol('≈')));
+    let name = if rounded { Math::Letter('λ') } else { Math::of("λ=") };
+    Math::Row(vec![name, value])
+}
+
+/// Both ends of an enclosure as decimals of six digits rounded outwards, or exactly where that would lose a sign.
+#[must_use]
+pub fn outward(x: &Interval) -> (Math, Math) {
+    use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
+    let million = Rational::from(10).pow(DIGITS);
+    let lo = Rational::from((&x.lo * &million).floor()) / &million;
+    let hi = Rational::from((&x.hi * &million).ceiling()) / &million;
+    let same = |a: &Rational, b: &Rational| crate::arith::sign(a) == crate::arith::sign(b);
+    if same(&lo, &x.lo) && same(&hi, &x.hi) {
+        (decimal_math(&lo, DIGITS), decimal_math(&hi, DIGITS))
+    } else {
+        (Math::number(&x.lo), Math::number(&x.hi))
+    }
+}
+
+/// A value that is known to lie in an enclosure: exactly where both ends are one short number, otherwise between decimals
+/// rounded outwards.
+#[must_use]
+pub fn enclosed(x: &Interval) -> Line {
+    if x.lo == x.hi && x.lo.to_string().len() <= MAX_EXACT {
+        return line("the value $@$", [Math::number(&x.lo)]);
+    }
+    let (lo, hi) = outward(x);
+    line("between $@$ and $@$", [lo, hi])
+}
+
+/// Longer numbers are enclosed, not written out.
+const MAX_EXACT: usize = 40;
 
 fn push_decimal(row: &mut Vec<Math>, x: &Rational, always_sign: bool) {
     let text = decimal(x, DIGITS);
@@ -206,6 +245,20 @@ mod tests {
         let mut imaginary = shown(&[3, 0, 1]);
         imaginary.sort();
         assert_eq!(imaginary, ["−√3 i", "√3 i"]);
+    }
+
+    #[test]
+    fn enclosures_are_rounded_outwards() {
+        let shown = |lo: Rational, hi: Rational| {
+            let (lo, hi) = outward(&Interval { lo, hi });
+            (math_line(&lo), math_line(&hi))
+        };
+        let (third, seventh) = (ratio(1, 3), ratio(1, 7));
+        assert_eq!(shown(-third.clone(), third.clone()), ("−0.333334".to_owned(), "0.333334".to_owned()));
+        assert_eq!(shown(seventh.clone(), third), ("0.142857".to_owned(), "0.333334".to_owned()));
+        assert_eq!(shown(ratio(1, 100_000_000), ratio(1, 8)).0, "1/100000000", "the sign is kept");
+        let exact = enclosed(&Interval::point(ratio(41, 11)));
+        assert_eq!(exact, line("the value $@$", [Math::number(&ratio(41, 11))]));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::claims;
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, code, words};
 use super::math::Math;
-use super::words::mark;
+use super::words::{count, mark};
 use crate::arith::Rational;
 use crate::case::VertexCase;
 use crate::picture::characteristic::{Panel, sheet, tikz};
@@ -101,7 +101,8 @@ fn exact(found: &AtValence) -> Option<String> {
     found.top.as_ref().filter(|top| top.rational.is_none())?;
     let text = equation(found)?;
     let angle = found.frequency.map_or_else(|| "2kπ/n".to_owned(), |k| format!("{}π/n", 2 * k));
-    Some(if text.contains('c') { format!("{text} = 0, c = cos({angle})") } else { format!("{text} = 0") })
+    let with_cosine = found.top.as_ref()?.poly.iter().any(|p| p.degree().is_some_and(|d| d > 0));
+    Some(if with_cosine { format!("{text} = 0, c = cos({angle})") } else { format!("{text} = 0") })
 }
 
 /// The equations of the eigenvalues, those of several valences together.
@@ -210,20 +211,21 @@ fn table(case: &VertexCase, found: &[AtValence]) -> Table {
 }
 
 /// A section for every valence, with its evidence and a picture of the characteristic map.
-pub(super) fn evidence_by_valence(case: &VertexCase, found: &[AtValence]) -> Vec<Block> {
-    let mut blocks = Vec::new();
-    for f in found {
-        blocks.push(Block::Heading(2, words(format!("Valence {}", f.valence))));
-        blocks.push(Block::Facts(evidence(f)));
-        if let Some(panel) = panel(f) {
-            let title = format!("{}, valence {}", case.title, f.valence);
-            blocks.push(Block::Figure {
-                svg: sheet(&[panel], &title),
-                tikz: tikz(&panel),
-                alt: format!("The characteristic map at valence {}", f.valence),
-                caption: words("The ring of the characteristic map and two smaller copies."),
-            });
-        }
+fn evidence_by_valence(case: &VertexCase, found: &[AtValence]) -> Vec<Block> {
+    found.iter().flat_map(|f| at(case, f)).collect()
+}
+
+/// The section of one valence.
+pub(super) fn at(case: &VertexCase, f: &AtValence) -> Vec<Block> {
+    let mut blocks = vec![Block::Heading(2, words(format!("Valence {}", f.valence))), Block::Facts(evidence(f))];
+    if let Some(panel) = panel(f) {
+        let title = format!("{}, valence {}", case.title, f.valence);
+        blocks.push(Block::Figure {
+            svg: sheet(&[panel], &title),
+            tikz: tikz(&panel),
+            alt: format!("The characteristic map at valence {}", f.valence),
+            caption: words("The ring of the characteristic map and two smaller copies."),
+        });
     }
     blocks
 }
@@ -278,7 +280,12 @@ fn witness(case: &VertexCase, f: &AtValence) -> Option<Line> {
 }
 
 fn evidence(f: &AtValence) -> Vec<(String, Line)> {
-    let mut facts = vec![("C¹".to_owned(), vec![mark(f.smooth)]), ("tangent plane".to_owned(), vec![mark(f.plane)])];
+    let almost = |verdict| {
+        let mut out = vec![mark(verdict)];
+        out.extend(words(" for almost all control points"));
+        out
+    };
+    let mut facts = vec![("C¹".to_owned(), almost(f.smooth)), ("tangent plane".to_owned(), almost(f.plane))];
     if let Some(text) = exact(f) {
         facts.push(("equation of the eigenvalue".to_owned(), code(text)));
     }
@@ -286,12 +293,20 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
         facts.push(("minimal polynomial".to_owned(), code(p.primitive_display("x"))));
     }
     if let Some(top) = &f.top {
-        facts.push(("all others below".to_owned(), words(super::radius::decimal(&top.others, true, 10))));
+        facts.push(("all others but 1 below".to_owned(), words(super::radius::decimal(&top.others, true, 10))));
+        let (length, dimension) = top.longest(f.valence);
+        let text = format!("{length}, with ends that span {}", count(dimension, "dimension"));
+        facts.push(("longest Jordan blocks".to_owned(), words(text)));
     }
     if let Some(signs) = &f.jacobian {
         let of =
             if f.polynomial { "of all Bernstein coefficients on" } else { "of its enclosure (Lemma 4) on each of" };
-        let text = format!("one strict sign {of} {} pieces, divided {} times at most", signs.pieces, signs.depth);
+        let halved = if signs.depth == 0 {
+            "undivided".to_owned()
+        } else {
+            format!("halved at most {}", count(signs.depth, "time"))
+        };
+        let text = format!("one strict sign {of} {}, {halved}", count(signs.pieces, "piece"));
         let (tone, text) = match (signs.strict(), signs.changes()) {
             (Some(_), _) => (Tone::Good, text),
             (None, true) => (Tone::Bad, "it takes both signs".to_owned()),
@@ -302,7 +317,7 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
     if let Some((a, b)) = &f.half_plane {
         facts.push((
             "half-plane of a sector".to_owned(),
-            words(format!("({a}) x + ({b}) y > 0 in coordinates x + y ω")),
+            words(format!("{} > 0 in coordinates x + y ω", functional(a, b))),
         ));
     }
     if let Some(w) = f.winding {
@@ -310,6 +325,29 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
     }
     facts.push(("reason".to_owned(), words(f.reason.clone())));
     facts
+}
+
+/// `x + y`, `3 x − 2 y`: a functional up to a positive factor.
+#[must_use]
+pub fn functional(a: &Rational, b: &Rational) -> String {
+    let both = Poly::new(vec![a.clone(), b.clone()]);
+    let whole: Vec<Rational> = both.primitive().into_iter().map(Rational::from).collect();
+    let unit = Rational::from(1);
+    // The primitive form may have the other sign.
+    let flip = [a, b].iter().zip(&whole).any(|(x, w)| **x != 0 && (**x > 0) != (*w > 0));
+    let mut out = String::new();
+    for (value, name) in whole.iter().zip(["x", "y"]).filter(|(v, _)| **v != 0) {
+        let value = if flip { -value.clone() } else { value.clone() };
+        let size = crate::arith::abs(&value);
+        out.push_str(match (out.is_empty(), value < 0) {
+            (true, true) => "−",
+            (true, false) => "",
+            (false, true) => " − ",
+            (false, false) => " + ",
+        });
+        out.push_str(&if size == unit { name.to_owned() } else { format!("{size} {name}") });
+    }
+    out
 }
 
 /// The panel of a picture; `None` where there is no ring.

@@ -3,7 +3,8 @@
 use super::document::{Inline, Line, Tone, line, words};
 use super::math::Math;
 use super::values::{
-    decimal_math, decimals_math, direction_decimals, direction_math, exponent, is_rational, polynomial, root_math,
+    decimal_math, decimals_math, direction_decimals, direction_math, enclosed, exponent, is_rational, lambda_math,
+    polynomial, root_math,
 };
 use crate::algebraic::Root;
 use crate::arith::Rational;
@@ -47,16 +48,24 @@ pub fn count(number: usize, noun: &str) -> String {
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}{ending}") }
 }
 
-/// What a point is called: `Left end`, `Joint of pieces 0 and 1`.
+/// What a point is called at the start of a sentence: `Left end`, `Joint of pieces 0 and 1`.
 #[must_use]
 pub fn point_name(shape: &Shape, point: &PointReport) -> String {
+    let phrase = point_phrase(shape, point);
+    let mut letters = phrase.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// The same inside a sentence: `left end`, `joint of pieces 0 and 1`.
+#[must_use]
+pub fn point_phrase(shape: &Shape, point: &PointReport) -> String {
     match &point.role {
-        Role::LeftEnd => "Left end".to_owned(),
-        Role::RightEnd => "Right end".to_owned(),
-        Role::Interior => "Interior point".to_owned(),
-        Role::SetPoint => "Point".to_owned(),
+        Role::LeftEnd => "left end".to_owned(),
+        Role::RightEnd => "right end".to_owned(),
+        Role::Interior => "interior point".to_owned(),
+        Role::SetPoint => "point".to_owned(),
         Role::Joint { path, state, left, right } => {
-            let mut name = format!("Joint of pieces {left} and {right}");
+            let mut name = format!("joint of pieces {left} and {right}");
             if shape.states.len() > 1 {
                 name.push_str(&format!(" of state {}", shape.states[*state].name));
             }
@@ -89,7 +98,17 @@ pub fn direction(d: &Direction) -> Line {
         return vec![Inline::Math(exact)];
     }
     let decimals = decimals_math(&direction_decimals(d));
-    line("$@$ with $λ=@$, which is $≈@$", [exact, root_math(&d.root), decimals])
+    let mut out = line("$@$ with $@$", [exact, lambda_math(&d.root)]);
+    out.extend(root_of(&d.root));
+    out.extend(line(", which is $≈@$", [decimals]));
+    out
+}
+
+/// `, a root of x³ − 2` behind an eigenvalue that is written as a decimal; nothing behind others.
+#[must_use]
+pub fn root_of(root: &Root) -> Line {
+    let rounded = matches!(root_math(root), Math::Row(row) if row.first() == Some(&Math::Symbol('≈')));
+    if rounded { line(", the root of $@$ near it", [minimal_polynomial(root)]) } else { Line::new() }
 }
 
 /// The rays of one side.
@@ -185,22 +204,13 @@ pub fn rate(rate: &Rate) -> Line {
                 Some(q) => line(&format!("$O({prefix}(@)^m)$ after $m$ turns of the cycle"), [Math::number(&q)]),
                 None => {
                     let (a, b) = (slower.modulus(80).mid(), dominant.modulus(80).mid());
-                    let template = format!("$O({prefix}r^m)$ with $r=|@|/|@|≈@$ after $m$ turns of the cycle");
-                    line(&template, [plain_root(slower), plain_root(dominant), decimal_math(&(a / b), 6)])
+                    let template = format!(
+                        "$O({prefix}r^m)$ after $m$ turns of the cycle, where $r≈@$ is the second modulus divided by the first"
+                    );
+                    line(&template, [decimal_math(&(a / b), 6)])
                 }
             }
         }
-    }
-}
-
-/// An eigenvalue without the sign ≈ in front.
-fn plain_root(root: &Root) -> Math {
-    match root_math(root) {
-        Math::Row(mut row) if row.first() == Some(&Math::Symbol('≈')) => {
-            row.remove(0);
-            Math::Row(row)
-        }
-        other => other,
     }
 }
 
@@ -216,18 +226,22 @@ pub fn ratio(slower: &Root, dominant: &Root) -> Option<Rational> {
 pub fn holder(h: &Holder) -> Line {
     let modulus = h.eigenvalue.modulus(80);
     let value = Math::Digits(exponent(&modulus, &h.scale));
-    let size = match h.eigenvalue.rational() {
-        Some(x) => Math::number(&crate::arith::abs(&x)),
-        None => decimal_math(&modulus.mid(), 6),
-    };
-    let mut out = match exact_exponent(h) {
-        Some(exact) => line("$h=\\ln(@)/\\ln(@)=@$", [size, Math::number(&h.scale), Math::number(&exact)]),
-        None => line("$h=\\ln(@)/\\ln(@)≈@$", [size, Math::number(&h.scale), value]),
+    let scale = Math::number(&h.scale);
+    let mut out = match (exact_exponent(h), h.eigenvalue.rational()) {
+        (Some(exact), Some(x)) => {
+            line("$h=\\ln(@)/\\ln(@)=@$", [Math::number(&crate::arith::abs(&x)), scale, Math::number(&exact)])
+        }
+        (_, Some(x)) => line("$h=\\ln(@)/\\ln(@)≈@$", [Math::number(&crate::arith::abs(&x)), scale, value]),
+        // The modulus is irrational: a decimal may not stand behind `=`.
+        _ => line("$h=\\ln|λ|/\\ln(@)≈@$", [scale, value]),
     };
     match h.power {
         0 => {}
-        1 => out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m$", [])),
-        k => out.extend(line("; $|γ(t)-p|/|t|^h$ grows like $m^{@}$", [Math::count(k)])),
+        1 => out.extend(line("; the distance from $p$, divided by $|t|^h$, grows like $m$ after $m$ turns", [])),
+        k => out.extend(line(
+            "; the distance from $p$, divided by $|t|^h$, grows like $m^{@}$ after $m$ turns",
+            [Math::count(k)],
+        )),
     }
     out
 }
@@ -281,13 +295,19 @@ pub fn witness(w: &Witness) -> Line {
             ),
             [Math::vector(offset)],
         ),
-        Witness::SignChange { positive, above, negative, below } => line(
-            &format!(
-                "the functional changes sign on a connected part of the ring: it is positive at the point with address `{positive}` \
-                 (between $@$ and $@$) and negative at the one with address `{negative}` (between $@$ and $@$)"
-            ),
-            [&above.lo, &above.hi, &below.lo, &below.hi].map(|x| decimal_math(x, 6)),
-        ),
+        Witness::SignChange { positive, above, negative, below } => {
+            let mut out = line(
+                &format!(
+                    "the functional changes sign on a connected part of the ring: it is positive at the point with address `{positive}` ("
+                ),
+                [],
+            );
+            out.extend(enclosed(above));
+            out.extend(line(&format!(") and negative at the one with address `{negative}` ("), []));
+            out.extend(enclosed(below));
+            out.extend(words("); both addresses are read from the state of the cycle"));
+            out
+        }
         Witness::Crossing { sign, positive, negative, cover, .. } => line(
             &format!(
                 "the coefficient $c_2$ is positive at the point with address `{positive}` and negative at `{negative}` of a connected \
@@ -349,13 +369,18 @@ pub fn contraction(c: &Contraction) -> Line {
         Contraction::Proved(proof) => {
             let total: usize = proof.codes.iter().map(Vec::len).sum();
             line(
-                &format!("proved by {} of length at most {}: $τ(T_w)≤@$ for each", count(total, "word"), proof.length),
+                &format!(
+                    "proved by {} of at most {}: $τ(T_w)≤@$ for each",
+                    count(total, "word"),
+                    count(proof.length, "letter")
+                ),
                 [short_bound(&proof.constant)],
             )
         }
         Contraction::Polytopes(proof) => line(
             &format!(
-                "proved by polytopes with {} vertices: every piece shrinks differences by the factor $≤@$",
+                "proved by polytopes with {} vertices: in the norms whose unit balls are $H_e-H_e$ every piece shrinks differences to \
+                 at most $@$ of their size",
                 proof.count()
             ),
             [short_bound(&proof.constant)],

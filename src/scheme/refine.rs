@@ -67,6 +67,31 @@ pub enum DualWeights {
     Given(Vec<Rational>),
 }
 
+impl MeshRule {
+    /// The weights that the rule was given, by the names of the parameters; none of a rule with fixed weights.
+    #[must_use]
+    pub fn weights(&self) -> Vec<(&'static str, String)> {
+        match self {
+            Self::CatmullClark(Some(w)) => {
+                vec![("alpha", w.alpha.to_string()), ("beta", w.beta.to_string()), ("gamma", w.gamma.to_string())]
+            }
+            Self::Loop(LoopWeights::Given(beta)) => vec![("beta", beta.to_string())],
+            Self::DooSabin(DualWeights::Frequency(f)) => vec![("frequency", f.to_string())],
+            Self::DooSabin(DualWeights::Given(list)) => {
+                vec![("weights", list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))]
+            }
+            Self::Sqrt3(Some(alpha)) => vec![("alpha", alpha.to_string())],
+            Self::Butterfly { w, .. } => vec![("w", w.to_string())],
+            Self::CatmullClark(None)
+            | Self::Loop(LoopWeights::Original | LoopWeights::Warren)
+            | Self::DooSabin(DualWeights::Original | DualWeights::CatmullClark | DualWeights::Midedge)
+            | Self::Sqrt3(None)
+            | Self::FourEight
+            | Self::QuadTriangle => Vec::new(),
+        }
+    }
+}
+
 /// A point of the refined mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Key {

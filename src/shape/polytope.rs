@@ -58,6 +58,20 @@ impl Polytopes {
         self.vertices[state].iter().map(|v| norm1(&difference(v, from))).max().unwrap_or_default()
     }
 
+    /// `m` and the point `c` of Lemma 1′ for a piece of a state: the sum of the smallest weights of the vertices in all images
+    /// under the piece, and the vertices with these weights divided by it. `None` for a piece that there is not.
+    #[must_use]
+    pub fn share(&self, state: usize, piece: usize) -> Option<(Rational, Vec<Rational>)> {
+        let own = self.vertices.get(state)?;
+        let least = smallest(self.weights.get(state)?.get(piece)?, own.len());
+        let m = least.iter().fold(Rational::from(0), |s, x| s + x);
+        let mut c = vec![Rational::from(0); own.first()?.len()];
+        for (w, vertex) in least.iter().zip(own).filter(|(w, _)| **w != 0) {
+            c.iter_mut().zip(vertex).for_each(|(sum, x)| *sum += w * x / &m);
+        }
+        (m > 0).then_some((m, c))
+    }
+
     /// How many vertices there are.
     #[must_use]
     pub fn count(&self) -> usize {
@@ -77,15 +91,21 @@ fn is_combination(vertices: &[Vec<Rational>], weights: &Weights, point: &[Ration
     sum == 1 && rest.iter().all(|r| *r == 0)
 }
 
-/// `Σ_k min w_k` over all combinations of a list.
-fn common(list: &[Weights], count: usize) -> Rational {
+/// The smallest weight of every vertex in all combinations of a list.
+fn smallest(list: &[Weights], count: usize) -> Vec<Rational> {
     let column = |weights: &Weights| {
         let mut all = vec![Rational::from(0); count];
         weights.iter().for_each(|(k, w)| all[*k] += w);
         all
     };
     let least = list.iter().map(column).reduce(|a, b| a.into_iter().zip(b).map(|(x, y)| x.min(y)).collect());
-    least.unwrap_or_default().into_iter().fold(Rational::from(0), |s, x| s + x)
+    // An empty list shares nothing.
+    least.unwrap_or_else(|| vec![Rational::from(0); count])
+}
+
+/// `Σ_k min w_k` over all combinations of a list.
+fn common(list: &[Weights], count: usize) -> Rational {
+    smallest(list, count).into_iter().fold(Rational::from(0), |s, x| s + x)
 }
 
 #[cfg(test)]

@@ -560,7 +560,7 @@ fn real_dimension(spectrum: &Spectrum, members: &[(usize, usize)], block: usize)
 }
 
 /// A basis of the cyclic hull of `x`, as columns.
-pub(super) fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
+pub fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
     let mut rows = Matrix::zero(0, x.len());
     let mut v = x.to_vec();
     loop {
@@ -574,7 +574,7 @@ pub(super) fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
 }
 
 /// The matrix of `linear` on an invariant subspace.
-pub(super) fn restrict(linear: &Matrix, basis: &Matrix) -> Option<Matrix> {
+pub fn restrict(linear: &Matrix, basis: &Matrix) -> Option<Matrix> {
     basis.solve(&(linear * basis))
 }
 

@@ -456,7 +456,7 @@ fn defect(product: &Matrix) -> Option<(Vec<Root>, &'static str)> {
     let leading: Vec<Root> = members.iter().map(|e| spectrum.root(*e).clone()).collect();
     let first = &leading[0];
     let reason = if first.is_zero() {
-        "nilpotent"
+        "no eigenvalue but 0"
     } else if leading.iter().any(|r| !r.is_real()) {
         "complex eigenvalues of largest modulus"
     } else if leading.len() > 1 {

@@ -19,7 +19,7 @@ mod viewpoint;
 pub mod wavelet;
 
 pub use crate::statement::Statement;
-pub use branch::Context;
+pub use branch::{Context, krylov, restrict};
 pub use claim::{AboutPlane, Assertion, Claim, Reason, Seen};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};

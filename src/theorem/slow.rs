@@ -24,7 +24,8 @@ pub struct SlowCycle {
     pub spectrum: Spectrum,
     /// The eigenvalue.
     pub lead: Eigenvalue,
-    /// The leading coefficient as a row on `V`, positive on all rays.
+    /// The leading coefficient as a row on `V`, positive on all rays but those along the eigenvector, which have the sign in
+    /// which the others tend to it.
     pub functional: Vec<Elem>,
 }
 
@@ -160,7 +161,8 @@ impl SlowCycle {
         None
     }
 
-    /// Whether the cycle belongs to the shape and the functional is positive on all rays.
+    /// Whether the cycle belongs to the shape, and every ray has a positive leading coefficient or is the one to which the
+    /// others are pulled.
     #[must_use]
     pub fn holds(&self, cone: &CommonCone, shape: &Shape, spaces: &Spaces) -> bool {
         signed_product(shape, spaces, self.state, &self.word).as_ref() == Some(&self.linear)
@@ -170,18 +172,27 @@ impl SlowCycle {
 
     /// Whether every ray has a positive leading coefficient, or is the ray to which the others are pulled.
     fn positive(&self, cone: &CommonCone, spaces: &Spaces) -> bool {
-        let Some(own) = cone.cones.iter().find(|c| c.state == self.state) else { return false };
+        let root = self.spectrum.root(self.lead);
+        self.on_rays(cone, spaces).is_some_and(|all| all.iter().all(|(value, along)| value.sign(root) > 0 || *along))
+    }
+
+    /// For every ray of the cone the value of the functional, and whether the ray is a multiple of the eigenvector with the sign
+    /// in which the others tend to it. `None` where there is no cone or no chain.
+    #[must_use]
+    pub fn on_rays(&self, cone: &CommonCone, spaces: &Spaces) -> Option<Vec<(Elem, bool)>> {
+        let own = cone.cones.iter().find(|c| c.state == self.state)?;
         let rays = &spaces.of(self.state).coordinates * &own.rays;
         let (root, factor) = (self.spectrum.root(self.lead), self.spectrum.factor(self.lead));
-        let Some(chain) = longest_chain(&factor.right, factor.blocks[0]) else { return false };
-        let Some(last) = chain.vectors.last() else { return false };
+        let chain = longest_chain(&factor.right, factor.blocks[0])?;
+        let last = chain.vectors.last()?;
         let zero = || Elem::from_rational(&Rational::from(0));
         let pairing = self.functional.iter().zip(last).fold(zero(), |s, (g, v)| s.add(&g.mul(v, &factor.poly)));
         let pairing = pairing.sign(root);
-        (0..rays.cols()).map(|j| rays.column(j)).all(|ray| {
+        let of = |ray: Vec<Rational>| {
             let value = self.functional.iter().zip(&ray).fold(zero(), |s, (g, x)| s.add(&g.scale(x)));
-            value.sign(root) > 0 || along(&chain.vectors[0], &ray, root) == Some(pairing)
-        })
+            (value, along(&chain.vectors[0], &ray, root) == Some(pairing))
+        };
+        Some((0..rays.cols()).map(|j| of(rays.column(j))).collect())
     }
 }
 

@@ -14,6 +14,7 @@ use crate::arith::{Interval, Rational, to_f64};
 use crate::budget::Budget;
 use crate::poly::{Poly, factor};
 use crate::scheme::{MeshRule, SchemeError};
+use crate::statement::Statement;
 
 /// Polynomials up to this degree are factored for display.
 const DISPLAY_DEGREE: usize = 24;
@@ -31,6 +32,12 @@ pub enum Ground {
     Line,
     /// Theorem 8 (e): the same on a closed path only.
     Path,
+    /// Theorem 8 (b): both leading eigenvectors are the same in every second sector.
+    Sectors,
+    /// Theorem 8 (d): the leading eigenvectors span three dimensions or more.
+    Span,
+    /// An eigenvalue besides 1 is not smaller than 1 in modulus, so that the rings do not shrink.
+    NoLimit,
 }
 
 /// Enclosures of the leading eigenvector, as middles: with `ω = e^(2πik/n)`, a point of sector `s` has the value `ω^s (x + y ω)`.
@@ -109,6 +116,31 @@ impl AtValence {
             again: Again::NotAsked,
             outline: Vec::new(),
         }
+    }
+
+    /// The statements that the verdicts are instances of, in the order of the theory.
+    #[must_use]
+    pub fn statements(&self) -> Vec<Statement> {
+        let length = self.top.as_ref().map_or(1, |top| top.longest(self.valence).0);
+        let simple = if length > 1 { Statement::Theorem3 } else { Statement::Theorem2 };
+        let decided = self.smooth != Verdict::Undetermined;
+        let mut out = match self.ground.filter(|_| decided) {
+            Some(Ground::NoLimit) => vec![Statement::NoLimit],
+            Some(Ground::Regular) => vec![Statement::Lemma3, Statement::Theorem7],
+            Some(Ground::Span) => vec![Statement::Corollary, Statement::Theorem8],
+            Some(Ground::Line) => vec![simple, Statement::Theorem8],
+            Some(Ground::Winding | Ground::Fold | Ground::Path | Ground::Sectors) => vec![Statement::Theorem8],
+            None => Vec::new(),
+        };
+        if self.plane == Verdict::Proved {
+            out.extend([simple, Statement::Lemma3]);
+        }
+        if !self.polynomial && (self.jacobian.is_some() || self.half_plane.is_some() || self.ground.is_some()) {
+            out.push(Statement::Lemma4);
+        }
+        out.sort_unstable();
+        out.dedup();
+        out
     }
 
     /// Whether the characteristic map is regular, where that is known.
@@ -223,14 +255,16 @@ impl Judge<'_> {
         let name = if length > 1 { format!("{length}×{length} Jordan blocks") } else { "eigenvectors".to_owned() };
         match (dimension, leading.as_slice()) {
             (3.., _) => {
+                self.found.ground = Some(Ground::Span);
                 self.refute(format!(
                     "the leading {name} span a space of dimension {dimension}, and limit directions span all of it \
-                     (corollary to Theorem 4)"
+                     (corollary, Theorem 8)"
                 ));
             }
             (1, [(k, false)]) => self.line(*k, length),
             (2, [(k, false)]) if 0 < *k && 2 * *k < n => self.pair(*k, length),
             (2, all) if length == 1 && all.iter().all(|(_, negative)| !negative) => {
+                self.found.ground = Some(Ground::Sectors);
                 self.refute(
                     "the two leading eigenvectors are the same in every second sector, so that the characteristic map is \
                      not injective (Theorem 8)"
@@ -251,9 +285,10 @@ impl Judge<'_> {
     /// An eigenvalue besides 1, counted once, that is not smaller: the theorems ask for rings that shrink to a point.
     fn no_limit(&mut self, certain: bool) {
         if certain {
+            self.found.ground = Some(Ground::NoLimit);
             self.refute(
                 "besides 1, counted once, an eigenvalue has modulus 1 or more: for almost all control points the rings do not \
-                 shrink to a point (theory §10.1)"
+                 shrink to a point (Rings that do not shrink)"
                     .to_owned(),
             );
         } else {

@@ -82,7 +82,7 @@ fn family(rule: &MeshRule) -> Option<Family> {
             twice_cosine: Fraction::new(poly(&[(1, 1), (-10, 1), (16, 1)]), t.clone()),
             eigenvalue: Fraction::polynomial(t),
             interval: (ratio(13, 32), ratio(131, 200)),
-            setting: "parameter λ, t = (16λ² − 10λ + 1)/λ, 13/32 ≤ λ ≤ 131/200, which holds −1 ≤ t ≤ 2",
+            setting: "parameter λ, t = (16λ² − 10λ + 1)/λ, 13/32 ≤ λ ≤ 131/200, which covers −1 ≤ t ≤ 2",
             claims: vec![
                 ("λ > 1/4: with λ < 1, the blocks k ≥ 2 have smaller eigenvalues (t_k < t)", poly(&[(-1, 4), (1, 1)])),
                 ("λ > 3/8 and (7/4 − 5/6)λ > 3/16: the block 0 has smaller eigenvalues", poly(&[(-3, 8), (1, 1)])),

@@ -58,13 +58,49 @@ pub struct Regular {
     pub growth: i128,
     /// The second differences: points of the sign +, −, −, +.
     pub differences: Vec<[usize; 4]>,
+    /// How the second differences shrink.
+    pub shrinks: Shrinks,
     /// A bound of `|∇f − slope|` in units of `2^-20` of the largest second difference.
     pub slope_bound: i128,
     /// A bound of `|f − fit|` in the same units.
     pub value_bound: i128,
 }
 
+/// The corners of the cells across the edges of a cell.
+fn across(triangles: bool) -> &'static [Place] {
+    if triangles {
+        &[(1, 1), (-1, 1), (1, -1)]
+    } else {
+        &[(-1, 0), (-1, 1), (2, 0), (2, 1), (0, -1), (1, -1), (0, 2), (1, 2)]
+    }
+}
+
+/// How many steps of a regular rule shrink second differences, times the scale of slopes, and to which part (Lemma 4).
+#[derive(Debug, Clone)]
+pub struct Shrinks {
+    /// `k`: so many steps.
+    pub length: usize,
+    /// `R < 1`.
+    pub to: Rational,
+    /// Whether `R` comes from the factors of the mask (Lemma 4′).
+    pub by_factors: bool,
+}
+
 impl Regular {
+    /// Whether the points hold the corners of the cells across the edges of the cell.
+    #[must_use]
+    pub fn holds_across(&self) -> bool {
+        across(self.triangles).iter().all(|p| self.points.contains(p))
+    }
+
+    /// `e₁` and `e₀` of Lemma 4, rounded up.
+    #[must_use]
+    pub fn bounds(&self) -> (Rational, Rational) {
+        let unit = Rational::from(Integer::from(1) << BOUND_PLACES);
+        let of = |x: i128| Rational::from(Integer::from(x)) / &unit;
+        (of(self.slope_bound), of(self.value_bound))
+    }
+
     /// The regular rule of a scheme with its bounds, computed once for each scheme; `None` where a step does not keep
     /// linear functions, or no contraction of the second differences was found.
     ///
@@ -124,13 +160,14 @@ impl Regular {
             steps,
             growth,
             differences,
+            shrinks: Shrinks { length: 0, to: ratio(1, 1), by_factors: false },
             slope_bound: 0,
             value_bound: 0,
         };
         if !regular.keeps_linear_functions() {
             return None;
         }
-        (regular.slope_bound, regular.value_bound) = Bounds::new(&regular)?.found(&mask)?;
+        (regular.shrinks, regular.slope_bound, regular.value_bound) = Bounds::new(&regular)?.found(&mask)?;
         Some(regular)
     }
 
@@ -281,11 +318,7 @@ fn points(triangles: bool, factor: i64, mask: &Mask, parts: &[Cell]) -> Option<V
         }
         if more.len() == all.len() {
             // Without the cells across the edges nothing would be said of how slopes continue there.
-            let across: &[Place] = if triangles {
-                &[(1, 1), (-1, 1), (1, -1)]
-            } else {
-                &[(-1, 0), (-1, 1), (2, 0), (2, 1), (0, -1), (1, -1), (0, 2), (1, 2)]
-            };
+            let across = across(triangles);
             return across.iter().all(|p| all.contains(p)).then(|| all.into_iter().collect());
         }
         if more.len() > MAX_POINTS {
@@ -449,7 +482,7 @@ impl<'a> Bounds<'a> {
 
     /// Bounds for slope and value, in units of `2^-BOUND_PLACES`, rounded up. How much second differences shrink is known from the
     /// words, and from the factors of the mask, where it has them (Lemma 4′).
-    fn found(&self, mask: &Mask) -> Option<(i128, i128)> {
+    fn found(&self, mask: &Mask) -> Option<(Shrinks, i128, i128)> {
         let r = self.regular;
         let factors = (r.factor == 2).then(|| shrinking(mask, directions(r.triangles), &r.points, &r.parts)).flatten();
         let mut length = 0;
@@ -470,13 +503,17 @@ impl<'a> Bounds<'a> {
             };
             length += 1;
             let by_factors = factors.as_ref().and_then(|f| f.get(length)).cloned();
-            let shrink = by_factors.into_iter().chain([part(&shrink, 1)]).min()?;
+            let by_words = part(&shrink, 1);
+            let factor = by_factors.filter(|f| *f < by_words);
+            let by_factors = factor.is_some();
+            let shrink = factor.unwrap_or(by_words);
             if shrink < 1 {
                 let rest = |s: Rational| ratio(1, 1) - s;
                 let slope = part(&slope, slope_scale) / rest(shrink.clone());
                 let value = part(&value, value_scale * size) / rest(&shrink / Rational::from(Integer::from(size)));
-                let bounds = (round_up(&slope)?, round_up(&value)?);
-                best = Some(bounds).filter(|(slope, value)| *slope.max(value) < USELESS);
+                let shrinks = Shrinks { length, to: shrink.clone(), by_factors };
+                let bounds = (shrinks, round_up(&slope)?, round_up(&value)?);
+                best = Some(bounds).filter(|(_, slope, value)| *slope.max(value) < USELESS);
             }
             if shrink <= ratio(ENOUGH[0].0, ENOUGH[0].1) {
                 break;

@@ -114,8 +114,9 @@ fn space_blocks(spaces: &Spaces, branch: &BranchReport) -> Vec<Block> {
     let seen = branch.linear.rows();
     if seen < branch.relevant {
         blocks.push(Block::text(
-            "The largest subspace of $V$ that is invariant under $L$ and killed on the way to the point (by the prefix and the control \
-             points) is divided out; the quotient $Y$ has the dimension $@$ and takes the place of $V$ below.",
+            "The largest subspace $N_G$ of $V$ that is invariant under $L$ and killed on the way to the point (by the prefix and the control \
+             points) is divided out; the quotient $Y=V/N_G$ has the dimension $@$ and takes the place of $V$ below, for the image germ (Transport \
+             to the point).",
             [Math::count(seen)],
         ));
     }

@@ -1,9 +1,10 @@
 //! The section on the dense set.
 
 use super::super::claims;
-use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
+use super::super::document::{Block, Inline, Line, Tone, line, words};
 use super::super::values::direction_math;
-use super::super::words::{mark, point_name, tone};
+use super::super::words::{mark, point_name, point_phrase, tone};
+use super::evidence::Evidence;
 use super::{Quoted, quoted};
 use crate::case::Case;
 use crate::theorem::{Assertion, Certified, DenseSet, Statement, Verdict};
@@ -13,11 +14,11 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     let Some(claim) = found.dense_claim() else { return Vec::new() };
     let projected = claim.what == Assertion::ProjectedJoints;
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    let theorem = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
+    let statement = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
     match claim.verdict() {
-        Verdict::Proved => blocks.push(seen.once(theorem)),
+        Verdict::Proved => blocks.push(seen.once(statement)),
         Verdict::Undetermined => {
-            blocks.push(quoted(theorem));
+            blocks.push(quoted(statement));
             blocks.push(Block::text("It is not applied: of its hypotheses some fail or are not decided.", []));
         }
         Verdict::Refuted => {
@@ -26,7 +27,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
             blocks.push(Block::text(text, []));
         }
     }
-    blocks.push(Block::Checks(checks(case, found, dense, projected, claim.verdict() == Verdict::Proved)));
+    blocks.push(evidence(case, found, dense, statement, claim.verdict() == Verdict::Proved).block());
     let mut conclusion: Line = line("**Conclusion.** ", []);
     conclusion.push(mark(claim.verdict()));
     conclusion.extend(words(format!(": {}", claims::judged(claim))));
@@ -38,53 +39,62 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     blocks
 }
 
-fn checks(case: &Case, found: &Certified, dense: &DenseSet, projected: bool, proved: bool) -> Vec<Check> {
+/// What was found about the hypotheses of Theorem 5 or 5′.
+fn evidence(case: &Case, found: &Certified, dense: &DenseSet, statement: Statement, proved: bool) -> Evidence {
     let shape = &case.shape;
-    let mut checks = Vec::new();
-    for &index in &dense.joints {
-        let Some(point) = found.points.get(index) else { continue };
+    let projected = statement == Statement::Theorem5Projected;
+    let mut evidence = Evidence::of(statement);
+    for &index in dense.joints.iter().filter(|_| !projected) {
+        let Some(point) = found.points.get(index) else {
+            evidence.push("joints", Tone::Bad, words("a joint is not listed."));
+            continue;
+        };
         let mut text = words(format!("{}: ", point_name(shape, point)));
         text.push(mark(point.verdict));
         if point.kind.has_rays() {
             text.push(Inline::Text(format!(", {}", point.kind.word())));
         }
-        checks.push(Check { tone: tone(point.verdict), text });
+        evidence.push("joints", tone(point.verdict), text);
     }
-    for &(state, letter, ok) in &dense.injective {
-        let place =
-            if shape.states.len() > 1 { format!(" of state {}", shape.states[state].name) } else { String::new() };
-        let verb = if ok { "is" } else { "is not" };
-        let text = line(&format!("$T_{{{letter}}}${place} {verb} injective on the relevant space"), []);
-        checks.push(Check { tone: if ok { Tone::Good } else { Tone::Bad }, text });
+    if dense.joints.is_empty() && dense.upstairs.is_empty() {
+        evidence = evidence.holds("joints", "there is none: no edge state has two pieces.", []);
     }
-    if shape.control.is_some() {
-        // Theorem 5′ is for projections that are not injective.
-        let (tone, text) = match (dense.view_injective, projected) {
-            (true, _) => (Tone::Good, "the projection by the control points is injective on the relevant space"),
-            (false, false) => {
-                (Tone::Bad, "the projection by the control points is not injective on the relevant space")
-            }
-            (false, true) => (
-                Tone::Neutral,
-                "the projection by the control points is not injective on the relevant space, so that Theorem 5 does not apply",
-            ),
-        };
-        checks.push(Check { tone, text: words(text) });
-    }
-    for point in &dense.upstairs {
-        // The names of states keep their case.
-        let name = point_name(shape, point).replacen("Joint", "joint", 1);
+    for point in dense.upstairs.iter().filter(|_| projected) {
+        let name = point_phrase(shape, point);
         let mut text = line(&format!("before the projection, {name}, in coordinates of $W$: "), []);
         text.push(mark(point.verdict));
         if let Some(tangent) = &point.tangent {
             text.extend(line(", with the tangent line of $ℓ=@$", [direction_math(tangent)]));
         }
-        checks.push(Check { tone: tone(point.verdict), text });
+        evidence.push("joints", tone(point.verdict), text);
     }
     if projected && proved {
-        let text = "the smallest family of subspaces of the $W_e$ that contains these lines and is mapped into itself by all $T_i$ is all of $W$ (the \
-                    lines were closed under the operators)";
-        checks.push(Check { tone: Tone::Good, text: line(text, []) });
+        evidence = evidence.holds(
+            "joints",
+            "the smallest family of subspaces of the $W_e$ that contains these lines and is mapped into itself by all $T_i$ is all of $W$ (the lines \
+             were closed under the operators).",
+            [],
+        );
     }
-    checks
+    for &(state, letter, ok) in &dense.injective {
+        let place =
+            if shape.states.len() > 1 { format!(" of state {}", shape.states[state].name) } else { String::new() };
+        let verb = if ok { "is" } else { "is not" };
+        let text = line(&format!("$T_{{{letter}}}${place} {verb} injective on the visible quotient $W$."), []);
+        evidence.push("pieces", if ok { Tone::Good } else { Tone::Bad }, text);
+    }
+    if dense.injective.is_empty() {
+        evidence.push("pieces", Tone::Bad, words("no piece was examined."));
+    }
+    if !projected {
+        let what = if shape.control.is_some() {
+            "the projection by the control points"
+        } else {
+            "the identity (there are no control points)"
+        };
+        let verb = if dense.view_injective { "is" } else { "is not" };
+        let text = line(&format!("{what} {verb} injective on the visible quotient $W$ of the start state."), []);
+        evidence.push("start", if dense.view_injective { Tone::Good } else { Tone::Bad }, text);
+    }
+    evidence
 }

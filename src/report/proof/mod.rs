@@ -1,10 +1,16 @@
 //! The proof-style report: every statement applied, with every number that it needs, in an order in which it can be
 //! checked by hand.
 
+mod contracts;
 mod cycles;
 mod dense;
 mod every;
+mod evidence;
+mod functionals;
+mod many;
 mod points;
+mod product;
+mod results;
 mod scheme;
 mod statements;
 mod surface;
@@ -27,16 +33,52 @@ use crate::theorem::{BranchReport, Certified, Verdict};
 /// Matrices with more rows or columns than this are folded.
 const LARGE: usize = 8;
 
+/// How much of a proof a report has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Level {
+    /// The first page: statement, results, picture, verdict, digests.
+    Summary,
+    /// The whole proof; long tables can be folded.
+    #[default]
+    Proof,
+    /// The same with everything unfolded.
+    Full,
+}
+
 /// The whole proof as a document.
 #[must_use]
 pub fn document(case: &Case, found: &Certified) -> Document {
+    document_at(case, found, Level::Proof)
+}
+
+/// Blocks with all that may be skipped laid open.
+fn unfolded(blocks: Vec<Block>) -> Vec<Block> {
+    let open = |block| match block {
+        Block::Details { summary, blocks } => {
+            let mut out = vec![Block::Paragraph(summary)];
+            out.extend(unfolded(blocks));
+            out
+        }
+        other => vec![other],
+    };
+    blocks.into_iter().flat_map(open).collect()
+}
+
+/// The proof, or its first page, as a document.
+#[must_use]
+pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     let mut blocks = opening(case, found);
+    blocks.extend(certificate_section(case, found));
+    if level == Level::Summary {
+        return Document { title: case.title.clone(), blocks };
+    }
+    let first_page = blocks.len();
     let mut seen = Quoted::default();
     let start = case.shape.states[case.shape.start].kind;
     blocks.extend(scheme::section(case, found, &mut seen));
     let cycles = cycles::distinct(found);
     if let Some(spaces) = Spaces::new(&case.shape).filter(|_| !found.points.is_empty()) {
-        blocks.extend(definitions(start));
+        blocks.extend(definitions(start, true));
         blocks.push(Block::heading(2, "The cycles"));
         for (k, branch) in cycles.iter().enumerate() {
             blocks.extend(cycles::section(case, &spaces, branch, k, &mut seen));
@@ -44,14 +86,16 @@ pub fn document(case: &Case, found: &Certified) -> Document {
         blocks.extend(points::section(case, found, &cycles, &mut seen));
     }
     if let Some(surface) = &found.surface {
-        blocks.extend(definitions(start));
+        blocks.extend(definitions(start, surface.unparametrised.is_none()));
         blocks.extend(surface::section(case, surface, &mut seen));
     }
     blocks.extend(dense::section(case, found, &mut seen));
     blocks.extend(every::section(case, found, &mut seen));
-    blocks.extend(certificate_section(case, found));
     blocks.extend(references(&seen));
-    Document { title: case.title.clone(), blocks }
+    let blocks = if level == Level::Full { unfolded(blocks) } else { blocks };
+    let mut document = Document { title: case.title.clone(), blocks };
+    document.insert_contents(first_page);
+    document
 }
 
 /// The statements quoted so far, in order: each is quoted in full where it is first used.
@@ -83,17 +127,21 @@ impl Quoted {
 }
 
 /// The words that the statements use.
-fn definitions(start: CellKind) -> Vec<Block> {
-    let (dimension, branches) = if start == CellKind::Face {
-        (
+fn definitions(start: CellKind, parametrised: bool) -> Vec<Block> {
+    let (dimension, branches) = match (start, parametrised) {
+        (CellKind::Face, true) => (
             "There is a **tangent plane** if and only if $\\dim D^*=2$.",
             "Every point examined has one **branch** for each cell that contains it: an address $u w^ω$ with a prefix $u$ and a cycle $w$.",
-        )
-    } else {
-        (
+        ),
+        (CellKind::Face, false) => (
+            "There is a **tangent plane** if and only if $\\dim D^*=2$.",
+            "Of every point examined one **branch** is looked at: an address $u w^ω$ with a prefix $u$ and a cycle $w$. Other addresses of the same \
+             point are not looked at.",
+        ),
+        _ => (
             "There is a **tangent line** if and only if $\\dim D^*=1$.",
             "Every point examined has one or two **branches**: addresses $u w^ω$ with a prefix $u$ and a cycle $w$.",
-        )
+        ),
     };
     let limits = format!(
         "A unit vector $d$ is a **limit direction** at $p$ if $(a_k-p)/|a_k-p|→d$ for points $a_k≠p$ of the shape whose addresses tend to that of $p$; \
@@ -102,15 +150,16 @@ fn definitions(start: CellKind) -> Vec<Block> {
     let cycle = format!(
         "{branches} What follows depends on the \
          cycle alone, up to the map $T_u$ of the prefix: $M=T_w$ has the fixed point $q$, $V$ is the span of the differences of the attractor, $L$ is $M$ on $V$, \
-         the **ring** $K$ is what leaves the cycle during its first turn, and $X=K-q$. All points near $q$ are images $M^m x$ of points $x$ of the ring."
+         the **ring** $K$ is what leaves the cycle during its first turn, and $X=K-q$. The points of the branch near $q$, other than $q$, are images $M^m x$ of \
+         points $x$ of the ring."
     );
     let mut items = vec![
         limits.as_str(),
         cycle.as_str(),
         "$ρ_1>ρ_2>…$ are the different moduli of the eigenvalues of $L$, $E_i$ is the real generalised eigenspace of modulus $ρ_i$, \
          $F_i=E_{i+1}⊕E_{i+2}⊕…$, and $π_i$ is the projection of $V$ to $E_1⊕…⊕E_i$ along $F_i$. The smallest $i$ with $0∉π_i(X)$ is the **depth**. \
-         $E_i$ is **semisimple** if all its Jordan blocks have size 1. $U$ is the span of the eigenvectors that end the longest Jordan chains of modulus $ρ_1$, \
-         and the **leading coefficient** of $x$ is the part in $U$ of the term that dominates $L^m x$ for large $m$.",
+         $U$ is the span of the eigenvectors that end the longest Jordan chains of modulus $ρ_1$, of length $ℓ+1$; the **leading coefficient** of $x$ is \
+         $u(x)=∑_{|λ|=ρ_1} λ^{-ℓ}(L-λ)^ℓ x_λ$, a vector of $U$.",
         "A branch is **isolated** if no point of $X$ lies in the generalised kernel of $L$. The **hull** of a vector is the smallest $L$-invariant \
          subspace that contains it.",
     ];
@@ -122,8 +171,8 @@ fn definitions(start: CellKind) -> Vec<Block> {
     }
     if start == CellKind::Edge {
         items.push(
-            "The **local Hölder exponent** $h=\\ln ρ_1/\\ln s$ is that of the branch at $p$ in the uniform parameter, in which the \
-             pieces of a cell take equal parts of its interval; one turn of the cycle shrinks the parameter by $s$.",
+            "**Kinds of points** of a curve with a tangent line: at an end, a half-tangent (one limit ray); inside, regular (one ray on each side, opposite to \
+             one another), a cusp (one ray on each side, the same), oscillating (both rays on a side). A corner has one ray on each side, on different lines.",
         );
     }
     vec![Block::heading(2, "Definitions"), Block::List(items.iter().map(|t| line(t, [])).collect())]
@@ -134,7 +183,7 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     let mut shape = line("Let $A$ be the shape of the case ", []);
     shape.push(Inline::Code(case.name.clone()));
     shape.extend(words(": a "));
-    shape.extend(shape_line(case));
+    shape.extend(shape_line(case, found));
     shape.extend(words("."));
     blocks.push(Block::Paragraph(shape));
     if let Some(source) = &case.source {
@@ -154,6 +203,7 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
         ));
     }
     blocks.push(Block::Paragraph(verdict));
+    blocks.extend(results::table(case, found));
     if let Some(picture) = figures::attractor(case, found) {
         blocks.push(Block::Figure {
             svg: picture.svg,

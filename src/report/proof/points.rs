@@ -1,8 +1,9 @@
 //! One section for each examined point: its branches brought together.
 
-use super::super::document::{Block, Check, Inline, Line, Table, Tone, code, formula, line, words};
+use super::super::document::{Block, Inline, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
 use super::super::words::{addresses, dimension, direction, kind_meaning, mark, point_name, ray_line};
+use super::evidence::Evidence;
 use super::{Quoted, cycles, matrix};
 use crate::case::Case;
 use crate::report::figures;
@@ -18,8 +19,11 @@ const MAX_FULL: usize = 8;
 
 pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "The points")];
-    if found.points.iter().any(|p| p.branches.len() > 1) {
-        blocks.extend(seen.once_id(Statement::Joint));
+    let moved = found.points.iter().flat_map(|p| &p.branches).any(|b| b.view.cols() > 0);
+    if moved {
+        blocks.extend(seen.once_id(Statement::Transport));
+        let text = "with each branch below, its prefix and the matrix $G$ on the space where $L$ acts.";
+        blocks.push(Evidence::of(Statement::Transport).holds("prefix", text, []).block());
     }
     let refuted = found.points.iter().position(|p| p.verdict == Verdict::Refuted);
     let open = found.points.iter().position(|p| p.verdict == Verdict::Undetermined);
@@ -29,7 +33,7 @@ pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], 
         let asked = found.claims.iter().any(|c| c.what.asked().is_some_and(|(_, index)| index == Some(k)));
         let chosen = k < MAX_PICTURED || asked;
         if chosen || found.points.len() <= MAX_FULL || Some(k) == refuted || Some(k) == open {
-            blocks.extend(one(case, point, listed, chosen));
+            blocks.extend(one(case, point, listed, chosen, seen));
         } else {
             rest.push(point);
         }
@@ -78,7 +82,7 @@ fn tangent_of(branch: &BranchReport) -> Option<&Direction> {
     }
 }
 
-fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: bool) -> Vec<Block> {
+fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: bool, seen: &mut Quoted) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -95,9 +99,7 @@ fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: boo
     for branch in &point.branches {
         blocks.extend(branch_blocks(case, branch, listed));
     }
-    if point.branches.len() > 1 {
-        blocks.extend(agreement(point));
-    }
+    blocks.extend(together(point, seen));
     if pictured {
         blocks.extend(figures::germ(case, point));
     }
@@ -165,18 +167,62 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
     blocks
 }
 
-/// Whether the two lines of a joint agree.
-fn agreement(point: &PointReport) -> Option<Block> {
+/// What the branches of a point give together: the rule for joints where both are lines, lower bounds where these refute.
+fn together(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
     let lines: Vec<_> = point.branches.iter().filter_map(tangent_of).collect();
-    let [left, right] = lines[..] else { return None };
-    let agree = left.same_line(right).is_some();
-    let tone = if agree { Tone::Good } else { Tone::Bad };
-    let mut text: Line = words(if agree { "The two lines agree: " } else { "The two lines differ: " });
-    text.extend(direction(left));
-    text.extend(words(" and "));
-    text.extend(direction(right));
-    text.extend(words(if agree { " are multiples of one another." } else { " are not multiples of one another." }));
-    Some(Block::Checks(vec![Check { tone, text }]))
+    if let ([left, right], 2) = (lines.as_slice(), point.branches.len()) {
+        let mut blocks: Vec<Block> = seen.once_id(Statement::Joint).into_iter().collect();
+        let agree = left.same_line(right).is_some();
+        let mut text = line("the lines of $G v$ are those of ", []);
+        text.extend(direction(left));
+        text.extend(words(" and "));
+        text.extend(direction(right));
+        text.extend(words(if agree {
+            ", which are multiples of one another."
+        } else {
+            ", which are no multiples of one another."
+        }));
+        let mut evidence = Evidence::of(Statement::Joint).holds(
+            "branches",
+            "$D^*$ of both branches is a line, as shown with their cycles.",
+            [],
+        );
+        evidence.push("transported", if agree { Tone::Good } else { Tone::Bad }, text);
+        blocks.push(evidence.block());
+        return blocks;
+    }
+    let known: Vec<&Direction> = point.branches.iter().filter_map(contained).collect();
+    if point.branches.len() < 2 || point.verdict != Verdict::Refuted {
+        return Vec::new();
+    }
+    let mut blocks: Vec<Block> = seen.once_id(Statement::LowerBounds).into_iter().collect();
+    let mut evidence = Evidence::of(Statement::LowerBounds);
+    let single = point.branches.iter().filter_map(|b| match &b.outcome {
+        Outcome::AtLeast { dimension, .. } => Some(*dimension),
+        _ => None,
+    });
+    if let Some(most) = single.max() {
+        let text = "the tangent subspace of one branch has at least @ dimensions at the point.";
+        evidence = evidence.holds("contained", text, [Math::count(most)]);
+    } else if let [left, right] = known.as_slice() {
+        let mut text = line("the tangent subspaces of the two branches contain ", []);
+        text.extend(direction(left));
+        text.extend(words(" and "));
+        text.extend(direction(right));
+        text.extend(words(", which are no multiples of one another."));
+        evidence.push("contained", Tone::Good, text);
+    }
+    blocks.push(evidence.block());
+    blocks
+}
+
+/// A direction that the tangent subspace of a branch is known to contain.
+fn contained(branch: &BranchReport) -> Option<&Direction> {
+    match &branch.outcome {
+        Outcome::Line { direction, .. } => Some(direction),
+        Outcome::Open { direction, .. } => direction.as_ref(),
+        Outcome::AtLeast { .. } | Outcome::NoGerm { .. } => None,
+    }
 }
 
 fn conclusion(point: &PointReport) -> Line {

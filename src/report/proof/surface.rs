@@ -3,35 +3,46 @@
 use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
 use super::super::math::Math;
 use super::super::surface::{head, product_line, span, verdict};
-use super::super::words::{listed, mark, tone};
-use super::{Quoted, surface_cycle};
+use super::super::words::{mark, tone};
+use super::evidence::Evidence;
+use super::{Quoted, matrix, product, surface_cycle};
 use crate::case::Case;
 use crate::theorem::Statement;
-use crate::theorem::surface::{Surface, SurfaceBranch, SurfaceDense};
+use crate::theorem::surface::{Bivectors, Surface, SurfaceBranch, SurfaceDense, SurfacePoint};
 
 /// One analysis for each different cycle as it is seen, and the points that they give.
 pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<Block> {
-    let mut blocks = vec![Block::heading(2, "The cycles")];
-    if surface.simplex {
+    let general: Vec<&SurfacePoint> = surface.points.iter().filter(|p| !product::settles(p)).collect();
+    let mut blocks = Vec::new();
+    if general.len() < surface.points.len() {
+        blocks.extend(product::section(case, surface, seen));
+    }
+    if !general.is_empty() {
+        blocks.push(Block::heading(2, "The cycles"));
+    }
+    if surface.simplex && !general.is_empty() {
         let text = "All operators are nonnegative, so that every attractor lies in the simplex of its coordinates: a functional lies between \
                     the smallest and the largest entry of its row on a cell.";
         blocks.push(Block::text(text, []));
     }
     let mut known: Vec<&SurfaceBranch> = Vec::new();
-    for branch in surface.points.iter().flat_map(|p| &p.branches) {
+    for branch in general.iter().flat_map(|p| &p.branches) {
         if index_of(&known, branch).is_none() {
             blocks.extend(surface_cycle::section(case, branch, known.len(), seen));
             known.push(branch);
         }
     }
     blocks.push(Block::heading(2, "The points"));
-    if surface.points.iter().any(|p| p.branches.len() > 1) {
+    if general.iter().any(|p| p.branches.len() > 1) {
         blocks.extend(seen.once_id(Statement::SurfacePoint));
+        blocks.push(complex(case).block());
     }
-    if surface.points.iter().any(|p| p.product.is_some()) {
+    if general.iter().any(|p| p.product.is_some()) && general.len() == surface.points.len() {
         blocks.extend(seen.once_id(Statement::TensorProduct));
+        blocks.push(product::evidence(case, surface, false).block());
     }
-    for point in &surface.points {
+    blocks.extend(product::points(surface));
+    for point in general {
         blocks.push(Block::Heading(3, head(point)));
         let place = match &point.image {
             Some(image) => {
@@ -49,10 +60,10 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
             let decided = branch.outcome.dimension.exact || branch.outcome.dimension.at_least > 2;
             checks.push(Check { tone: if decided { Tone::Good } else { Tone::Open }, text });
         }
-        if let Some(product) = &point.product {
+        if let Some(found) = &point.product {
             let mut text = words("Tensor product: ");
-            text.extend(product_line(product));
-            checks.push(Check { tone: tone(product.verdict), text });
+            text.extend(product_line(found));
+            checks.push(Check { tone: tone(found.verdict), text });
         }
         blocks.push(Block::Checks(checks));
         let mut conclusion = line("**Conclusion.** ", []);
@@ -91,42 +102,72 @@ fn subspace(branch: &SurfaceBranch) -> Line {
     out
 }
 
+/// The finding that all identities hold.
+fn complex(case: &Case) -> Evidence {
+    let evidence = Evidence::of(Statement::SurfacePoint);
+    match case.complex().check() {
+        Ok(count) => evidence.holds(
+            "complex",
+            "every face that is reached has all its sides, and all @ identities of adjacency and incidence hold exactly.",
+            [Math::count(count)],
+        ),
+        Err(_) => evidence,
+    }
+}
+
 fn dense(case: &Case, dense: &SurfaceDense, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
     blocks.push(seen.once(Statement::Theorem5Surface));
     let name = |e: usize| case.shape.states[e].name.clone();
-    let mut checks = Vec::new();
+    let mut evidence = Evidence::of(Statement::Theorem5Surface);
     for (state, point) in &dense.vertices {
         let before = if case.shape.control.is_some() { "before the projection, " } else { "" };
         let mut text = words(format!("{before}a vertex inside state {}, address ", name(*state)));
         text.push(Inline::Code(point.branches.first().map(|b| b.address.to_string()).unwrap_or_default()));
         text.extend(words(": "));
         text.push(mark(point.verdict));
-        checks.push(Check { tone: tone(point.verdict), text });
+        if let Some(plane) = &point.tangent {
+            text.extend(words(", with the plane of "));
+            text.extend(span(plane));
+            text.extend(line(" in coordinates of $W$", []));
+        }
+        text.extend(words("."));
+        evidence.push("vertices", tone(point.verdict), text);
     }
-    let failing: Vec<String> =
-        dense.injective.iter().filter(|x| !x.2).map(|(e, i, _)| format!("$T_{{{i}}}$ of state {}", name(*e))).collect();
-    let (good, text) = if failing.is_empty() {
-        (true, "all operators are injective on the visible relevant spaces".to_owned())
-    } else {
-        (false, format!("not injective: {}", listed(&failing)))
-    };
-    checks.push(Check { tone: if good { Tone::Good } else { Tone::Bad }, text: line(&text, []) });
+    for (e, i, ok) in &dense.injective {
+        let verb = if *ok { "is" } else { "is not" };
+        let text = line(&format!("$T_{{{i}}}$ of state {} {verb} injective on the visible quotient.", name(*e)), []);
+        evidence.push("pieces", if *ok { Tone::Good } else { Tone::Bad }, text);
+    }
+    blocks.push(evidence.block());
     if case.shape.control.is_some() {
         let verb = if dense.view_injective { "is" } else { "is not" };
-        let text = words(format!("the projection by the control points {verb} injective on the relevant space"));
-        checks.push(Check { tone: if dense.view_injective { Tone::Good } else { Tone::Neutral }, text });
-        if !dense.view_injective {
-            let text = if dense.everywhere {
-                "the bivectors of the planes span an invariant family of equal dimensions that the control points do not kill: every cell \
-                 contains a vertex with a tangent plane"
-            } else {
-                "it was not shown that every cell contains such a vertex"
-            };
-            let tone = if dense.everywhere { Tone::Good } else { Tone::Open };
-            checks.push(Check { tone, text: words(text) });
-        }
+        let text = format!(
+            "The projection by the control points {verb} injective on the visible quotient of the start state."
+        );
+        blocks.push(Block::text(&text, []));
     }
-    blocks.push(Block::Checks(checks));
+    match (&dense.bivectors, dense.view_injective) {
+        (_, true) => {}
+        (None, false) => blocks.push(Block::text("It was not shown that every cell contains such a vertex.", [])),
+        (Some(b), false) => blocks.extend(bivectors(b)),
+    }
+    blocks
+}
+
+/// The family of bivectors, and what the control points make of it.
+fn bivectors(b: &Bivectors) -> Vec<Block> {
+    let seen = (0..b.seen.rows()).find(|&k| b.seen.row(k).iter().any(|x| *x != 0));
+    let mut blocks = vec![Block::text(
+        "Bivectors: the smallest invariant family of spaces that contains those of the planes was closed under $Λ^2 T_i$; all its spaces have the \
+         dimension $@$. That of the start state has the rows of the first matrix as a basis (the minors of pairs of coordinates, in lexicographic \
+         order).",
+        [Math::count(b.dimension)],
+    )];
+    blocks.push(matrix(Math::Letter('B'), &b.start));
+    if let Some(k) = seen {
+        let values = [Math::count(k + 1), Math::vector(b.seen.row(k))];
+        blocks.push(Block::text("The control points do not kill it: $Λ^2 P$ takes row $@$ to $@$.", values));
+    }
     blocks
 }

@@ -1,18 +1,23 @@
 //! One section for each different cycle of a surface: its spectrum, its ring, and what follows for the tangent subspace.
 
-use super::super::document::{Block, Check, Line, Table, Tone, code, formula, line, words};
+use super::super::document::{Block, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
-use super::super::surface::witness;
+use super::super::surface::{span, witness};
+use super::super::values::lambda_math;
 use super::super::words::{cell, dimension, listed};
 use super::cycles::{cycle_operator, spectrum_blocks};
-use super::statements::{cell_table_of, eigenvector_blocks, functional_list, names, on_cells, one_of};
+use super::evidence::Evidence;
+use super::functionals::{cell_table, eigenvector_blocks, elems, functional_list, names, on_cells, one_of};
 use super::{Quoted, matrix};
+use crate::algebraic::Elem;
+use crate::arith::Rational;
 use crate::case::Case;
 use crate::jordan::Spectrum;
 use crate::report::figures;
-use crate::shape::word_text;
-use crate::theorem::Statement;
+use crate::shape::{Address, word_text};
+use crate::statement::Statement;
 use crate::theorem::surface::{SurfaceBranch, SurfaceOutcome, SurfaceWitness, Winding, leading_functionals};
+use crate::theorem::{krylov, restrict};
 
 pub(super) fn section(case: &Case, branch: &SurfaceBranch, k: usize, quotes: &mut Quoted) -> Vec<Block> {
     let shape = &case.shape;
@@ -45,8 +50,14 @@ pub(super) fn section(case: &Case, branch: &SurfaceBranch, k: usize, quotes: &mu
         blocks.push(figures::spectrum(&branch.spectrum));
     }
     blocks.extend(ring(branch, quotes));
-    blocks.extend(cited(&branch.outcome, seen).into_iter().map(|t| quotes.once(t)));
-    blocks.push(Block::Checks(checks(branch)));
+    for (statement, evidence) in applied(branch) {
+        blocks.push(quotes.once(statement));
+        blocks.push(evidence.block());
+    }
+    if longest(&branch.spectrum).is_none() {
+        blocks.push(Block::text("$L$ is nilpotent.", []));
+    }
+    blocks.extend(own_coefficients(branch));
     if let Some((block, eigenvalues)) = longest(&branch.spectrum) {
         blocks.extend(eigenvector_blocks(&branch.spectrum, &eigenvalues, block));
     }
@@ -93,27 +104,6 @@ fn ring(branch: &SurfaceBranch, quotes: &mut Quoted) -> Vec<Block> {
     blocks
 }
 
-/// The statements that are applied to a branch.
-fn cited(o: &SurfaceOutcome, seen: usize) -> Vec<Statement> {
-    let mut cited = Vec::new();
-    match o.statement {
-        // The image of U is all that is seen.
-        Some(Statement::Corollary) if o.dimension.exact && o.dimension.at_least == seen => {
-            cited.push(Statement::CorollaryImage);
-        }
-        Some(Statement::Section6) => cited.push(Statement::Section6Surface),
-        Some(s) => cited.push(s),
-        None => {}
-    }
-    if o.depth.is_some() {
-        cited.push(Statement::Theorem1);
-        if o.dimension.exact {
-            cited.push(Statement::BothBounds);
-        }
-    }
-    cited
-}
-
 /// The length of the longest Jordan blocks of the largest modulus, and their eigenvalues, once for each block; `None` where
 /// there is no eigenvalue but 0.
 fn longest(spectrum: &Spectrum) -> Option<(usize, Vec<(usize, usize)>)> {
@@ -129,62 +119,178 @@ fn longest(spectrum: &Spectrum) -> Option<(usize, Vec<(usize, usize)>)> {
     Some((block, eigenvalues))
 }
 
-fn good(text: Line) -> Check {
-    Check { tone: Tone::Good, text }
-}
-
-fn checks(branch: &SurfaceBranch) -> Vec<Check> {
+/// The statements that are applied to a branch, with what was verified of each.
+fn applied(branch: &SurfaceBranch) -> Vec<(Statement, Evidence)> {
     let o = &branch.outcome;
-    let mut checks = Vec::new();
-    match longest(&branch.spectrum) {
-        None => checks.push(Check { tone: Tone::Neutral, text: line("$L$ is nilpotent.", []) }),
-        Some((block, eigenvalues)) => {
-            checks.push(good(line("$L$ is not nilpotent.", [])));
-            let mut top = line(
-                "The longest Jordan blocks of the largest modulus have the size $@$ and belong to ",
-                [Math::count(block)],
-            );
-            top.extend(names(&branch.spectrum, &eigenvalues));
-            top.extend(words(format!(": {}.", o.row)));
-            checks.push(good(top));
-        }
-    }
-    if let Some(proof) = &o.ring {
-        let cells = on_cells(proof.discharged.len());
-        let text = if proof.functionals.len() == 1 {
-            format!(
-                "Ring condition: the leading functional $g$ below has no zero on $K$: {cells} it has a constant sign."
-            )
-        } else {
-            format!(
-                "Ring condition: the leading functionals $g_i$ below have no common zero on $K$: {cells} one of them has a constant sign."
-            )
-        };
-        checks.push(good(line(&format!("{text} This also proves that the branch is isolated."), [])));
-    }
-    if let Some(proof) = &o.isolation {
-        let text = format!(
-            "The branch is isolated: {} {}, whose common zeros are the generalised kernel of $L$, has a constant sign.",
-            on_cells(proof.discharged.len()),
-            one_of('k', proof)
-        );
-        checks.push(good(line(&text, [])));
-    }
-    if let Some(w) = &o.witness {
-        let mut text = words("Witness: ");
-        text.extend(witness(w));
-        text.extend(words(". So the ring condition fails."));
-        checks.push(good(text));
+    let mut out = Vec::new();
+    if let Some(statement) = main_statement(branch) {
+        out.push((statement, main_evidence(branch, statement)));
     }
     if let Some((depth, proof)) = &o.depth {
-        let text = format!(
-            "$0∉π_@(X)$: {} {}, whose common zeros are those of $π_@$, has a constant sign. So $D^*⊂@$.",
+        let shown = format!(
+            "{} {}, whose common zeros are those of $π_@$, has a constant sign.",
             on_cells(proof.discharged.len()),
             one_of('h', proof)
         );
-        checks.push(good(line(&text, [Math::count(*depth), Math::count(*depth), sum_of_spaces(*depth)])));
+        let space = || sum_of_spaces(*depth);
+        let modulus = "$ρ_@>0$, and $0∉π_@(X)$: ";
+        let theorem = isolated(branch, Evidence::of(Statement::Theorem1)).holds(
+            "modulus",
+            &format!("{modulus}{shown} So $D^*⊂@$."),
+            [Math::count(*depth), Math::count(*depth), Math::count(*depth), space()],
+        );
+        out.push((Statement::Theorem1, theorem));
+        if o.dimension.exact {
+            let mut contained = line("$C$ is the space of ", []);
+            contained.extend(span(&o.contains));
+            contained.extend(words("."));
+            let mut both = isolated(branch, Evidence::of(Statement::BothBounds)).holds(
+                "ring",
+                "$0∉π_@(X)$, as shown for Theorem 1.",
+                [Math::count(*depth)],
+            );
+            both.push("contained", Tone::Good, contained);
+            let both = both.holds("dimension", "$\\dim C=\\dim(@)=@$.", [space(), Math::count(o.dimension.at_least)]);
+            out.push((Statement::BothBounds, both));
+        }
     }
-    checks
+    out
+}
+
+/// The statement that gives the first bound; `None` for nilpotent maps.
+fn main_statement(branch: &SurfaceBranch) -> Option<Statement> {
+    let o = &branch.outcome;
+    let (block, _) = longest(&branch.spectrum)?;
+    match (o.statement?, &o.witness) {
+        (Statement::Corollary | Statement::CorollaryLine, None) if o.dimension.exact => {
+            Some(if branch.linear.rows() == 1 { Statement::CorollaryLine } else { Statement::CorollaryImage })
+        }
+        (Statement::Section6, Some(SurfaceWitness::Winding(_))) => Some(Statement::Section6TwoBlocks),
+        (Statement::Section6, _) => Some(Statement::Section6Surface),
+        // A zero that is only known to exist shows something where E_1 is spanned by eigenvectors.
+        (Statement::Theorem4, Some(SurfaceWitness::SignChange(_) | SurfaceWitness::Winding(_))) => {
+            Some(if block == 1 { Statement::NullExists } else { Statement::Corollary })
+        }
+        (statement, _) => Some(statement),
+    }
+}
+
+/// The finding that the branch is isolated, where it was needed.
+fn isolated(branch: &SurfaceBranch, evidence: Evidence) -> Evidence {
+    match &branch.outcome.isolation {
+        Some(proof) => {
+            let text = format!(
+                "{} {}, whose common zeros are the generalised kernel of $L$, has a constant sign.",
+                on_cells(proof.discharged.len()),
+                one_of('k', proof)
+            );
+            evidence.holds("isolated", &text, [])
+        }
+        None => evidence,
+    }
+}
+
+fn main_evidence(branch: &SurfaceBranch, statement: Statement) -> Evidence {
+    let o = &branch.outcome;
+    let Some((block, eigenvalues)) = longest(&branch.spectrum) else { return Evidence::of(statement) };
+    let shown = |mut evidence: Evidence, name: &'static str| {
+        if let Some(w) = &o.witness {
+            let mut text = witness(w);
+            text.extend(words("."));
+            evidence.push(name, Tone::Good, text);
+        }
+        evidence
+    };
+    let top = |text: &str| {
+        let mut out = line(text, [Math::count(block)]);
+        out.extend(names(&branch.spectrum, &eigenvalues));
+        out.extend(words(format!(": {}.", o.row)));
+        out
+    };
+    let mut evidence = Evidence::of(statement);
+    if statement.text().hypotheses.iter().any(|h| h.name == "not-nilpotent") {
+        let root = &branch.spectrum.factors[eigenvalues[0].0].roots[eigenvalues[0].1];
+        evidence =
+            evidence.holds("not-nilpotent", "$@$ is an eigenvalue of $L$, and it is not 0.", [lambda_math(root)]);
+    }
+    match statement {
+        Statement::CorollaryLine => evidence
+            .holds("line", "the space on which $L$ acts has the dimension 1.", [])
+            .holds("nonzero", "$L≠0$.", []),
+        Statement::CorollaryImage => evidence.holds("dimension", "both are @.", [Math::count(branch.view.rank())]),
+        Statement::Theorem2 => {
+            let text = top("the Jordan blocks of the largest modulus have the size @ and belong to ");
+            evidence.push("semisimple", Tone::Good, text);
+            ring_evidence(branch, evidence)
+        }
+        Statement::Theorem3 => {
+            let text = top("the longest Jordan blocks of the largest modulus have the size $ℓ+1=@$ and belong to ");
+            evidence.push("blocks", Tone::Good, text);
+            ring_evidence(branch, evidence)
+        }
+        Statement::Theorem4 => shown(isolated(branch, evidence), "null"),
+        Statement::NullExists => {
+            let text = top("the Jordan blocks of the largest modulus have the size @ and belong to ");
+            evidence.push("semisimple", Tone::Good, text);
+            shown(isolated(branch, evidence), "zero")
+        }
+        Statement::Section6Surface | Statement::Section6TwoBlocks => {
+            let two = statement == Statement::Section6TwoBlocks;
+            let text = top("the Jordan blocks of the largest modulus have the size @ and belong to ");
+            evidence.push(if two { "blocks" } else { "block" }, Tone::Good, text);
+            let evidence = evidence.holds("depth", "$0∉π_1(X)$, as shown below for Theorem 1.", []);
+            shown(evidence, if two { "winding" } else { "crossing" })
+        }
+        _ => evidence,
+    }
+}
+
+fn ring_evidence(branch: &SurfaceBranch, evidence: Evidence) -> Evidence {
+    let Some(proof) = &branch.outcome.ring else { return evidence };
+    let cells = on_cells(proof.discharged.len());
+    let text = if proof.functionals.len() == 1 {
+        format!("the leading functional $g$ below has no zero on $K$: {cells} it has a constant sign.")
+    } else {
+        format!(
+            "the leading functionals $g_i$ below have no common zero on $K$: {cells} one of them has a constant sign."
+        )
+    };
+    evidence.holds("ring", &format!("{text} (So the branch is isolated.)"), [])
+}
+
+/// The own leading coefficients of the points of the ring at which the leading functionals vanish.
+fn own_coefficients(branch: &SurfaceBranch) -> Option<Block> {
+    let Some(SurfaceWitness::Points(points)) = &branch.outcome.witness else { return None };
+    let item = |(address, offset): &(Address, Vec<Rational>)| -> Option<Line> {
+        let hull = krylov(&branch.linear, offset);
+        let spectrum = Spectrum::of(&restrict(&branch.linear, &hull)?);
+        let (block, eigenvalues) = longest(&spectrum)?;
+        let mut out = words("the vectors ");
+        out.extend(line(
+            &format!("$L^m x$ of `{address}` span a space of dimension $@$; its largest modulus is that of "),
+            [Math::count(hull.cols())],
+        ));
+        out.extend(names(&spectrum, &eigenvalues));
+        out.extend(line(" with longest Jordan blocks of size $@$", [Math::count(block)]));
+        for &(f, r) in &eigenvalues {
+            let factor = &spectrum.factors[f];
+            let chain = factor.right.iter().find(|c| c.vectors.len() == block)?;
+            let vector: Vec<Elem> = (0..hull.rows())
+                .map(|i| {
+                    let terms = chain.vectors[0].iter().enumerate();
+                    terms.fold(Elem::zero(), |s, (k, c)| s.add(&c.scale(&hull[(i, k)])))
+                })
+                .collect();
+            out.extend(line(
+                ", ended by the eigenvector $@$ in the coordinates of $L$, $@$",
+                [elems(&vector), lambda_math(&factor.roots[r])],
+            ));
+        }
+        out.extend(words("."));
+        Some(out)
+    };
+    let items: Vec<Line> = points.iter().filter_map(item).collect();
+    (!items.is_empty()).then_some(Block::List(items))
 }
 
 /// `E_1⊕E_2⊕…` up to a number.
@@ -200,7 +306,7 @@ fn evidence(branch: &SurfaceBranch) -> Vec<Block> {
     if let Some(proof) = &o.ring {
         blocks.push(Block::text("The functionals that read the leading coefficient:", []));
         blocks.push(functional_list("g", &proof.functionals, &branch.chart));
-        blocks.push(cell_table_of(proof, "g"));
+        blocks.push(cell_table(proof, "g"));
     } else if o.witness.is_some() {
         blocks.push(Block::text("The functionals that read the leading coefficient:", []));
         blocks.push(functional_list("g", &leading_functionals(&branch.spectrum), &branch.chart));
@@ -213,7 +319,7 @@ fn evidence(branch: &SurfaceBranch) -> Vec<Block> {
         let Some(proof) = proof else { continue };
         blocks.push(Block::text(&format!("The functionals of the {what}:"), []));
         blocks.push(functional_list(letter, &proof.functionals, &branch.chart));
-        blocks.push(cell_table_of(proof, letter));
+        blocks.push(cell_table(proof, letter));
     }
     blocks
 }

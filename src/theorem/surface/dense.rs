@@ -3,7 +3,7 @@
 use super::branch::Setting;
 use super::place::Chart;
 use super::tensor::Product;
-use super::verdict::{Surface, SurfaceDense, SurfacePoint};
+use super::verdict::{Bivectors, Surface, SurfaceDense, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
@@ -28,7 +28,10 @@ pub fn claim(
     } else if let Some(k) = dense.vertices.iter().position(|(_, p)| p.verdict != Verdict::Proved) {
         Claim::open(Assertion::DensePlanes { seen }, Reason::VertexInside(k))
     } else {
-        dense.everywhere = dense.view_injective || bivectors_reach(setting, &dense);
+        if !dense.view_injective {
+            dense.bivectors = family(setting, &dense);
+        }
+        dense.everywhere = dense.view_injective || dense.bivectors.is_some();
         let seen = if dense.everywhere && !dense.view_injective { Seen::Everywhere } else { seen };
         Claim::proved(Assertion::DensePlanes { seen }, Some(Statement::Theorem5Surface))
     };
@@ -38,8 +41,13 @@ pub fn claim(
 
 fn evidence(setting: &Setting, chart: &Chart, product: Option<&Product>) -> Option<SurfaceDense> {
     let cx = &setting.cx;
-    let mut dense =
-        SurfaceDense { injective: Vec::new(), view_injective: false, vertices: Vec::new(), everywhere: false };
+    let mut dense = SurfaceDense {
+        injective: Vec::new(),
+        view_injective: false,
+        vertices: Vec::new(),
+        everywhere: false,
+        bivectors: None,
+    };
     for e in cx.shape.reachable() {
         for (letter, piece) in cx.shape.states[e].pieces.iter().enumerate() {
             let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
@@ -72,13 +80,9 @@ fn vertex_inside(setting: &Setting, chart: &Chart, product: Option<&Product>, st
     first
 }
 
-/// Whether every cell contains a vertex whose plane survives the projection: the planes' bivectors span an invariant family
-/// `(B_e)` of equal dimensions on which the maps are injective, and the control points do not kill it.
-fn bivectors_reach(setting: &Setting, dense: &SurfaceDense) -> bool {
-    family(setting, dense).unwrap_or(false)
-}
-
-fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
+/// What shows that every cell contains a vertex whose plane survives the projection: the planes' bivectors span an invariant
+/// family `(B_e)` of equal dimensions on which the maps are injective, and the control points do not kill it.
+fn family(setting: &Setting, dense: &SurfaceDense) -> Option<Bivectors> {
     let cx = &setting.cx;
     let states = cx.shape.reachable();
     let size = |e: usize| cx.spaces.of(e).visible.rows();
@@ -117,7 +121,8 @@ fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
     let view = cx.from.map() * &start.basis;
     let on_quotient = start.visible.transpose().solve(&view.transpose())?.transpose();
     let seen = &spans[cx.from.root()] * &second_power(&on_quotient).transpose();
-    Some(equal && !seen.is_zero())
+    let start = spans[cx.from.root()].clone();
+    (equal && !seen.is_zero()).then(|| Bivectors { dimension: start.rows(), start, seen })
 }
 
 /// The rational vectors that span the smallest rational space with the bivector of the plane.

@@ -13,8 +13,8 @@ pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
 pub use tensor::{factors, product_point};
 pub use verdict::{
-    ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint, SurfaceWitness,
-    Winding,
+    Bivectors, ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint,
+    SurfaceWitness, Winding,
 };
 
 use super::{
@@ -214,7 +214,9 @@ fn conclude(setting: &Setting, spot: Spot, parameter: Option<Param>, addresses: 
         branches,
     };
     if let [only] = &point.branches[..] {
-        point.statement = only.outcome.statement;
+        let o = &only.outcome;
+        let both = o.depth.is_some() && o.dimension.exact;
+        point.statement = if both { Some(Statement::BothBounds) } else { o.statement };
     }
     let known = point.branches.iter().all(|b| b.outcome.dimension.exact);
     if let (true, Some(dimension)) = (known, rank.exact()) {

@@ -149,6 +149,20 @@ pub struct SurfaceDense {
     pub vertices: Vec<(usize, SurfacePoint)>,
     /// Whether every cell is shown to contain a vertex whose plane the control points do not fold.
     pub everywhere: bool,
+    /// The invariant family of bivectors that shows it where the control points are not injective.
+    pub bivectors: Option<Bivectors>,
+}
+
+/// An invariant family of spaces of bivectors of the visible quotients, all of one dimension, that the control points do not
+/// kill (Theorem 5″).
+#[derive(Debug, Clone)]
+pub struct Bivectors {
+    /// The dimension of each.
+    pub dimension: usize,
+    /// A basis of the one of the start state, by rows: minors in lexicographic order of the pairs of coordinates.
+    pub start: Matrix,
+    /// The image of each row under the control points.
+    pub seen: Matrix,
 }
 
 /// What is found of a surface.

@@ -1,0 +1,110 @@
+//! The table of results on the first page.
+
+use super::super::document::{Block, Line, Table, code, formula, line, words};
+use super::super::math::Math;
+use super::super::surface::{point_name as surface_point_name, span};
+use super::super::words::{addresses, direction, mark, point_name};
+use crate::arith::Rational;
+use crate::case::Case;
+use crate::shape::{Address, CellKind, Shape};
+use crate::theorem::surface::{Surface, SurfacePoint};
+use crate::theorem::{Certified, PointReport};
+
+/// More points are left to the section about them.
+const MAX_ROWS: usize = 16;
+
+/// One row for every examined point.
+pub(super) fn table(case: &Case, found: &Certified) -> Option<Block> {
+    let (header, mut rows) = match &found.surface {
+        Some(surface) => (["point", "address", "parameters", "found", "tangent plane"], surface_rows(surface)),
+        None => (
+            ["point", "address", "parameter", "found", "tangent line"],
+            found.points.iter().map(|p| row(case, p)).collect::<Vec<_>>(),
+        ),
+    };
+    if rows.is_empty() {
+        return None;
+    }
+    let all = rows.len();
+    rows.truncate(MAX_ROWS);
+    let caption = if all > MAX_ROWS {
+        words(format!("The first {MAX_ROWS} of {all} examined points"))
+    } else {
+        words("The examined points")
+    };
+    Some(Block::Table(Table { caption, header: header.map(words).to_vec(), rows }))
+}
+
+fn row(case: &Case, point: &PointReport) -> Vec<Line> {
+    let parameter = point.branches.first().and_then(|b| parameter(&case.shape, &b.address));
+    let mut result = vec![mark(point.verdict)];
+    if point.kind.has_rays() {
+        result.extend(words(format!(", {}", point.kind.word())));
+    }
+    vec![
+        words(point_name(&case.shape, point)),
+        code(addresses(point).join(" = ")),
+        parameter.map_or_else(|| words("–"), |t| formula(Math::number(&t))),
+        result,
+        point.tangent.as_ref().map_or_else(|| words("–"), direction),
+    ]
+}
+
+fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
+    let row = |point: &SurfacePoint| {
+        let address = point.branches.first().map_or_else(String::new, |b| b.address.to_string());
+        vec![
+            words(surface_point_name(point)),
+            code(address),
+            point.parameter.as_ref().map_or_else(|| words("–"), |t| line("$@$", [Math::vector(t)])),
+            vec![mark(point.verdict)],
+            point.tangent.as_ref().filter(|s| !s.generators.is_empty()).map_or_else(|| words("–"), span),
+        ]
+    };
+    surface.points.iter().map(row).collect()
+}
+
+/// The parameter of an address in the uniform parameter, in which the pieces of a cell take equal parts of its interval;
+/// `None` where a state on the way is no curve.
+fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
+    let after = shape.path(shape.start, &address.prefix);
+    let (slope, offset) = affine(shape, *after.last()?, &address.cycle)?;
+    let fixed = offset / (Rational::from(1) - slope);
+    let (slope, offset) = affine(shape, shape.start, &address.prefix)?;
+    Some(slope * fixed + offset)
+}
+
+/// The map of parameters that belongs to a word: slope and offset.
+fn affine(shape: &Shape, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
+    let (mut slope, mut offset) = (Rational::from(1), Rational::from(0));
+    for (letter, state) in word.iter().zip(shape.path(start, word)) {
+        let state = shape.states.get(state).filter(|s| s.kind == CellKind::Edge)?;
+        let piece = state.pieces.get(*letter)?;
+        let part = Rational::from(1) / Rational::from(state.pieces.len());
+        let from = Rational::from(letter + usize::from(piece.reversed)) * &part;
+        let own = if piece.reversed { -part } else { part };
+        offset += &slope * from;
+        slope *= own;
+    }
+    Some((slope, offset))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+    use crate::linalg::Matrix;
+
+    #[test]
+    fn parameters_are_those_of_equal_parts() {
+        let half = |i: i64| Matrix::from_fn(2, 2, |r, c| ratio(if r == c { 1 + i * (r as i64) } else { 1 }, 2));
+        let shape = Shape::single(CellKind::Edge, vec![half(0), half(1), half(0)]);
+        let at = |prefix: &[usize], cycle: &[usize]| {
+            parameter(&shape, &Address { prefix: prefix.to_vec(), cycle: cycle.to_vec() })
+        };
+        assert_eq!(at(&[], &[0]), Some(ratio(0, 1)));
+        assert_eq!(at(&[], &[2]), Some(ratio(1, 1)));
+        assert_eq!(at(&[1], &[0]), Some(ratio(1, 3)));
+        assert_eq!(at(&[], &[0, 2]), Some(ratio(1, 4)));
+    }
+}
