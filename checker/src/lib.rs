@@ -6,6 +6,7 @@
 mod base;
 mod curve;
 mod jsr;
+mod literal;
 mod regularity;
 mod solve;
 mod spectrum;
