@@ -127,8 +127,10 @@ impl Elem {
         // The combination of self, self x, self x², … that is 1.
         let x = Self::generator(f);
         let coordinates = |e: &Self| (0..n).map(|k| e.0.coeff(k)).collect::<Vec<_>>();
-        let columns: Vec<Vec<Rational>> =
-            std::iter::successors(Some(self.clone()), |e| Some(e.mul(&x, f))).take(n).map(|e| coordinates(&e)).collect();
+        let columns: Vec<Vec<Rational>> = std::iter::successors(Some(self.clone()), |e| Some(e.mul(&x, f)))
+            .take(n)
+            .map(|e| coordinates(&e))
+            .collect();
         combination(&columns, &coordinates(&Self::from_rational(&Rational::from(1)))).map(|c| Self(Poly::new(c)))
     }
 

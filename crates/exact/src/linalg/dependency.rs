@@ -1,9 +1,9 @@
 //! A vector as a combination of independent ones: solved modulo primes, verified exactly.
 
-use crate::arith::{Integer, Rational};
-use crate::arith::modular::{PrimeField, large_primes};
 use super::echelon::ModEchelon;
 use super::reconstruct::Residues;
+use crate::arith::modular::{PrimeField, large_primes};
+use crate::arith::{Integer, Rational};
 use crate::poly::ints;
 use malachite_base::num::arithmetic::traits::AddMulAssign;
 

@@ -34,7 +34,9 @@ const SHORT: u64 = 1 << 60;
 /// The entries as words, where the sums of each row are short enough.
 pub(crate) fn words(rows: &[Vec<(usize, Integer)>]) -> Option<Vec<Vec<(usize, i64)>>> {
     let word = |(j, x): &(usize, Integer)| i64::try_from(x).ok().map(|x| (*j, x));
-    let short = |row: &Vec<(usize, i64)>| row.iter().map(|(_, x)| u128::from(x.unsigned_abs())).sum::<u128>() < u128::from(SHORT);
+    let short = |row: &Vec<(usize, i64)>| {
+        row.iter().map(|(_, x)| u128::from(x.unsigned_abs())).sum::<u128>() < u128::from(SHORT)
+    };
     rows.iter().map(|row| row.iter().map(word).collect::<Option<Vec<_>>>().filter(short)).collect()
 }
 

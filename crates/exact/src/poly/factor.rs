@@ -24,9 +24,7 @@ pub fn factor(f: &Poly) -> Vec<(Poly, usize)> {
     if centre == 0 {
         return near_zero(f);
     }
-    let back = |(g, e): (Poly, usize)| {
-        (Poly::from_ints(&ints::taylor_shift(&g.primitive(), &-&centre)).monic(), e)
-    };
+    let back = |(g, e): (Poly, usize)| (Poly::from_ints(&ints::taylor_shift(&g.primitive(), &-&centre)).monic(), e);
     let mut out: Vec<(Poly, usize)> = near_zero(ints::taylor_shift(&f, &centre)).into_iter().map(back).collect();
     out.sort();
     out

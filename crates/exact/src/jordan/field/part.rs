@@ -273,9 +273,7 @@ fn action(field: &NumberField, v: &[Elem], m: &Poly) -> Option<Elem> {
 
 /// The image of a vector under the map that takes `α` to its value.
 fn projected(v: &[Elem], values: &[Elem], m: &Poly) -> Vec<Elem> {
-    let entry = |block: &[Elem]| {
-        block.iter().zip(values).fold(Elem::zero(), |sum, (x, p)| sum.add(&x.mul(p, m)))
-    };
+    let entry = |block: &[Elem]| block.iter().zip(values).fold(Elem::zero(), |sum, (x, p)| sum.add(&x.mul(p, m)));
     v.chunks_exact(values.len()).map(entry).collect()
 }
 
