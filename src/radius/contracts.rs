@@ -31,7 +31,7 @@ pub enum NormContraction {
 #[must_use]
 pub fn linear_system(shape: &Shape) -> (System, Vec<(usize, usize)>) {
     let reachable = shape.reachable();
-    let number = |state: usize| reachable.iter().position(|s| *s == state).unwrap_or(0);
+    let number = |state: usize| reachable.iter().position(|s| *s == state).expect("a reachable state");
     let mut arrows = Vec::new();
     let mut letters = Vec::new();
     for &state in &reachable {

@@ -128,7 +128,7 @@ pub fn regularity(mask: &[Rational], arity: usize, options: &Options) -> Result<
 }
 
 fn trimmed(mask: &[Rational]) -> Vec<Rational> {
-    let first = mask.iter().position(|x| *x != 0).unwrap_or(mask.len());
+    let first = mask.iter().position(|x| *x != 0).map_or(mask.len(), |k| k);
     let last = mask.iter().rposition(|x| *x != 0).map_or(first, |k| k + 1);
     mask[first..last].to_vec()
 }
@@ -187,7 +187,7 @@ pub fn digits(mask: &[Rational], arity: usize) -> Vec<Matrix> {
     (0..arity)
         .map(|e| {
             Matrix::from_fn(size, size, |i, j| {
-                (arity * i + e).checked_sub(j).and_then(|k| mask.get(k)).cloned().unwrap_or_default()
+                (arity * i + e).checked_sub(j).and_then(|k| mask.get(k)).map_or_else(|| Rational::from(0), Clone::clone)
             })
         })
         .collect()

@@ -481,7 +481,7 @@ fn minimal(vertex: &Vertex, top: &Top) -> Option<Poly> {
     let angle = if frequency == 0 { 1 } else { frequency };
     let modulus = minimal_polynomial(vertex.valence / gcd(angle, vertex.valence));
     let degree = modulus.degree()?;
-    if top.poly.iter().any(|c| c.degree().unwrap_or(0) > 1) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
+    if top.poly.iter().any(|c| c.degree().is_some_and(|d| d > 1)) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
         return None;
     }
     // P = A + t B vanishes with t a root of ψ where B^d ψ(−A/B) does.

@@ -273,7 +273,7 @@ fn constants(vertex: &Vertex, family: &Family, own: Option<usize>) -> Result<boo
     let mut bound = Rational::from(0);
     for part in others.chain(still.parts.iter().filter(|p| !centre(p))) {
         // In all families these eigenvalues are rational.
-        if part.poly.iter().any(|c| c.degree().unwrap_or(0) > 0) {
+        if part.poly.iter().any(|c| c.degree().is_some_and(|d| d > 0)) {
             return Ok(false);
         }
         for (linear, _) in factor(&Poly::new(part.poly.iter().map(|c| c.coeff(0)).collect())) {

@@ -275,7 +275,7 @@ impl Fraction {
     #[must_use]
     pub fn new(num: Poly, den: Poly) -> Self {
         let common = num.gcd(&den);
-        let (mut num, mut den) = if common.degree().unwrap_or(0) > 0 {
+        let (mut num, mut den) = if common.degree().is_some_and(|d| d > 0) {
             (num.div_rem(&common).0, den.div_rem(&common).0)
         } else {
             (num, den)

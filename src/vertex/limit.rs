@@ -286,7 +286,7 @@ impl Ring {
         let corner = |piece: &Piece, k: usize| {
             let (i, j) = r.corners()[k];
             let own = ((i * (r.factor - 1), j * (r.factor - 1)), 1);
-            let next = r.parts.iter().position(|part| *part == own).unwrap_or(0);
+            let next = r.parts.iter().position(|part| *part == own).expect("the part at a corner");
             let last = (0..STEPS).fold(piece.clone(), |p, _| self.divided(&p).swap_remove(next));
             (r.fit(&last.x)[k] as f64 * unit, r.fit(&last.y)[k] as f64 * unit)
         };

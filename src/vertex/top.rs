@@ -74,7 +74,7 @@ impl Top {
     /// The size of the longest Jordan blocks, and the real dimension of the span of the eigenvectors that end their chains.
     #[must_use]
     pub fn longest(&self, valence: usize) -> (usize, usize) {
-        let length = self.members.iter().filter_map(|m| m.blocks.first()).max().copied().unwrap_or(0);
+        let length = self.members.iter().filter_map(|m| m.blocks.first()).max().map_or(0, |length| *length);
         let count = |m: &Member| {
             let twice = if m.frequency == 0 || 2 * m.frequency == valence { 1 } else { 2 };
             twice * m.blocks.iter().filter(|b| **b == length).count()
@@ -198,7 +198,7 @@ fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
 }
 
 fn from_float(x: f64) -> Rational {
-    Rational::try_from(x).unwrap_or_default()
+    Rational::try_from(x).unwrap_or_else(|_| Rational::from(0))
 }
 
 fn field_of(vertex: &Vertex, block: &Block, bits: u64) -> Enclosures {
@@ -341,7 +341,7 @@ fn simplest_near(x: &Rational, error: &Rational) -> Rational {
             Some(v) => t + Rational::from(1) / v,
         })
     });
-    let value = value.unwrap_or_default();
+    let value = value.expect("at least one term");
     if negative { -value } else { value }
 }
 

@@ -75,7 +75,7 @@ fn vertex_inside(setting: &Setting, chart: &Chart, product: Option<&Product>, st
 /// Whether every cell contains a vertex whose plane survives the projection: the planes' bivectors span an invariant family
 /// `(B_e)` of equal dimensions on which the maps are injective, and the control points do not kill it.
 fn bivectors_reach(setting: &Setting, dense: &SurfaceDense) -> bool {
-    family(setting, dense).unwrap_or(false)
+    family(setting, dense) == Some(true)
 }
 
 fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
@@ -136,7 +136,7 @@ fn bivectors(plane: &super::Subspace) -> Option<Vec<Vec<Rational>>> {
             entries.push(a.coords[i].mul(&b.coords[j], f).sub(&a.coords[j].mul(&b.coords[i], f)));
         }
     }
-    let degree = f.degree().unwrap_or(1);
+    let degree = f.degree().expect("a minimal polynomial is not 0");
     Some((0..degree).map(|k| entries.iter().map(|e: &Elem| e.0.coeff(k)).collect()).collect())
 }
 
