@@ -7,6 +7,7 @@ mod base;
 mod claim;
 mod curve;
 mod jsr;
+pub mod reader;
 mod regularity;
 mod solve;
 mod spectrum;
