@@ -1,6 +1,6 @@
 //! `secant jsr` and `secant regularity`.
 
-use super::output::{deliver, write_file};
+use super::output::{deliver, write_certificate, write_file};
 use super::{JsrArgs, PROVED, RegularityArgs, UNDETERMINED};
 use crate::arith::{Rational, parse_rational};
 use crate::case::{Case, Origin};
@@ -168,7 +168,7 @@ fn certified(args: &RegularityArgs, path: &Path) -> Result<(String, bool), Probl
     let certificate = certificate
         .map_err(|e| nothing(e.to_string()))
         .and_then(|c| crate::certificate::checked(&case.checked_text(), c).map_err(|e| nothing(e.to_string())))?;
-    write_file(path, certificate.text())?;
+    write_certificate(path, certificate.text(), case.beside())?;
     let decided = found.exponent.is_some() || found.polynomial;
     let own = report::curve_regularity(shape, &found);
     match &case.scheme {
