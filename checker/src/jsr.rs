@@ -24,8 +24,8 @@ fn matrix_list(source: &str) -> Checked<System> {
         let mut matrices: Vec<Matrix> = Vec::new();
         for item in node.field("matrices")?.list()? {
             for x in item.each(Node::list)?.iter().flatten() {
-                let floats = matches!(x.value, Json::Number(text) if text.contains(['.', 'e', 'E', 'n']));
-                x.need(!floats, "case", "numbers of matrices are integers or texts")?;
+                let endless = matches!(x.value, Json::Number(text) if text.contains('n'));
+                x.need(!endless, "case", "numbers of matrices are integers, decimals or texts")?;
             }
             matrices.push(matrix(&item)?);
         }
@@ -240,9 +240,22 @@ impl System {
             "symmetric" | "monotone" | "balanced" => self.polytope(node, kind, bound)?,
             "quadratic" => self.quadratic(node, bound)?,
             "tree" => self.tree(node, bound)?,
+            "transposed" => {
+                let [_, of] = node.fields("norm of")?;
+                let inner = of.tag("norm")?;
+                need(inner != "transposed", "transposed", "of a norm of the matrices themselves")?;
+                return of.at(self.transposed().check(&of, bound)).map(|line| format!("transposed {line}"));
+            }
             _ => return node.reject("format", "unknown kind of norm"),
         }
         Ok(format!("block of dimensions {:?}: {kind}, at most {bound}", self.dims))
+    }
+
+    /// The transposed matrices with the arrows turned round: their products are the transposes of those of the reversed words, so
+    /// the radius is the same.
+    fn transposed(&self) -> Self {
+        let turned = |(from, to, m): &(usize, usize, Matrix)| (*to, *from, m.transpose());
+        Self { name: String::new(), dims: self.dims.clone(), arrows: self.arrows.iter().map(turned).collect() }
     }
 
     /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,
