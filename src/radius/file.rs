@@ -305,6 +305,6 @@ mod tests {
         assert!(matches!(wrong("matrices = [[[1, 2]]]").problem, FileProblem::System(SystemError::Size { .. })));
         assert!(matches!(wrong("matrices = []").problem, FileProblem::System(SystemError::Empty)));
         assert_eq!(wrong("matrix = []"), FileProblem::Unknown("matrix".to_owned()).at(0..6));
-        assert!(matches!(wrong("").problem, FileProblem::System(SystemError::Empty)));
+        assert!(matches!(wrong("").problem, FileProblem::Key { .. }));
     }
 }
