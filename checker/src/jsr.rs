@@ -238,26 +238,35 @@ impl Polytope {
 impl System {
     /// Checks that the norm shows that products of `k` matrices are at most a constant times `bound^k`; says so.
     fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<Decided> {
-        let norm = match node.tag("norm")? {
+        let norm = self.norm(node, bound)?;
+        Ok(Claim::Block { dims: self.dims.clone(), norm, bound: bound.clone() }.is(Verdict::Proved))
+    }
+
+    /// The same, with the name of the norm.
+    fn norm(&self, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
+        match node.tag("norm")? {
             "zero" => {
                 let [_] = node.fields("norm")?;
                 need(self.arrows.iter().all(|a| a.2.is_zero()), "zero", "a matrix of the block is not 0")?;
-                "zero"
+                Ok("zero")
             }
-            "symmetric" => self.polytope(node, "symmetric", bound)?,
-            "monotone" => self.polytope(node, "monotone", bound)?,
-            "balanced" => self.polytope(node, "balanced", bound)?,
-            "quadratic" => self.quadratic(node, bound)?,
-            "tree" => self.tree(node, bound)?,
+            "symmetric" => self.polytope(node, "symmetric", bound),
+            "monotone" => self.polytope(node, "monotone", bound),
+            "balanced" => self.polytope(node, "balanced", bound),
+            "quadratic" => self.quadratic(node, bound),
+            "tree" => self.tree(node, bound),
             "transposed" => {
                 let [_, of] = node.fields("norm of")?;
-                let inner = of.tag("norm")?;
-                need(inner != "transposed", "transposed", "of a norm of the matrices themselves")?;
-                return of.at(self.transposed().check(&of, bound)).map(|line| format!("transposed {line}"));
+                match of.at(self.transposed().norm(&of, bound))? {
+                    "symmetric" => Ok("symmetric, of the transposed matrices"),
+                    "monotone" => Ok("monotone, of the transposed matrices"),
+                    "balanced" => Ok("balanced, of the transposed matrices"),
+                    "tree" => Ok("tree, of the transposed matrices"),
+                    _ => node.reject("transposed", "of a polytope or a tree of the transposed matrices"),
+                }
             }
-            _ => return node.reject("format", "unknown kind of norm"),
-        };
-        Ok(Claim::Block { dims: self.dims.clone(), norm, bound: bound.clone() }.is(Verdict::Proved))
+            _ => node.reject("format", "unknown kind of norm"),
+        }
     }
 
     /// The transposed matrices with the arrows turned round: their products are the transposes of those of the reversed words, so
