@@ -4,9 +4,8 @@
 use super::regularity::minus_log;
 use crate::arith::{Interval, Rational};
 use crate::linalg::Matrix;
-use crate::radius::{Arrow, Growth, JointRadius, Lower, Options, System, joint_radius};
+use crate::radius::{Arrow, Growth, JointRadius, Options, System, joint_radius};
 use crate::shape::{CellKind, End, Piece, Shape, Spaces, difference};
-use std::cmp::Ordering;
 use std::collections::VecDeque;
 use thiserror::Error;
 
@@ -181,11 +180,7 @@ impl CurveOrder {
 
     /// Whether the leading word of the radius is a cycle with `ρ(N^(k|w|) T_w) >= 1`.
     fn has_slow_cycle(&self) -> bool {
-        let slow = |lower: &Lower| {
-            let power = (0..lower.length).fold(Rational::from(1), |p, _| p * &self.threshold);
-            lower.root.cmp_modulus_rational(&power) != Ordering::Less
-        };
-        self.radius.as_ref().and_then(|r| r.lower.as_ref()).is_some_and(slow)
+        self.radius.as_ref().and_then(|r| r.lower.as_ref()).is_some_and(|lower| lower.is_at_least(&self.threshold))
     }
 
     /// Enclosure of `−log_N` of the radius, cut with `[k, k+1]`, where it lies if this order holds and its differences are not 0.
