@@ -1,6 +1,5 @@
 //! The fields over which the computation at a vertex runs: those of [`crate::ring`], each with `2 cos θ` as an element.
 
-use crate::algebraic::Elem;
 use crate::algebraic::field::NumberField as Numbers;
 use crate::arith::{Integer, Interval, Rational};
 use crate::ring::{self, Field as _, Ordered, Ring};
@@ -114,10 +113,4 @@ impl<K: Ordered> Field for Turned<K> {
     fn twice_cosine(&self) -> K::E {
         self.twice_cosine.clone()
     }
-}
-
-/// The value of an element in enclosures, from the root that generates its field.
-#[must_use]
-pub fn enclosed(field: &NumberField, enclosures: &Enclosures, x: &Elem) -> Fixed {
-    enclosures.interval(&x.enclosure(field.generator(), enclosures.bits).0)
 }
