@@ -5,7 +5,6 @@ use super::{Certificate, Doubt, number};
 use crate::algebraic::sqrt_down;
 use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};
-use crate::ring::{Field as _, Ordered as _, Ring as _};
 use crate::scheme::Sector;
 use crate::theorem::Verdict;
 use crate::vertex::field::{Enclosures, Field};

@@ -11,7 +11,7 @@ use super::solve::eigenvector;
 use super::turning::{Rotation, Turning};
 use crate::arith::{Rational, ratio};
 use crate::poly::{Poly, factor};
-use crate::ring::{Field as _, Ordered as _, Ring as _};
+use crate::ring::{Field as _, Ring as _};
 use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError};
 
 /// A valence at which no stencil meets itself around the vertex.

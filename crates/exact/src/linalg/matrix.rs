@@ -1,6 +1,7 @@
 use super::elimination;
 use crate::arith::Rational;
 use crate::ring::{Field, Rationals, Ring};
+use std::borrow::Borrow;
 use std::ops::{Add, Index, IndexMut, Mul, Sub};
 
 /// A dense exact matrix, stored by rows. Zero rows or columns are allowed.
@@ -368,7 +369,7 @@ impl Matrix {
 /// # Cost
 /// At most as many eliminations for each arrow as the sum of the dimensions of the result.
 #[must_use]
-pub fn closures(spaces: Vec<Matrix>, arrows: &[(usize, usize, &Matrix)]) -> Vec<Matrix> {
+pub fn closures<M: Borrow<Matrix>>(spaces: Vec<Matrix>, arrows: &[(usize, usize, M)]) -> Vec<Matrix> {
     let mut spaces: Vec<Matrix> = spaces.into_iter().map(|s| s.echelon().rows).collect();
     loop {
         let mut grown = false;
@@ -376,7 +377,7 @@ pub fn closures(spaces: Vec<Matrix>, arrows: &[(usize, usize, &Matrix)]) -> Vec<
             if spaces[*from].rows() == 0 || spaces[*to].rows() == spaces[*to].cols() {
                 continue;
             }
-            let joined = spaces[*to].stack(&(&spaces[*from] * map)).echelon().rows;
+            let joined = spaces[*to].stack(&(&spaces[*from] * map.borrow())).echelon().rows;
             if joined.rows() > spaces[*to].rows() {
                 spaces[*to] = joined;
                 grown = true;
