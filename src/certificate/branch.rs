@@ -240,12 +240,5 @@ pub fn orbit_top(linear: &Matrix, x: &[crate::arith::Rational], place: &str) -> 
 
 /// The cyclic hull of `x`, as rows in echelon form.
 fn krylov(linear: &Matrix, x: &[crate::arith::Rational]) -> crate::linalg::Echelon {
-    let mut rows = Matrix::from_rows(x.len(), vec![x.to_vec()]).echelon();
-    loop {
-        let grown = rows.rows.stack(&(&rows.rows * &linear.transpose())).echelon();
-        if grown.pivots.len() == rows.pivots.len() {
-            return rows;
-        }
-        rows = grown;
-    }
+    Matrix::from_rows(x.len(), vec![x.to_vec()]).closure(&[&linear.transpose()]).echelon()
 }

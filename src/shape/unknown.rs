@@ -438,14 +438,7 @@ impl Forced {
     /// Takes off the largest invariant subspace in the kernel of all derivatives.
     fn split(&mut self) {
         let n = self.free.rows();
-        let mut rows = self.derivatives.iter().fold(Matrix::zero(0, n), |all, d| all.stack(d)).echelon().rows;
-        loop {
-            let more = rows.stack(&(&rows * &self.free)).echelon().rows;
-            if more.rows() == rows.rows() {
-                break;
-            }
-            rows = more;
-        }
+        let rows = self.derivatives.iter().fold(Matrix::zero(0, n), |all, d| all.stack(d)).closure(&[&self.free]);
         let kernel = rows.kernel();
         let k = kernel.cols();
         if k == 0 {

@@ -53,14 +53,7 @@ struct Quotient {
 
 impl Quotient {
     pub fn new(view: &Matrix, linear: &Matrix) -> Self {
-        let mut rows = view.echelon();
-        loop {
-            let grown = rows.rows.stack(&(&rows.rows * linear)).echelon();
-            if grown.pivots.len() == rows.pivots.len() {
-                break;
-            }
-            rows = grown;
-        }
+        let rows = view.closure(&[linear]).echelon();
         let lift =
             Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| Rational::from(u8::from(rows.pivots[k] == i)));
         Self { chart: rows.rows, lift }

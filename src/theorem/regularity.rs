@@ -298,16 +298,9 @@ fn independent(mask: &[Rational], arity: usize) -> bool {
     let n = operators[0].rows();
     let Some(base) = fixed_point(&operators[0]) else { return false };
     let rows = operators.iter().map(|t| crate::shape::difference(&t.apply(&base), &base)).filter(|d| norm1(d) != 0);
-    let mut span = Matrix::from_rows(n, rows.collect()).echelon().rows;
-    loop {
-        let before = span.rows();
-        for t in &operators {
-            span = span.stack(&(&span * &t.transpose())).echelon().rows;
-        }
-        if span.rows() == before {
-            return before + 1 == n;
-        }
-    }
+    let maps: Vec<Matrix> = operators.iter().map(Matrix::transpose).collect();
+    let span = Matrix::from_rows(n, rows.collect()).closure(&maps.iter().collect::<Vec<_>>());
+    span.rows() + 1 == n
 }
 
 #[cfg(test)]

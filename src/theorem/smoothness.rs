@@ -3,7 +3,7 @@
 
 use super::regularity::minus_log;
 use crate::arith::{Interval, Rational};
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, closures};
 use crate::radius::{Arrow, Growth, JointRadius, Options, System, joint_radius};
 use crate::shape::{CellKind, End, Piece, Shape, Spaces, difference};
 use std::collections::VecDeque;
@@ -313,17 +313,10 @@ impl<'a> Curve<'a> {
             let offset = Matrix::from_rows(image.len(), vec![difference(&image, &chords[from])]);
             families[from] = families[from].stack(&offset).echelon().rows;
         }
-        let mut grown = true;
-        while std::mem::take(&mut grown) {
-            for (from, letter, _, to) in self.arrows() {
-                let images = &families[to] * &self.operators[from][letter].transpose();
-                let joined = families[from].stack(&images).echelon().rows;
-                if joined.rows() > families[from].rows() {
-                    (families[from], grown) = (joined, true);
-                }
-            }
-        }
-        families
+        let arrow =
+            |(from, letter, _, to): (usize, usize, &Piece, usize)| (to, from, self.operators[from][letter].transpose());
+        let arrows: Vec<_> = self.arrows().map(arrow).collect();
+        closures(families, &arrows)
     }
 
     /// The values of the derivative of order `k` at the two ends of every curve.

@@ -13,6 +13,7 @@ use crate::answer::Verdict;
 use crate::arith::{Interval, Rational, to_f64};
 use crate::budget::Budget;
 use crate::poly::{Poly, factor};
+use crate::ring::{Field as _, Ordered as _, Ring as _};
 use crate::scheme::{MeshRule, SchemeError};
 
 /// Polynomials up to this degree are factored for display.

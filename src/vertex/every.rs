@@ -11,6 +11,7 @@ use super::solve::eigenvector;
 use super::turning::{Rotation, Turning};
 use crate::arith::{Rational, ratio};
 use crate::poly::{Poly, factor};
+use crate::ring::{Field as _, Ring as _};
 use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError};
 
 /// A valence at which no stencil meets itself around the vertex.
@@ -223,7 +224,7 @@ fn positive_on(field: &Functions, net: Net<Fraction>, interval: (Rational, Ratio
 /// A few seconds.
 pub fn every(rule: &MeshRule) -> Result<Option<Every>, SchemeError> {
     let Some(family) = family(rule) else { return Ok(None) };
-    let field = Functions { twice_cosine: family.twice_cosine.clone() };
+    let field = Functions::new(crate::ring::Functions::anywhere(), family.twice_cosine.clone());
     let vertex = Vertex::new(rule, LARGE, RINGS)?;
     let block = vertex.block(1)?;
     let mut conditions: Vec<Condition> = Vec::new();

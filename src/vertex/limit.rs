@@ -5,12 +5,13 @@
 //! where the mesh is regular.
 
 use super::block::Vertex;
-use super::field::{Enclosures, Field, Fixed};
+use super::field::{Enclosures, Fixed};
 use super::net::{Net, Signs, Spot};
 use super::regular::{BOUND_PLACES, Cell, Place, Regular, place};
 use super::ring::{Control, Values};
 use super::turning::{Rotation, Turning};
 use crate::arith::{Integer, Rational, ratio};
+use crate::ring::Field as _;
 use crate::scheme::{MeshRule, Sector};
 use malachite_base::num::logic::traits::SignificantBits;
 use std::collections::VecDeque;

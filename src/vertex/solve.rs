@@ -6,6 +6,7 @@ use super::ring::Values;
 use super::turning::{Rotation, Turning};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
+use crate::ring::{Field as _, Ring as _};
 
 type Rows<E> = Vec<Vec<Turning<E>>>;
 

@@ -8,8 +8,10 @@ use super::ring::Values;
 use super::solve::{eigenvector, leading_vector, longest_blocks};
 use super::turning::Turning;
 use crate::algebraic::Elem;
+use crate::algebraic::field::NumberField as Numbers;
 use crate::arith::{Interval, Rational, abs, ratio, to_f64};
 use crate::poly::Poly;
+use crate::ring::{Field as _, Ordered as _, Ring as _};
 use crate::scheme::SchemeError;
 
 /// What the largest modulus consists of in one block.
@@ -412,11 +414,11 @@ fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
 pub fn number_field(vertex: &Vertex, block: &Block) -> NumberField {
     let root = twice_cosine(block.angle, vertex.valence);
     let twice_cosine = Elem::generator(root.minpoly());
-    NumberField { root, twice_cosine }
+    NumberField::new(Numbers::generated(&root).expect("cosines are real"), twice_cosine)
 }
 
 fn enclose(field: &NumberField, enclosures: &Enclosures, x: &Elem) -> Fixed {
-    enclosures.interval(&x.enclosure(&field.root, enclosures.bits).0)
+    enclosures.interval(&field.enclosure(x, enclosures.bits))
 }
 
 /// The leading eigenvalue in a frequency; `None` where it is not the one of the block, or enclosures are too wide.
