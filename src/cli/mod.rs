@@ -120,7 +120,8 @@ enum Command {
 
 #[derive(Debug, Args)]
 struct CertifyArgs {
-    /// Case files; `-` reads the standard input.
+    /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
+    /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4").
     #[arg(required = true, value_name = "CASE")]
     cases: Vec<PathBuf>,
     /// Print the result as JSON (docs/json.md).
@@ -178,6 +179,24 @@ struct CertifyArgs {
 }
 
 impl CertifyArgs {
+    /// The same with each parameter `name=value` joined to the scheme before it.
+    fn with_parameters(mut self) -> Self {
+        let mut cases: Vec<PathBuf> = Vec::new();
+        for case in self.cases {
+            let parameter = case.to_str().is_some_and(|text| text.contains('=')) && !case.exists();
+            match cases.last_mut().filter(|_| parameter) {
+                Some(scheme) => {
+                    let joined = scheme.as_mut_os_string();
+                    joined.push(" ");
+                    joined.push(case);
+                }
+                None => cases.push(case),
+            }
+        }
+        self.cases = cases;
+        self
+    }
+
     /// The budget that the options name.
     fn budget(&self) -> Budget {
         let mut budget = Budget::of(self.effort);
@@ -351,7 +370,7 @@ pub fn main() -> ExitCode {
 
 fn run(command: Command) -> u8 {
     match command {
-        Command::Certify(args) => certify::run(&args),
+        Command::Certify(args) => certify::run(&args.with_parameters()),
         Command::Spectrum(args) => spectrum::run(&args),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => radius::regularity(&args),
