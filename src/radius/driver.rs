@@ -26,7 +26,7 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
     let work = options.work_for(dim);
     let flag = flag(&system);
     let blocks: Vec<Block> = flag.iter().filter_map(|s| s.block.clone()).collect();
-    let share = work / 5 / blocks.len().max(1) as u64;
+    let share = work / 10 / blocks.len().max(1) as u64;
     let near = blocks.iter().map(|b| words(&b.system, options, &budget.part(share))).collect();
     let mut search = Search {
         system: &system,
@@ -124,13 +124,13 @@ impl Search<'_> {
 
     /// Bounds all blocks, or answers with a block and a better word of it.
     fn bound_all(&mut self, best: &Best, ties: &[Vec<Lower>], restart: bool) -> Option<(usize, Vec<usize>)> {
-        for block in 0..self.blocks.len() {
+        for (block, own) in ties.iter().enumerate() {
             let top =
                 self.near[block].iter().any(|c| c.value >= best.float * (1.0 - 1e-9)) || self.near[block].is_empty();
             let target = Target {
                 block: self.blocks[block].clone(),
                 best,
-                own: ties[block].clone(),
+                own: own.clone(),
                 near: self.near[block].clone(),
                 options: self.options,
             };

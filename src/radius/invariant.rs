@@ -41,7 +41,7 @@ impl Strategy for AtRadius {
                 seeds,
                 max_vertices: self.vertices.min(target.options.vertices),
                 tolerance: 1e-9,
-                longest: 8 * target.options.longest,
+                longest: longest(target),
                 budget,
             });
             if let Some(path) = grown.better {
@@ -78,6 +78,12 @@ impl Strategy for AtRadius {
     fn share(&self) -> u64 {
         self.share
     }
+}
+
+/// The longest cyclic word that is looked at as a better one: products of large matrices are dear.
+fn longest(target: &Target) -> usize {
+    let dim = target.block.system.dims.iter().copied().max().map_or(1, |d| d);
+    target.options.longest * if dim <= 4 { 8 } else { 3 }
 }
 
 /// Relative excess of a bound over the radius up to which the data of a polytope are not computed again with more places.
@@ -195,7 +201,7 @@ fn invariant(target: &Target, radius: f64, vertices: usize, budget: &Budget) -> 
             seeds: seeds.clone(),
             max_vertices: vertices.min(target.options.vertices),
             tolerance: 0.0,
-            longest: 8 * target.options.longest,
+            longest: longest(target),
             budget,
         });
         if let Some(path) = grown.better {
