@@ -6,6 +6,7 @@ use secant::prelude::*;
 use secant::statement::Statement;
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A case of each kind: cusp, oscillating, complex pair, Jordan block, null component, joints that disagree, undetermined,
 /// space, projected, affine maps, similarities, reversed pieces, interpolation, irrational, automaton, set; surfaces with a
@@ -56,14 +57,19 @@ fn vertex_report(name: &str) -> secant::report::document::Document {
     report(&format!("surfaces/{name}"))
 }
 
-fn all_reports() -> impl Iterator<Item = (&'static str, secant::report::document::Document)> {
-    KINDS.iter().map(|name| (*name, report(name))).chain(VERTICES.iter().map(|name| (*name, vertex_report(name))))
+/// All of them, made once for all tests.
+fn all_reports() -> &'static [(&'static str, secant::report::document::Document)] {
+    static MADE: OnceLock<Vec<(&'static str, secant::report::document::Document)>> = OnceLock::new();
+    MADE.get_or_init(|| {
+        let vertices = VERTICES.iter().map(|name| (*name, vertex_report(name)));
+        KINDS.iter().map(|name| (*name, report(name))).chain(vertices).collect()
+    })
 }
 
 #[test]
 fn pages_are_well_formed_and_accessible() {
     for (name, document) in all_reports() {
-        let page = html::render(&document);
+        let (name, page) = (*name, html::render(document));
         // Where there is no characteristic map there is none to draw.
         assert!(page.contains("<figure>") || name == "loop-zero" || name == "sqrt3", "{name} has no picture");
         let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
@@ -203,7 +209,7 @@ fn citations(text: &str) -> Vec<String> {
 #[test]
 fn every_citation_resolves() {
     for (name, document) in all_reports() {
-        let text = markdown::render(&document);
+        let text = markdown::render(document);
         for cited in citations(&text) {
             assert!(Statement::named(&cited).is_some(), "{name} cites {cited}, which `secant explain` does not know");
         }
@@ -225,7 +231,7 @@ fn every_citation_resolves() {
 #[test]
 fn a_statement_is_quoted_once_and_every_symbol_of_functionals_is_listed() {
     for (name, document) in all_reports() {
-        let text = markdown::render(&document);
+        let text = markdown::render(document);
         for statement in Statement::ALL {
             let quoted = text.matches(&format!("> **{}.**", statement.name())).count();
             assert!(quoted <= 1, "{name}: {} is quoted {quoted} times", statement.name());

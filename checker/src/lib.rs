@@ -7,6 +7,8 @@ mod base;
 mod claim;
 mod curve;
 mod jsr;
+mod literal;
+pub mod reader;
 mod regularity;
 mod solve;
 mod spectrum;

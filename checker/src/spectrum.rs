@@ -1,18 +1,16 @@
 //! Certificates of the kind `spectrum`: roots, Jordan blocks and equal moduli of rational matrices, without factorisation.
 
-use crate::base::number::decimal_fraction;
 use crate::base::{
     Accepted, Checked, Field, MAX_PIECES, Matrix, Node, Q, Rejected, Verdict, bits, has_root_near, need, some, spend,
 };
 use crate::claim::Claim;
 use crate::curve::{case, chain};
+use crate::literal;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::rc::Rc;
 
-/// Largest matrix of a file.
-const MAX_SIZE: usize = 256;
 /// The modulus of a determinant lies below this.
 const MAX_MODULUS: usize = 1 << 31;
 
@@ -37,17 +35,6 @@ fn modulus_squared(disc: &[BigInt]) -> BigInt {
     &disc[0] * &disc[0] + &disc[1] * &disc[1]
 }
 
-/// Reads `n` and then `n` rows of numbers; `#` starts a comment.
-fn plain(source: &str) -> Checked<Matrix> {
-    // The first part of a split is always there.
-    let words = source.lines().flat_map(|line| line.split('#').take(1).flat_map(str::split_ascii_whitespace));
-    let mut words = words.take(MAX_SIZE * MAX_SIZE + 2).map(decimal_fraction);
-    let size = words.next().flatten().and_then(|n| if n.is_integer() { n.numer().to_usize() } else { None });
-    let n = some(size.filter(|n| (1..=MAX_SIZE).contains(n)), "matrix", "the size of a matrix is needed first")?;
-    let entries = words.collect::<Option<Vec<Q>>>().filter(|entries| entries.len() == n * n);
-    Ok(Matrix::new(n, n, &some(entries, "matrix", "n rows of n exact numbers are needed after the size")?))
-}
-
 /// Checks the proof of a certificate of the kind `spectrum` about the text of a case or of a matrix.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let [spectra] = node.fields("spectra")?;
@@ -55,7 +42,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let mut operators: Vec<(Matrix, Option<(usize, usize)>)> = Vec::new();
     let mut name = "matrix".to_owned();
     if items.as_ref().is_ok_and(|items| items.first().is_some_and(|[operator, ..]| operator.is_null())) {
-        operators.push((plain(source)?, None));
+        operators.push((literal::matrix(source)?, None));
     } else {
         let case = case::read(source, false).map_err(|r| Rejected { unreadable: false, ..r })?;
         for (e, state) in case.shape.states.into_iter().enumerate() {

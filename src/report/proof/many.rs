@@ -107,8 +107,31 @@ fn evidence(
             )
         }
         Statement::Section6 => section_6(branch, found),
+        Statement::Theorem4Sign => shown(theorem_4_sign(branch, block, isolation), "signs"),
         other => Evidence::of(other),
     }
+}
+
+/// The hypotheses of Theorem 4′, but for the change of sign.
+fn theorem_4_sign(branch: &BranchReport, block: usize, isolation: Option<&RingProof>) -> Evidence {
+    let mut evidence = Evidence::of(Statement::Theorem4Sign).holds(
+        "leading",
+        "the largest modulus has exactly one longest Jordan block, of one real eigenvalue, of size $ℓ+1=@$.",
+        [Math::count(block)],
+    );
+    if let Some(proof) = isolation {
+        let text = format!(
+            "{} {}, whose common zeros are those of $π_i$, has a constant sign.",
+            on_cells(proof.discharged.len()),
+            one_of('k', proof)
+        );
+        evidence = evidence.holds("ring", &text, []);
+    }
+    evidence.holds(
+        "view",
+        "$G$, given with the point, has the rank $@$ on the space of dimension $@$ where $L$ acts, and loses nothing of these eigenspaces.",
+        [Math::count(branch.view.rank()), Math::count(branch.view.cols())],
+    )
 }
 
 /// The hypotheses of the criterion of §6.
@@ -149,6 +172,10 @@ fn why(branch: &BranchReport, dimension: usize, statement: Statement) -> Line {
     let (rank, of) = (branch.view.rank(), branch.view.cols());
     let values = [Math::count(dimension), Math::count(rank)];
     let text = match (statement, rank == of) {
+        (Statement::Theorem4Sign, false) => {
+            "**Conclusion.** There is no tangent line on this branch: its tangent subspace at the point has at least $@$ dimensions. (The rank of \
+             $G$ is $@$.)"
+        }
         (_, true) => {
             "**Conclusion.** There is no tangent line on this branch: $\\dim D^*≥@$, and the way $G$ to the point, given with the point, has the \
              rank $@$ on the space where $L$ acts, that is, it is injective."

@@ -229,6 +229,21 @@ fn main_evidence(branch: &SurfaceBranch, statement: Statement) -> Evidence {
             ring_evidence(branch, evidence)
         }
         Statement::Theorem4 => shown(isolated(branch, evidence), "null"),
+        Statement::Theorem4Sign | Statement::Theorem4Winding => {
+            let text = top("the longest Jordan blocks of the largest modulus have the size $ℓ+1=@$ and belong to ");
+            evidence.push("leading", Tone::Good, text);
+            if let Some(proof) = &o.isolation {
+                let text = format!(
+                    "{} {}, whose common zeros are the generalised kernel of $L$, has a constant sign.",
+                    on_cells(proof.discharged.len()),
+                    one_of('k', proof)
+                );
+                evidence = evidence.holds("ring", &text, []);
+            }
+            let text = "$G$ has the rank @ on the space where $L$ acts, and loses nothing of the eigenspaces of eigenvalues that are not 0.";
+            let evidence = evidence.holds("view", text, [Math::count(branch.view.rank())]);
+            shown(evidence, if statement == Statement::Theorem4Sign { "signs" } else { "path" })
+        }
         Statement::NullExists => {
             let text = top("the Jordan blocks of the largest modulus have the size @ and belong to ");
             evidence.push("semisimple", Tone::Good, text);
