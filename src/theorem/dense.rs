@@ -1,7 +1,8 @@
-//! Theorem 5 and Theorem 5′: a dense set by finitely many checks.
+//! A dense set by finitely many checks: Theorems 5, 5′, and those on frames.
 
 use super::branch::Context;
 use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Verdict};
+use super::frames::{self, FrameKind, FrameReport, Frames};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::linalg::Matrix;
@@ -28,7 +29,7 @@ pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
     }
     let start = cx.spaces.of(cx.shape.start);
     let view_injective = (&cx.shape.view() * &start.basis).rank() == start.visible.rows();
-    DenseSet { injective, view_injective, joints, upstairs: Vec::new() }
+    DenseSet { injective, view_injective, joints, upstairs: Vec::new(), frames: None }
 }
 
 /// Adds the claims about the dense set.
@@ -49,21 +50,64 @@ pub fn claims(cx: &Context, mut dense: DenseSet, found: &mut Certified) {
             found.claims.push(plain(verdict, open));
         }
         Some(_) => {
-            let examined = examine_deeper(cx, &dense, found);
-            found.claims.push(examined);
-            if injective {
-                let projected = projected(cx, &mut dense);
-                found.claims.push(projected);
-            } else {
-                let reason = "an operator is not injective on the relevant space: only the joints listed were examined";
-                found.claims.push(plain(Verdict::Undetermined, Some(reason)));
+            dense.frames = frames::frames(cx);
+            let every = dense.frames.as_ref().and_then(|frames| by_frames(cx, frames, found));
+            match every {
+                Some(claim) => found.claims.push(claim),
+                None => partly(cx, &mut dense, injective, found),
             }
         }
     }
     found.dense = Some(dense);
 }
 
+/// Theorems 11 and 11″: all joints, or one that has no tangent.
+fn by_frames(cx: &Context, frames: &Frames, found: &mut Certified) -> Option<Claim> {
+    let refuted = frames.frames.iter().find_map(|f| Some((f, f.refuted()?)));
+    if let Some((frame, joint)) = refuted {
+        let Role::Joint { path, state, left, right } = &joint.role else { return None };
+        let inner = frames::inner_path(cx.shape, frame.seen.state, *state)?;
+        // A joint of the component itself is seen from its own state, one above a code from the state of the frame.
+        let behind = if path.is_empty() { &inner } else { path };
+        let spec = point::joint_spec(cx, &[frame.path.as_slice(), behind].concat(), *left, *right);
+        let here = add_point(cx, spec, found)?;
+        let none = found.points[here].verdict == Verdict::Refuted;
+        return none.then(|| claim(Statement::Frames, ALL, Verdict::Refuted, Some("a joint has no tangent")));
+    }
+    if !frames.frames.iter().all(FrameReport::every_joint) {
+        return None;
+    }
+    let folded = frames.frames.iter().any(|f| f.kind == FrameKind::Folded);
+    let statement = if folded { Statement::FramesCones } else { Statement::Frames };
+    Some(claim(statement, if frames.constant { ALL_SEEN } else { ALL }, Verdict::Proved, None))
+}
+
+/// What remains where not all joints are decided: those of the first levels, and a dense set.
+fn partly(cx: &Context, dense: &mut DenseSet, injective: bool, found: &mut Certified) {
+    let examined = examine_deeper(cx, dense, found);
+    found.claims.push(examined);
+    let by_frames = dense.frames.as_ref().is_some_and(|f| f.frames.iter().all(FrameReport::dense));
+    let last = if injective {
+        let claim = projected(cx, dense);
+        if claim.verdict == Verdict::Proved || !by_frames { claim } else { dense_claim() }
+    } else if by_frames {
+        dense_claim()
+    } else {
+        let reason = "an operator is not injective on the relevant space: only the joints listed were examined";
+        claim(Statement::Theorem5, ALL, Verdict::Undetermined, Some(reason))
+    };
+    found.claims.push(last);
+}
+
+fn dense_claim() -> Claim {
+    claim(Statement::FramesDense, KILLED, Verdict::Proved, None)
+}
+
 const ALL: &str = "the curve has a tangent line at every joint of every level, a dense set";
+const ALL_SEEN: &str = "the curve has a tangent line at every joint of every level between pieces that are more than a point where \
+                        it is looked at; these are dense in every cell that is more than a point";
+const KILLED: &str = "the curve has a tangent line at every joint whose tangent line is not killed on the way to where it is looked \
+                      at; in every cell that is more than a point there are such joints";
 const EXAMINED: &str = "the curve has a tangent line at each of the joints examined below";
 const PROJECTED: &str = "the projected curve has a tangent line at every joint whose tangent line before the projection is not \
                          killed by it; in every cell that is more than a point there are such joints";

@@ -1,6 +1,7 @@
 //! What the program says: verdicts, points, rays, and the evidence for each.
 
 use super::direction::Direction;
+use super::frames::Frames;
 use super::ring::{RingPiece, RingProof, Witness};
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
@@ -377,6 +378,8 @@ pub struct DenseSet {
     pub joints: Vec<usize>,
     /// For Theorem 5′: the same joints in the visible quotients `W_e` of their own states, before the control points.
     pub upstairs: Vec<PointReport>,
+    /// The frames of Theorems 11, 11′ and 11″, where Theorem 5 does not apply.
+    pub frames: Option<Frames>,
 }
 
 /// What is known of the relevant space of one reachable state.
