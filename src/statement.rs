@@ -100,6 +100,9 @@ statements! {
     Joint = "joint",
     Theorem5 = "theorem-5",
     Theorem5Projected = "theorem-5-projected",
+    Frames = "theorem-11",
+    FramesDense = "theorem-11-prime",
+    FramesCones = "theorem-11-cones",
     SurfacePoint = "surface-point",
     Theorem5Surface = "theorem-5-surface",
     TensorProduct = "tensor-product",
@@ -119,6 +122,13 @@ statements! {
 }
 
 impl Statement {
+    /// Whether it says something about the joints of a curve, all together.
+    #[must_use]
+    pub fn is_about_joints(self) -> bool {
+        matches!(self, Self::Joint | Self::Theorem5 | Self::Theorem5Projected)
+            || matches!(self, Self::Frames | Self::FramesDense | Self::FramesCones)
+    }
+
     /// Its number and name.
     #[must_use]
     pub fn name(self) -> &'static str {

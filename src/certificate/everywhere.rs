@@ -28,7 +28,7 @@ pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) 
     }
 }
 
-fn matrix(m: &Matrix) -> Value {
+pub fn matrix(m: &Matrix) -> Value {
     (0..m.rows()).map(|i| numbers(m.row(i))).collect()
 }
 

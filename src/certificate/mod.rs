@@ -5,6 +5,7 @@
 
 mod branch;
 mod everywhere;
+mod frames;
 mod hull;
 mod joint;
 mod radius;
@@ -299,22 +300,30 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
 }
 
 fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
-    let of_joints =
-        |c: &&Claim| matches!(c.statement, Some(Statement::Theorem5 | Statement::Theorem5Projected | Statement::Joint));
+    let of_joints = |c: &&Claim| c.statement.is_some_and(|s| s.is_about_joints());
     let claims: Vec<&Claim> = found.claims.iter().filter(of_joints).collect();
     let mut verdict = claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
-    let mut upstairs = Vec::new();
+    let mut upstairs = json!([]);
     // The last of the claims names the theorem; with Theorem 5′ the one before is about the joints examined.
     let theorem = match (verdict, claims.last().and_then(|c| c.statement)) {
         (Verdict::Proved, Some(Statement::Theorem5)) => "5",
+        (Verdict::Proved, Some(last @ (Statement::Frames | Statement::FramesCones | Statement::FramesDense))) => {
+            let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
+                return unsupported("frames that are not there", "joints");
+            };
+            upstairs = frames::frames(&case.shape, frames)?;
+            if last == Statement::FramesDense { "11'" } else { "11" }
+        }
         (Verdict::Proved, Some(Statement::Theorem5Projected)) => {
+            let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
                 let Role::Joint { state, left, right, .. } = &point.role else { continue };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
-                upstairs.push(json!({"state": state, "point": point}));
+                joints.push(json!({"state": state, "point": point}));
             }
+            upstairs = Value::Array(joints);
             "5'"
         }
         (Verdict::Proved, _) => return unsupported("this theorem", "joints"),

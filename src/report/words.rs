@@ -257,18 +257,7 @@ pub fn kind_meaning(kind: Kind) -> &'static str {
 /// The statement that decides a claim; none where the claim's own theorem does not apply.
 #[must_use]
 pub fn deciding(claim: &Claim) -> Option<Statement> {
-    let dense = |s: &Statement| {
-        matches!(
-            s,
-            Statement::Theorem5
-                | Statement::Theorem5Projected
-                | Statement::Joint
-                | Statement::Frames
-                | Statement::FramesDense
-                | Statement::FramesCones
-        )
-    };
-    claim.statement.filter(|s| claim.verdict == Verdict::Proved || !dense(s))
+    claim.statement.filter(|s| claim.verdict == Verdict::Proved || !s.is_about_joints())
 }
 
 /// The dimension of the tangent subspace.

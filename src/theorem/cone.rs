@@ -138,12 +138,10 @@ pub fn cone_in_sight(
 ) -> Option<(CommonCone, Code)> {
     let own = Shape { start, control: None, ..shape.clone() };
     let frame = frame(&own, spaces)?;
-    let proposals: [&dyn Fn() -> Option<Proposal>; 4] = [
-        &|| polygons(&own, spaces, &frame),
-        &|| propose_closed(&frame),
-        &|| propose(&frame, 0),
-        &|| propose(&frame, 1),
-    ];
+    let proposals: [&dyn Fn() -> Option<Proposal>; 4] =
+        [&|| polygons(&own, spaces, &frame), &|| propose_closed(&frame), &|| propose(&frame, 0), &|| {
+            propose(&frame, 1)
+        }];
     proposals.into_iter().find_map(|proposal| {
         let cone = exact(&own, spaces, &frame, &proposal()?, true).filter(|c| c.invariant(&own, spaces))?;
         let cone = CommonCone { window: 0, ..cone };

@@ -1,8 +1,8 @@
 //! A dense set by finitely many checks: Theorems 5, 5′, and those on frames.
 
 use super::branch::Context;
-use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Verdict};
 use super::frames::{self, FrameKind, FrameReport, Frames};
+use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Verdict};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::linalg::Matrix;

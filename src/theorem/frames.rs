@@ -226,10 +226,12 @@ fn follow(cx: &Context, seen: Seen, path: Vec<usize>) -> Option<(FrameReport, Ve
     };
     if !own.is_empty() {
         report.family = family(shape, spaces, &report.seen, &own);
-        report.kind = if is_good(shape, spaces, &report.seen, &report.family) { FrameKind::Good } else { FrameKind::Folded };
+        report.kind =
+            if is_good(shape, spaces, &report.seen, &report.family) { FrameKind::Good } else { FrameKind::Folded };
     }
     if report.kind == FrameKind::Folded {
-        let all = Shape { start: report.seen.state, ..shape.clone() }.reachable();
+        let ahead = below(shape, report.seen.state);
+        let all: Vec<usize> = shape.reachable().into_iter().filter(|e| ahead.contains(e)).collect();
         report.family = family(shape, spaces, &report.seen, &all);
     }
     for seen in &report.family {

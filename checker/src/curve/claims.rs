@@ -1,7 +1,7 @@
 //! The whole certificate: contraction, points, answers, and the verdict that follows from them.
 
 use super::{Address, Case, End, Kind, Model, Piece, Place, Point, Root, Way};
-use super::{close, complete, everywhere, positive_definite, read_address};
+use super::{close, complete, everywhere, frames, positive_definite, read_address};
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
 use num_traits::Signed;
 
@@ -153,7 +153,8 @@ impl<'a> Claims<'a> {
     fn joints(&mut self, [theorem, points, upstairs]: [&Node<'_>; 3]) -> Checked<(Verdict, &'static str)> {
         let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
         let chosen = self.select(points)?;
-        upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
+        let uses = matches!(name, "5'" | "11" | "11'");
+        upstairs.need(items.is_empty() || uses, "joints", "this theorem uses no joints upstairs")?;
         let listed: Option<Vec<_>> = chosen.iter().map(|p| p.place.joint(model, model.shape.start)).collect();
         let listed = points.some(listed, "joints", "a point that is no joint")?;
         let together = chosen.iter().map(|p| p.verdict).min();
@@ -162,8 +163,19 @@ impl<'a> Claims<'a> {
             let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };
             return Ok((verdict, "every joint of every level"));
         }
-        let fits = matches!(name, "5" | "5'") && together == Some(Verdict::Proved);
+        let fits = matches!(name, "5" | "5'" | "11" | "11'") && together == Some(Verdict::Proved);
         theorem.need(fits, "joints", "a theorem proves that joints have tangents; \"none\" otherwise")?;
+        if matches!(name, "11" | "11'") {
+            let constant = frames::check(model, upstairs, name == "11")?;
+            return Ok((
+                Verdict::Proved,
+                match (name, constant) {
+                    ("11", false) => "every joint of every level, a dense set",
+                    ("11", true) => "every joint of every level between pieces that are seen as more than points",
+                    _ => "the joints listed and every joint whose line is not killed, a dense set",
+                },
+            ));
+        }
         complete(model, &listed, points, "joints")?;
         theorem.at(self.injective(name == "5"))?;
         if name == "5" {

@@ -62,7 +62,11 @@ impl Place {
         match self {
             Self::End(end) => Ok(vec![(Some(*end), end_branch(model, &[], root.state, *end)?)]),
             Self::Joint { path, left, right } => {
-                let neighbours = self.joint(model, root.state).filter(|j| model.joints_of(j.0).contains(j));
+                let joint = self.joint(model, root.state);
+                let neighbours = match joint {
+                    Some(j) if model.joints_of(j.0).contains(&j) || meet(model, root, path, j)? => joint,
+                    _ => None,
+                };
                 let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
                 let (state, ..) = some(neighbours, "joint", why)?;
                 let branch = |letter: usize, end: End| {
@@ -140,6 +144,22 @@ impl Model<'_> {
 pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
     let missing = model.joints().into_iter().find(|joint| !listed.contains(joint));
     node.need(missing.is_none(), rule, format_args!("the joint {missing:?} (state and pieces) is missing"))
+}
+
+/// Whether all pieces between two, which are more than points, are single points where they are looked at.
+fn meet(model: &Model<'_>, root: &Root, path: &[usize], (e, left, right): (usize, usize, usize)) -> Checked<bool> {
+    let pieces = &model.shape.states[e].pieces;
+    let solid = [left, right].iter().all(|&k| k < pieces.len() && !model.spaces.is_point(e, k));
+    if !solid || left >= right {
+        return Ok(false);
+    }
+    let seen = root.view.times(&model.shape.product(root.state, path)?.0)?;
+    for piece in &pieces[left + 1..right] {
+        if !seen.times(&piece.op)?.times(&model.spaces.of(piece.target)?.basis)?.is_zero() {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
