@@ -9,7 +9,7 @@ use crate::theorem::{Certified, DenseSet, Statement, Verdict};
 
 pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let Some(dense) = &found.dense else { return Vec::new() };
-    let is_dense = |s: Statement| matches!(s, Statement::Theorem5 | Statement::Theorem5Projected);
+    let is_dense = |s: Statement| s != Statement::Joint && s.is_about_joints();
     let Some(claim) = found.claims.iter().find(|c| c.statement.is_some_and(is_dense)) else { return Vec::new() };
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
     let statement = claim.statement;
@@ -26,7 +26,11 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
         }
     }
     let projected = claim.statement == Some(Statement::Theorem5Projected);
-    blocks.push(Block::Checks(checks(case, found, dense, projected, claim.verdict == Verdict::Proved)));
+    let by_frames = dense.frames.as_ref().filter(|_| statement.is_some_and(Statement::uses_frames));
+    blocks.push(Block::Checks(match by_frames {
+        Some(frames) => super::frames::checks(case, frames),
+        None => checks(case, found, dense, projected, claim.verdict == Verdict::Proved),
+    }));
     let mut conclusion: Line = line("**Conclusion.** ", []);
     conclusion.push(mark(claim.verdict));
     let how = match claim.verdict {
