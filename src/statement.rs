@@ -116,6 +116,7 @@ statements! {
     Theorem6 = "theorem-6",
     Theorem6Slow = "theorem-6-slow",
     ConeExponent = "cone-exponent",
+    Graph = "theorem-12",
     Radius = "radius",
     Smoothness = "smoothness",
     Theorem10 = "theorem-10",

@@ -135,7 +135,12 @@ fn examine_deeper(cx: &Context, dense: &DenseSet, found: &mut Certified) -> Clai
 /// Theorem 5′, its operators being injective.
 fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
     let claim = |verdict, reason| claim(Statement::Theorem5Projected, PROJECTED, verdict, reason);
-    dense.upstairs = first_level_joints(cx);
+    match first_level_joints(cx) {
+        Some(joints) => dense.upstairs = joints,
+        None => {
+            return claim(Verdict::Undetermined, Some("a first-level joint cannot be examined before the projection"));
+        }
+    }
     if dense.upstairs.iter().any(|p| p.verdict != Verdict::Proved) {
         let reason = "the projection is not injective, and before it a first-level joint is not proved";
         return claim(Verdict::Undetermined, Some(reason));
@@ -147,11 +152,12 @@ fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
     claim(Verdict::Proved, None)
 }
 
-/// The first-level joints of all reachable edge states, each in the visible quotient of its own state.
-fn first_level_joints(cx: &Context) -> Vec<PointReport> {
+/// The first-level joints of all reachable edge states, each in the visible quotient of its own state; `None` where one cannot be
+/// examined.
+fn first_level_joints(cx: &Context) -> Option<Vec<PointReport>> {
     let edges = cx.shape.reachable().into_iter().filter(|e| cx.shape.states[*e].kind == CellKind::Edge);
     let pairs = edges.flat_map(|e| point::joint_pairs(cx, e).into_iter().map(move |pair| (e, pair)));
-    pairs.filter_map(|(state, pair)| first_level_joint(cx, state, pair)).collect()
+    pairs.map(|(state, pair)| first_level_joint(cx, state, pair)).collect()
 }
 
 /// The joint of two pieces of a state in the visible quotient of that state.

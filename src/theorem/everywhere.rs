@@ -3,9 +3,11 @@
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
+use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
+use crate::radius::Options;
 use crate::shape::{Address, CellKind};
 
 /// What is known of every point of a curve, not only of a dense set.
@@ -22,6 +24,8 @@ pub struct Everywhere {
     pub seen: bool,
     /// The first-level joints of all reachable states, where cones were found.
     pub joints: Vec<EveryJoint>,
+    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where no cones were found.
+    pub derivative: Option<Box<CurveOrder>>,
     /// A lower bound of the Hölder exponent of the tangent in the uniform parameter, where cones shrink geometrically.
     pub exponent: Option<Rational>,
     /// A cycle that admits no strictly invariant cone.
@@ -99,9 +103,10 @@ fn broken(p: &PointReport) -> String {
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
     let witness = found.points.iter().position(breaks);
-    let joints = if witness.is_none() { joints(cx, found) } else { Vec::new() };
+    let joints = if witness.is_none() { joints(cx, found) } else { None };
     let regular = |p: &PointReport| p.verdict == Verdict::Proved && p.kind == Kind::Regular;
-    let agree = joints.iter().all(|j| regular(j.report(found)));
+    let agree = joints.as_ref().is_some_and(|all| all.iter().all(|j| regular(j.report(found))));
+    let joints = joints.unwrap_or_else(Vec::new);
     let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
         Some(k) => (Verdict::Refuted, Some(broken(&found.points[k]))),
@@ -110,11 +115,14 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
         None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
-    Everywhere { verdict, cone: Some(cone), seen, joints, exponent, obstacle: None, witness, reason }
+    let derivative = if verdict == Verdict::Undetermined { derivative(cx) } else { None };
+    let (verdict, reason) = if derivative.is_some() { (Verdict::Proved, None) } else { (verdict, reason) };
+    Everywhere { verdict, cone: Some(cone), seen, joints, derivative, exponent, obstacle: None, witness, reason }
 }
 
 /// The first-level joints of all reachable states; what was examined already is used where nothing is lost in it.
-fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
+/// `None` where one of them cannot be examined.
+fn joints(cx: &Context, found: &Certified) -> Option<Vec<EveryJoint>> {
     let mut out = Vec::new();
     for state in cx.shape.reachable() {
         let space = cx.spaces.of(state);
@@ -131,11 +139,11 @@ fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
             });
             match listed {
                 Some(k) => out.push(EveryJoint::Listed(k)),
-                None => out.extend(first_level_joint(cx, state, pair).map(|p| EveryJoint::Own(Box::new(p)))),
+                None => out.push(EveryJoint::Own(Box::new(first_level_joint(cx, state, pair)?))),
             }
         }
     }
-    out
+    Some(out)
 }
 
 const UNSEEN: &str =
@@ -146,7 +154,9 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
     if let (None, Some(obstacle)) = (witness, &obstacle) {
         witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
     }
+    let derivative = if witness.is_none() { derivative(cx) } else { None };
     let (verdict, reason) = match (witness, &obstacle) {
+        (None, _) if derivative.is_some() => return by_derivative(derivative, obstacle),
         (Some(k), _) => (Verdict::Refuted, broken(&found.points[k])),
         (None, Some(o)) => {
             let word = crate::shape::word_text(&o.word);
@@ -155,7 +165,41 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         (None, None) => (Verdict::Undetermined, "no common cone was found within the budget".to_owned()),
     };
     let reason = Some(reason);
-    Everywhere { verdict, cone: None, seen: false, joints: Vec::new(), exponent: None, obstacle, witness, reason }
+    Everywhere {
+        verdict,
+        cone: None,
+        seen: false,
+        joints: Vec::new(),
+        derivative: None,
+        exponent: None,
+        obstacle,
+        witness,
+        reason,
+    }
+}
+
+/// Largest number of coordinates of a state, and most states, for which a derivative is looked for.
+const MAX_DERIVATIVE: (usize, usize) = (12, 6);
+
+fn derivative(cx: &Context) -> Option<Box<CurveOrder>> {
+    let states = cx.shape.reachable();
+    let small = states.len() <= MAX_DERIVATIVE.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_DERIVATIVE.0);
+    let found = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
+    found.map(Box::new)
+}
+
+fn by_derivative(derivative: Option<Box<CurveOrder>>, obstacle: Option<ConeObstacle>) -> Everywhere {
+    Everywhere {
+        verdict: Verdict::Proved,
+        cone: None,
+        seen: true,
+        joints: Vec::new(),
+        derivative,
+        exponent: None,
+        obstacle,
+        witness: None,
+        reason: None,
+    }
 }
 
 /// Examines the point with the address of an obstacle.

@@ -5,6 +5,9 @@ use super::{close, complete, everywhere, frames, positive_definite, read_address
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
 use num_traits::Signed;
 
+/// The question whether the curve is G¹, answered by Theorem 12.
+const DERIVATIVE: &str = "every point by its derivative";
+
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
 type Question = (&'static str, Option<Address>);
 
@@ -32,6 +35,7 @@ fn questions(case: &Case) -> Vec<Question> {
 fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
+        DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
         "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
@@ -65,7 +69,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((question.0 != "every point").then_some(verdict));
+        found.extend((!matches!(question.0, "every point" | DERIVATIVE)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let verdict = found.into_iter().min().unwrap_or(Verdict::Undetermined);
@@ -117,6 +121,12 @@ impl<'a> Claims<'a> {
                 let found = everywhere::check(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
                 (node.field("verdict")?, found.verdict, found.claim)
+            }
+            (what, None) if *what == DERIVATIVE => {
+                let [_, stated, radius] = node.fields("question verdict radius")?;
+                radius.at(crate::regularity::graph(self.model, &radius))?;
+                let claim = "the curve is G¹: a graph over its uniform parameter with a continuous derivative";
+                (stated, Verdict::Proved, claim.to_owned())
             }
             (_, None) => {
                 let [_, stated, products] = node.fields("question verdict products")?;
