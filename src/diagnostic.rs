@@ -1,11 +1,12 @@
 //! What a user did wrong: a code, the place in the file, and how to mend it.
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, Severity, SourceCode};
+use miette::{Diagnostic, LabeledSpan, NamedSource, Severity, SourceCode};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
 /// Longest source line that is printed below a message.
+#[cfg(feature = "fancy")]
 const MAX_LINE: usize = 240;
 
 /// The text of an input file and the name under which it is shown.
@@ -33,6 +34,7 @@ impl SourceText {
         (line, column)
     }
 
+    #[cfg(feature = "fancy")]
     fn longest_line(&self, span: &Range<usize>) -> usize {
         let end = span.end.min(self.text.len());
         let (first, last) = (self.position(span.start).0, self.position(end).0);
@@ -40,9 +42,10 @@ impl SourceText {
     }
 }
 
-/// A mistake in the input, with its code, place and remedy. Never a defect of the program.
+/// A mistake in the input, with its code, place and remedy; a defect of the program itself has the code
+/// [`Problem::INTERNAL`].
 ///
-/// It implements [`miette::Diagnostic`]; [`Problem::render`] prints it as the program does.
+/// It implements [`miette::Diagnostic`]; with the feature `fancy`, `render` prints it as the program does.
 #[derive(Clone)]
 pub struct Problem(Box<Inner>);
 
@@ -57,6 +60,9 @@ struct Inner {
 }
 
 impl Problem {
+    /// The code of a defect of the program itself (see [`crate::guard`]).
+    pub const INTERNAL: &str = "secant::internal";
+
     /// A problem with a code such as `secant::case::sum` and one sentence saying what is wrong.
     #[must_use]
     pub fn new(code: impl Into<String>, message: impl AsRef<str>) -> Self {
@@ -104,6 +110,12 @@ impl Problem {
         &self.0.code
     }
 
+    /// Whether this is a defect of the program, and not of the input.
+    #[must_use]
+    pub fn is_internal(&self) -> bool {
+        self.0.code == Self::INTERNAL
+    }
+
     /// What is wrong, in one sentence.
     #[must_use]
     pub fn message(&self) -> &str {
@@ -132,8 +144,10 @@ impl Problem {
     /// The problem as text of at most 80 columns, with the lines of the file that it concerns.
     ///
     /// Lines too long to be read are not shown; the place is then given as `file:line:column`.
+    #[cfg(feature = "fancy")]
     #[must_use]
     pub fn render(&self, colour: bool) -> String {
+        use miette::{GraphicalReportHandler, GraphicalTheme};
         let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
         let handler = GraphicalReportHandler::new_themed(theme).with_width(80).with_links(false);
         let mut out = String::new();
@@ -144,6 +158,7 @@ impl Problem {
         out
     }
 
+    #[cfg(feature = "fancy")]
     fn for_display(&self) -> Self {
         let mut shown = self.clone();
         let Some(source) = &self.0.source else { return shown };
@@ -166,6 +181,7 @@ fn printable(text: &str) -> String {
 }
 
 /// The same, without changing a byte offset.
+#[cfg(feature = "fancy")]
 fn masked(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -227,7 +243,7 @@ impl Diagnostic for Problem {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "fancy"))]
 mod tests {
     use super::*;
 

@@ -123,12 +123,6 @@ statements! {
 }
 
 impl Statement {
-    /// Whether it says something about the joints of a curve, all together.
-    #[must_use]
-    pub fn is_about_joints(self) -> bool {
-        matches!(self, Self::Joint | Self::Theorem5 | Self::Theorem5Projected) || self.uses_frames()
-    }
-
     /// Whether it is about frames.
     #[must_use]
     pub fn uses_frames(self) -> bool {

@@ -1,10 +1,8 @@
 //! The HTML reports in a browser: `SECANT_BROWSER=1 cargo test --test browser` with Chromium (Debian: `chromium`).
 //! `SECANT_BROWSER=DIR` keeps the screenshots in DIR.
 
-use secant::case::VertexCase;
+use secant::case::Valences;
 use secant::prelude::*;
-use secant::theorem::surface::certify_complex;
-use secant::vertex::at_valence;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -71,14 +69,11 @@ fn reports_are_shown_without_errors() {
 
 fn page(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
-    if VERTICES.contains(&name) {
-        let case = VertexCase::read(&path).unwrap();
-        let found: Vec<_> = [3, 5].iter().filter_map(|n| at_valence(&case.rule, *n).ok()).collect();
-        return html::render(&proof::vertex_document(&case, &found, None));
+    let mut question = Question::read(&path).unwrap();
+    if let Question::Vertices { valences, .. } = &mut question {
+        *valences = Some(Valences::List(vec![3, 5]));
     }
-    let case = Case::read(&path).unwrap();
-    let found = certify_complex(&case.complex(), &case.examine).unwrap();
-    html::render(&proof::document(&case, &found))
+    html::render(&findings::proof(&prove(&question, &Budget::default()).unwrap()))
 }
 
 fn title(dom: &str) -> &str {

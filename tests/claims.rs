@@ -1,8 +1,9 @@
 //! What a verdict is about, and why: sentences that say no more than was proved.
 
 use secant::case::Case;
+use secant::report::claims::{assertion, judged, reason};
 use secant::theorem::surface::certify_complex;
-use secant::theorem::{About, Certified, Kind, PointReport, Verdict};
+use secant::theorem::{About, Assertion, Certified, Kind, PointReport, Reason, Verdict};
 use std::path::Path;
 
 fn certified(name: &str) -> Certified {
@@ -15,9 +16,10 @@ fn at<'a>(found: &'a Certified, address: &str) -> &'a PointReport {
     found.points.iter().find(here).unwrap_or_else(|| panic!("{address} was not examined"))
 }
 
-fn claim<'a>(found: &'a Certified, address: &str) -> &'a str {
-    let claim = found.claims.iter().find(|c| c.asked.as_ref().is_some_and(|(a, _)| a.to_string() == address));
-    &claim.unwrap_or_else(|| panic!("nothing is claimed of {address}")).text
+fn claim(found: &Certified, address: &str) -> Assertion {
+    let here = |what: &Assertion| what.asked().is_some_and(|(a, _)| a.to_string() == address);
+    let claim = found.claims.iter().find(|c| here(&c.what));
+    claim.unwrap_or_else(|| panic!("nothing is claimed of {address}")).what.clone()
 }
 
 #[test]
@@ -26,7 +28,8 @@ fn a_set_seen_through_a_projection_has_verdicts_about_branches() {
     for address in ["(0)", "(1)"] {
         assert_eq!(at(&found, address).verdict, Verdict::Proved);
         assert_eq!(at(&found, address).about(), About::Branch);
-        assert!(claim(&found, address).starts_with("the germ of the branch"), "{}", claim(&found, address));
+        assert!(matches!(claim(&found, address), Assertion::TangentAt { about: About::Branch, .. }));
+        assert!(assertion(&claim(&found, address)).starts_with("the germ of the branch"));
     }
     // Without the projection nothing else comes near.
     let whole = certified("sets/carpet-line");
@@ -71,5 +74,21 @@ fn kinds_tell_what_is_undetermined_from_what_is_refuted() {
             };
             assert!(expected, "{name}: {:?} {:?}", point.verdict, point.kind);
         }
+    }
+}
+
+#[test]
+fn a_refuted_claim_names_the_place_that_refutes_it() {
+    let case = Case::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/classical/levy.toml")).unwrap();
+    let found = certify_complex(&case.complex(), &case.examine).unwrap();
+    for claim in &found.claims {
+        let said = reason(&case, &found, claim);
+        assert_eq!(said.is_none(), claim.verdict() == Verdict::Proved, "{:?}", claim.what);
+        assert_eq!(judged(claim).starts_with("it is false that "), claim.verdict() == Verdict::Refuted);
+    }
+    let refuted = found.claims.iter().find(|c| c.what == Assertion::TangentAtEnds).unwrap();
+    match refuted.reason() {
+        Some(Reason::End(index)) => assert_eq!(found.points[*index].verdict, refuted.verdict()),
+        other => panic!("{other:?}"),
     }
 }

@@ -1,5 +1,7 @@
 //! Extraordinary vertices: the cases, an outside oracle that samples densely, the published facts, and the command line.
 
+mod corpus;
+
 use secant::arith::{Interval, Rational, ratio, to_f64};
 use secant::case::{Valences, VertexCase};
 use secant::certificate::confirm_vertices;
@@ -26,34 +28,13 @@ fn secant(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_secant")).args(arguments).current_dir(root()).output().unwrap()
 }
 
-#[test]
-fn every_case_comes_out_as_its_file_expects() {
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(root().join("cases/surfaces")).unwrap().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    let mut seen = 0;
-    for file in files {
-        if !std::fs::read_to_string(&file).is_ok_and(|text| VertexCase::is_one(&text)) {
-            continue;
-        }
-        let case = VertexCase::read(&file).unwrap_or_else(|p| panic!("{}", p.render(false)));
-        assert!(!case.expect.is_empty(), "{} expects nothing", case.name);
-        for (n, verdict) in &case.expect {
-            let found = at(&case.rule, *n);
-            assert_eq!(found.smooth, *verdict, "{} at {n}: {}", case.name, found.reason);
-        }
-        seen += 1;
-    }
-    assert!(seen >= 20, "{seen} cases");
-}
-
 /// Splines with one leading eigenvalue: all of them are proved again by the checker, which builds the schemes from their masks.
 #[test]
 fn the_checker_proves_the_verdicts_again() {
     let (mut again, mut once) = (0, Vec::new());
     for file in std::fs::read_dir(root().join("cases/surfaces")).unwrap() {
         let path = file.unwrap().path();
-        if !std::fs::read_to_string(&path).is_ok_and(|text| VertexCase::is_one(&text)) {
+        if !corpus::about_vertices(&path) {
             continue;
         }
         let case = VertexCase::read(&path).unwrap();

@@ -10,7 +10,8 @@ use secant::case::Case;
 use secant::certificate::confirm;
 use secant::linalg::Matrix;
 use secant::shape::{CellKind, Piece, Shape, State};
-use secant::theorem::{Certified, FrameKind, Kind, PointReport, Role, Statement, Verdict, certify};
+use secant::statement::Statement;
+use secant::theorem::{Assertion, Certified, Claim, FrameKind, Kind, PointReport, Role, Verdict, certify};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -46,18 +47,18 @@ fn examined(name: &str) -> (Case, Certified) {
     (case, found)
 }
 
-/// The verdict on all joints together, with the statement of the last claim about them.
-fn on_joints(found: &Certified) -> Option<(Verdict, Statement)> {
-    let claims = || found.claims.iter().filter(|c| c.statement.is_some_and(Statement::is_about_joints));
-    let verdict = claims().map(|c| c.verdict).reduce(Verdict::and)?;
-    Some((verdict, claims().last()?.statement?))
+/// The verdict on all joints together, with the statement of the claim about a dense set of them.
+fn on_joints(found: &Certified) -> (Verdict, Option<Statement>) {
+    let claims: Vec<Verdict> = found.claims.iter().filter(|c| c.what.is_of_joints()).map(Claim::verdict).collect();
+    let all = Verdict::all(claims.len(), claims.iter().copied());
+    (all, found.dense_claim().and_then(Claim::statement))
 }
 
 #[test]
 fn every_joint_of_two_spans_and_of_a_joined_curve_in_the_plane() {
     for name in ["control/two-spans.toml", "junction/m1-4-in-the-plane.toml"] {
         let (case, found) = examined(name);
-        assert_eq!(on_joints(&found), Some((Verdict::Proved, Statement::FramesCones)), "{name}");
+        assert_eq!(on_joints(&found), (Verdict::Proved, Some(Statement::FramesCones)), "{name}");
         let joints = found.points.iter().filter(|p| matches!(p.role, Role::Joint { .. }));
         assert!(joints.clone().count() > 0 && joints.clone().all(|p| p.kind == Kind::Regular), "{name}");
         confirm(&case, &found).unwrap();
@@ -77,19 +78,18 @@ fn a_cusp_of_the_projection_is_no_regular_joint() {
         found.points.iter().find(here).map(|p| p.kind)
     };
     assert_eq!((kind(&[]), kind(&[0])), (Some(Kind::Regular), Some(Kind::Cusp)));
-    let (_, statement) = on_joints(&found).unwrap();
-    assert!(!matches!(statement, Statement::Frames | Statement::FramesCones | Statement::Theorem5));
+    let (_, statement) = on_joints(&found);
+    assert!(!matches!(statement, Some(Statement::Frames | Statement::FramesCones | Statement::Theorem5)));
     confirm(&case, &found).unwrap();
 }
 
 #[test]
 fn what_one_entrance_hides_another_shows() {
     let (case, found) = examined("counterexamples/two-entrances.toml");
-    assert_eq!(on_joints(&found).unwrap().0, Verdict::Proved);
+    assert_eq!(on_joints(&found).0, Verdict::Proved);
     let frames = found.dense.as_ref().unwrap().frames.as_ref().unwrap();
     assert!(frames.constant && frames.frames.iter().filter(|f| f.seen.state == 1).count() == 1);
-    let claim = found.claims.iter().find(|c| c.statement.is_some_and(Statement::is_about_joints)).unwrap();
-    assert!(claim.text.contains("more than a point"), "{}", claim.text);
+    assert_eq!(found.dense_claim().unwrap().what, Assertion::SeenJoints);
     confirm(&case, &found).unwrap();
 }
 
@@ -121,14 +121,14 @@ fn a_state_in_front_changes_no_verdict() {
         let Ok(plain) = certify(shape, &[]) else { continue };
         let inside = certify(&wrapped(shape), &[]).unwrap();
         let verdicts = |found: &Certified| {
-            let ends = found.claims.first().map(|c| c.verdict);
+            let ends = found.claims.first().map(Claim::verdict);
             let kinds: Vec<(Verdict, Kind)> = found
                 .points
                 .iter()
                 .filter(|p| matches!(p.role, Role::LeftEnd | Role::RightEnd))
                 .map(|p| (p.verdict, p.kind))
                 .collect();
-            (ends, kinds, on_joints(found).map(|j| j.0))
+            (ends, kinds, on_joints(found).0)
         };
         assert_eq!(verdicts(&plain), verdicts(&inside), "{}", file.display());
         count += 1;

@@ -6,11 +6,8 @@
 mod corpus;
 
 use rayon::prelude::*;
-use secant::case::{Valences, VertexCase};
+use secant::case::Valences;
 use secant::prelude::*;
-use secant::report::proof::vertex_document;
-use secant::theorem::surface::certify_complex;
-use secant::vertex::at_valence;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -73,15 +70,12 @@ fn name(file: &Path) -> String {
 
 /// The report of a case; none for cases that are refused.
 fn report(file: &Path) -> Option<String> {
-    if corpus::about_vertices(file) {
-        let case = VertexCase::read(file).ok()?;
-        let Some(Valences::List(list)) = &case.valences else { return None };
-        let found: Vec<_> = list.iter().take(4).filter_map(|n| at_valence(&case.rule, *n).ok()).collect();
-        return Some(latex::render(&vertex_document(&case, &found, None)));
+    let mut question = Question::read(file).ok()?;
+    if let Question::Vertices { valences, .. } = &mut question {
+        let Some(Valences::List(list)) = valences else { return None };
+        list.truncate(4);
     }
-    let case = Case::read(file).ok()?;
-    let found = certify_complex(&case.complex(), &case.examine).ok()?;
-    Some(latex::render(&proof::document(&case, &found)))
+    Some(latex::render(&findings::proof(&prove(&question, &Budget::default()).ok()?)))
 }
 
 /// Preamble and body of a report.

@@ -1,6 +1,7 @@
 //! Joint spectral radii, regularity and cones against known values.
 
 use secant::arith::{Rational, parse_rational, to_f64};
+use secant::budget::Budget;
 use secant::certificate::radius_certificate;
 use secant::linalg::Matrix;
 use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
@@ -205,7 +206,7 @@ fn family(a: &str, b: &str) -> Shape {
 }
 
 fn cone(shape: &Shape) -> Option<ConeAnswer> {
-    common_cone(shape, &Spaces::new(shape).expect("base points"))
+    common_cone(shape, &Spaces::new(shape).expect("base points"), Budget::default().cone_steps)
 }
 
 #[test]
@@ -392,7 +393,11 @@ fn forged_cones_are_rejected() {
     let text = secant::certificate::certificate(&case, &found).unwrap().text();
     let source = &case.text.text;
     let accepted = secant_check::check(source, &text).unwrap();
-    assert!(accepted.claims.iter().any(|c| c.starts_with("proved: the curve is G¹")), "{:?}", accepted.claims);
+    assert!(
+        accepted.claims.iter().any(|c| c.to_string().starts_with("proved: the curve is G¹")),
+        "{:?}",
+        accepted.claims
+    );
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
     let answers = json["proof"]["answers"].as_array().unwrap();
     let at = answers.iter().position(|a| a["question"] == "every point").unwrap().to_string();

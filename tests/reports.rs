@@ -1,12 +1,9 @@
 //! Reports as documents: well-formed, accessible, legible, and careful with what they claim.
 
 use roxmltree::{Document, Node, ParsingOptions};
-use secant::case::{Valences, VertexCase};
+use secant::case::Valences;
 use secant::prelude::*;
-use secant::report::proof::vertex_document;
 use secant::statement::Statement;
-use secant::theorem::surface::certify_complex;
-use secant::vertex::at_valence;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -45,20 +42,18 @@ const VERTICES: [&str; 5] = ["catmull-clark", "doo-sabin-frequency-2", "loop-zer
 
 fn report(name: &str) -> secant::report::document::Document {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/{name}.toml"));
-    let case = Case::read(&path).expect("the case is read");
-    let found = certify_complex(&case.complex(), &case.examine).expect("the case is certified");
-    proof::document(&case, &found)
+    let mut question = Question::read(&path).expect("the case is read");
+    if let Question::Vertices { valences, .. } = &mut question {
+        *valences = Some(Valences::List(match valences {
+            Some(Valences::List(list)) => list.iter().copied().take(4).collect(),
+            _ => vec![3, 5],
+        }));
+    }
+    findings::proof(&prove(&question, &Budget::default()).expect("the case is certified"))
 }
 
 fn vertex_report(name: &str) -> secant::report::document::Document {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/surfaces/{name}.toml"));
-    let case = VertexCase::read(&path).expect("the case is read");
-    let list = match &case.valences {
-        Some(Valences::List(list)) => list.iter().copied().take(4).collect(),
-        _ => vec![3, 5],
-    };
-    let found: Vec<_> = list.iter().map(|n| at_valence(&case.rule, *n).expect("the valence is examined")).collect();
-    vertex_document(&case, &found, None)
+    report(&format!("surfaces/{name}"))
 }
 
 fn all_reports() -> impl Iterator<Item = (&'static str, secant::report::document::Document)> {

@@ -9,13 +9,16 @@ mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod question;
 mod read;
 mod scheme;
+mod source;
 mod states;
 mod vertex;
 
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
+pub use question::{Question, Subject};
 pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};

@@ -1,6 +1,7 @@
 use super::expect::Expect;
 use super::matrix::Written;
 use super::node::{File, Node, Table};
+use super::source::too_large;
 use super::{Case, Convention, MAX_ADDRESSES, MAX_BYTES, MAX_LETTERS, Model, maps, scheme, states};
 use crate::diagnostic::{Problem, SourceText};
 use crate::linalg::Matrix;
@@ -41,25 +42,19 @@ impl Case {
     /// # Errors
     /// As [`Case::read`], apart from open entries.
     pub fn read_open(path: &Path) -> Result<Self, Problem> {
-        if path.as_os_str() == "-" {
-            return Self::open_from_reader("<stdin>", std::io::stdin().lock());
-        }
-        let name = path.display().to_string();
-        let unreadable = |error: &std::io::Error| {
-            Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
-                .with_help("give the path of a case file, or `-` for the standard input")
-        };
-        let file = std::fs::File::open(path).map_err(|e| unreadable(&e))?;
-        if file.metadata().is_ok_and(|m| m.is_dir()) {
-            return Err(Problem::new("secant::case::unreadable", format!("{name} is a directory"))
-                .with_help("give the path of a case file, such as cases/thesis/half-tangent.toml"));
-        }
-        Self::open_from_reader(&name, file)
+        let source = SourceText::read(path)?;
+        Self::parse_open(&source.name, &source.text)
     }
 
     /// The case, if no entry was left open.
     pub(super) fn closed(self) -> Result<Self, Problem> {
-        let Some(first) = self.unknown.first() else { return Ok(self) };
+        self.refuse_open()?;
+        Ok(self)
+    }
+
+    /// The problem of the first entry that was left open.
+    pub(super) fn refuse_open(&self) -> Result<(), Problem> {
+        let Some(first) = self.unknown.first() else { return Ok(()) };
         let count = self.unknown.len();
         let message =
             if count == 1 { "an entry is unknown".to_owned() } else { format!("{count} entries are unknown") };
@@ -72,30 +67,8 @@ impl Case {
     /// # Errors
     /// As [`Case::read`].
     pub fn from_reader(name: &str, stream: impl Read) -> Result<Self, Problem> {
-        Self::open_from_reader(name, stream)?.closed()
-    }
-
-    fn open_from_reader(name: &str, stream: impl Read) -> Result<Self, Problem> {
-        let mut bytes = Vec::new();
-        if let Err(error) = stream.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes) {
-            return Err(Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
-                .with_help("give the path of a case file, or `-` for the standard input"));
-        }
-        if bytes.len() > MAX_BYTES {
-            return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
-                .with_help("case files are at most 4 MiB long"));
-        }
-        match String::from_utf8(bytes) {
-            Ok(text) => Self::parse_open(name, &text),
-            Err(error) => {
-                let at = error.utf8_error().valid_up_to();
-                let valid = String::from_utf8_lossy(&error.as_bytes()[..at]).into_owned();
-                let source = SourceText::new(name, valid);
-                let (line, column) = source.position(at);
-                Err(Problem::new("secant::case::encoding", format!("{name}:{line}:{column}: this is not UTF-8 text"))
-                    .with_help("case files are UTF-8 text in the TOML format"))
-            }
-        }
+        let source = SourceText::from_reader(name, stream)?;
+        Self::parse(&source.name, &source.text)
     }
 
     /// Reads and checks the text of a case; `name` is shown in diagnostics.
@@ -119,22 +92,36 @@ impl Case {
 
     /// The same, with the file as `open` makes it.
     pub(super) fn parse_as(name: &str, text: &str, open: impl FnOnce(SourceText) -> File) -> Result<Self, Problem> {
-        let source = SourceText::new(name, text);
-        if text.len() > MAX_BYTES {
-            return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
-                .with_help("case files are at most 4 MiB long"));
-        }
-        let table = DeTable::parse(text).map_err(|error| syntax(&source, &error))?;
-        if table.get_ref().is_empty() {
-            return Err(Problem::new("secant::case::empty", format!("{name} is empty"))
-                .with_help("a case needs at least `name`, `convention` and `pieces`; see docs/case-format.md"));
-        }
-        let file = open(source);
-        build(&file, &Table::root(&file, &table))
+        parsed(name, text, open, build)
+    }
+
+    /// The case of a table that was parsed; entries may be left open.
+    pub(super) fn of_table(file: &File, table: &Table<'_>) -> Result<Self, Problem> {
+        build(file, table)
     }
 }
 
-pub(super) fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
+/// Parses a text and makes something of its table.
+pub(super) fn parsed<T>(
+    name: &str,
+    text: &str,
+    open: impl FnOnce(SourceText) -> File,
+    make: impl FnOnce(&File, &Table<'_>) -> Result<T, Problem>,
+) -> Result<T, Problem> {
+    let source = SourceText::new(name, text);
+    if text.len() > MAX_BYTES {
+        return Err(too_large(name));
+    }
+    let table = DeTable::parse(text).map_err(|error| syntax(&source, &error))?;
+    if table.get_ref().is_empty() {
+        return Err(Problem::new("secant::case::empty", format!("{name} is empty"))
+            .with_help("a case needs at least `name`, `convention` and `pieces`; see docs/case-format.md"));
+    }
+    let file = open(source);
+    make(&file, &Table::root(&file, &table))
+}
+
+fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
     let end = source.text.len();
     let span = error.span().unwrap_or(end..end);
     let message = error.message();
@@ -155,7 +142,7 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
     if case.get("vertex").is_some() {
         return Err(case
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
-            .with_help("`secant certify FILE --valence 3..32` goes through valences; it takes one file at a time"));
+            .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
     }
     case.only(&KEYS)?;
     let name = name(case)?;

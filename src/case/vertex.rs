@@ -1,14 +1,12 @@
 //! Case files about the vertices of a mesh: a `[vertex]` table names the rule on meshes, its weights and the valences.
 
-use super::MAX_BYTES;
 use super::node::{File, Node, Table};
+use crate::answer::Verdict;
 use crate::arith::{Rational, ratio};
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{DualWeights, MAX_VALENCE, MeshRule, SchemeError, mesh_rule, mesh_rules};
-use crate::theorem::Verdict;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use toml::de::DeTable;
 
 /// The valences asked about.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,34 +78,20 @@ pub struct VertexCase {
     pub valences: Option<Valences>,
     /// What a test expects at which valences.
     pub expect: Vec<(usize, Verdict)>,
+    /// Whether the file has a `[vertex]` table; asked for valences, a `[scheme]` of a mesh is a case about vertices too.
+    pub declared: bool,
     /// The file.
     pub text: SourceText,
 }
 
 impl VertexCase {
-    /// Whether a text has a `[vertex]` table.
-    #[must_use]
-    pub fn is_one(text: &str) -> bool {
-        text.lines().any(|line| line.trim_start().starts_with("[vertex]"))
-    }
-
-    /// Reads and checks a case file.
+    /// Reads and checks a case file; `-` is the standard input.
     ///
     /// # Errors
     /// A [`Problem`] for everything that is wrong with it.
     pub fn read(path: &Path) -> Result<Self, Problem> {
-        let name = path.display().to_string();
-        let unreadable = |error: &std::io::Error| {
-            Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
-                .with_help("give the path of a case file")
-        };
-        let size = std::fs::metadata(path).map_err(|e| unreadable(&e))?.len();
-        if size > MAX_BYTES as u64 {
-            return Err(Problem::new("secant::case::too-large", format!("{name} is larger than {MAX_BYTES} bytes"))
-                .with_help("case files are at most 4 MiB long"));
-        }
-        let text = std::fs::read_to_string(path).map_err(|e| unreadable(&e))?;
-        Self::parse(&name, &text)
+        let source = SourceText::read(path)?;
+        Self::parse(&source.name, &source.text)
     }
 
     /// Reads and checks the text of a case; `name` is shown in diagnostics.
@@ -115,14 +99,16 @@ impl VertexCase {
     /// # Errors
     /// As [`VertexCase::read`].
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
-        let source = SourceText::new(name, text);
-        let table = DeTable::parse(text).map_err(|error| super::read::syntax(&source, &error))?;
-        let file = File::new(source);
-        let root = Table::root(&file, &table);
+        super::read::parsed(name, text, File::new, Self::of_table)
+    }
+
+    /// The case of a table that was parsed.
+    pub(super) fn of_table(file: &File, root: &Table<'_>) -> Result<Self, Problem> {
         // With --valence a `[scheme]` of a mesh is a case about vertices too.
         let mesh = |t: &Table<'_>| t.get("mesh").is_some();
         let scheme = root.get("scheme").map(|node| node.table()).transpose()?.filter(mesh);
         if root.get("vertex").is_none() && scheme.is_none() {
+            let name = &file.source.name;
             let message = format!("{name} has no [vertex] table, so that there are no valences to go through");
             return Err(Problem::new("secant::case::missing-key", message).with_help(
                 "--valence is for cases such as cases/surfaces/catmull-clark.toml; see docs/case-format.md",
@@ -131,7 +117,7 @@ impl VertexCase {
         if scheme.is_none() {
             root.only(&["name", "title", "source", "vertex", "expect"])?;
         }
-        let case_name = super::read::name(&root)?;
+        let case_name = super::read::name(root)?;
         let title = root.optional_text("title")?.unwrap_or(&case_name).to_owned();
         let expects = scheme.is_none();
         let mut vertex = match scheme {
@@ -146,7 +132,8 @@ impl VertexCase {
         };
         let expect = root.get("expect").filter(|_| expects).map(|node| expect(&node)).transpose()?.unwrap_or_default();
         let source = root.optional_text("source")?.map(str::to_owned);
-        Ok(Self { name: case_name, title, source, scheme, rule, valences, expect, text: file.source.clone() })
+        let (name, text) = (case_name, file.source.clone());
+        Ok(Self { name, title, source, scheme, rule, valences, expect, declared: expects, text })
     }
 }
 

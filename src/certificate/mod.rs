@@ -4,6 +4,7 @@
 //! shares no code with this crate.
 
 mod branch;
+mod confirm;
 mod everywhere;
 mod frames;
 mod hull;
@@ -17,6 +18,7 @@ mod top;
 mod tree;
 mod vertex;
 
+pub use confirm::{Doubt, checked, confirm};
 pub use joint::radius_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
@@ -25,7 +27,7 @@ pub use vertex::{confirm_vertices, vertex_certificate};
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::shape::{Address, CellKind, Contraction, Shape};
-use crate::theorem::{Certified, Claim, PointReport, Role, Statement, Verdict};
+use crate::theorem::{Assertion, Certified, Claim, PointReport, Role, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
 
@@ -146,60 +148,6 @@ pub fn sha256(text: impl AsRef<[u8]>) -> String {
     Sha256::digest(text.as_ref()).iter().map(|b| format!("{b:02x}")).collect()
 }
 
-/// Why a decided verdict was not proved again.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum Doubt {
-    /// It has no certificate.
-    #[error(transparent)]
-    Unsupported(#[from] Unsupported),
-    /// The checker does not accept its certificate.
-    #[error("the certificate is not accepted: {0}")]
-    Rejected(#[from] secant_check::Rejected),
-    /// The checker comes to another verdict.
-    #[error("the certificate proves \"{0}\", which is not the verdict found")]
-    Differs(&'static str),
-}
-
-/// Writes the certificate and has it checked by `secant-check` against the text of the case.
-///
-/// # Errors
-/// [`Doubt`] where there is no certificate, or the checker does not accept it with the same verdict.
-///
-/// # Cost
-/// That of [`certificate`] and of [`secant_check::check`].
-pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
-    let certificate = certificate(case, found)?;
-    let accepted = accepted(&case.checked_text(), &certificate)?;
-    if accepted.verdict.word() == found.verdict.word() {
-        Ok(certificate)
-    } else {
-        Err(Doubt::Differs(accepted.verdict.word()))
-    }
-}
-
-/// Has a certificate checked by `secant-check` against the text of what it is about.
-///
-/// # Errors
-/// [`Doubt`] where the checker does not accept it.
-///
-/// # Cost
-/// That of [`secant_check::check`].
-pub fn checked(source: &str, certificate: Certificate) -> Result<Certificate, Doubt> {
-    accepted(source, &certificate)?;
-    Ok(certificate)
-}
-
-/// What the checker says. Where its budget does not last, nothing was found to be wrong: there is just no second proof.
-fn accepted(source: &str, certificate: &Certificate) -> Result<secant_check::Accepted, Doubt> {
-    match secant_check::check(source, &certificate.text()) {
-        Err(rejected) if rejected.rule == "limit" => {
-            let what = "evidence that takes so much arithmetic".to_owned();
-            Err(Unsupported { what, place: rejected.place }.into())
-        }
-        answer => Ok(answer?),
-    }
-}
-
 fn number(x: &Rational) -> Value {
     Value::String(x.to_string())
 }
@@ -256,7 +204,11 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
     let mut answers = Vec::new();
     if curve {
         let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd));
-        let verdict = found.claims.first().map_or(Verdict::Undetermined, |c| c.verdict);
+        let verdict = found
+            .claims
+            .iter()
+            .find(|c| c.what == Assertion::TangentAtEnds)
+            .map_or(Verdict::Undetermined, Claim::verdict);
         answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
         answers.push(joints(case, found, points)?);
     }
@@ -273,16 +225,16 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         }
     }
     // Addresses that were asked for besides those of the case come after them.
-    let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict, c.asked.as_ref()?))).collect();
+    let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict(), c.what.asked()?))).collect();
     for (_, (address, _)) in &claims {
         if !asked.contains(address) {
-            asked.push(address.clone());
+            asked.push((*address).clone());
         }
     }
     for address in &asked {
-        let claim = claims.iter().find(|(_, (a, _))| a == address);
+        let claim = claims.iter().find(|(_, (a, _))| *a == address);
         let (verdict, place) = match claim {
-            Some((verdict, (_, k))) => (*verdict, Some(place_json(&found.points[*k]))),
+            Some((verdict, (_, k))) => (*verdict, k.and_then(|k| found.points.get(k)).map(place_json)),
             None => (Verdict::Undetermined, None),
         };
         let index: Vec<usize> = points.places.iter().position(|p| Some(p) == place.as_ref()).into_iter().collect();
@@ -300,22 +252,21 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
 }
 
 fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
-    let of_joints = |c: &&Claim| c.statement.is_some_and(|s| s.is_about_joints());
-    let claims: Vec<&Claim> = found.claims.iter().filter(of_joints).collect();
-    let mut verdict = claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
+    let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
     let mut upstairs = json!([]);
-    // The last of the claims names the theorem; with Theorem 5′ the one before is about the joints examined.
-    let theorem = match (verdict, claims.last().and_then(|c| c.statement)) {
-        (Verdict::Proved, Some(Statement::Theorem5)) => "5",
-        (Verdict::Proved, Some(last @ (Statement::Frames | Statement::FramesCones | Statement::FramesDense))) => {
+    let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
+    let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
+        (Verdict::Proved, Some(what)) if by_frames.is_some() => {
             let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
                 return unsupported("frames that are not there", "joints");
             };
             upstairs = frames::frames(&case.shape, frames)?;
-            if last == Statement::FramesDense { "11'" } else { "11" }
+            if *what == Assertion::UnkilledJoints { "11'" } else { "11" }
         }
-        (Verdict::Proved, Some(Statement::Theorem5Projected)) => {
+        (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
+        (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
             let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
                 let Role::Joint { state, left, right, .. } = &point.role else { continue };

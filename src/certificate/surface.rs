@@ -8,7 +8,7 @@ use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
 use crate::theorem::surface::{ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness};
-use crate::theorem::{Certified, Direction, Functional, RingProof, Statement, Verdict};
+use crate::theorem::{Assertion, Certified, Direction, Functional, RingProof, Statement, Verdict};
 use serde_json::{Value, json};
 
 /// Letters by which the addresses of a point are told apart and put in order.
@@ -50,16 +50,16 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     let mut dense = Value::Null;
     let (mut asked, mut answers): (Vec<&Address>, Vec<&str>) = (Vec::new(), Vec::new());
     for claim in &found.claims {
-        if let Some((address, _)) = &claim.asked {
+        if let Some((address, _)) = claim.what.asked() {
             if asked.contains(&address) {
                 continue;
             }
             asked.push(address);
-        } else if claim.statement == Some(Statement::Theorem5Surface) && claim.verdict == Verdict::Proved {
+        } else if matches!(claim.what, Assertion::DensePlanes { .. }) && claim.verdict() == Verdict::Proved {
             let vertices = surface.dense.iter().flat_map(|d| &d.vertices);
             dense = vertices.map(|(_, p)| point(shape, p, &mut product)).collect::<Result<_, _>>()?;
         }
-        answers.push(claim.verdict.word());
+        answers.push(claim.verdict().word());
     }
     if parameters && surface.dense.is_none() {
         return unsupported("a patch without vertices inside", "dense");

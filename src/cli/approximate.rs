@@ -1,35 +1,42 @@
 //! `secant certify --approx`: the float fallback, always labelled approximate, never exit code 0.
 
-use super::certify::{json_text, read};
-use super::output::{complain, print, stdout_colour};
-use super::{BAD_INPUT, CertifyArgs, UNDETERMINED};
+use super::certify::json_text;
+use super::many::gravest;
+use super::output::{complain, print, problem_code, stdout_colour};
+use super::{CertifyArgs, UNDETERMINED};
 use crate::approx::{PointLook, look};
-use crate::case::Case;
+use crate::case::{Case, Question};
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
 use crate::report::document::{Block, Document, Inline, Tone, code, words};
 use crate::report::{json, text};
 use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Looks at every case in floating point.
 pub fn run(args: &CertifyArgs) -> u8 {
     let mut worst = UNDETERMINED;
     for path in &args.cases {
-        match one(path, args) {
+        match guarded(|| one(path, args)) {
             Ok((case, seen)) if args.json || args.jsonl => print(&json_text(&value(&case, &seen), args.json)),
             Ok((case, seen)) if !args.quiet => print(&text::render(&document(&case, &seen), stdout_colour())),
             Ok(_) => {}
             Err(problem) => {
                 complain(&problem);
-                worst = BAD_INPUT;
+                worst = gravest([worst, problem_code(&problem)].into_iter());
             }
         }
     }
     worst
 }
 
-fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Vec<PointLook>), Problem> {
-    let (case, addresses) = read(path, args)?;
+fn one(path: &Path, args: &CertifyArgs) -> Result<(Arc<Case>, Vec<PointLook>), Problem> {
+    let Question::Tangents { case, further } = super::answered::question(path, args)? else {
+        return Err(Problem::new("secant::usage", "--approx is not for vertices of a mesh")
+            .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
+    };
+    let addresses = [case.examine.as_slice(), &further].concat();
     let seen = look(&case.shape, &addresses).ok_or_else(|| {
         let message = "an operator has no unique fixed point, so that there is no point to look at";
         case.problem_at_state(case.shape.start, "secant::approx", message, "the system does not contract")

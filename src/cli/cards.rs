@@ -1,23 +1,27 @@
 //! The cards of the gallery: a shape with its verdict, a scheme at extraordinary vertices, a case with open entries, a
 //! case that is refused.
 
-use super::many::kinds;
-use crate::case::{Case, Valences, VertexCase};
+use super::answered::answered;
+use crate::answer::Verdict;
+use crate::budget::Budget;
+use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
 use crate::picture::characteristic::thumbnail;
+use crate::prove::Findings;
 use crate::report::html::escaped;
-use crate::report::vertex::{overall, panel, ranges};
-use crate::report::{figures, html, proof, words};
+use crate::report::vertex::{panel, ranges};
+use crate::report::{figures, findings, html, words};
 use crate::shape::Solution;
-use crate::theorem::Verdict;
-use crate::theorem::surface::certify_complex;
-use crate::vertex::AtValence;
+use crate::vertex::{AtValence, Every};
 use std::path::Path;
 
 /// How cases with open entries are counted.
 pub const OPEN: &str = "open entries";
 /// How cases that are refused are counted.
 pub const REFUSED: &str = "refused";
+/// How cases on which the program fails are counted.
+pub const FAILED: &str = "internal error";
 
 /// Cases whose reports are written without `--all`: one of each kind.
 const SELECTED: [&str; 13] = [
@@ -73,24 +77,46 @@ pub struct Entry {
 
 /// Certifies or solves a case and writes its card.
 pub fn entry(path: &Path, wanted: Report) -> Entry {
+    entry_by(path, wanted, &made)
+}
+
+/// The same with what makes the card of a named case; a panic there costs this card only.
+fn entry_by(path: &Path, wanted: Report, make: &dyn Fn(&Path, &str, Report) -> Result<Made, Problem>) -> Entry {
     let (family, stem) = names(path);
     let name = if wanted.linked {
         format!("<a href=\"{}/{stem}.html\">{stem}</a>", escaped(&family), stem = escaped(&stem))
     } else {
         escaped(&stem)
     };
-    let made = if super::vertex::is_about_vertices(path) {
-        vertex(path, &name, wanted)
-    } else {
-        Case::read_open(path).and_then(|case| {
-            if case.unknown.is_empty() { shape(&case, &name, wanted) } else { open(&case, &escaped(&stem)) }
-        })
-    };
-    let (card, verdict, report) = made.unwrap_or_else(|problem| (refused(&escaped(&stem), &problem), REFUSED, None));
+    let (card, verdict, report) = guarded(|| make(path, &name, wanted)).unwrap_or_else(|problem| {
+        let word = if problem.is_internal() { FAILED } else { REFUSED };
+        (refused(&escaped(&stem), word, &problem), word, None)
+    });
     Entry { family, stem, card, verdict, report }
 }
 
 type Made = (String, &'static str, Option<String>);
+
+fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
+    let question = match Question::read_open(path)? {
+        Question::Tangents { case, .. } if !case.unknown.is_empty() => return open(&case, &escaped(&names(path).1)),
+        Question::Vertices { case, valences: None } => {
+            Question::Vertices { case, valences: Some(Valences::List((3..=12).collect())) }
+        }
+        question => question,
+    };
+    let answered = answered(&question, true, &Budget::default(), &|| {})?;
+    let report = wanted.written.then(|| html::render(&findings::proof(&answered.findings)));
+    let (picture, what) = match &answered.findings {
+        Findings::Tangents { case, found } => {
+            let picture = figures::attractor(case, found).map(|p| p.thumbnail);
+            (picture, format!("{}: {}", marked(found.verdict), escaped(&answered.kinds().join(", "))))
+        }
+        Findings::Vertices { found, every, .. } => vertices(found, every.as_ref()),
+    };
+    let verdict = answered.findings.verdict().word();
+    Ok((card(&picture.unwrap_or_default(), name, answered.findings.title(), &what), verdict, report))
+}
 
 fn tone(verdict: Verdict) -> &'static str {
     match verdict {
@@ -104,25 +130,13 @@ fn marked(verdict: Verdict) -> String {
     format!("<strong class=\"{}\">{}</strong>", tone(verdict), verdict.word())
 }
 
-fn shape(case: &Case, name: &str, wanted: Report) -> Result<Made, Problem> {
-    let found = certify_complex(&case.complex(), &case.examine).map_err(|e| super::certify::model_problem(case, &e))?;
-    let report = wanted.written.then(|| html::render(&proof::document(case, &found)));
-    let picture = figures::attractor(case, &found).map(|p| p.thumbnail).unwrap_or_default();
-    let what = format!("{}: {}", marked(found.verdict), escaped(&kinds(&found).join(", ")));
-    Ok((card(&picture, name, &case.title, &what), found.verdict.word(), report))
-}
-
-/// A case about the vertices of a mesh: its verdicts by valence, and the characteristic map where one is refuted, or else of
-/// the first valence that is not regular.
-fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
-    let case = VertexCase::read(path)?;
-    let asked = case.valences.clone().unwrap_or(Valences::List((3..=12).collect()));
-    let (mut found, every) = super::vertex::at(&case, &asked, true)?;
-    super::vertex::confirmed(&case, &mut found)?;
-    let report = wanted.written.then(|| html::render(&proof::vertex_document(&case, &found, every.as_ref())));
-    let verdict = overall(&found, every.as_ref());
-    let mut parts: Vec<String> =
-        every.iter().filter(|e| e.proved()).map(|e| format!("proved at every valence from {} on", e.from)).collect();
+/// The verdicts by valence, and the characteristic map where one is refuted, or else of the first valence that is not regular.
+fn vertices(found: &[AtValence], every: Option<&Every>) -> (Option<String>, String) {
+    let mut parts: Vec<String> = every
+        .into_iter()
+        .filter(|e| e.proved())
+        .map(|e| format!("proved at every valence from {} on", e.from))
+        .collect();
     for kind in [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined] {
         let list: Vec<usize> = found.iter().filter(|f| f.smooth == kind).map(|f| f.valence).collect();
         if !list.is_empty() {
@@ -133,8 +147,7 @@ fn vertex(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
     let rank = |f: &&AtValence| (f.smooth != Verdict::Refuted, f.valence < 5, f.valence);
     let picture = shown.min_by_key(rank).and_then(|f| Some((panel(f)?, f.valence)));
     let picture = picture.map(|(panel, n)| thumbnail(&panel, &format!("The characteristic map at valence {n}")));
-    let what = format!("C¹: {}", parts.join("; "));
-    Ok((card(&picture.unwrap_or_default(), name, &case.title, &what), verdict.word(), report))
+    (picture, format!("C¹: {}", parts.join("; ")))
 }
 
 /// A case with unknown entries: what its identities force.
@@ -161,10 +174,24 @@ fn card(picture: &str, name: &str, title: &str, what: &str) -> String {
     format!("<li>{picture}<h3>{name}</h3>\n<p>{}</p>\n<p>{what}</p></li>\n", escaped(title))
 }
 
-fn refused(name: &str, problem: &Problem) -> String {
+fn refused(name: &str, word: &str, problem: &Problem) -> String {
     format!(
-        "<li><h3>{name}</h3>\n<p><strong class=\"neutral\">refused</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
+        "<li><h3>{name}</h3>\n<p><strong class=\"neutral\">{word}</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
         escaped(problem.message()),
         escaped(problem.id())
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_case_that_fails_has_a_card_like_the_others() {
+        let wanted = Report { linked: true, written: false };
+        let failed = entry_by("cases/classical/levy.toml".as_ref(), wanted, &|_, _, _| panic!("a broken <step>"));
+        assert_eq!((failed.family.as_str(), failed.stem.as_str(), failed.verdict), ("classical", "levy", FAILED));
+        assert!(failed.card.contains("internal error</strong>") && failed.card.contains("a broken &lt;step&gt;"));
+        assert!(failed.report.is_none());
+    }
 }

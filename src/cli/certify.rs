@@ -1,18 +1,18 @@
 //! `secant certify` of a single case.
 
-use super::output::{complain, print, stdout_colour, write_file};
-use super::progress::Waiting;
+use super::answered::{Answered, answered, question};
+use super::output::{complain, print, problem_code, stdout_colour, write_file};
+use super::progress::{Progress, Waiting};
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, UNDETERMINED, approximate, many};
-use crate::arith::Rational;
-use crate::case::{Case, MAX_LETTERS};
-use crate::certificate::{Certificate, Doubt, Unsupported, certificate, confirm};
+use crate::answer::Verdict;
+use crate::case::{Case, Question, Valences};
+use crate::certificate::Unsupported;
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
+use crate::picture::characteristic::sheet;
+use crate::prove::Findings;
 use crate::report::document::Block;
-use crate::report::math::Math;
-use crate::report::{figures, html, json, latex, markdown, proof, summary, text};
-use crate::shape::{Address, CurveError, Frame, word_text};
-use crate::theorem::surface::certify_complex;
-use crate::theorem::{Certified, ModelError, Verdict};
+use crate::report::{figures, findings, html, json, latex, markdown, text, vertex as at_vertices};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -38,35 +38,53 @@ pub fn run(args: &CertifyArgs) -> u8 {
         [path] if args.resume.is_none() => path,
         _ => return many::run(args),
     };
-    if args.valence.is_some() || super::vertex::is_about_vertices(path) {
-        return super::vertex::run(path, args);
-    }
-    let waiting = Waiting::new(args.quiet);
-    let certified = one(path, args);
-    waiting.finish();
-    let done = certified.and_then(|(case, found, evidence)| {
-        write_files(&case, &found, evidence.as_ref(), args)?;
-        if let (Some(Err(unsupported)), false) = (&evidence, args.quiet) {
-            note_unconfirmed(unsupported);
-        }
-        Ok((case, found, evidence))
+    let done = guarded(|| {
+        let answered = one(path, args)?;
+        write_files(&answered, args)?;
+        let shown = if args.quiet { String::new() } else { printed(&answered, args) };
+        Ok((answered, shown))
     });
     match done {
-        Ok((case, found, evidence)) => {
+        Ok((answered, shown)) => {
             if !args.quiet {
-                note_dangling(&case);
-                print(&printed(&case, &found, evidence.as_ref(), args));
+                note(&answered);
             }
-            exit_code(found.verdict)
+            print(&shown);
+            exit_code(answered.findings.verdict())
         }
         Err(problem) => {
             if args.json || args.jsonl {
                 print(&json_text(&json::refusal(&path.display().to_string(), &problem), args.json));
             }
             complain(&problem);
-            BAD_INPUT
+            problem_code(&problem)
         }
     }
+}
+
+/// Reads and answers one case, with a sign of life.
+fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
+    let question = question(path, args)?;
+    let check = !args.no_check;
+    if let Question::Vertices { valences: Some(Valences::List(list)), .. } = &question {
+        let progress = Progress::of(list.len(), "valences", args.quiet);
+        let found = answered(&question, check, &args.budget(), &|| progress.step());
+        progress.finish();
+        return found;
+    }
+    let waiting = Waiting::new(args.quiet);
+    let found = answered(&question, check, &args.budget(), &|| {});
+    waiting.finish();
+    found
+}
+
+/// Says so where the verdict was not proved again, or a state plays no part.
+fn note(answered: &Answered) {
+    let Findings::Tangents { case, .. } = &answered.findings else { return };
+    if let Some(Err(unsupported)) = &answered.evidence {
+        note_unconfirmed(unsupported);
+    }
+    note_dangling(case);
 }
 
 /// Says so where a state of the case plays no part.
@@ -85,9 +103,6 @@ fn note_unconfirmed(unsupported: &Unsupported) {
         &Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, “What is not covered”"),
     );
 }
-
-/// The certificate that the checker accepted, or why the format has none.
-pub type Evidence = Result<Certificate, Unsupported>;
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     let files = [&args.report, &args.svg, &args.png, &args.certificate];
@@ -118,110 +133,10 @@ pub(super) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// Reads and certifies one case, with the evidence where a decided verdict was to be checked.
-///
-/// # Errors
-/// The [`Problem`] of the file, of an address, or of the model.
-pub fn one(path: &Path, args: &CertifyArgs) -> Result<(Case, Certified, Option<Evidence>), Problem> {
-    let (case, addresses) = read(path, args)?;
-    let (found, evidence) = examined(&case, &addresses, args)?;
-    Ok((case, found, evidence))
-}
-
-/// Certifies a case that was read, with the evidence where a decided verdict was to be checked.
-///
-/// # Errors
-/// The [`Problem`] of the model, or of a certificate that the checker does not accept.
-pub fn examined(
-    case: &Case,
-    addresses: &[Address],
-    args: &CertifyArgs,
-) -> Result<(Certified, Option<Evidence>), Problem> {
-    let found = certify_complex(&case.complex(), addresses).map_err(|error| model_problem(case, &error))?;
-    if args.no_check || found.verdict == Verdict::Undetermined {
-        return Ok((found, None));
-    }
-    let evidence = match confirm(case, &found) {
-        Ok(certificate) => Ok(certificate),
-        Err(Doubt::Unsupported(unsupported)) => Err(unsupported),
-        Err(doubt) => return Err(rejected(&case.name, &doubt)),
-    };
-    Ok((found, Some(evidence)))
-}
-
-/// A certificate that the checker does not accept.
-pub fn rejected(case: &str, doubt: &Doubt) -> Problem {
-    Problem::new("secant::certificate::rejected", format!("{case}: {doubt}"))
-        .with_help("this is a mistake in secant: please report it with the case; --no-check leaves the check out")
-}
-
-/// Reads a case and the addresses asked for.
-///
-/// # Errors
-/// The [`Problem`] of the file or of an address.
-pub fn read(path: &Path, args: &CertifyArgs) -> Result<(Case, Vec<Address>), Problem> {
-    let case = Case::read(path)?;
-    let mut addresses = case.examine.clone();
-    for text in &args.address {
-        addresses.push(read_address(&case, text)?);
-    }
-    Ok((case, addresses))
-}
-
-fn read_address(case: &Case, text: &str) -> Result<Address, Problem> {
-    let problem = |error: String| {
-        Problem::new("secant::usage::address", error)
-            .with_help("letters first, then the repeated letters in brackets: `0(1)` is 0111…")
-    };
-    let address = Address::parse(text).map_err(|e| problem(e.to_string()))?;
-    if address.prefix.len() + address.cycle.len() > MAX_LETTERS {
-        return Err(problem("the address is too long".to_owned()));
-    }
-    address.normalise(&case.shape, case.shape.start).map_err(|e| problem(e.to_string()))?;
-    Ok(address)
-}
-
-/// What the engine refuses, shown where it stands in the file.
-pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
-    let code = error.code();
-    match error {
-        ModelError::Curve(CurveError::Apart { state, index, piece, ends, begins }) => {
-            // Affine maps are read as operators on the simplex 0, e_1, …; the user knows the coordinates after the first.
-            let skip = usize::from(case.shape.frame == Frame::Affine);
-            let tuple = |v: &[Rational]| text::math_line(&Math::vector(v.get(skip..).unwrap_or_default()));
-            let place = if case.shape.states.len() > 1 { format!(" of state `{state}`") } else { String::new() };
-            let before = piece.saturating_sub(1);
-            let (begins, ends) = (tuple(begins), tuple(ends));
-            let message = format!("piece {piece}{place} begins at {begins}, but piece {before} ends at {ends}");
-            let help = "each piece of a curve begins where the one before ends; mark a piece that runs backwards as \
-                        reversed, or declare kind = \"set\"";
-            case.problem_at_joint(*index, before, code, &message, help)
-        }
-        ModelError::Curve(CurveError::Identity { index, piece, .. }) => {
-            let help = "the operators and boundaries of an edge must satisfy its identities exactly";
-            case.problem_at_piece(*index, *piece, code, &error.to_string(), help)
-        }
-        ModelError::Expands { state, index, word } => {
-            let message = format!(
-                "the system does not contract: the product of the cycle {} at state `{state}` has a linear part of \
-                 spectral radius at least 1",
-                word_text(word)
-            );
-            let help =
-                "an attractor inside a smaller invariant space may still exist; write the operators on that space";
-            match word.first() {
-                Some(&letter) => case.problem_at_piece(*index, letter, code, &message, help),
-                None => case.problem_at_state(*index, code, &message, help),
-            }
-        }
-        _ => case.problem_at_state(case.shape.start, code, &error.to_string(), "see docs/theory.md §1"),
-    }
-}
-
 /// Writes the report and the picture that were asked for; both are made before the first is written.
-fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &CertifyArgs) -> Result<(), Problem> {
+fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
     let report = args.report.as_deref().map(|path| {
-        let document = proof::document(case, found);
+        let document = findings::proof(&answered.findings);
         let written = match extension(path).as_str() {
             "md" => markdown::render(&document),
             "tex" => latex::render(&document),
@@ -229,24 +144,9 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
         };
         (path, written)
     });
-    let svg = match args.svg.as_deref() {
-        None => None,
-        Some(path) => Some((path, picture(case, found, args.draw)?)),
-    };
-    let png = match args.png.as_deref() {
-        None => None,
-        Some(path) => Some((path, figures::attractor_png(case, found).ok_or_else(|| undrawn(case))?)),
-    };
-    let proof = match args.certificate.as_deref() {
-        None => None,
-        Some(path) => {
-            let written = evidence.cloned().unwrap_or_else(|| certificate(case, found)).map_err(|unsupported| {
-                Problem::new("secant::certificate::none", unsupported.to_string())
-                    .with_help("see docs/certificate.md, “What is not covered”; nothing was written")
-            })?;
-            Some((path, written.text()))
-        }
-    };
+    let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args.draw)?))).transpose()?;
+    let png = args.png.as_deref().map(|path| Ok((path, png(answered)?))).transpose()?;
+    let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
     for (path, content) in report.into_iter().chain(svg).chain(proof) {
         write_file(path, &content)?;
     }
@@ -256,9 +156,16 @@ fn write_files(case: &Case, found: &Certified, evidence: Option<&Evidence>, args
     Ok(())
 }
 
-fn picture(case: &Case, found: &Certified, what: Drawn) -> Result<String, Problem> {
+fn picture(answered: &Answered, what: Drawn) -> Result<String, Problem> {
+    let (case, found) = match &answered.findings {
+        Findings::Tangents { case, found } => (case, found),
+        Findings::Vertices { case, found, .. } => {
+            let panels: Vec<_> = found.iter().filter_map(at_vertices::panel).collect();
+            return Ok(sheet(&panels, &case.title));
+        }
+    };
     match (what, figures::cones(case, found)) {
-        (Drawn::Shape, _) => figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(case)),
+        (Drawn::Shape, _) => figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(&case.name)),
         (Drawn::Cones, Some(Block::Figure { svg, .. })) => Ok(svg),
         (Drawn::Cones, _) => {
             let message = format!("there are no cones to be drawn for {}", case.name);
@@ -268,31 +175,26 @@ fn picture(case: &Case, found: &Certified, what: Drawn) -> Result<String, Proble
     }
 }
 
-fn undrawn(case: &Case) -> Problem {
-    Problem::new("secant::picture", format!("{} cannot be drawn", case.name))
+fn png(answered: &Answered) -> Result<Vec<u8>, Problem> {
+    match &answered.findings {
+        Findings::Tangents { case, found } => figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name)),
+        Findings::Vertices { .. } => {
+            Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
+                .with_help("--svg draws their characteristic maps"))
+        }
+    }
+}
+
+fn undrawn(name: &str) -> Problem {
+    Problem::new("secant::picture", format!("{name} cannot be drawn"))
         .with_help("no point of the shape can be computed, because contraction is not decided")
 }
 
-fn printed(case: &Case, found: &Certified, evidence: Option<&Evidence>, args: &CertifyArgs) -> String {
+fn printed(answered: &Answered, args: &CertifyArgs) -> String {
     if args.json || args.jsonl {
-        return json_text(&check_json(json::report(case, found), evidence), args.json);
+        return json_text(&answered.json(), args.json);
     }
-    text::render(&summary::summary(case, found, args.verbose), stdout_colour())
-}
-
-/// What [`check_json`] says where there is no evidence.
-pub const NOT_ASKED: &str = "the checker was not asked";
-
-/// A report with what the checker said of the certificate.
-#[must_use]
-pub fn check_json(mut report: serde_json::Value, evidence: Option<&Evidence>) -> serde_json::Value {
-    let why = match evidence {
-        Some(Ok(_)) => None,
-        Some(Err(unsupported)) => Some(unsupported.to_string()),
-        None => Some(NOT_ASKED.to_owned()),
-    };
-    report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});
-    report
+    text::render(&findings::summary(&answered.findings, args.verbose), stdout_colour())
 }
 
 /// A value as JSON text, indented or in one line.

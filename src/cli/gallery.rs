@@ -1,9 +1,9 @@
 //! `secant gallery`: all cases on one page, with a report for each.
 
-use super::cards::{Entry, OPEN, REFUSED, Report, entry, is_selected};
+use super::cards::{Entry, FAILED, OPEN, REFUSED, Report, entry, is_selected};
 use super::output::{complain, print, settle, write_file};
 use super::progress::Progress;
-use super::{GalleryArgs, PROVED, REFUTED};
+use super::{GalleryArgs, INTERNAL, PROVED, REFUTED};
 use crate::diagnostic::Problem;
 use crate::report::html::escaped;
 use crate::report::words;
@@ -46,6 +46,11 @@ fn make(args: &GalleryArgs) -> Result<u8, Problem> {
     progress.finish();
     let page = page(&entries);
     let index = args.out.join("index.html");
+    let failed: Vec<&Entry> = entries.iter().filter(|e| e.verdict == FAILED).collect();
+    for entry in &failed {
+        let message = format!("{}/{}: the program failed on this case", entry.family, entry.stem);
+        complain(&Problem::new(Problem::INTERNAL, message).with_help("its card says why; please report it"));
+    }
     if args.check {
         let current = std::fs::read_to_string(&index).is_ok_and(|old| old == page);
         if !current {
@@ -54,7 +59,11 @@ fn make(args: &GalleryArgs) -> Result<u8, Problem> {
                     .with_help("run `secant gallery` and commit the page"),
             );
         }
-        return Ok(if current { PROVED } else { REFUTED });
+        return Ok(match (current, failed.is_empty()) {
+            (_, false) => INTERNAL,
+            (true, true) => PROVED,
+            (false, true) => REFUTED,
+        });
     }
     let problem = |error: std::io::Error| {
         Problem::new("secant::output", format!("{} cannot be made: {error}", args.out.display()))
@@ -70,7 +79,7 @@ fn make(args: &GalleryArgs) -> Result<u8, Problem> {
     std::fs::create_dir_all(&args.out).map_err(problem)?;
     write_file(&index, &page)?;
     print(&format!("{}: {}\n", index.display(), words::count(entries.len(), "case")));
-    Ok(PROVED)
+    Ok(if failed.is_empty() { PROVED } else { INTERNAL })
 }
 
 /// The case files in the subdirectories, by family and name.

@@ -1,19 +1,20 @@
 //! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
-use super::certify::{Evidence, NOT_ASKED, check_json, examined, exit_code, json_text, read};
-use super::output::{complain, print, stdout_colour};
+use super::answered::{Checked, Evidence, NOT_ASKED, answered, question};
+use super::certify::{exit_code, json_text};
+use super::output::{complain, print, problem_code, stdout_colour};
 use super::progress::Progress;
 use super::resume::{Kept, Store};
-use super::{BAD_INPUT, CertifyArgs, PROVED, REFUTED, UNDETERMINED};
-use crate::case::VertexCase;
+use super::{BAD_INPUT, CertifyArgs, INTERNAL, PROVED, REFUTED, UNDETERMINED};
+use crate::answer::Verdict;
+use crate::case::Subject;
 use crate::diagnostic::Problem;
+use crate::guard::guarded;
 use crate::report::document::{Block, Document, Inline, Line, Table, Tone, words};
-use crate::report::{json, text, vertex as report, words as phrases};
-use crate::theorem::{Certified, Verdict};
-use crate::vertex::Again;
+use crate::report::{json, text, words as phrases};
 use rayon::prelude::*;
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// What is printed of a case.
 struct Done {
@@ -27,32 +28,22 @@ struct Done {
     kept: bool,
 }
 
-/// Whether the checker proved a verdict again.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Checked {
-    Yes,
-    NoRule,
-    NotAsked,
+/// What the report of an earlier run says of the checker; `None` where it does not say it.
+fn checked_in(report: &Value) -> Option<Checked> {
+    let said = &report["certificate"];
+    Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
+        (true, None) => Checked::Yes,
+        (false, Some(NOT_ASKED)) => Checked::NotAsked,
+        (false, Some(_)) => Checked::NoRule,
+        _ => return None,
+    })
 }
 
-impl Checked {
-    /// As [`check_json`] says it; `None` where a report does not say it.
-    fn of(report: &Value) -> Option<Self> {
-        let said = &report["certificate"];
-        Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
-            (true, None) => Self::Yes,
-            (false, Some(NOT_ASKED)) => Self::NotAsked,
-            (false, Some(_)) => Self::NoRule,
-            _ => return None,
-        })
-    }
-
-    fn word(self) -> &'static str {
-        match self {
-            Self::Yes => "yes",
-            Self::NoRule => "no rule",
-            Self::NotAsked => "–",
-        }
+fn checked_word(checked: Checked) -> &'static str {
+    match checked {
+        Checked::Yes => "yes",
+        Checked::NoRule => "no rule",
+        Checked::NotAsked => "–",
     }
 }
 
@@ -67,106 +58,82 @@ pub fn run(args: &CertifyArgs) -> u8 {
             return BAD_INPUT;
         }
     };
-    let progress = Progress::new(args.cases.len(), args.quiet);
-    let outcomes: Vec<Outcome> = args
-        .cases
-        .par_iter()
-        .map(|path| {
-            let outcome = case(path, args, store.as_ref());
-            progress.step();
-            outcome
-        })
-        .collect();
-    progress.finish();
-    let names: Vec<String> = args.cases.iter().map(|p| p.display().to_string()).collect();
-    if args.jsonl {
-        for (name, outcome) in names.iter().zip(&outcomes) {
-            match outcome {
-                Ok(done) => print(&json_text(&done.json, false)),
-                Err(problem) => print(&json_text(&json::refusal(name, problem), false)),
-            }
-        }
-    } else if !args.quiet {
-        print(&text::render(&table(&names, &outcomes), stdout_colour()));
-    }
+    let outcomes = outcomes(args, &|path| case(path, args, store.as_ref()));
+    print(&shown(args, &outcomes, stdout_colour()));
     for problem in outcomes.iter().filter_map(|o| o.as_ref().err()) {
         complain(problem);
     }
-    gravest(outcomes.iter().map(|o| o.as_ref().map_or(BAD_INPUT, |done| exit_code(done.verdict))))
+    gravest(outcomes.iter().map(code))
 }
 
-/// One case: from the store where its result is up to date, otherwise certified and stored.
-fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
-    if super::vertex::is_about_vertices(path) {
-        return about_vertices(path, args.no_check);
+/// What becomes of each case, in the order given; a case on which `examine` panics is a problem like the others.
+fn outcomes(args: &CertifyArgs, examine: &(dyn Fn(&Path) -> Outcome + Sync)) -> Vec<Outcome> {
+    let progress = Progress::new(args.cases.len(), args.quiet);
+    let one = |path: &PathBuf| {
+        let outcome = guarded(|| examine(path));
+        progress.step();
+        outcome
+    };
+    let outcomes = args.cases.par_iter().map(one).collect();
+    progress.finish();
+    outcomes
+}
+
+/// The lines of JSON or the table, whichever is asked for.
+fn shown(args: &CertifyArgs, outcomes: &[Outcome], colour: bool) -> String {
+    let names: Vec<String> = args.cases.iter().map(|p| p.display().to_string()).collect();
+    if args.jsonl {
+        let line = |(name, outcome): (&String, &Outcome)| match outcome {
+            Ok(done) => json_text(&done.json, false),
+            Err(problem) => json_text(&json::refusal(name, problem), false),
+        };
+        names.iter().zip(outcomes).map(line).collect()
+    } else if args.quiet {
+        String::new()
+    } else {
+        text::render(&table(&names, outcomes), colour)
     }
-    let (case, addresses) = read(path, args)?;
-    if let Some(done) = store.and_then(|s| s.find(path, &case)).and_then(kept) {
+}
+
+fn code(outcome: &Outcome) -> u8 {
+    outcome.as_ref().map_or_else(problem_code, |done| exit_code(done.verdict))
+}
+
+/// One case: from the store where its result is up to date, otherwise answered and stored.
+fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
+    let question = question(path, args)?;
+    let store = store.filter(|_| question.subject() != Subject::Vertices);
+    if let Some(done) = store.and_then(|s| s.find(path, &question)).and_then(kept) {
         return Ok(done);
     }
-    let (found, evidence) = examined(&case, &addresses, args)?;
-    let json = check_json(json::report(&case, &found), evidence.as_ref());
+    let answered = answered(&question, !args.no_check, &args.budget(), &|| {})?;
     let done = Done {
-        name: case.name.clone(),
-        verdict: found.verdict,
-        kinds: kinds(&found).join(", "),
-        checked: Checked::of(&json).unwrap_or(Checked::NotAsked),
-        json,
+        name: answered.findings.name().to_owned(),
+        verdict: answered.findings.verdict(),
+        kinds: answered.kinds().join(", "),
+        checked: answered.checked(),
+        json: answered.json(),
         kept: false,
     };
     if let Some(store) = store {
-        let certificate = evidence.and_then(Evidence::ok).map(|c| c.text());
+        let certificate = answered.evidence.and_then(Evidence::ok).map(|c| c.text());
         let kept = Kept { report: done.json.clone(), kinds: done.kinds.clone() };
-        store.keep(path, &case.text.text, &kept, certificate.as_deref())?;
+        store.keep(path, &question.text().text, &kept, certificate.as_deref())?;
     }
     Ok(done)
 }
 
-/// A case about the vertices of a mesh: the verdicts at the valences of its file.
-fn about_vertices(path: &Path, no_check: bool) -> Outcome {
-    let case = VertexCase::read(path)?;
-    let asked = super::vertex::valences(&case, None)?;
-    let (mut found, every) = super::vertex::at(&case, &asked, true)?;
-    if !no_check {
-        super::vertex::confirmed(&case, &mut found)?;
-    }
-    let decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined).count();
-    let checked = if no_check || decided == 0 {
-        Checked::NotAsked
-    } else if every.is_none() && found.iter().filter(|f| f.again == Again::Proved).count() == decided {
-        Checked::Yes
-    } else {
-        Checked::NoRule
-    };
-    let smooth = found.iter().map(|f| match f.smooth {
-        Verdict::Proved => "C¹ valence",
-        Verdict::Refuted => "valence not C¹",
-        Verdict::Undetermined => "open valence",
-    });
-    Ok(Done {
-        name: case.name.clone(),
-        verdict: report::overall(&found, every.as_ref()),
-        kinds: counted(smooth).join(", "),
-        checked,
-        json: report::json(&case, &found, every.as_ref()),
-        kept: false,
-    })
-}
-
 /// A stored result, read back; `None` where it is not what this version writes.
 fn kept(Kept { report: json, kinds }: Kept) -> Option<Done> {
-    let verdict = verdict_of(json["verdict"].as_str()?)?;
-    let (name, checked) = (json["case"].as_str()?.to_owned(), Checked::of(&json)?);
+    let verdict = Verdict::of_word(json["verdict"].as_str()?)?;
+    let (name, checked) = (json["case"].as_str()?.to_owned(), checked_in(&json)?);
     Some(Done { name, verdict, kinds, checked, json, kept: true })
 }
 
-fn verdict_of(word: &str) -> Option<Verdict> {
-    [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined].into_iter().find(|v| v.word() == word)
-}
-
-fn gravest(codes: impl Iterator<Item = u8>) -> u8 {
+/// The gravest of several exit codes.
+pub fn gravest(codes: impl Iterator<Item = u8>) -> u8 {
     let codes: Vec<u8> = codes.collect();
-    [BAD_INPUT, REFUTED, UNDETERMINED].into_iter().find(|c| codes.contains(c)).unwrap_or(PROVED)
+    [INTERNAL, BAD_INPUT, REFUTED, UNDETERMINED].into_iter().find(|c| codes.contains(c)).unwrap_or(PROVED)
 }
 
 fn table(names: &[String], outcomes: &[Outcome]) -> Document {
@@ -174,10 +141,11 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         match outcome {
             Ok(done) => {
                 let mark = vec![phrases::mark(done.verdict)];
-                vec![words(done.name.clone()), mark, words(done.checked.word()), words(done.kinds.clone())]
+                vec![words(done.name.clone()), mark, words(checked_word(done.checked)), words(done.kinds.clone())]
             }
             Err(problem) => {
-                let mark = vec![Inline::Mark(Tone::Bad, "refused".to_owned())];
+                let word = if problem.is_internal() { "internal error" } else { "refused" };
+                let mark = vec![Inline::Mark(Tone::Bad, word.to_owned())];
                 vec![words(stem(name)), mark, words("–"), words(problem.message().to_owned())]
             }
         }
@@ -187,8 +155,7 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         header: vec![words("Case"), words("Verdict"), words("Checked"), words("Points")],
         rows: names.iter().zip(outcomes).map(row).collect(),
     };
-    let count =
-        |code: u8| outcomes.iter().filter(|o| o.as_ref().map_or(BAD_INPUT, |d| exit_code(d.verdict)) == code).count();
+    let count = |wanted: u8| outcomes.iter().filter(|o| code(o) == wanted).count();
     let mut total = format!(
         "{}: {} proved, {} refuted, {} undetermined, {} refused.",
         phrases::count(outcomes.len(), "case"),
@@ -197,6 +164,9 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         count(UNDETERMINED),
         count(BAD_INPUT)
     );
+    if count(INTERNAL) > 0 {
+        total.push_str(&format!(" {}: please report them.", phrases::count(count(INTERNAL), "internal error")));
+    }
     let unchecked = |d: &&Done| d.verdict != Verdict::Undetermined && d.checked != Checked::Yes;
     let unchecked = outcomes.iter().flatten().filter(unchecked).count();
     if unchecked > 0 {
@@ -215,23 +185,48 @@ fn stem(path: &str) -> String {
     Path::new(path).file_stem().map_or_else(|| path.to_owned(), |s| s.to_string_lossy().into_owned())
 }
 
-/// The kinds of the examined points, each with its number.
-pub fn kinds(found: &Certified) -> Vec<String> {
-    let surface = found.surface.iter().flat_map(|s| &s.points).map(|p| match p.verdict {
-        Verdict::Proved => "tangent plane",
-        Verdict::Refuted => "no tangent plane",
-        Verdict::Undetermined => "undetermined",
-    });
-    counted(surface.chain(found.points.iter().map(|p| p.kind.word())))
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::{Cli, Command};
+    use clap::Parser;
 
-fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {
-    let mut counted: Vec<(&str, usize)> = Vec::new();
-    for word in items {
-        match counted.iter_mut().find(|(w, _)| *w == word) {
-            Some((_, n)) => *n += 1,
-            None => counted.push((word, 1)),
+    fn arguments(more: &[&str]) -> CertifyArgs {
+        let words = ["secant", "certify", "-q", "cases/classical/takagi.toml", "broken", "cases/classical/levy.toml"];
+        match Cli::try_parse_from(words.iter().chain(more)).map(|cli| cli.command) {
+            Ok(Command::Certify(args)) => args,
+            _ => unreachable!("the command line above is one of certify"),
         }
     }
-    counted.into_iter().map(|(w, n)| if n == 1 { w.to_owned() } else { format!("{n} {w}") }).collect()
+
+    /// The program fails on the second case.
+    fn failing(args: &CertifyArgs) -> Vec<Outcome> {
+        outcomes(args, &|path| {
+            assert!(path != Path::new("broken"), "a broken step");
+            case(path, args, None)
+        })
+    }
+
+    #[test]
+    fn a_case_that_fails_takes_no_other_with_it() {
+        let args = arguments(&["--jsonl"]);
+        let found = failing(&args);
+        assert_eq!(found.iter().map(code).collect::<Vec<_>>(), [PROVED, INTERNAL, REFUTED]);
+        assert_eq!(gravest(found.iter().map(code)), INTERNAL);
+        let text = shown(&args, &found, false);
+        let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+        assert_eq!(lines.len(), 3);
+        assert_eq!((&lines[0]["verdict"], &lines[2]["verdict"]), (&"proved".into(), &"refuted".into()));
+        assert_eq!((&lines[1]["verdict"], &lines[1]["error"]["code"]), (&Value::Null, &Problem::INTERNAL.into()));
+        assert_eq!(lines[1]["case"], "broken");
+    }
+
+    #[test]
+    fn the_table_has_a_row_for_it() {
+        let mut args = arguments(&[]);
+        args.quiet = false;
+        let text = shown(&args, &failing(&args), false);
+        assert!(text.contains("internal error") && text.contains("a broken step"), "{text}");
+        assert!(text.contains("1 proved, 1 refuted, 0 undetermined, 0 refused. 1 internal error"), "{text}");
+    }
 }

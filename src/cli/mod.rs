@@ -1,5 +1,6 @@
 //! The command line: arguments, one file for each command, exit codes.
 
+mod answered;
 mod approximate;
 mod cards;
 mod certify;
@@ -20,8 +21,9 @@ mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
-mod vertex;
 
+use crate::budget::{Budget, Effort};
+use crate::guard::guarded;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -35,8 +37,12 @@ pub const BAD_INPUT: u8 = 2;
 /// Something is neither proved nor refuted.
 pub const UNDETERMINED: u8 = 3;
 
-const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input. Of several cases: 2 if one cannot be read, \
-                     otherwise 1 if one is refuted, otherwise 3 if one is undetermined.";
+/// A mistake in the program itself: there is no result.
+pub const INTERNAL: u8 = 4;
+
+const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input, 4 internal error. Of several cases: 4 if \
+                     the program failed on one, otherwise 2 if one cannot be read, otherwise 1 if one is refuted, \
+                     otherwise 3 if one is undetermined; the results of the others are printed all the same.";
 
 /// Proves, in exact arithmetic, where self-similar shapes have tangents.
 #[derive(Debug, Parser)]
@@ -150,6 +156,15 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
+    #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
+    effort: Effort,
+    /// Cells into which the ring of a branch may be divided (normal: 6000).
+    #[arg(long, value_name = "COUNT")]
+    cells: Option<usize>,
+    /// Words whose products may be formed to show contraction (normal: 20000).
+    #[arg(long, value_name = "COUNT")]
+    words: Option<usize>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
     #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
     approx: bool,
@@ -159,6 +174,23 @@ struct CertifyArgs {
     /// Print whole spectra, rates and exponents.
     #[arg(short, long)]
     verbose: bool,
+}
+
+impl CertifyArgs {
+    /// The budget that the options name.
+    fn budget(&self) -> Budget {
+        let mut budget = Budget::of(self.effort);
+        budget.cells = self.cells.unwrap_or(budget.cells);
+        budget.words = self.words.unwrap_or(budget.words);
+        budget
+    }
+}
+
+fn effort(word: &str) -> Result<Effort, String> {
+    [Effort::Quick, Effort::Normal, Effort::Hard]
+        .into_iter()
+        .find(|e| e.word() == word)
+        .ok_or_else(|| "it is quick, normal or hard".to_owned())
 }
 
 #[derive(Debug, Args)]
@@ -296,7 +328,11 @@ pub fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
-    let code = match cli.command {
+    ExitCode::from(output::settle(guarded(|| Ok(run(cli.command)))))
+}
+
+fn run(command: Command) -> u8 {
+    match command {
         Command::Certify(args) => certify::run(&args),
         Command::Spectrum(args) => spectrum::run(&args),
         Command::Jsr(args) => radius::jsr(&args),
@@ -313,8 +349,7 @@ pub fn main() -> ExitCode {
         Command::Fuzz(args) => fuzz::run(&args),
         Command::Completions { shell } => completions(shell),
         Command::Man => man(),
-    };
-    ExitCode::from(code)
+    }
 }
 
 fn completions(shell: clap_complete::Shell) -> u8 {

@@ -1,6 +1,6 @@
 //! Writing: whole files or none, colours only for people.
 
-use super::BAD_INPUT;
+use super::{BAD_INPUT, INTERNAL};
 use crate::diagnostic::Problem;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -53,12 +53,18 @@ pub fn deliver(made: Result<(String, u8), Problem>) -> u8 {
     }))
 }
 
-/// The exit code of a command, or that of bad input with its diagnostic.
+/// The exit code of a command, or that of its problem, which is printed.
 pub fn settle(done: Result<u8, Problem>) -> u8 {
     done.unwrap_or_else(|problem| {
         complain(&problem);
-        BAD_INPUT
+        problem_code(&problem)
     })
+}
+
+/// The exit code of a problem.
+#[must_use]
+pub fn problem_code(problem: &Problem) -> u8 {
+    if problem.is_internal() { INTERNAL } else { BAD_INPUT }
 }
 
 /// Prints a text, or writes it to a file, whole or not at all.

@@ -143,8 +143,8 @@ fn case(path: &Path) -> Result<Subject, Problem> {
 
 /// Why the curve of a case contracts.
 fn contracting(case: &Case) -> Result<Contraction, Problem> {
-    case.shape.check_curves().map_err(|e| super::certify::model_problem(case, &e.into()))?;
-    let found = crate::theorem::contraction_of(&case.shape).map_err(|e| super::certify::model_problem(case, &e))?;
+    case.shape.check_curves().map_err(|e| crate::prove::model_problem(case, &e.into()))?;
+    let found = crate::theorem::contraction_of(&case.shape).map_err(|e| crate::prove::model_problem(case, &e))?;
     if !found.is_proved() {
         return Err(wrong(format!("{}: contraction is not decided", case.name)));
     }

@@ -5,7 +5,7 @@
 
 use super::CertifyArgs;
 use super::output::write_file;
-use crate::case::Case;
+use crate::case::{Case, Question};
 use crate::certificate::sha256;
 use crate::diagnostic::Problem;
 use serde_json::{Value, json};
@@ -40,14 +40,15 @@ impl Store {
         let program = std::env::current_exe().and_then(std::fs::read).ok().map(sha256);
         let maker = program.map(|digest| {
             let version = env!("CARGO_PKG_VERSION");
-            json!({"secant": version, "program": digest, "address": args.address, "unchecked": args.no_check})
+            json!({"secant": version, "program": digest, "address": args.address, "unchecked": args.no_check, "effort": args.effort.word(), "cells": args.cells, "words": args.words})
                 .to_string()
         });
         Ok(Self { dir: dir.to_owned(), maker })
     }
 
     /// The result kept for a case, where it is up to date and whole, and its certificate still proves it.
-    pub fn find(&self, path: &Path, case: &Case) -> Option<Kept> {
+    pub fn find(&self, path: &Path, question: &Question) -> Option<Kept> {
+        let Question::Tangents { case, .. } = question else { return None };
         let stored: Value = serde_json::from_str(&std::fs::read_to_string(self.file(path, "result")?).ok()?).ok()?;
         let kept = Kept { report: stored["result"].clone(), kinds: stored["kinds"].as_str()?.to_owned() };
         let certificate = stored["certificate"].as_str();

@@ -120,7 +120,7 @@ pub fn sheet(panels: &[Panel<'_>], title: &str) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
          style=\"max-width:{}px\">\n<title>{}</title>\n<style>{}</style>\n",
         1.5 * width,
-        crate::report::html::escaped(title),
+        crate::escape::html(title),
         super::style()
     );
     for (index, panel) in panels.iter().enumerate() {
@@ -164,7 +164,7 @@ pub fn thumbnail(panel: &Panel<'_>, label: &str) -> String {
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 100 100\" role=\"img\" aria-label=\"{}\"><path class=\"sc-v\" \
          d=\"{path}\"/></svg>",
-        crate::report::html::escaped(label)
+        crate::escape::html(label)
     )
 }
 

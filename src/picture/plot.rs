@@ -6,7 +6,6 @@ use super::svg::fixed;
 use crate::arith::to_f64;
 use crate::shape::{Frame, Sample, Shape};
 use std::fmt::Write;
-use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 const SIZE: f64 = 800.0;
 const MARGIN: f64 = 24.0;
@@ -151,8 +150,13 @@ impl Plot {
     }
 
     /// A PNG image on white; `None` where it cannot be encoded.
+    #[cfg(feature = "png")]
     #[must_use]
     pub fn png(&self) -> Option<Vec<u8>> {
+        use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
+        let step = |path: &mut PathBuilder, k: usize, [x, y]: [f64; 2]| {
+            if k == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
+        };
         let mut pixels = Pixmap::new(SIZE as u32, (self.height.ceil() as u32).max(1))?;
         pixels.fill(Color::WHITE);
         let mut stroke =
@@ -239,10 +243,6 @@ impl Plot {
         });
         out
     }
-}
-
-fn step(path: &mut PathBuilder, k: usize, [x, y]: [f64; 2]) {
-    if k == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
 }
 
 fn hex([r, g, b]: [u8; 3]) -> String {

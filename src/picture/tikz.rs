@@ -63,7 +63,7 @@ fn write_element(out: &mut String, element: &Element) {
                 Anchor::Middle => "base",
                 Anchor::End => "base east",
             };
-            let text = crate::report::latex::escaped(text);
+            let text = crate::escape::latex(text);
             let _ = writeln!(out, "\\node[anchor={side},inner sep=0pt,font=\\scriptsize] at {} {{{text}}};", spot(at));
         }
     }

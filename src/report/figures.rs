@@ -31,6 +31,7 @@ pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
 }
 
 /// The picture of [`attractor`] as a PNG file, without the words in it.
+#[cfg(feature = "png")]
 #[must_use]
 pub fn attractor_png(case: &Case, found: &Certified) -> Option<Vec<u8>> {
     let marks: Vec<Mark> = found.points.iter().take(MAX_MARKS).map(mark).collect();

@@ -3,6 +3,7 @@
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::math::Math;
 use super::mathml::{inline_elements, math_element};
+pub use crate::escape::html as escaped;
 use crate::picture;
 
 const STYLE: &str = include_str!("style.css");
@@ -186,24 +187,6 @@ fn tone_class(tone: Tone) -> &'static str {
         Tone::Open => "open",
         Tone::Neutral => "neutral",
     }
-}
-
-/// Text with the characters that HTML reads as markup replaced, and without control characters.
-#[must_use]
-pub fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '&' => out.push_str("&amp;"),
-            '"' => out.push_str("&quot;"),
-            '\'' => out.push_str("&#39;"),
-            c if c.is_control() && c != '\n' => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]

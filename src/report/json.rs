@@ -1,8 +1,9 @@
 //! The JSON report, version 1; documented in `docs/json.md`.
 
+use super::claims;
 use super::text::math_line;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
-use super::words::{deciding, ratio};
+use super::words::ratio;
 use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::case::Case;
@@ -25,8 +26,8 @@ pub fn report(case: &Case, found: &Certified) -> Value {
         "case": case.name,
         "title": case.title,
         "verdict": found.verdict.word(),
-        "claim": found.claims.first().map(|c| c.text.clone()),
-        "claims": found.claims.iter().map(claim).collect::<Vec<_>>(),
+        "claim": found.claims.first().map(|c| claims::assertion(&c.what)),
+        "claims": found.claims.iter().map(|c| claim(case, found, c)).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
         "every_point": super::every::value(found),
         "points": match &found.surface {
@@ -150,12 +151,14 @@ pub fn refusal(name: &str, problem: &Problem) -> Value {
     })
 }
 
-fn claim(c: &Claim) -> Value {
+fn claim(case: &Case, found: &Certified, c: &Claim) -> Value {
     json!({
-        "claim": c.text,
-        "verdict": c.verdict.word(),
-        "theorem": deciding(c).map(|s| s.id()),
-        "reason": c.reason,
+        "kind": c.what.id(),
+        "claim": claims::assertion(&c.what),
+        "verdict": c.verdict().word(),
+        "theorem": c.statement().map(|s| s.id()),
+        "address": c.what.asked().map(|(address, _)| address.to_string()),
+        "reason": claims::reason(case, found, c),
     })
 }
 

@@ -2,6 +2,7 @@
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::tex::math_tex;
+pub use crate::escape::latex as escaped;
 
 const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
 \\usepackage[T1]{fontenc}
@@ -184,36 +185,6 @@ fn breakable(code: &str) -> String {
     }
     let part = |chunk: &[char]| escaped(&chunk.iter().collect::<String>());
     chars.chunks(16).map(part).collect::<Vec<_>>().join("\\hspace{0pt}")
-}
-
-/// Text with TeX's special characters and the symbols that its fonts lack replaced.
-#[must_use]
-pub fn escaped(text: &str) -> String {
-    let mut out = String::new();
-    for c in text.chars() {
-        match c {
-            '\\' => out.push_str("\\textbackslash{}"),
-            '{' | '}' | '#' | '$' | '%' | '&' | '_' => {
-                out.push('\\');
-                out.push(c);
-            }
-            '^' => out.push_str("\\textasciicircum{}"),
-            '~' => out.push_str("\\textasciitilde{}"),
-            '<' => out.push_str("\\textless{}"),
-            '>' => out.push_str("\\textgreater{}"),
-            '"' => out.push_str("\\textquotedbl{}"),
-            '′' => out.push_str("$'$"),
-            '…' => out.push_str("\\dots{}"),
-            c if c.is_control() => out.push(' '),
-            // Letters of the Latin blocks are in the T1 fonts.
-            c if (c as u32) < 0x180 => out.push(c),
-            c => match super::symbols::latex(c) {
-                Some(command) => out.push_str(&format!("$ {command} $").replace("$ ", "$").replace(" $", "$")),
-                None => out.push('?'),
-            },
-        }
-    }
-    out
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Reports: one document model, and its renderings.
 
+pub mod claims;
 pub mod document;
 pub mod every;
 pub mod field_spectrum;
 pub mod figures;
+pub mod findings;
 pub mod html;
 pub mod json;
 pub mod latex;
@@ -15,7 +17,7 @@ pub mod radius;
 pub mod spectrum;
 pub mod summary;
 pub mod surface;
-mod symbols;
+use crate::escape::symbols;
 pub mod tex;
 pub mod text;
 pub mod values;

@@ -1,9 +1,10 @@
 //! The short report that `secant certify` prints.
 
+use super::claims;
 use super::document::{Block, Document, Inline, Line, Tone, line, words};
 use super::math::Math;
 use super::words::{
-    addresses, contraction, count, deciding, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
+    addresses, contraction, count, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
     spectrum_line, statement,
 };
 use crate::case::Case;
@@ -25,7 +26,7 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
     }
     blocks.push(Block::heading(2, "Claims"));
     for claim in &found.claims {
-        blocks.push(Block::Paragraph(claim_line(claim)));
+        blocks.push(Block::Paragraph(claim_line(case, found, claim)));
     }
     blocks.push(Block::heading(2, "Shape"));
     blocks.push(Block::Facts(shape_facts(case, found)));
@@ -51,18 +52,13 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
 }
 
 /// A claim with its verdict, statement and reason.
-pub(super) fn claim_line(claim: &Claim) -> Line {
-    let mut out = vec![mark(claim.verdict)];
-    let text = match claim.verdict {
-        Verdict::Proved => format!(": {}", claim.text),
-        Verdict::Refuted => format!(": it is false that {}", claim.text),
-        Verdict::Undetermined => format!(": whether {}", claim.text),
-    };
-    out.extend(words(text));
-    if let Some(s) = deciding(claim) {
+pub(super) fn claim_line(case: &Case, found: &Certified, claim: &Claim) -> Line {
+    let mut out = vec![mark(claim.verdict())];
+    out.extend(words(format!(": {}", claims::judged(claim))));
+    if let Some(s) = claim.statement() {
         out.extend(words(format!(" [{}]", statement(s))));
     }
-    if let Some(reason) = &claim.reason {
+    if let Some(reason) = claims::reason(case, found, claim) {
         out.extend(words(format!("; {reason}")));
     }
     out

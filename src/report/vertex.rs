@@ -1,5 +1,6 @@
 //! Reports on extraordinary vertices, by valence.
 
+use super::claims;
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, code, words};
 use super::math::Math;
 use super::words::mark;
@@ -7,8 +8,9 @@ use crate::arith::Rational;
 use crate::case::VertexCase;
 use crate::picture::characteristic::{Panel, sheet, tikz};
 use crate::poly::Poly;
+use crate::theorem::Claim;
 use crate::theorem::Verdict;
-use crate::vertex::{Again, AtValence, Every, decimal};
+use crate::vertex::{Again, AtValence, Every, decimal, overall};
 use serde_json::{Value, json};
 
 /// The place in the lattice of a sector where the Jacobian determinant has a sign.
@@ -144,20 +146,6 @@ fn frequencies(found: &AtValence) -> String {
         format!("{sign}{}{twin}{sizes}", m.frequency)
     };
     top.members.iter().map(name).collect::<Vec<_>>().join("; ")
-}
-
-/// The gravest verdict of several.
-#[must_use]
-pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
-    if every.is_some_and(|e| !e.proved()) && found.iter().all(|f| f.smooth != Verdict::Refuted) {
-        Verdict::Undetermined
-    } else if found.iter().any(|f| f.smooth == Verdict::Refuted) {
-        Verdict::Refuted
-    } else if found.iter().all(|f| f.smooth == Verdict::Proved) {
-        Verdict::Proved
-    } else {
-        Verdict::Undetermined
-    }
 }
 
 /// The table by valence, with reasons below it and, in full, the evidence for each.
@@ -372,15 +360,26 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
     })
 }
 
+fn claim_json(found: &[AtValence], claim: &Claim) -> Value {
+    json!({
+        "kind": claim.what.id(),
+        "claim": claims::assertion(&claim.what),
+        "verdict": claim.verdict().word(),
+        "reason": claims::reason_at_vertices(found, claim),
+    })
+}
+
 /// The whole result as JSON.
 #[must_use]
-pub fn json(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> Value {
+pub fn json(case: &VertexCase, found: &[AtValence], every: Option<&Every>, claims: &[Claim]) -> Value {
     json!({
+        "version": super::json::VERSION,
         "case": case.name,
         "title": case.title,
         "source": case.source,
         "scheme": case.scheme,
         "verdict": overall(found, every).word(),
+        "claims": claims.iter().map(|c| claim_json(found, c)).collect::<Vec<_>>(),
         "every": every.map(|e| json!({
             "from": e.from,
             "proved": e.proved(),

@@ -10,8 +10,8 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::shape::{Contraction, Shape, word_text};
 use crate::theorem::{
-    BranchReport, Claim, Dimension, Direction, Holder, Kind, Outcome, PointReport, Rate, RingProof, Role, Statement,
-    Verdict, Witness,
+    BranchReport, Dimension, Direction, Holder, Kind, Outcome, PointReport, Rate, RingProof, Role, Statement, Verdict,
+    Witness,
 };
 
 /// The colour of a verdict.
@@ -252,12 +252,6 @@ pub fn kind_meaning(kind: Kind) -> &'static str {
         Kind::Corner => "one ray on each side, on different lines",
         Kind::Line | Kind::NoTangent | Kind::Undetermined => "",
     }
-}
-
-/// The statement that decides a claim; none where the claim's own theorem does not apply.
-#[must_use]
-pub fn deciding(claim: &Claim) -> Option<Statement> {
-    claim.statement.filter(|s| claim.verdict == Verdict::Proved || !s.is_about_joints())
 }
 
 /// The dimension of the tangent subspace.

@@ -109,14 +109,27 @@ pub fn linear_part(op: &Matrix) -> Matrix {
 ///
 /// # Cost
 /// At most [`MAX_WORDS`] products.
-pub fn contraction(shape: &Shape, mut expands: impl FnMut(&Matrix) -> bool) -> Contraction {
+pub fn contraction(shape: &Shape, expands: impl FnMut(&Matrix) -> bool) -> Contraction {
+    contraction_within(shape, MAX_WORDS, MAX_PRODUCTS, expands)
+}
+
+/// As [`contraction`] with other limits: `words` products, and `work` over the third power of the largest dimension.
+///
+/// # Cost
+/// At most `words` products.
+pub fn contraction_within(
+    shape: &Shape,
+    words: usize,
+    work: usize,
+    mut expands: impl FnMut(&Matrix) -> bool,
+) -> Contraction {
     let mut codes: Vec<Vec<ContractingWord>> = vec![Vec::new(); shape.states.len()];
     let mut constant = Rational::from(0);
     let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> =
         shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim))).collect();
     let (mut length, mut count) = (0, 0);
     let largest = shape.states.iter().map(|s| s.dim).max().unwrap_or(1);
-    let budget = MAX_WORDS.min(MAX_PRODUCTS / largest.pow(3).max(1));
+    let budget = words.min(work / largest.pow(3).max(1));
     while !open.is_empty() {
         length += 1;
         let mut next = Vec::new();

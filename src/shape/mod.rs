@@ -14,8 +14,8 @@ mod unknown;
 
 pub use address::{Address, AddressError, fixed_point, word_text};
 pub use contraction::{
-    Contracting, ContractingWord, Contraction, MAX_WORDS, ProductContraction, contraction, dobrushin, linear_part,
-    norm1,
+    Contracting, ContractingWord, Contraction, MAX_WORDS, ProductContraction, contraction, contraction_within,
+    dobrushin, linear_part, norm1,
 };
 pub use curve::{CurveError, End};
 pub use enclosure::{Balls, oscillation};

@@ -6,16 +6,12 @@ use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side};
 use super::viewpoint::Viewpoint;
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
+use crate::budget::Budget;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
 use crate::statement::Statement;
 use std::cell::OnceCell;
-
-/// Products of a row and an operator that one ring condition may cost.
-pub(super) const MAX_ROWS: usize = 6_000;
-/// The same for the first try with balls, where polygons may do better.
-const FIRST_ROWS: usize = 1_000;
 
 /// What all branches of a shape share.
 pub struct Context<'a> {
@@ -29,6 +25,8 @@ pub struct Context<'a> {
     pub hulls: &'a OnceCell<Option<Balls>>,
     /// Where addresses are read from, and how the shape is seen there.
     pub from: Viewpoint,
+    /// How long the search may go on.
+    pub budget: &'a Budget,
 }
 
 impl Context<'_> {
@@ -211,14 +209,15 @@ impl Analysis<'_> {
     /// The ring condition with balls, then with polygons where there are any.
     fn decide(&self, functionals: &[Functional]) -> RingAnswer {
         let small = self.branch.relevant <= 2;
-        let answer = self.ring().decide(functionals, if small { FIRST_ROWS } else { MAX_ROWS });
+        let answer =
+            self.ring().decide(functionals, if small { self.cx.budget.first_cells } else { self.cx.budget.cells });
         if !small || !matches!(answer, RingAnswer::Open { .. }) {
             return answer;
         }
         let cx = self.cx;
         match cx.hulls.get_or_init(|| cx.balls.with_hulls(cx.shape, cx.spaces)) {
-            Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, MAX_ROWS),
-            None => self.ring().decide(functionals, MAX_ROWS),
+            Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, self.cx.budget.cells),
+            None => self.ring().decide(functionals, self.cx.budget.cells),
         }
     }
 
@@ -249,7 +248,7 @@ impl Analysis<'_> {
         // From the index of nilpotency on, the images of the ring are the point itself.
         while !power(&self.branch.linear, turns).is_zero() {
             let ring = Ring { pieces: &images, ..self.ring() };
-            match ring.decide(&coordinates, FIRST_ROWS) {
+            match ring.decide(&coordinates, self.cx.budget.first_cells) {
                 RingAnswer::Holds(_) => {}
                 RingAnswer::Fails(_) => {
                     let reason = "L is nilpotent and the ring passes through the point: its germ is that of finitely many pieces";
@@ -377,7 +376,7 @@ impl Analysis<'_> {
         }
         if top.block == 2 && injective && self.is_single_block(top) {
             let c1 = Functional { row: second_functional(top.factor), ..functional.clone() };
-            if let Some(crossing) = self.ring().crossing(&c1, functional, MAX_ROWS) {
+            if let Some(crossing) = self.ring().crossing(&c1, functional, self.cx.budget.cells) {
                 return refuted(Statement::Section6, crossing);
             }
         }

@@ -1,6 +1,6 @@
 //! Theorems 6 and 6′: invariant cones, and what they say about every point of a curve.
 
-use super::cone_search::{BUDGET, Frame, propose, propose_closed};
+use super::cone_search::{Frame, propose, propose_closed};
 use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
 use crate::arith::{Integer, Interval, Rational};
@@ -98,8 +98,8 @@ const MAX_CYCLE: usize = 6;
 /// # Cost
 /// Some thousand small linear programs; spectra of a few hundred short cycles where no cone is found.
 #[must_use]
-pub fn common_cone(shape: &Shape, spaces: &Spaces) -> Option<ConeAnswer> {
-    let frame = frame(shape, spaces)?;
+pub fn common_cone(shape: &Shape, spaces: &Spaces, steps: usize) -> Option<ConeAnswer> {
+    let frame = frame(shape, spaces, steps)?;
     let attempts = if frame.dims.iter().any(|d| *d > 5) { 3 } else { 8 };
     for attempt in 0..attempts {
         if let Some(rays) = propose(&frame, attempt) {
@@ -128,16 +128,17 @@ fn closed_cone(shape: &Shape, spaces: &Spaces, frame: &Frame) -> Option<CommonCo
 pub type Code = Vec<(Vec<usize>, Vec<Rational>)>;
 
 /// Cones for Theorem 11″: of all states that can be reached from `start`, with a complete prefix code of at most `most` words of
-/// at most `longest` letters, each with a functional that is positive on its cone as it is seen through `view`, a map of `start`.
+/// at most `longest` letters, each with a functional that is positive on its cone as it is seen through `view`, a map of `start`;
+/// the search takes at most `steps` steps of linear programs.
 pub fn cone_in_sight(
     shape: &Shape,
     spaces: &Spaces,
     start: usize,
     view: &Matrix,
-    (longest, most): (usize, usize),
+    (longest, most, steps): (usize, usize, usize),
 ) -> Option<(CommonCone, Code)> {
     let own = Shape { start, control: None, ..shape.clone() };
-    let frame = frame(&own, spaces)?;
+    let frame = frame(&own, spaces, steps)?;
     let proposals: [&dyn Fn() -> Option<Proposal>; 4] =
         [&|| polygons(&own, spaces, &frame), &|| propose_closed(&frame), &|| propose(&frame, 0), &|| {
             propose(&frame, 1)
@@ -220,14 +221,14 @@ fn proved_cone(
     None
 }
 
-fn frame(shape: &Shape, spaces: &Spaces) -> Option<Frame> {
+fn frame(shape: &Shape, spaces: &Spaces, steps: usize) -> Option<Frame> {
     let states = shape.reachable();
     let mut frame = Frame {
         states: states.clone(),
         dims: Vec::new(),
         chords: Vec::new(),
         maps: Vec::new(),
-        budget: std::cell::Cell::new(BUDGET),
+        budget: std::cell::Cell::new(steps),
     };
     for (k, &e) in states.iter().enumerate() {
         let state = &shape.states[e];

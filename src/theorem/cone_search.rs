@@ -27,9 +27,6 @@ impl Frame {
     }
 }
 
-/// The arithmetic that a search may do.
-pub(super) const BUDGET: usize = 300_000_000;
-
 type Rays = Vec<Vec<f64>>;
 
 /// Rays for cones that the maps do not leave, though images may lie on the boundary: chords and the rays to which short cycles

@@ -1,18 +1,15 @@
 //! A dense set by finitely many checks: Theorems 5, 5′, and those on frames.
 
 use super::branch::Context;
+use super::claim::{Assertion, Claim, Reason};
 use super::frames::{self, FrameKind, FrameReport, Frames};
-use super::verdict::{Certified, Claim, DenseSet, PointReport, Role, Verdict};
+use super::verdict::{Certified, DenseSet, PointReport, Role};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
+use crate::answer::Verdict;
 use crate::linalg::Matrix;
 use crate::shape::CellKind;
 use crate::statement::Statement;
-
-/// How many levels of joints are examined where Theorem 5 does not apply.
-const DEEP_LEVELS: usize = 4;
-/// How many joints at most.
-const DEEP_JOINTS: usize = 40;
 
 /// The hypotheses of Theorem 5 on injectivity, in the visible quotients.
 pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
@@ -32,30 +29,22 @@ pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
     DenseSet { injective, view_injective, joints, upstairs: Vec::new(), frames: None }
 }
 
-/// Adds the claims about the dense set.
-pub fn claims(cx: &Context, mut dense: DenseSet, found: &mut Certified) {
-    let injective = dense.injective.iter().all(|(_, _, ok)| *ok);
-    let first = dense.joints.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
-    let plain = |verdict, reason: Option<&str>| claim(Statement::Theorem5, ALL, verdict, reason);
-    match first {
-        None => {
-            let reason = "no joint between pieces that are more than a point";
-            found.claims.push(plain(Verdict::Undetermined, Some(reason)));
-        }
-        Some(Verdict::Refuted) => {
-            found.claims.push(plain(Verdict::Refuted, Some("a first-level joint has no tangent")));
-        }
-        Some(verdict) if injective && dense.view_injective => {
-            let open = (verdict != Verdict::Proved).then_some("a first-level joint is not decided");
-            found.claims.push(plain(verdict, open));
-        }
-        Some(_) => {
-            dense.frames = frames::frames(cx);
-            let every = dense.frames.as_ref().and_then(|frames| by_frames(cx, frames, found));
-            match every {
-                Some(claim) => found.claims.push(claim),
-                None => partly(cx, &mut dense, injective, found),
-            }
+/// Adds the claims about the dense set; `count` is the number of first-level joints that there are.
+pub fn claims(cx: &Context, mut dense: DenseSet, count: usize, found: &mut Certified) {
+    let folded = dense.injective.iter().find(|(_, _, ok)| !ok).map(|&(state, letter, _)| (state, letter));
+    let first = Verdict::all(count, dense.joints.iter().map(|&i| found.points[i].verdict));
+    let with = |verdict| dense.joints.iter().copied().find(|&i| found.points[i].verdict == verdict);
+    let reason = |verdict| with(verdict).map_or(Reason::Unexamined, Reason::FirstJoint);
+    let plain = |verdict, reason| Claim::as_found(Assertion::DenseJoints, verdict, Some(Statement::Theorem5), reason);
+    if count == 0 {
+        found.claims.push(Claim::open(Assertion::DenseJoints, Reason::NoJoint));
+    } else if first == Verdict::Refuted || (folded.is_none() && dense.view_injective) {
+        found.claims.push(plain(first, reason(first)));
+    } else {
+        dense.frames = frames::frames(cx);
+        match dense.frames.as_ref().and_then(|frames| by_frames(cx, frames, found)) {
+            Some(claim) => found.claims.push(claim),
+            None => partly(cx, &mut dense, count, folded, found),
         }
     }
     found.dense = Some(dense);
@@ -72,88 +61,64 @@ fn by_frames(cx: &Context, frames: &Frames, found: &mut Certified) -> Option<Cla
         let spec = point::joint_spec(cx, &[frame.path.as_slice(), behind].concat(), *left, *right);
         let here = add_point(cx, spec, found)?;
         let none = found.points[here].verdict == Verdict::Refuted;
-        return none.then(|| claim(Statement::Frames, ALL, Verdict::Refuted, Some("a joint has no tangent")));
+        return none.then(|| Claim::refuted(Assertion::DenseJoints, Some(Statement::Frames), Reason::Joint(here)));
     }
     if !frames.frames.iter().all(FrameReport::every_joint) {
         return None;
     }
     let folded = frames.frames.iter().any(|f| f.kind == FrameKind::Folded);
     let statement = if folded { Statement::FramesCones } else { Statement::Frames };
-    Some(claim(statement, if frames.constant { ALL_SEEN } else { ALL }, Verdict::Proved, None))
+    let what = if frames.constant { Assertion::SeenJoints } else { Assertion::DenseJoints };
+    Some(Claim::proved(what, Some(statement)))
 }
 
 /// What remains where not all joints are decided: those of the first levels, and a dense set.
-fn partly(cx: &Context, dense: &mut DenseSet, injective: bool, found: &mut Certified) {
-    let examined = examine_deeper(cx, dense, found);
+fn partly(cx: &Context, dense: &mut DenseSet, count: usize, folded: Option<(usize, usize)>, found: &mut Certified) {
+    let examined = examine_deeper(cx, dense, count, found);
     found.claims.push(examined);
     let by_frames = dense.frames.as_ref().is_some_and(|f| f.frames.iter().all(FrameReport::dense));
-    let last = if injective {
-        let claim = projected(cx, dense);
-        if claim.verdict == Verdict::Proved || !by_frames { claim } else { dense_claim() }
-    } else if by_frames {
-        dense_claim()
-    } else {
-        let reason = "an operator is not injective on the relevant space: only the joints listed were examined";
-        claim(Statement::Theorem5, ALL, Verdict::Undetermined, Some(reason))
-    };
-    found.claims.push(last);
-}
-
-fn dense_claim() -> Claim {
-    claim(Statement::FramesDense, KILLED, Verdict::Proved, None)
-}
-
-const ALL: &str = "the curve has a tangent line at every joint of every level, a dense set";
-const ALL_SEEN: &str = "the curve has a tangent line at every joint of every level between pieces that are more than a point where \
-                        it is looked at; these are dense in every cell that is more than a point";
-const KILLED: &str = "the curve has a tangent line at every joint whose tangent line is not killed on the way to where it is looked \
-                      at; in every cell that is more than a point there are such joints";
-const EXAMINED: &str = "the curve has a tangent line at each of the joints examined below";
-const PROJECTED: &str = "the projected curve has a tangent line at every joint whose tangent line before the projection is not \
-                         killed by it; in every cell that is more than a point there are such joints";
-
-fn claim(statement: Statement, text: &str, verdict: Verdict, reason: Option<&str>) -> Claim {
-    Claim { text: text.to_owned(), verdict, statement: Some(statement), reason: reason.map(str::to_owned), asked: None }
+    let by_frames = by_frames.then(|| Claim::proved(Assertion::UnkilledJoints, Some(Statement::FramesDense)));
+    found.claims.push(match folded {
+        None => {
+            let claim = projected(cx, dense);
+            if claim.verdict() == Verdict::Proved { claim } else { by_frames.unwrap_or(claim) }
+        }
+        Some((state, letter)) => {
+            by_frames.unwrap_or_else(|| Claim::open(Assertion::DenseJoints, Reason::NotInjective { state, letter }))
+        }
+    });
 }
 
 /// Examines joints of deeper levels one by one, and claims a tangent at all joints examined.
-fn examine_deeper(cx: &Context, dense: &DenseSet, found: &mut Certified) -> Claim {
+fn examine_deeper(cx: &Context, dense: &DenseSet, count: usize, found: &mut Certified) -> Claim {
     let mut examined = dense.joints.clone();
-    for (path, left, right) in deep_joints(cx) {
+    let deep = deep_joints(cx);
+    let count = count + deep.len();
+    for (path, left, right) in deep {
         examined.extend(add_point(cx, point::joint_spec(cx, &path, left, right), found));
     }
-    let verdict = examined.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
-    let verdict = verdict.unwrap_or(Verdict::Undetermined);
-    let reason = match verdict {
-        Verdict::Proved => None,
-        Verdict::Refuted => Some("a joint of a deeper level has no tangent"),
-        Verdict::Undetermined => Some("a joint is not decided"),
-    };
-    claim(Statement::Joint, EXAMINED, verdict, reason)
+    let verdict = Verdict::all(count, examined.iter().map(|&i| found.points[i].verdict));
+    let with = examined.iter().copied().find(|&i| found.points[i].verdict == verdict);
+    let reason = with.map_or(Reason::Unexamined, Reason::Joint);
+    Claim::as_found(Assertion::ExaminedJoints, verdict, Some(Statement::Joint), reason)
 }
 
 /// Theorem 5′, its operators being injective.
 fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
-    let claim = |verdict, reason| claim(Statement::Theorem5Projected, PROJECTED, verdict, reason);
-    match first_level_joints(cx) {
-        Some(joints) => dense.upstairs = joints,
-        None => {
-            return claim(Verdict::Undetermined, Some("a first-level joint cannot be examined before the projection"));
-        }
-    }
-    if dense.upstairs.iter().any(|p| p.verdict != Verdict::Proved) {
-        let reason = "the projection is not injective, and before it a first-level joint is not proved";
-        return claim(Verdict::Undetermined, Some(reason));
+    let what = Assertion::ProjectedJoints;
+    let Some(upstairs) = first_level_joints(cx) else { return Claim::open(what, Reason::Unexamined) };
+    dense.upstairs = upstairs;
+    if let Some(joint) = dense.upstairs.iter().position(|p| p.verdict != Verdict::Proved) {
+        return Claim::open(what, Reason::BeforeProjection { joint });
     }
     if !tangents_span(cx, &dense.upstairs) {
-        let reason = "the projection is not injective, and the tangent lines at the joints were not seen to span the relevant space";
-        return claim(Verdict::Undetermined, Some(reason));
+        return Claim::open(what, Reason::NoSpan);
     }
-    claim(Verdict::Proved, None)
+    Claim::proved(what, Some(Statement::Theorem5Projected))
 }
 
-/// The first-level joints of all reachable edge states, each in the visible quotient of its own state; `None` where one cannot be
-/// examined.
+/// The first-level joints of all reachable edge states, each in the visible quotient of its own state; `None` where one of
+/// them cannot be examined.
 fn first_level_joints(cx: &Context) -> Option<Vec<PointReport>> {
     let edges = cx.shape.reachable().into_iter().filter(|e| cx.shape.states[*e].kind == CellKind::Edge);
     let pairs = edges.flat_map(|e| point::joint_pairs(cx, e).into_iter().map(move |pair| (e, pair)));
@@ -202,7 +167,7 @@ fn tangents_span(cx: &Context, upstairs: &[PointReport]) -> bool {
 fn deep_joints(cx: &Context) -> Vec<(Vec<usize>, usize, usize)> {
     let mut joints = Vec::new();
     let mut level: Vec<(Vec<usize>, usize)> = vec![(Vec::new(), cx.shape.start)];
-    for _ in 1..DEEP_LEVELS {
+    for _ in 1..cx.budget.levels {
         let mut next = Vec::new();
         for (path, state) in level {
             for (letter, piece) in cx.shape.states[state].pieces.iter().enumerate() {
@@ -215,10 +180,10 @@ fn deep_joints(cx: &Context) -> Vec<(Vec<usize>, usize, usize)> {
             }
         }
         level = next;
-        if joints.len() >= DEEP_JOINTS {
+        if joints.len() >= cx.budget.joints {
             break;
         }
     }
-    joints.truncate(DEEP_JOINTS);
+    joints.truncate(cx.budget.joints);
     joints
 }

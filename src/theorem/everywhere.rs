@@ -68,7 +68,8 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
     }
     // Where a point has no half-tangent, or both rays agree, no cone exists before the projection.
     let hopeless = cx.shape.control.is_none() && found.points.iter().any(has_no_cone) || found.similarities.is_some();
-    let answer = if hopeless { Some(ConeAnswer::Undetermined) } else { common_cone(cx.shape, cx.spaces) };
+    let answer =
+        if hopeless { Some(ConeAnswer::Undetermined) } else { common_cone(cx.shape, cx.spaces, cx.budget.cone_steps) };
     Some(match answer? {
         ConeAnswer::Proved(cone) => with_cone(cx, found, cone),
         ConeAnswer::Refuted(obstacle) => without_cone(cx, found, Some(obstacle)),

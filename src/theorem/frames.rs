@@ -17,7 +17,7 @@ const MAX_CODE: usize = 128;
 
 /// A state with the map through which it is seen there.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Seen {
+pub struct SeenState {
     /// The state.
     pub state: usize,
     /// Rows on `V` in reduced echelon form, none of them 0, whose kernel is what is not seen.
@@ -39,14 +39,14 @@ pub enum FrameKind {
 #[derive(Debug, Clone)]
 pub struct FrameReport {
     /// The state and the map.
-    pub seen: Seen,
+    pub seen: SeenState,
     /// A path from the start that leads there.
     pub path: Vec<usize>,
     /// What it is.
     pub kind: FrameKind,
     /// The states whose joints are examined, each in its quotient: of a transient frame its own state, of a good one those of the
     /// component, of another one all states that can be reached.
-    pub family: Vec<Seen>,
+    pub family: Vec<SeenState>,
     /// The first-level joints of these states in these quotients.
     pub joints: Vec<PointReport>,
     /// Of a folded frame: whether the tangent lines of the joints are seen to span the quotients.
@@ -132,9 +132,9 @@ fn below(shape: &Shape, from: usize) -> Vec<usize> {
 /// Through which rows the states are seen, by paths inside `states`: the smallest family with `rows` at its state and
 /// `S_e T_i ⊂ S_δ`.
 #[must_use]
-pub fn family(shape: &Shape, spaces: &Spaces, seen: &Seen, states: &[usize]) -> Vec<Seen> {
-    let mut found: Vec<Seen> =
-        states.iter().map(|&state| Seen { state, rows: Matrix::zero(0, spaces.of(state).basis.cols()) }).collect();
+pub fn family(shape: &Shape, spaces: &Spaces, seen: &SeenState, states: &[usize]) -> Vec<SeenState> {
+    let mut found: Vec<SeenState> =
+        states.iter().map(|&state| SeenState { state, rows: Matrix::zero(0, spaces.of(state).basis.cols()) }).collect();
     if let Some(own) = found.iter_mut().find(|s| s.state == seen.state) {
         own.rows = seen.rows.clone();
     }
@@ -159,17 +159,17 @@ pub fn family(shape: &Shape, spaces: &Spaces, seen: &Seen, states: &[usize]) -> 
 
 /// The neighbours among the pieces of a state that are more than a point in its quotient.
 #[must_use]
-pub fn neighbours(shape: &Shape, spaces: &Spaces, seen: &Seen) -> Vec<(usize, usize)> {
+pub fn neighbours(shape: &Shape, spaces: &Spaces, seen: &SeenState) -> Vec<(usize, usize)> {
     let pieces = &shape.states[seen.state].pieces;
     let kept: Vec<usize> = (0..pieces.len()).filter(|&i| onward(shape, spaces, seen, i).rows.rows() > 0).collect();
     kept.windows(2).map(|w| (w[0], w[1])).collect()
 }
 
 /// The frame behind a piece.
-fn onward(shape: &Shape, spaces: &Spaces, seen: &Seen, letter: usize) -> Seen {
+fn onward(shape: &Shape, spaces: &Spaces, seen: &SeenState, letter: usize) -> SeenState {
     let piece = &shape.states[seen.state].pieces[letter];
     let rows = (&seen.rows * &spaces.linear(&piece.op, seen.state, piece.target)).echelon().rows;
-    Seen { state: piece.target, rows }
+    SeenState { state: piece.target, rows }
 }
 
 /// Follows all frames from the start; `None` for shapes that are no curves, or with too many frames, or where a joint cannot
@@ -184,7 +184,7 @@ pub fn frames(cx: &Context) -> Option<Frames> {
         return None;
     }
     let start = shape.start;
-    let first = Seen { state: start, rows: (cx.from.map() * &spaces.of(start).basis).echelon().rows };
+    let first = SeenState { state: start, rows: (cx.from.map() * &spaces.of(start).basis).echelon().rows };
     if first.rows.rows() == 0 {
         return None;
     }
@@ -212,7 +212,7 @@ pub fn frames(cx: &Context) -> Option<Frames> {
 }
 
 /// A frame with its joints, and the frames behind it with paths to them.
-fn follow(cx: &Context, seen: Seen, path: Vec<usize>) -> Option<(FrameReport, Vec<(Seen, Vec<usize>)>)> {
+fn follow(cx: &Context, seen: SeenState, path: Vec<usize>) -> Option<(FrameReport, Vec<(SeenState, Vec<usize>)>)> {
     let (shape, spaces) = (cx.shape, cx.spaces);
     let own = component(shape, seen.state);
     let mut report = FrameReport {
@@ -258,7 +258,7 @@ fn follow(cx: &Context, seen: Seen, path: Vec<usize>) -> Option<(FrameReport, Ve
 }
 
 /// Whether a component is seen through its own quotient, on which all its operators are injective.
-fn is_good(shape: &Shape, spaces: &Spaces, seen: &Seen, family: &[Seen]) -> bool {
+fn is_good(shape: &Shape, spaces: &Spaces, seen: &SeenState, family: &[SeenState]) -> bool {
     let of = |state: usize| family.iter().find(|s| s.state == state);
     of(seen.state).is_some_and(|own| own.rows.rows() == seen.rows.rows())
         && family.iter().all(|s| {
@@ -289,11 +289,11 @@ pub fn inner_path(shape: &Shape, from: usize, to: usize) -> Option<Vec<usize>> {
 }
 
 /// The joints of the pieces of the state that `path` leads to from the state of `seen`.
-fn joints(cx: &Context, seen: &Seen, path: &[usize], state: usize) -> Option<Vec<PointReport>> {
+fn joints(cx: &Context, seen: &SeenState, path: &[usize], state: usize) -> Option<Vec<PointReport>> {
     let (shape, spaces) = (cx.shape, cx.spaces);
     let own = Context { from: Viewpoint::rows(spaces, seen.state, &seen.rows), ..*cx };
     let (product, end) = shape.product(seen.state, path);
-    let here = Seen { state, rows: (&seen.rows * &spaces.linear(&product, seen.state, end)).echelon().rows };
+    let here = SeenState { state, rows: (&seen.rows * &spaces.linear(&product, seen.state, end)).echelon().rows };
     neighbours(shape, spaces, &here)
         .into_iter()
         .map(|(left, right)| point::examine_point(&own, &point::joint_spec(&own, path, left, right)?))
@@ -301,7 +301,7 @@ fn joints(cx: &Context, seen: &Seen, path: &[usize], state: usize) -> Option<Vec
 }
 
 /// Whether the smallest invariant family that contains the (rational) tangent lines is all of the quotients.
-fn spans(cx: &Context, family: &[Seen], joints: &[PointReport]) -> bool {
+fn spans(cx: &Context, family: &[SeenState], joints: &[PointReport]) -> bool {
     let of = |state: usize| family.iter().find(|s| s.state == state);
     let mut spans: Vec<Matrix> = Vec::new();
     for seen in family {
@@ -333,9 +333,11 @@ fn spans(cx: &Context, family: &[Seen], joints: &[PointReport]) -> bool {
 }
 
 /// Cones for Theorem 11″; `Some(None)` where there are none, `None` where a joint above the code cannot be examined.
-fn cones(cx: &Context, seen: &Seen) -> Option<Option<FrameCones>> {
+fn cones(cx: &Context, seen: &SeenState) -> Option<Option<FrameCones>> {
     let view = &seen.rows * &cx.spaces.of(seen.state).coordinates;
-    let Some((cone, code)) = cone_in_sight(cx.shape, cx.spaces, seen.state, &view, (MAX_CODE_LENGTH, MAX_CODE)) else {
+    let Some((cone, code)) =
+        cone_in_sight(cx.shape, cx.spaces, seen.state, &view, (MAX_CODE_LENGTH, MAX_CODE, cx.budget.cone_steps))
+    else {
         return Some(None);
     };
     let mut above = Vec::new();

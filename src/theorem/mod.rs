@@ -1,6 +1,7 @@
 //! The theorem checker: from a shape to verdicts with evidence. Statements and proofs are in `docs/theory.md`.
 
 mod branch;
+pub mod claim;
 pub mod cone;
 mod cone_search;
 mod dense;
@@ -20,26 +21,28 @@ pub mod wavelet;
 
 pub use crate::statement::Statement;
 pub use branch::Context;
+pub use claim::{AboutPlane, Assertion, Claim, Reason, Seen};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
-pub use frames::{FrameCones, FrameKind, FrameReport, Frames, Seen};
+pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use similarity::Similarities;
 pub use slow::SlowCycle;
 pub use verdict::{
-    About, BranchReport, Certified, Claim, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role,
-    Side, StateReport, Verdict,
+    About, BranchReport, Certified, DenseSet, Dimension, Holder, Kind, Outcome, PointReport, Rate, Rays, Role, Side,
+    StateReport, Verdict,
 };
 pub use viewpoint::Viewpoint;
 
 use crate::algebraic::Root;
 use crate::arith::Rational;
+use crate::budget::Budget;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
-use crate::radius::{NormContraction, Options, contraction_by_norms, polytopes};
+use crate::radius::{NormContraction, contraction_by_norms, polytopes};
 use crate::shape::{
     Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, Shape, ShapeError, Spaces,
-    contraction,
+    contraction_within,
 };
 use thiserror::Error;
 
@@ -95,7 +98,8 @@ impl ModelError {
     }
 }
 
-/// Certifies a shape: end points, first-level joints of all reachable states, further addresses, and the dense set.
+/// Certifies the tangent lines of a shape: end points, first-level joints of all reachable states, further addresses, and the
+/// dense set. [`prove`](crate::prove::prove) is the door for questions of any kind, surfaces among them.
 ///
 /// # Errors
 /// [`ModelError`] where the shape is not a model, does not contract, or an address does not exist.
@@ -103,8 +107,16 @@ impl ModelError {
 /// # Cost
 /// Dominated by contraction (at most [`crate::shape::MAX_WORDS`] products) and the ring conditions of the branches.
 pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelError> {
+    certify_within(shape, addresses, &Budget::default())
+}
+
+/// As [`certify`] with a budget of its own.
+///
+/// # Errors
+/// As [`certify`].
+pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> Result<Certified, ModelError> {
     shape.check()?;
-    let (contraction, norm) = decide_contraction(shape)?;
+    let (contraction, norm) = decide_contraction(shape, budget)?;
     if !contraction.is_proved() {
         return Ok(without_contraction(&contraction, norm));
     }
@@ -114,7 +126,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
         return Ok(without_contraction(&contraction, None));
     };
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape) };
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape), budget };
     let mut found = Certified::nothing(&contraction);
     found.states = shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect();
     found.similarities = similarity::similarities(&cx);
@@ -130,17 +142,10 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
     }
     found.polygons = cx.polygons();
     if found.similarities.is_some() {
-        found.claims.push(Claim {
-            text: "some point of the shape has a tangent line".to_owned(),
-            verdict: Verdict::Refuted,
-            statement: Some(Statement::Similarities),
-            reason: Some(
-                "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned(),
-            ),
-            asked: None,
-        });
+        let by = Some(Statement::Similarities);
+        found.claims.push(Claim::refuted(Assertion::SomePoint, by, Reason::Similarities));
     }
-    found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    found.verdict = found.overall();
     Ok(found)
 }
 
@@ -153,7 +158,7 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
 /// At most [`crate::shape::MAX_WORDS`] products, then polytopes or a joint spectral radius.
 pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
     shape.check()?;
-    Ok(decide_contraction(shape)?.0)
+    Ok(decide_contraction(shape, &Budget::default())?.0)
 }
 
 /// Largest number of coordinates of a state for which norms other than those of words are tried.
@@ -169,12 +174,12 @@ fn slow_words() -> Rational {
 
 /// Decides contraction of a checked shape by words, then by norms; with an upper bound below 1 of the joint spectral radius of
 /// the linear parts where that is known, but nothing that encloses the attractor.
-fn decide_contraction(shape: &Shape) -> Result<(Contraction, Option<Rational>), ModelError> {
+fn decide_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Option<Rational>), ModelError> {
     let expanding = |index: usize, word: &[usize]| {
         let state = shape.states[index].name.clone();
         Err(ModelError::Expands { state, index, word: word.to_vec() })
     };
-    let found = contraction(shape, expands);
+    let found = contraction_within(shape, budget.words, budget.work, expands);
     let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).max().unwrap_or(0);
     match &found {
         Contraction::Refuted { state, word } => return expanding(*state, word),
@@ -185,7 +190,7 @@ fn decide_contraction(shape: &Shape) -> Result<(Contraction, Option<Rational>), 
         Contraction::Undetermined { .. } if largest <= MAX_NORM_DIMENSION => {}
         _ => return Ok((found, None)),
     }
-    match contraction_by_norms(shape, &Options::default()) {
+    match contraction_by_norms(shape, &budget.radius) {
         Some(NormContraction::Enclosed(polytopes)) => Ok((Contraction::Polytopes(polytopes), None)),
         Some(NormContraction::Refuted { state, word, .. }) => expanding(state, &word),
         Some(NormContraction::Proved(radius)) => Ok((found, radius.upper)),
@@ -198,22 +203,11 @@ fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Cer
         Contraction::Undetermined { length, open } => (*length, *open),
         _ => (0, 0),
     };
-    let reason = match norm {
-        Some(bound) => format!(
-            "the system contracts (the joint spectral radius of its linear parts is at most {:.6}), but the 1-norm does not show \
-             it: {open} words of length {length} are left, and without them the attractor is not enclosed",
-            crate::arith::to_f64(&bound)
-        ),
-        None => format!("contraction is not decided: {open} words of length {length} are left"),
+    let gap = match norm {
+        Some(radius) => Reason::NotEnclosed { radius, length, open },
+        None => Reason::Contraction { length, open },
     };
-    let claim = Claim {
-        text: "the shape has tangents".to_owned(),
-        verdict: Verdict::Undetermined,
-        statement: None,
-        reason: Some(reason),
-        asked: None,
-    };
-    Certified { claims: vec![claim], ..Certified::nothing(contraction) }
+    Certified { claims: vec![Claim::open(Assertion::Tangents, gap)], ..Certified::nothing(contraction) }
 }
 
 fn state_report(cx: &Context, state: usize) -> StateReport {
@@ -257,27 +251,24 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
     for end in [End::Start, End::Finish] {
         ends.extend(add_point(cx, point::end_spec(cx, end), found));
     }
-    let mut joints = Vec::new();
+    let (mut joints, mut count) = (Vec::new(), 0);
     for (path, state) in shortest_paths(shape) {
         if shape.states[state].kind == CellKind::Edge {
             for (left, right) in point::joint_pairs(cx, state) {
+                count += 1;
                 joints.extend(add_point(cx, point::joint_spec(cx, &path, left, right), found));
             }
         }
     }
     if cx.spaces.of(shape.start).basis.cols() == 0 {
-        let reason = Some("the attractor is a single point".to_owned());
-        let text = "the curve has a tangent at a dense set of points".to_owned();
-        found.claims.push(Claim { text, verdict: Verdict::Undetermined, statement: None, reason, asked: None });
+        found.claims.push(Claim::open(Assertion::TangentDense, Reason::SinglePoint));
         return;
     }
-    let dense = dense::dense_set(cx, joints);
     found.claims.push(end_claim(found, &ends));
-    dense::claims(cx, dense, found);
+    dense::claims(cx, dense::dense_set(cx, joints), count, found);
     for address in asked {
-        if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
-            found.claims.push(point_claim(found, index, address));
-        }
+        let index = add_point(cx, point::address_spec(cx, address), found);
+        found.claims.push(point_claim(found, index, address));
     }
 }
 
@@ -290,9 +281,8 @@ fn certify_set(cx: &Context, asked: &[Address], found: &mut Certified) {
     let mut seen = std::collections::BTreeSet::new();
     addresses.retain(|a| seen.insert(a.clone()));
     for address in &addresses {
-        if let Some(index) = add_point(cx, point::address_spec(cx, address), found) {
-            found.claims.push(point_claim(found, index, address));
-        }
+        let index = add_point(cx, point::address_spec(cx, address), found);
+        found.claims.push(point_claim(found, index, address));
     }
 }
 
@@ -315,34 +305,15 @@ fn shortest_paths(shape: &Shape) -> Vec<(Vec<usize>, usize)> {
 }
 
 fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
-    let verdict = ends.iter().map(|&i| found.points[i].verdict).reduce(Verdict::and);
-    let failing = ends.iter().find(|&&i| found.points[i].verdict != Verdict::Proved);
-    let reason = failing.map(|&i| {
-        let side = if found.points[i].role == Role::LeftEnd { "left" } else { "right" };
-        format!("{side} end: {}", found.points[i].reason.clone().unwrap_or_default())
-    });
-    Claim {
-        text: "the curve has a tangent line at both end points".to_owned(),
-        verdict: verdict.unwrap_or(Verdict::Undetermined),
-        statement: None,
-        reason,
-        asked: None,
-    }
+    let verdict = Verdict::all(2, ends.iter().map(|&i| found.points[i].verdict));
+    let reason =
+        ends.iter().find(|&&i| found.points[i].verdict == verdict).map_or(Reason::Unexamined, |&i| Reason::End(i));
+    Claim::as_found(Assertion::TangentAtEnds, verdict, None, reason)
 }
 
-fn point_claim(found: &Certified, index: usize, address: &Address) -> Claim {
+fn point_claim(found: &Certified, index: Option<usize>, address: &Address) -> Claim {
+    let what = |about| Assertion::TangentAt { address: address.clone(), about, point: index };
+    let Some(index) = index else { return Claim::open(what(About::Branch), Reason::Unexamined) };
     let point = &found.points[index];
-    Claim {
-        text: match point.about() {
-            About::Branch => format!(
-                "the germ of the branch {address} has a tangent line (other addresses of the same point are not looked at)"
-            ),
-            About::Shape => format!("the shape has a tangent line at the address {address}"),
-            About::Curve => format!("the parametrised curve has a tangent line at the address {address}"),
-        },
-        verdict: point.verdict,
-        statement: None,
-        reason: point.reason.clone(),
-        asked: Some((address.clone(), index)),
-    }
+    Claim::as_found(what(point.about()), point.verdict, None, Reason::Point(index))
 }

@@ -1,46 +1,15 @@
 //! What the program says: verdicts, points, rays, and the evidence for each.
 
+use super::claim::Claim;
 use super::direction::Direction;
 use super::frames::Frames;
 use super::ring::{RingPiece, RingProof, Witness};
+pub use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction};
 use crate::statement::Statement;
-
-/// The three answers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
-    /// The claim holds, by a numbered statement whose hypotheses were decided exactly.
-    Proved,
-    /// The claim fails, with a witness.
-    Refuted,
-    /// Not decided; the reason and the place are given.
-    Undetermined,
-}
-
-impl Verdict {
-    /// `proved`, `refuted` or `undetermined`.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Proved => "proved",
-            Self::Refuted => "refuted",
-            Self::Undetermined => "undetermined",
-        }
-    }
-
-    /// The verdict on "both": refuted if one is refuted, proved if both are.
-    #[must_use]
-    pub fn and(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Refuted, _) | (_, Self::Refuted) => Self::Refuted,
-            (Self::Proved, Self::Proved) => Self::Proved,
-            _ => Self::Undetermined,
-        }
-    }
-}
 
 /// Kinds of points (theory §2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -352,21 +321,6 @@ pub struct PointReport {
     pub reason: Option<String>,
 }
 
-/// One claim with its verdict.
-#[derive(Debug, Clone)]
-pub struct Claim {
-    /// The claim in words.
-    pub text: String,
-    /// The verdict.
-    pub verdict: Verdict,
-    /// The statement that gives it.
-    pub statement: Option<Statement>,
-    /// The reason where it is not proved; what exactly is claimed where it is.
-    pub reason: Option<String>,
-    /// For a claim about one address: the address, normalised, and the index of its point in [`Certified::points`].
-    pub asked: Option<(Address, usize)>,
-}
-
 /// The hypotheses of Theorem 5 as found.
 #[derive(Debug, Clone)]
 pub struct DenseSet {
@@ -423,6 +377,18 @@ pub struct Certified {
 }
 
 impl Certified {
+    /// The verdict on all claims together; undetermined where nothing is claimed.
+    #[must_use]
+    pub fn overall(&self) -> Verdict {
+        Verdict::all(self.claims.len(), self.claims.iter().map(Claim::verdict))
+    }
+
+    /// The claim about the dense set of joints (Theorem 5 or 5′), where there is one.
+    #[must_use]
+    pub fn dense_claim(&self) -> Option<&Claim> {
+        self.claims.iter().find(|c| c.what.is_of_dense_joints())
+    }
+
     /// Nothing examined and nothing claimed yet.
     pub(super) fn nothing(contraction: &Contraction) -> Self {
         Self {

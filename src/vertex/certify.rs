@@ -9,15 +9,12 @@ use super::regular::Regular;
 use super::ring::{self, Values, jacobian, patches};
 use super::top::{Top, TopError, leading_value, leading_values, top};
 use super::turning::{Rotation, Turning};
+use crate::answer::Verdict;
 use crate::arith::{Interval, Rational, to_f64};
+use crate::budget::Budget;
 use crate::poly::{Poly, factor};
 use crate::scheme::{MeshRule, SchemeError};
-use crate::theorem::Verdict;
 
-/// Binary places of the first attempt and of the second.
-const BITS: [u64; 2] = [192, 768];
-/// How often a patch is halved at most.
-const DEPTH: usize = 14;
 /// Polynomials up to this degree are factored for display.
 const DISPLAY_DEGREE: usize = 24;
 
@@ -166,6 +163,14 @@ impl AtValence {
 /// # Cost
 /// For a few dozen valences a few milliseconds each, apart from the minimal polynomial of the eigenvalue.
 pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeError> {
+    at_valence_within(rule, valence, &Budget::default())
+}
+
+/// As [`at_valence`] with a budget of its own.
+///
+/// # Errors
+/// As [`at_valence`].
+pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
     found.polynomial = ring::spline(rule).is_some();
     let vertex = Vertex::new(rule, valence, ring::RINGS)?;
@@ -177,7 +182,7 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
         }
         Err(error) => return Err(error),
     };
-    let top = match top(&vertex, &blocks, BITS[0]) {
+    let top = match top(&vertex, &blocks, budget.places[0]) {
         Ok(top) => top,
         Err(TopError::Scheme(error)) => return Err(error),
         Err(TopError::Open(reason)) => {
@@ -186,7 +191,7 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
         }
     };
     found.minimal = minimal(&vertex, &top);
-    Judge { vertex: &vertex, blocks: &blocks, top: &top, found: &mut found }.judge();
+    Judge { vertex: &vertex, blocks: &blocks, top: &top, found: &mut found, budget }.judge();
     found.top = Some(top);
     Ok(found)
 }
@@ -196,6 +201,7 @@ struct Judge<'a> {
     blocks: &'a [Block],
     top: &'a Top,
     found: &'a mut AtValence,
+    budget: &'a Budget,
 }
 
 impl Judge<'_> {
@@ -296,24 +302,26 @@ impl Judge<'_> {
     /// The ring of the leading eigenvector of block `k` for a scheme without Bézier patches.
     fn ring(&self, k: usize, bits: u64) -> Option<Ring> {
         let (field, values) = self.values(k, bits)?;
-        Ring::new(self.vertex, &field, &values, &leading_value(self.vertex, self.blocks, self.top, k, bits)?)
+        let eigenvalue = leading_value(self.vertex, self.blocks, self.top, k, bits)?;
+        Ring::new(self.vertex, &field, &values, &eigenvalue, self.budget.ring_cells)
     }
 
     /// The signs of the function of block 0 or n/2 on the ring, and on its outer boundary or its innermost cells.
     fn signs_of_function(&mut self, k: usize) -> Option<(Signs, Signs)> {
         if !self.found.polynomial {
-            let ring = self.ring(k, BITS[0])?;
+            let ring = self.ring(k, self.budget.places[0])?;
             let functional = (1, if k == 0 { 1 } else { -1 });
             return Some((ring.functional(functional, false), ring.functional(functional, true)));
         }
-        let (field, values) = self.values(k, BITS[0])?;
+        let (field, values) = self.values(k, self.budget.places[0])?;
         self.note(k, &field, &values);
         // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
         let scalar = |p: &Turning<Fixed>| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) };
         let nets: Vec<Net<Fixed>> = patches(self.vertex, &field, &values)?.iter().map(|p| p.map(scalar)).collect();
         let signs = |nets: Vec<Net<Fixed>>| {
             let mut signs = Signs::default();
-            nets.into_iter().enumerate().for_each(|(index, net)| signs.examine(&field, index, net, DEPTH));
+            let halvings = self.budget.halvings;
+            nets.into_iter().enumerate().for_each(|(index, net)| signs.examine(&field, index, net, halvings));
             signs
         };
         let boundary = ring::boundary(&self.vertex.rule, &nets)?;
@@ -338,7 +346,7 @@ impl Judge<'_> {
     /// A pair of leading eigenvectors in the blocks `k` and `n − k`: the characteristic map.
     fn pair(&mut self, k: usize, length: usize) {
         self.found.frequency = Some(k);
-        let known = BITS.iter().any(|bits| self.characteristic(k, *bits));
+        let known = self.budget.places.into_iter().any(|bits| self.characteristic(k, bits));
         let with_blocks =
             if length > 1 { format!(", the ends of {length}×{length} Jordan blocks") } else { String::new() };
         if self.found.winding.is_some() {
@@ -401,9 +409,9 @@ impl Judge<'_> {
         let Some(patches) = patches(self.vertex, &field, &values) else { return false };
         let mut signs = Signs::default();
         for (index, patch) in patches.iter().enumerate() {
-            signs.examine(&field, index, jacobian(&field, patch), DEPTH);
+            signs.examine(&field, index, jacobian(&field, patch), self.budget.halvings);
         }
-        let functional = half_plane(&field, &patches);
+        let functional = half_plane(&field, &patches, self.budget.halvings);
         self.found.winding = functional.is_some().then_some(k);
         self.found.half_plane = functional;
         let point = |p: &Turning<Fixed>| (field.to_f64(&p.x), field.to_f64(&p.y));
@@ -435,7 +443,7 @@ impl Judge<'_> {
 ///
 /// The ring then avoids 0, and its outer boundary, which leads from a point `P` to `ω P`, turns by an angle between −π and π,
 /// which can only be that of `ω`: the whole boundary winds `k` times around 0.
-fn half_plane(field: &Enclosures, patches: &[Net<Turning<Fixed>>]) -> Option<(Rational, Rational)> {
+fn half_plane(field: &Enclosures, patches: &[Net<Turning<Fixed>>], halvings: usize) -> Option<(Rational, Rational)> {
     let rotation = Rotation(field);
     let mut sum = rotation.zero();
     patches.iter().flat_map(|p| p.rows.iter().flatten()).for_each(|p| sum = rotation.add(&sum, p));
@@ -451,7 +459,7 @@ fn half_plane(field: &Enclosures, patches: &[Net<Turning<Fixed>>]) -> Option<(Ra
     let mut signs = Signs::default();
     for (index, patch) in patches.iter().enumerate() {
         let values = patch.map(|p| field.add(&field.scale(&p.x, &g.0), &field.scale(&p.y, &g.1)));
-        signs.examine(field, index, values, DEPTH);
+        signs.examine(field, index, values, halvings);
     }
     (signs.strict() == Some(1)).then_some(g)
 }

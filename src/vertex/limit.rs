@@ -22,8 +22,6 @@ const RADIUS: i64 = 3;
 const REACH: i64 = 3;
 /// Binary places of the largest value: with bounds below `2^10` (see [`Regular`]) no product below leaves 128 bits.
 const BITS: u64 = 48;
-/// Cells examined at most for one sign.
-const BUDGET: usize = 40_000;
 /// How often a cell is divided at most.
 const DEPTH: usize = 12;
 
@@ -44,6 +42,8 @@ struct Piece {
 #[derive(Debug)]
 pub struct Ring {
     regular: Arc<Regular>,
+    /// Cells that may be examined.
+    most: usize,
     pieces: Vec<Piece>,
 }
 
@@ -112,12 +112,18 @@ fn floor(x: &Integer, shift: u64) -> Option<i128> {
 
 impl Ring {
     /// The ring of an eigenvector, given near the centre. `None` for schemes whose regular rule has no bounds, or where the
-    /// points given do not determine those farther out.
+    /// points given do not determine those farther out. At most `most` cells are examined for each sign.
     ///
     /// # Cost
     /// Stencils of a wider neighbourhood; see [`Regular::of`].
     #[must_use]
-    pub fn new(vertex: &Vertex, field: &Enclosures, values: &Values<Fixed>, eigenvalue: &Fixed) -> Option<Self> {
+    pub fn new(
+        vertex: &Vertex,
+        field: &Enclosures,
+        values: &Values<Fixed>,
+        eigenvalue: &Fixed,
+        most: usize,
+    ) -> Option<Self> {
         let regular = Regular::of(&vertex.rule)?;
         let rings = usize::try_from(regular.factor * RADIUS + REACH).ok()?;
         let wide = Vertex::new(&vertex.rule, vertex.valence, rings).ok()?;
@@ -147,7 +153,7 @@ impl Ring {
             }
             pieces.push(Piece { cell, at: ((0, 0), 1), level: 0, x, y, error });
         }
-        Some(Self { regular, pieces })
+        Some(Self { regular, most, pieces })
     }
 
     /// The parts of a piece after a step.
@@ -187,7 +193,7 @@ impl Ring {
             let mark = match sign(&piece) {
                 Some(s) if s > 0 => &mut signs.positive,
                 Some(_) => &mut signs.negative,
-                None if piece.level < DEPTH && examined + queue.len() < BUDGET => {
+                None if piece.level < DEPTH && examined + queue.len() < self.most => {
                     queue.extend(self.divided(&piece));
                     continue;
                 }

@@ -15,5 +15,15 @@ pub mod solve;
 pub mod top;
 pub mod turning;
 
-pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, decimal};
+pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, at_valence_within, decimal};
 pub use every::{Condition, Every, every, strict_sign};
+
+use crate::answer::Verdict;
+
+/// The verdict on all valences together, and on those that one proof covers.
+#[must_use]
+pub fn overall(found: &[AtValence], every: Option<&Every>) -> Verdict {
+    let common = every.map(|e| if e.proved() { Verdict::Proved } else { Verdict::Undetermined });
+    let count = found.len() + usize::from(every.is_some());
+    Verdict::all(count, found.iter().map(|f| f.smooth).chain(common))
+}

@@ -78,7 +78,7 @@ impl Regular {
             MeshRule::Butterfly { w, .. } => MeshRule::Butterfly { w: w.clone(), modified: false },
             other => other.clone(),
         };
-        let mut known = KNOWN.lock().ok()?;
+        let mut known = KNOWN.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         if let Some((_, found)) = known.iter().find(|(r, _)| *r == rule) {
             return found.clone();
         }

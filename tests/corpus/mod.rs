@@ -25,5 +25,6 @@ pub fn all_files(dir: &Path, found: &mut Vec<PathBuf>) {
 
 /// Whether a case is about the vertices of a mesh.
 pub fn about_vertices(path: &Path) -> bool {
-    std::fs::read_to_string(path).is_ok_and(|text| secant::case::VertexCase::is_one(&text))
+    use secant::case::{Question, Subject};
+    Question::read_open(path).is_ok_and(|question| question.subject() == Subject::Vertices)
 }

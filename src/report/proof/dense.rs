@@ -1,45 +1,40 @@
 //! The section on the dense set.
 
+use super::super::claims;
 use super::super::document::{Block, Check, Inline, Line, Tone, line, words};
 use super::super::values::direction_math;
 use super::super::words::{mark, point_name, tone};
 use super::{Quoted, quoted};
 use crate::case::Case;
-use crate::theorem::{Certified, DenseSet, Statement, Verdict};
+use crate::theorem::{Assertion, Certified, DenseSet, Statement, Verdict};
 
 pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let Some(dense) = &found.dense else { return Vec::new() };
-    let is_dense = |s: Statement| s != Statement::Joint && s.is_about_joints();
-    let Some(claim) = found.claims.iter().find(|c| c.statement.is_some_and(is_dense)) else { return Vec::new() };
+    let Some(claim) = found.dense_claim() else { return Vec::new() };
+    let projected = claim.what == Assertion::ProjectedJoints;
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    let statement = claim.statement;
-    match (claim.verdict, statement) {
-        (Verdict::Proved, Some(theorem)) => blocks.push(seen.once(theorem)),
-        (Verdict::Undetermined, Some(theorem)) => {
+    let other = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
+    let theorem = claim.statement().unwrap_or(other);
+    match claim.verdict() {
+        Verdict::Proved => blocks.push(seen.once(theorem)),
+        Verdict::Undetermined => {
             blocks.push(quoted(theorem));
             blocks.push(Block::text("It is not applied: of its hypotheses some fail or are not decided.", []));
         }
-        _ => {
+        Verdict::Refuted => {
             let text = "The claim below is about all joints, and one that was examined above has no tangent line; no further theorem is \
                         needed. For the record, the joints and the maps:";
             blocks.push(Block::text(text, []));
         }
     }
-    let projected = claim.statement == Some(Statement::Theorem5Projected);
-    let by_frames = dense.frames.as_ref().filter(|_| statement.is_some_and(Statement::uses_frames));
-    blocks.push(Block::Checks(match by_frames {
-        Some(frames) => super::frames::checks(case, frames),
-        None => checks(case, found, dense, projected, claim.verdict == Verdict::Proved),
+    blocks.push(Block::Checks(match &dense.frames {
+        Some(frames) if theorem.uses_frames() => super::frames::checks(case, frames),
+        _ => checks(case, found, dense, projected, claim.verdict() == Verdict::Proved),
     }));
     let mut conclusion: Line = line("**Conclusion.** ", []);
-    conclusion.push(mark(claim.verdict));
-    let how = match claim.verdict {
-        Verdict::Proved => "",
-        Verdict::Refuted => "it is false that ",
-        Verdict::Undetermined => "whether ",
-    };
-    conclusion.extend(words(format!(": {how}{}", claim.text)));
-    if let Some(reason) = &claim.reason {
+    conclusion.push(mark(claim.verdict()));
+    conclusion.extend(words(format!(": {}", claims::judged(claim))));
+    if let Some(reason) = claims::reason(case, found, claim) {
         conclusion.extend(words(format!("; {reason}")));
     }
     conclusion.extend(words("."));

@@ -141,7 +141,7 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     if let Some(source) = &case.source {
         blocks.push(Block::Paragraph(words(format!("Source of the case: {source}."))));
     }
-    blocks.push(Block::List(found.claims.iter().map(claim_line).collect()));
+    blocks.push(Block::List(found.claims.iter().map(|c| claim_line(case, found, c)).collect()));
     let mut verdict = words("Verdict on all claims together: ");
     verdict.push(mark(found.verdict));
     verdict.extend(words(match found.verdict {

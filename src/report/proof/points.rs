@@ -26,7 +26,7 @@ pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], 
     let mut rest = Vec::new();
     for (k, point) in found.points.iter().enumerate() {
         // Points asked for come last, and are shown in any case; so is the first witness.
-        let asked = found.claims.iter().any(|c| c.asked.as_ref().is_some_and(|(_, index)| *index == k));
+        let asked = found.claims.iter().any(|c| c.what.asked().is_some_and(|(_, index)| index == Some(k)));
         let chosen = k < MAX_PICTURED || asked;
         if chosen || found.points.len() <= MAX_FULL || Some(k) == refuted || Some(k) == open {
             blocks.extend(one(case, point, listed, chosen));

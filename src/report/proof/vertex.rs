@@ -2,14 +2,14 @@
 //! evidence for every valence.
 
 use super::super::document::{Block, Document, Inline, Line, code, line, words};
-use super::super::vertex::{evidence_by_valence, overall, ranges, summary_by_valence, twice};
+use super::super::vertex::{evidence_by_valence, ranges, summary_by_valence, twice};
 use super::super::words::mark;
 use super::{Quoted, references};
 use crate::case::VertexCase;
 use crate::scheme::mesh_rules;
 use crate::statement::Statement;
 use crate::theorem::Verdict;
-use crate::vertex::{AtValence, Every};
+use crate::vertex::{AtValence, Every, overall};
 
 /// The whole proof for the valences examined, and for all valences where they were asked for, as a document.
 #[must_use]

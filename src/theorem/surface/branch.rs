@@ -10,20 +10,16 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex};
-use crate::theorem::branch::{Context, Local, MAX_ROWS, isolation_functionals, krylov, restrict};
+use crate::theorem::branch::{Context, Local, isolation_functionals, krylov, restrict};
 use crate::theorem::ring::{Functional, Part, Ring, RingAnswer, RingPiece, RingProof, Witness};
 use crate::theorem::{Dimension, Statement};
 
-/// Products of a row and an operator for the first try of a ring condition.
-const FIRST_ROWS: usize = 600;
 /// Cells of a piece of the ring on which a change of sign is looked for.
 const SIGN_CELLS: usize = 80;
 /// Deepest group of eigenvalues for which a ring condition is tried.
 const MAX_DEPTH: usize = 4;
 /// Witnesses that are collected.
 const MAX_WITNESSES: usize = 4;
-/// Cells whose corners are tried as witnesses.
-const WITNESS_CELLS: usize = 120;
 
 /// What all branches of a surface share.
 pub struct Setting<'a> {
@@ -179,7 +175,8 @@ impl Analysis<'_> {
 
     /// How many rows may be carried to cells.
     fn rows(&self) -> usize {
-        if self.setting.quick { MAX_ROWS / 16 } else { MAX_ROWS }
+        let cells = self.setting.cx.budget.cells;
+        if self.setting.quick { cells / 16 } else { cells }
     }
 
     fn decide(&self, functionals: &[Functional]) -> RingAnswer {
@@ -236,7 +233,7 @@ impl Analysis<'_> {
 
     /// The ring condition of the leading functionals, or what shows that it fails: first what is cheap.
     fn decide_leading(&self, functionals: &[Functional]) -> (RingAnswer, Option<SurfaceWitness>) {
-        let mut answer = self.ring().decide(functionals, FIRST_ROWS);
+        let mut answer = self.ring().decide(functionals, self.setting.cx.budget.first_surface_cells());
         if matches!(answer, RingAnswer::Open { .. }) {
             if let Some(found) = self.path(functionals) {
                 return (answer, Some(found));
@@ -470,7 +467,7 @@ impl Analysis<'_> {
         let errors: Vec<Rational> = approximations.iter().map(|(_, e)| e * &bound).collect();
         let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| ring.row_on_points(row)).collect();
         let mut queue = ring.roots(&rows);
-        for _ in 0..WITNESS_CELLS {
+        for _ in 0..self.setting.cx.budget.witness_cells {
             let Some(node) = queue.pop_front() else { return };
             if let Some(Witness::Point { address, offset }) = ring.point_witness(functionals, &node, &errors)
                 && !points.iter().any(|(_, known)| *known == offset)

@@ -7,16 +7,10 @@ use super::verdict::{Surface, SurfaceDense, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::theorem::{Claim, Context, Statement, Verdict, Viewpoint};
+use crate::theorem::{Assertion, Claim, Context, Reason, Seen, Statement, Verdict, Viewpoint};
 
 /// Largest dimension of the space of bivectors in which density is decided.
 const MAX_BIVECTORS: usize = 300;
-
-const ALL: &str =
-    "the surface has a tangent plane at a dense set of points: at the image of a vertex inside every cell";
-const PROJECTED: &str = "the surface has a tangent plane at the image of the vertex inside a cell wherever the control \
-                         points do not fold the plane before the projection";
-const EVERYWHERE: &str = "; every cell contains such a vertex, so that they are dense";
 
 /// Adds the claim about the dense set, and its evidence.
 pub fn claim(
@@ -27,30 +21,17 @@ pub fn claim(
     claims: &mut Vec<Claim>,
 ) {
     let Some(mut dense) = evidence(setting, chart, product) else { return };
-    let injective = dense.injective.iter().all(|(_, _, ok)| *ok);
-    let planes = dense.vertices.iter().all(|(_, p)| p.verdict == Verdict::Proved);
-    let text = if dense.view_injective { ALL.to_owned() } else { PROJECTED.to_owned() };
-    let mut claim = Claim {
-        text,
-        verdict: Verdict::Undetermined,
-        statement: Some(Statement::Theorem5Surface),
-        reason: None,
-        asked: None,
-    };
-    if !injective {
-        claim.reason = Some("an operator is not injective on the visible relevant space".to_owned());
-    } else if !planes {
-        claim.reason = dense.vertices.iter().find(|(_, p)| p.verdict != Verdict::Proved).map(|(e, p)| {
-            let name = &setting.cx.shape.states[*e].name;
-            format!("at the vertices inside state `{name}`: {}", p.reason.clone().unwrap_or_default())
-        });
+    let folded = dense.injective.iter().find(|(_, _, ok)| !ok).map(|&(state, letter, _)| (state, letter));
+    let seen = if dense.view_injective { Seen::Injective } else { Seen::Projected };
+    let claim = if let Some((state, letter)) = folded {
+        Claim::open(Assertion::DensePlanes { seen }, Reason::SurfaceNotInjective { state, letter })
+    } else if let Some(k) = dense.vertices.iter().position(|(_, p)| p.verdict != Verdict::Proved) {
+        Claim::open(Assertion::DensePlanes { seen }, Reason::VertexInside(k))
     } else {
-        claim.verdict = Verdict::Proved;
         dense.everywhere = dense.view_injective || bivectors_reach(setting, &dense);
-        if dense.everywhere && !dense.view_injective {
-            claim.text.push_str(EVERYWHERE);
-        }
-    }
+        let seen = if dense.everywhere && !dense.view_injective { Seen::Everywhere } else { seen };
+        Claim::proved(Assertion::DensePlanes { seen }, Some(Statement::Theorem5Surface))
+    };
     surface.dense = Some(dense);
     claims.push(claim);
 }

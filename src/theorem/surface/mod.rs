@@ -18,9 +18,10 @@ pub use verdict::{
 };
 
 use super::{
-    Certified, Claim, Context, Dimension, ModelError, Statement, Verdict, Viewpoint, decide_contraction, state_report,
-    without_contraction,
+    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, Reason, Statement, Verdict, Viewpoint,
+    decide_contraction, state_report, without_contraction,
 };
+use crate::budget::Budget;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};
 use branch::{Setting, examine};
 use place::Chart;
@@ -39,15 +40,27 @@ const LARGE_PRODUCT: usize = 16;
 /// # Cost
 /// As for [`super::certify`], for each branch of each point examined.
 pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certified, ModelError> {
+    certify_complex_within(complex, addresses, &Budget::default())
+}
+
+/// As [`certify_complex`] with a budget of its own.
+///
+/// # Errors
+/// As [`certify_complex`].
+pub fn certify_complex_within(
+    complex: &Complex,
+    addresses: &[Address],
+    budget: &Budget,
+) -> Result<Certified, ModelError> {
     let shape = &complex.shape;
     let faces = shape.reachable().into_iter().any(|e| shape.states[e].kind == CellKind::Face);
     if !faces || matches!(shape.states[shape.start].kind, CellKind::Edge | CellKind::Vertex) {
-        return super::certify(shape, addresses);
+        return super::certify_within(shape, addresses, budget);
     }
     shape.check()?;
     complex.check()?;
-    let product = tensor::Product::of(complex);
-    let (words, norm) = decide_contraction(shape)?;
+    let product = tensor::Product::of(complex, budget);
+    let (words, norm) = decide_contraction(shape, budget)?;
     let contraction = match &product {
         Some(product) if !words.is_proved() => Contraction::Product(product.contraction()),
         _ => words,
@@ -61,7 +74,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     };
     let balls = balls.with_simplex(shape);
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape) };
+    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape), budget };
     let chart = Chart::new(complex);
     let quick = product.is_some() && shape.states[shape.start].dim > LARGE_PRODUCT;
     let setting = Setting { cx, complex, chart: chart.as_ref().ok(), quick };
@@ -87,7 +100,7 @@ pub fn certify_complex(complex: &Complex, addresses: &[Address]) -> Result<Certi
     found.polygons = setting.cx.polygons();
     surface.factors = product.as_ref().map(tensor::Product::factors);
     found.surface = Some(surface);
-    found.verdict = found.claims.iter().map(|c| c.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
+    found.verdict = found.overall();
     Ok(found)
 }
 
@@ -104,25 +117,16 @@ fn parametrised(
     let nodes = chart.nodes(start, 1);
     let vertices: Vec<usize> =
         nodes.iter().filter_map(|param| add_point(setting, chart, param, None, product, surface)).collect();
-    let text = "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)";
-    let mut all = together(text, &vertices, surface);
-    if vertices.len() < nodes.len() && all.verdict == Verdict::Proved {
-        (all.verdict, all.reason) =
-            (Verdict::Undetermined, Some("there are too many cells around a vertex".to_owned()));
-    }
-    claims.push(all);
+    claims.push(at_vertices(&vertices, nodes.len(), surface));
     dense::claim(setting, chart, product, surface, claims);
     for address in asked {
-        let Some(param) = chart.locate(start, address) else { continue };
-        if let Some(index) = add_point(setting, chart, &param, Some(address), product, surface) {
-            let text = match surface.points[index].spot {
-                Spot::Branch => {
-                    format!("the germ of the branch {address} has a tangent plane (too many cells meet there)")
-                }
-                _ => format!("the parametrised surface has a tangent plane at the address {address}"),
-            };
-            claims.push(claim(text, &surface.points[index], (address, index)));
-        }
+        let param = chart.locate(start, address);
+        let index = param.and_then(|param| add_point(setting, chart, &param, Some(address), product, surface));
+        let about = match index.map(|k| &surface.points[k].spot) {
+            Some(Spot::Branch) | None => AboutPlane::Crowded,
+            Some(_) => AboutPlane::Surface,
+        };
+        claims.push(claim(about, address, index, surface));
     }
 }
 
@@ -166,34 +170,26 @@ fn branches_only(setting: &Setting, asked: &[Address], surface: &mut Surface, cl
     let mut seen = std::collections::BTreeSet::new();
     addresses.retain(|a| seen.insert(a.clone()));
     for address in &addresses {
-        let Some(point) = conclude(setting, Spot::Branch, None, std::slice::from_ref(address)) else { continue };
-        surface.points.push(point);
-        let index = surface.points.len() - 1;
-        let text = format!(
-            "the germ of the branch {address} has a tangent plane (other addresses of the same point are not looked at)"
-        );
-        claims.push(claim(text, &surface.points[index], (address, index)));
+        let point = conclude(setting, Spot::Branch, None, std::slice::from_ref(address));
+        let index = point.is_some().then_some(surface.points.len());
+        surface.points.extend(point);
+        claims.push(claim(AboutPlane::Branch, address, index, surface));
     }
 }
 
-fn claim(text: String, point: &SurfacePoint, (address, index): (&Address, usize)) -> Claim {
-    Claim {
-        text,
-        verdict: point.verdict,
-        statement: point.statement,
-        reason: point.reason.clone(),
-        asked: Some((address.clone(), index)),
-    }
+fn claim(about: AboutPlane, address: &Address, index: Option<usize>, surface: &Surface) -> Claim {
+    let what = Assertion::PlaneAt { address: address.clone(), about, point: index };
+    let Some(index) = index else { return Claim::open(what, Reason::Unexamined) };
+    let point = &surface.points[index];
+    Claim::as_found(what, point.verdict, point.statement, Reason::SurfacePoint(index))
 }
 
-fn together(text: &str, indices: &[usize], surface: &Surface) -> Claim {
-    let points = || indices.iter().map(|&i| &surface.points[i]);
-    let verdict = points().map(|p| p.verdict).reduce(Verdict::and).unwrap_or(Verdict::Undetermined);
-    let reason = points().find(|p| p.verdict == verdict && verdict != Verdict::Proved).map(|p| {
-        let place = p.branches.first().map(|b| b.address.to_string()).unwrap_or_default();
-        format!("at {place}: {}", p.reason.clone().unwrap_or_default())
-    });
-    Claim { text: text.to_owned(), verdict, statement: Some(Statement::SurfacePoint), reason, asked: None }
+/// The claim about all vertices of the first level, of which there are `count`.
+fn at_vertices(indices: &[usize], count: usize, surface: &Surface) -> Claim {
+    let verdict = Verdict::all(count, indices.iter().map(|&i| surface.points[i].verdict));
+    let with = indices.iter().copied().find(|&i| surface.points[i].verdict == verdict);
+    let reason = with.map_or(Reason::TooManyCells, Reason::SurfaceVertex);
+    Claim::as_found(Assertion::PlaneAtVertices, verdict, Some(Statement::SurfacePoint), reason)
 }
 
 /// Examines the branches of a point and adds up their tangent subspaces.

@@ -5,6 +5,7 @@ use super::span::Subspace;
 use super::verdict::{ProductEvidence, ProductFactor, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
+use crate::budget::Budget;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
@@ -21,14 +22,15 @@ struct Factor {
     balls: Balls,
     hulls: OnceCell<Option<Balls>>,
     known: RefCell<BTreeMap<Address, Option<PointReport>>>,
+    budget: Budget,
 }
 
 impl Factor {
     /// `None` where the curve is none, it or one of its pieces is a point, or it is not known to contract. (Where a piece is a point the
     /// curve is constant along it, and the germ at a parameter there is not that of the curve as a set.)
-    fn new(shape: &Shape) -> Option<Self> {
+    fn new(shape: &Shape, budget: &Budget) -> Option<Self> {
         shape.check().ok()?;
-        let (found, _) = decide_contraction(shape).ok()?;
+        let (found, _) = decide_contraction(shape, budget).ok()?;
         shape.check_curves().ok()?;
         let spaces = Spaces::new(shape)?;
         let moves = shape.reachable().into_iter().all(|e| {
@@ -42,6 +44,7 @@ impl Factor {
             balls,
             hulls: OnceCell::new(),
             known: RefCell::default(),
+            budget: budget.clone(),
         })
     }
 
@@ -52,8 +55,8 @@ impl Factor {
     }
 
     fn context(&self) -> Context<'_> {
-        let Self { shape, spaces, balls, hulls, .. } = self;
-        Context { shape, spaces, balls, hulls, from: Viewpoint::start(shape) }
+        let Self { shape, spaces, balls, hulls, budget, .. } = self;
+        Context { shape, spaces, balls, hulls, from: Viewpoint::start(shape), budget }
     }
 
     fn evidence(&self) -> ProductFactor {
@@ -86,9 +89,9 @@ pub struct Product {
 
 impl Product {
     /// The curves that a patch is the product of, where they can be examined.
-    pub fn of(complex: &Complex) -> Option<Self> {
+    pub fn of(complex: &Complex, budget: &Budget) -> Option<Self> {
         let (first, second) = factors(complex)?;
-        Some(Self { first: Factor::new(&first)?, second: Factor::new(&second)? })
+        Some(Self { first: Factor::new(&first, budget)?, second: Factor::new(&second, budget)? })
     }
 
     /// Both curves, and why they contract.
@@ -174,7 +177,8 @@ fn parts(address: &Address, columns: usize) -> (Address, Address) {
 /// Returns `None` where a curve is not certified: it does not contract, is a point, or the address is not decided.
 #[must_use]
 pub fn product_point(first: &Shape, second: &Shape, address: &Address, view: &Matrix) -> Option<ProductEvidence> {
-    Product { first: Factor::new(first)?, second: Factor::new(second)? }.point(address, view)
+    let budget = Budget::default();
+    Product { first: Factor::new(first, &budget)?, second: Factor::new(second, &budget)? }.point(address, view)
 }
 
 fn conclude(a: PointReport, b: PointReport, view: &Matrix) -> ProductEvidence {

@@ -174,7 +174,8 @@ mod tests {
         let shape = &complex.shape;
         let chart = Chart::new(&complex).unwrap();
         let spaces = Spaces::new(shape).unwrap();
-        let balls = Balls::of(shape, &spaces, &decide_contraction(shape).unwrap().0).unwrap();
+        let balls = Balls::of(shape, &spaces, &decide_contraction(shape, &crate::budget::Budget::default()).unwrap().0)
+            .unwrap();
         let nothing = Matrix::zero(0, 4);
         let ring = Ring { shape, spaces: &spaces, balls: &balls, state: 0, fixed: &[], chart: &nothing, pieces: &[] };
         let search = Search { chart: &chart, complex: &complex, ring: &ring, errors: [ratio(0, 1), ratio(0, 1)] };

@@ -1,7 +1,7 @@
 //! LaTeX names of the symbols that formulas may contain.
 
 /// The LaTeX of a letter or symbol of a formula.
-pub(super) fn latex(c: char) -> Option<&'static str> {
+pub(crate) fn latex(c: char) -> Option<&'static str> {
     Some(match c {
         'α' => "\\alpha",
         'β' => "\\beta",

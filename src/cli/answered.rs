@@ -1,0 +1,164 @@
+//! A case with its findings and what the checker said: what `certify` of one case, of many and the gallery show.
+
+use super::CertifyArgs;
+use crate::answer::Verdict;
+use crate::budget::Budget;
+use crate::case::{Question, Valences};
+use crate::certificate::{Certificate, Doubt, Unsupported};
+use crate::diagnostic::Problem;
+use crate::prove::{Findings, confirm, prove_with, unconfirmed};
+use crate::report::findings;
+use crate::theorem::Certified;
+use crate::vertex::Again;
+use serde_json::Value;
+use std::path::Path;
+
+/// The certificate that the checker accepted, or why the format has none.
+pub type Evidence = Result<Certificate, Unsupported>;
+
+/// What was found, and what the checker said.
+pub struct Answered {
+    /// What was found.
+    pub findings: Findings,
+    /// What the checker said; `None` where it was not asked, or nothing is decided.
+    pub evidence: Option<Evidence>,
+}
+
+/// Whether the checker proved a verdict again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Checked {
+    /// It did.
+    Yes,
+    /// The certificate format has no rule for some evidence.
+    NoRule,
+    /// It was not asked.
+    NotAsked,
+}
+
+/// What a report says where there is no evidence.
+pub const NOT_ASKED: &str = "the checker was not asked";
+
+/// The question of a file with the addresses and valences of the command line.
+///
+/// # Errors
+/// The [`Problem`] of the file, or of an option that does not go with it.
+pub fn question(path: &Path, args: &CertifyArgs) -> Result<Question, Problem> {
+    let question = match args.valence.as_deref() {
+        None => Question::read(path)?,
+        Some(text) => Question::at_valences(path, valences(text)?)?,
+    };
+    args.address.iter().try_fold(question, |question, text| question.with_address(text))
+}
+
+fn valences(text: &str) -> Result<Valences, Problem> {
+    Valences::parse(text).map_err(|error| {
+        Problem::new("secant::usage::valence", error)
+            .with_help("write --valence 5, --valence 3..32 (both ends included), --valence 3,5,8 or --valence all")
+    })
+}
+
+/// Answers a question and has the answer proved again if `check` says so; `step` is called after each valence.
+///
+/// # Errors
+/// The [`Problem`] of the model, or of a certificate that the checker does not accept.
+pub fn answered(
+    question: &Question,
+    check: bool,
+    budget: &Budget,
+    step: &(dyn Fn() + Sync),
+) -> Result<Answered, Problem> {
+    let mut findings = prove_with(question, budget, step)?;
+    let decided = match &findings {
+        Findings::Tangents { found, .. } => found.verdict != Verdict::Undetermined,
+        Findings::Vertices { found, .. } => !found.is_empty(),
+    };
+    let evidence = if check && decided {
+        Some(match confirm(&mut findings) {
+            Ok(certificate) => Ok(certificate),
+            Err(Doubt::Unsupported(unsupported)) => Err(unsupported),
+            Err(doubt) => return Err(rejected(findings.name(), &doubt)),
+        })
+    } else {
+        None
+    };
+    Ok(Answered { findings, evidence })
+}
+
+/// A certificate that the checker does not accept.
+fn rejected(case: &str, doubt: &Doubt) -> Problem {
+    Problem::new("secant::certificate::rejected", format!("{case}: {doubt}"))
+        .with_help("this is a mistake in secant: please report it with the case; --no-check leaves the check out")
+}
+
+impl Answered {
+    /// Whether the checker proved every decided verdict again.
+    pub fn checked(&self) -> Checked {
+        match (&self.findings, &self.evidence) {
+            (_, None) => Checked::NotAsked,
+            (_, Some(Err(_))) => Checked::NoRule,
+            (Findings::Tangents { .. }, Some(Ok(_))) => Checked::Yes,
+            (Findings::Vertices { found, every, .. }, Some(Ok(_))) => {
+                let mut decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined);
+                let all = every.is_none() && decided.all(|f| f.again == Again::Proved);
+                if all { Checked::Yes } else { Checked::NoRule }
+            }
+        }
+    }
+
+    /// The certificate that was accepted, or one that was not shown to the checker.
+    ///
+    /// # Errors
+    /// A [`Problem`] where the format has no rule for some evidence.
+    pub fn certificate(&self) -> Result<Certificate, Problem> {
+        let written = self.evidence.clone().unwrap_or_else(|| unconfirmed(&self.findings));
+        written.map_err(|unsupported| {
+            Problem::new("secant::certificate::none", unsupported.to_string())
+                .with_help("see docs/certificate.md, “What is not covered”; nothing was written")
+        })
+    }
+
+    /// The JSON report, with what the checker said.
+    pub fn json(&self) -> Value {
+        let mut report = findings::json(&self.findings);
+        let why = match &self.evidence {
+            None => Some(NOT_ASKED.to_owned()),
+            Some(Err(unsupported)) => Some(unsupported.to_string()),
+            Some(Ok(_)) if self.checked() == Checked::Yes => None,
+            Some(Ok(_)) => Some("some of the verdicts have no rule in the certificate format".to_owned()),
+        };
+        report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});
+        report
+    }
+
+    /// The kinds of the examined points, or the verdicts at the valences, each with its number.
+    pub fn kinds(&self) -> Vec<String> {
+        match &self.findings {
+            Findings::Tangents { found, .. } => kinds(found),
+            Findings::Vertices { found, .. } => counted(found.iter().map(|f| match f.smooth {
+                Verdict::Proved => "C¹ valence",
+                Verdict::Refuted => "valence not C¹",
+                Verdict::Undetermined => "open valence",
+            })),
+        }
+    }
+}
+
+fn kinds(found: &Certified) -> Vec<String> {
+    let surface = found.surface.iter().flat_map(|s| &s.points).map(|p| match p.verdict {
+        Verdict::Proved => "tangent plane",
+        Verdict::Refuted => "no tangent plane",
+        Verdict::Undetermined => "undetermined",
+    });
+    counted(surface.chain(found.points.iter().map(|p| p.kind.word())))
+}
+
+fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut counted: Vec<(&str, usize)> = Vec::new();
+    for word in items {
+        match counted.iter_mut().find(|(w, _)| *w == word) {
+            Some((_, n)) => *n += 1,
+            None => counted.push((word, 1)),
+        }
+    }
+    counted.into_iter().map(|(w, n)| if n == 1 { w.to_owned() } else { format!("{n} {w}") }).collect()
+}

@@ -1,0 +1,44 @@
+//! Defects of the program itself, caught at the door: they cost the one result that they spoil, not all of them.
+
+use crate::diagnostic::Problem;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Runs a piece of work whose failure must not take anything else with it: a panic becomes a [`Problem`] with the code
+/// [`Problem::INTERNAL`], and no result.
+///
+/// The work must leave nothing half-done that others see; secant's caches are filled by whole entries only. Stack overflow and
+/// lack of memory end the process and are not caught.
+///
+/// # Errors
+/// The problem of the work itself, or that of its panic.
+pub fn guarded<T>(work: impl FnOnce() -> Result<T, Problem>) -> Result<T, Problem> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|payload| Err(defect(payload.as_ref())))
+}
+
+fn defect(payload: &(dyn Any + Send)) -> Problem {
+    let said = payload.downcast_ref::<&str>().map(|s| (*s).to_owned()).or_else(|| payload.downcast_ref().cloned());
+    let said: String = said.unwrap_or_else(|| "no reason was given".to_owned());
+    Problem::new(Problem::INTERNAL, format!("internal error, no verdict: {said}"))
+        .with_help("this is a mistake in secant: please report it with the case")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_a_problem_of_its_own() {
+        let problem = guarded(|| -> Result<(), Problem> { panic!("at {}", 7) }).expect_err("it panics");
+        assert!(problem.is_internal() && problem.message().ends_with("at 7"), "{problem:?}");
+        let problem = guarded(|| -> Result<(), Problem> { panic!("plain") }).expect_err("it panics");
+        assert!(problem.is_internal() && problem.message().ends_with("plain"), "{problem:?}");
+    }
+
+    #[test]
+    fn everything_else_passes() {
+        assert_eq!(guarded(|| Ok(3)).ok(), Some(3));
+        let problem = guarded(|| -> Result<(), _> { Err(Problem::new("secant::case::sum", "no")) });
+        assert!(problem.is_err_and(|p| !p.is_internal() && p.id() == "secant::case::sum"));
+    }
+}

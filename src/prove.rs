@@ -1,0 +1,110 @@
+//! The one door: a question in, findings out, for the library, the command line, the gallery and the tests.
+
+mod findings;
+mod model;
+
+pub use findings::{Findings, confirm, unconfirmed};
+pub use model::model_problem;
+
+use crate::budget::Budget;
+use crate::case::{Question, Valences, VertexCase};
+use crate::diagnostic::Problem;
+use crate::theorem::surface::certify_complex_within;
+use crate::vertex::{AtValence, Every, at_valence_within, every};
+use std::sync::Arc;
+
+/// Answers a question: the verdict depends on the case and the budget only.
+///
+/// # Errors
+/// A [`Problem`] where the shape is no model (pieces that do not meet, a product that expands), where no valence is named, or
+/// where nothing is known of the valences.
+///
+/// # Examples
+/// ```
+/// use secant::prelude::*;
+///
+/// let question = Question::read("cases/surfaces/bicubic-space.toml".as_ref())?;
+/// assert_eq!(prove(&question, &Budget::default())?.verdict(), Verdict::Proved);
+/// # Ok::<(), Problem>(())
+/// ```
+pub fn prove(question: &Question, budget: &Budget) -> Result<Findings, Problem> {
+    prove_with(question, budget, &|| {})
+}
+
+/// As [`prove`]; `step` is called after each valence, from any thread.
+///
+/// # Errors
+/// As [`prove`].
+pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Findings, Problem> {
+    match question {
+        Question::Tangents { case, further } => {
+            let addresses = [case.examine.as_slice(), further].concat();
+            let found = certify_complex_within(&case.complex(), &addresses, budget)
+                .map_err(|error| model_problem(case, &error))?;
+            Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
+        }
+        Question::Vertices { case, valences } => {
+            let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, budget, step)?;
+            Ok(Findings::Vertices { case: Arc::clone(case), found, every })
+        }
+    }
+}
+
+fn no_valence() -> Problem {
+    Problem::new("secant::usage::valence", "no valence is given")
+        .with_help("add --valence 3..32, or a line such as  valence = \"3..32\"  to the [vertex] table")
+}
+
+/// What is found at the valences that were asked for; for all of them, the common proof and the small ones it leaves out.
+fn at_valences(
+    case: &VertexCase,
+    asked: &Valences,
+    budget: &Budget,
+    step: &(dyn Fn() + Sync),
+) -> Result<(Vec<AtValence>, Option<Every>), Problem> {
+    match asked {
+        Valences::List(list) => Ok((examine(case, list, budget, step)?, None)),
+        Valences::All => {
+            let every = all_at_once(case)?;
+            let rest: Vec<usize> = (3..every.from).collect();
+            Ok((examine(case, &rest, budget, step)?, Some(every)))
+        }
+    }
+}
+
+/// The proof for all valences from some valence on.
+fn all_at_once(case: &VertexCase) -> Result<Every, Problem> {
+    let found = every(&case.rule)
+        .map_err(|error| Problem::new("secant::scheme", format!("{}: {error}", case.name)).with_source(&case.text))?;
+    found.ok_or_else(|| {
+        let message = format!("no proof for all valences at once is known for {}", case.scheme);
+        Problem::new("secant::usage::valence", message).with_help(
+            "there is one for catmull-clark, loop, loop-warren, doo-sabin, doo-sabin-catmull-clark and midedge; give a \
+             range such as --valence 3..32",
+        )
+    })
+}
+
+fn examine(
+    case: &VertexCase,
+    list: &[usize],
+    budget: &Budget,
+    step: &(dyn Fn() + Sync),
+) -> Result<Vec<AtValence>, Problem> {
+    let one = |&n: &usize| {
+        let found = at_valence_within(&case.rule, n, budget);
+        step();
+        found.map_err(|error| {
+            Problem::new("secant::scheme", format!("{} at valence {n}: {error}", case.name)).with_source(&case.text)
+        })
+    };
+    // The first problem in the order of the valences, whichever thread is the first to find one.
+    #[cfg(feature = "parallel")]
+    let all: Vec<Result<AtValence, Problem>> = {
+        use rayon::prelude::*;
+        list.par_iter().map(one).collect()
+    };
+    #[cfg(not(feature = "parallel"))]
+    let all: Vec<Result<AtValence, Problem>> = list.iter().map(one).collect();
+    all.into_iter().collect()
+}

@@ -1,0 +1,121 @@
+//! What was found, and having it proved again.
+
+use crate::answer::Verdict;
+use crate::case::{Case, VertexCase};
+use crate::certificate::{self, Certificate, Doubt, Unsupported};
+use crate::diagnostic::SourceText;
+use crate::theorem::{Assertion, Certified, Claim, Reason};
+use crate::vertex::{AtValence, Every, overall};
+use std::sync::Arc;
+
+/// What was found for a question.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Findings {
+    /// The tangents of a shape.
+    Tangents {
+        /// The case.
+        case: Arc<Case>,
+        /// The claims and their evidence.
+        found: Box<Certified>,
+    },
+    /// Smoothness at the vertices of a mesh.
+    Vertices {
+        /// The case.
+        case: Arc<VertexCase>,
+        /// What holds at single valences, in ascending order.
+        found: Vec<AtValence>,
+        /// The common proof for all valences from some valence on, where all were asked for.
+        every: Option<Every>,
+    },
+}
+
+impl Findings {
+    /// The verdict on all claims together: refuted if one is refuted, proved if there are claims and all are proved.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Self::Tangents { found, .. } => found.verdict,
+            Self::Vertices { found, every, .. } => overall(found, every.as_ref()),
+        }
+    }
+
+    /// The name of the case.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Tangents { case, .. } => &case.name,
+            Self::Vertices { case, .. } => &case.name,
+        }
+    }
+
+    /// One line for people.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        match self {
+            Self::Tangents { case, .. } => &case.title,
+            Self::Vertices { case, .. } => &case.title,
+        }
+    }
+
+    /// The file of the case.
+    #[must_use]
+    pub fn text(&self) -> &SourceText {
+        match self {
+            Self::Tangents { case, .. } => &case.text,
+            Self::Vertices { case, .. } => &case.text,
+        }
+    }
+
+    /// Everything that is claimed, in the order of the reports. At the vertices of a mesh, smoothness is claimed; whether
+    /// there is a tangent plane where it fails is said beside it.
+    #[must_use]
+    pub fn claims(&self) -> Vec<Claim> {
+        match self {
+            Self::Tangents { found, .. } => found.claims.clone(),
+            Self::Vertices { found, every, .. } => {
+                let common = every.iter().map(|e| {
+                    let verdict = if e.proved() { Verdict::Proved } else { Verdict::Undetermined };
+                    Claim::as_found(Assertion::C1AtVertices { from: e.from }, verdict, None, Reason::Conditions)
+                });
+                let single = found.iter().map(|f| {
+                    let what = Assertion::C1AtVertex { valence: f.valence };
+                    Claim::as_found(what, f.smooth, None, Reason::Valence(f.valence))
+                });
+                common.chain(single).collect()
+            }
+        }
+    }
+}
+
+/// Writes the certificate of what was found and has it proved again by the independent checker, which reads the case itself.
+///
+/// # Errors
+/// [`Doubt::Unsupported`] where the format has no rule for some evidence, or nothing is decided; the other doubts where the
+/// checker does not accept the certificate, which is a mistake in secant.
+///
+/// # Cost
+/// That of [`secant_check::check`].
+pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
+    match findings {
+        Findings::Tangents { case, found } => certificate::confirm(case, found),
+        Findings::Vertices { case, found, .. } => {
+            certificate::confirm_vertices(case, found)?.ok_or_else(|| none().into())
+        }
+    }
+}
+
+/// The certificate of what was found, which nobody has checked yet.
+///
+/// # Errors
+/// [`Unsupported`] as for [`confirm`].
+pub fn unconfirmed(findings: &Findings) -> Result<Certificate, Unsupported> {
+    match findings {
+        Findings::Tangents { case, found } => certificate::certificate(case, found),
+        Findings::Vertices { case, found, .. } => certificate::vertex_certificate(case, found).ok_or_else(none),
+    }
+}
+
+fn none() -> Unsupported {
+    Unsupported { what: "these vertices".to_owned(), place: "valences".to_owned() }
+}

@@ -1,0 +1,187 @@
+//! The words of claims and of the reasons why they are refuted or open: the only place where they are written.
+
+use crate::case::Case;
+use crate::theorem::surface::Surface;
+use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, PointReport, Reason, Role, Seen, Verdict};
+use crate::vertex::AtValence;
+
+/// What is claimed, as a sentence without a capital and a full stop.
+#[must_use]
+pub fn assertion(what: &Assertion) -> String {
+    let text = match what {
+        Assertion::Tangents => "the shape has tangents",
+        Assertion::TangentAtEnds => "the curve has a tangent line at both end points",
+        Assertion::TangentDense => "the curve has a tangent at a dense set of points",
+        Assertion::DenseJoints => "the curve has a tangent line at every joint of every level, a dense set",
+        Assertion::ExaminedJoints => "the curve has a tangent line at each of the joints examined below",
+        Assertion::ProjectedJoints => {
+            "the projected curve has a tangent line at every joint whose tangent line before the projection is not killed by it; \
+             in every cell that is more than a point there are such joints"
+        }
+        Assertion::SeenJoints => {
+            "the curve has a tangent line at every joint of every level between pieces that are more than a point where it is \
+             looked at; these are dense in every cell that is more than a point"
+        }
+        Assertion::UnkilledJoints => {
+            "the curve has a tangent line at every joint whose tangent line is not killed on the way to where it is looked at; \
+             in every cell that is more than a point there are such joints"
+        }
+        Assertion::TangentAt { address, about, .. } => {
+            return match about {
+                About::Branch => format!(
+                    "the germ of the branch {address} has a tangent line (other addresses of the same point are not looked at)"
+                ),
+                About::Shape => format!("the shape has a tangent line at the address {address}"),
+                About::Curve => format!("the parametrised curve has a tangent line at the address {address}"),
+            };
+        }
+        Assertion::SomePoint => "some point of the shape has a tangent line",
+        Assertion::G1 => "the curve is G¹: it has a tangent at every point, which turns continuously",
+        Assertion::Smooth { order } => return format!("the curve is C^{order} in the uniform parameter"),
+        Assertion::PlaneAtVertices => {
+            "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)"
+        }
+        Assertion::DensePlanes { seen } => match seen {
+            Seen::Injective => {
+                "the surface has a tangent plane at a dense set of points: at the image of a vertex inside every cell"
+            }
+            Seen::Projected => {
+                "the surface has a tangent plane at the image of the vertex inside a cell wherever the control points do not fold \
+                 the plane before the projection"
+            }
+            Seen::Everywhere => {
+                "the surface has a tangent plane at the image of the vertex inside a cell wherever the control points do not fold \
+                 the plane before the projection; every cell contains such a vertex, so that they are dense"
+            }
+        },
+        Assertion::PlaneAt { address, about, .. } => {
+            return match about {
+                AboutPlane::Surface => format!("the parametrised surface has a tangent plane at the address {address}"),
+                AboutPlane::Crowded => {
+                    format!("the germ of the branch {address} has a tangent plane (too many cells meet there)")
+                }
+                AboutPlane::Branch => format!(
+                    "the germ of the branch {address} has a tangent plane (other addresses of the same point are not looked at)"
+                ),
+            };
+        }
+        Assertion::C1AtVertex { valence } => {
+            return format!("for almost all control points the surface is C¹ at a vertex of valence {valence}");
+        }
+        Assertion::PlaneAtVertex { valence } => {
+            return format!(
+                "for almost all control points the surface has a tangent plane at a vertex of valence {valence}"
+            );
+        }
+        Assertion::C1AtVertices { from } => {
+            return format!(
+                "for almost all control points the surface is C¹ at the vertices of every valence from {from} on"
+            );
+        }
+    };
+    text.to_owned()
+}
+
+/// A claim with its verdict, as a sentence that follows a mark: "it is false that …", "whether …".
+#[must_use]
+pub fn judged(claim: &Claim) -> String {
+    let text = assertion(&claim.what);
+    match claim.verdict() {
+        Verdict::Proved => text,
+        Verdict::Refuted => format!("it is false that {text}"),
+        Verdict::Undetermined => format!("whether {text}"),
+    }
+}
+
+/// Why a claim is refuted or open; `None` where it is proved.
+#[must_use]
+pub fn reason(case: &Case, found: &Certified, claim: &Claim) -> Option<String> {
+    claim.reason().map(|reason| sentence(case, found, claim.verdict(), reason))
+}
+
+/// The same of a claim about the vertices of a mesh.
+#[must_use]
+pub fn reason_at_vertices(found: &[AtValence], claim: &Claim) -> Option<String> {
+    let said = |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| f.reason.clone());
+    claim.reason().map(|reason| match reason {
+        Reason::Valence(n) => said(*n),
+        Reason::Conditions => "a condition of the proof for all valences is not shown to hold".to_owned(),
+        _ => unknown(),
+    })
+}
+
+fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -> String {
+    let refuted = verdict == Verdict::Refuted;
+    let either = |no: &str, open: &str| if refuted { no.to_owned() } else { open.to_owned() };
+    match reason {
+        Reason::Contraction { length, open } => {
+            format!("contraction is not decided: {open} words of length {length} are left")
+        }
+        Reason::NotEnclosed { radius, length, open } => format!(
+            "the system contracts (the joint spectral radius of its linear parts is at most {}), but the 1-norm does not show it: \
+             {open} words of length {length} are left, and without them the attractor is not enclosed",
+            super::radius::decimal(radius, true, 6)
+        ),
+        Reason::SinglePoint => "the attractor is a single point".to_owned(),
+        Reason::Unexamined => "a point that belongs to the claim could not be examined".to_owned(),
+        Reason::End(index) => match found.points.get(*index) {
+            Some(point) => {
+                let side = if point.role == Role::LeftEnd { "left" } else { "right" };
+                format!("{side} end: {}", of_point(point))
+            }
+            None => unknown(),
+        },
+        Reason::Point(index) => found.points.get(*index).map_or_else(unknown, of_point),
+        Reason::NoJoint => "no joint between pieces that are more than a point".to_owned(),
+        Reason::FirstJoint(_) => either("a first-level joint has no tangent", "a first-level joint is not decided"),
+        Reason::Joint(_) => either("a joint of a deeper level has no tangent", "a joint is not decided"),
+        Reason::NotInjective { .. } => {
+            "an operator is not injective on the relevant space: only the joints listed were examined".to_owned()
+        }
+        Reason::BeforeProjection { .. } => {
+            "the projection is not injective, and before it a first-level joint is not proved".to_owned()
+        }
+        Reason::NoSpan => {
+            "the projection is not injective, and the tangent lines at the joints were not seen to span the \
+                           relevant space"
+                .to_owned()
+        }
+        Reason::Similarities => {
+            "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
+        }
+        Reason::TooManyCells => "there are too many cells around a vertex".to_owned(),
+        Reason::SurfaceNotInjective { .. } => "an operator is not injective on the visible relevant space".to_owned(),
+        Reason::SurfacePoint(_) | Reason::SurfaceVertex(_) | Reason::VertexInside(_) => {
+            found.surface.as_ref().map_or_else(unknown, |surface| of_surface(case, surface, reason))
+        }
+        Reason::Valence(_) | Reason::Conditions => unknown(),
+    }
+}
+
+fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
+    let said = |reason: &Option<String>| reason.clone().unwrap_or_else(unknown);
+    match reason {
+        Reason::SurfacePoint(index) => surface.points.get(*index).map_or_else(unknown, |p| said(&p.reason)),
+        Reason::SurfaceVertex(index) => match surface.points.get(*index).map(|p| (p, p.branches.first())) {
+            Some((point, Some(branch))) => format!("at {}: {}", branch.address, said(&point.reason)),
+            _ => unknown(),
+        },
+        Reason::VertexInside(index) => match surface.dense.as_ref().and_then(|d| d.vertices.get(*index)) {
+            Some((state, point)) => {
+                let name = &case.shape.states[*state].name;
+                format!("at the vertices inside state `{name}`: {}", said(&point.reason))
+            }
+            None => unknown(),
+        },
+        _ => unknown(),
+    }
+}
+
+fn of_point(point: &PointReport) -> String {
+    point.reason.clone().unwrap_or_else(unknown)
+}
+
+/// Evidence always says why it does not prove; this stands where it would not.
+fn unknown() -> String {
+    "no reason was given".to_owned()
+}

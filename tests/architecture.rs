@@ -1,0 +1,102 @@
+//! The table of ARCHITECTURE.md is what the imports say, and data flows one way: a module uses only modules above it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// The modules of the crate `secant-exact`, which the library shows as its own.
+const EXACT: [&str; 5] = ["algebraic", "arith", "jordan", "linalg", "poly"];
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn sources(dir: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, found);
+        } else if path.extension().is_some_and(|e| e == "rs") && !path.ends_with("tests.rs") {
+            found.push(path);
+        }
+    }
+}
+
+/// The code of a file without its comments and its tests.
+fn code(path: &Path) -> String {
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.split("\nmod tests {").next().unwrap();
+    text.lines().filter(|l| !l.trim_start().starts_with("//")).map(|l| format!("{l}\n")).collect()
+}
+
+/// The names that follow `crate::` in a text, also in braces.
+fn imported(text: &str) -> BTreeSet<String> {
+    let word = |s: &str| s.chars().take_while(|c| c.is_ascii_lowercase() || *c == '_').collect::<String>();
+    let mut all = BTreeSet::new();
+    for rest in text.split("crate::").skip(1) {
+        match rest.strip_prefix('{') {
+            Some(list) => all.extend(list.split('}').next().unwrap().split(',').map(|part| word(part.trim()))),
+            None => drop(all.insert(word(rest))),
+        }
+    }
+    all.remove("");
+    all
+}
+
+/// What each module of the library uses of the others.
+fn imports() -> BTreeMap<String, BTreeSet<String>> {
+    let mut files = Vec::new();
+    sources(&root().join("src"), &mut files);
+    let mut all: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+    for file in &files {
+        let inside = file.strip_prefix(root().join("src")).unwrap();
+        let module = inside.components().next().unwrap().as_os_str().to_string_lossy().replace(".rs", "");
+        if module != "lib" && module != "main" {
+            all.entry(module).or_default().extend(imported(&code(file)));
+        }
+    }
+    for (module, uses) in &mut all {
+        uses.remove(module);
+        if EXACT.iter().any(|m| uses.remove(*m)) {
+            EXACT.iter().for_each(|m| {
+                uses.remove(*m);
+            });
+            uses.insert("exact".to_owned());
+        }
+    }
+    all
+}
+
+/// The rows of the table: modules in backticks, and what they depend on.
+fn table() -> Vec<(String, BTreeSet<String>)> {
+    let text = std::fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let rows = text.lines().skip_while(|l| !l.starts_with("| module |")).skip(2).take_while(|l| l.starts_with('|'));
+    let ticked = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<BTreeSet<String>>();
+    rows.map(|row| {
+        let cells: Vec<&str> = row.trim_matches('|').split(" | ").collect();
+        assert_eq!(cells.len(), 3, "{row}");
+        (ticked(cells[0]).into_iter().next().unwrap(), ticked(cells[2]))
+    })
+    .collect()
+}
+
+#[test]
+fn the_table_is_what_the_imports_say() {
+    let (imports, table) = (imports(), table());
+    let modules: BTreeSet<&String> = imports.keys().collect();
+    let rows: BTreeSet<&String> = table.iter().map(|(m, _)| m).filter(|m| *m != "exact").collect();
+    assert_eq!(rows, modules);
+    for (module, uses) in table.iter().filter(|(m, _)| m != "exact") {
+        assert_eq!(uses, &imports[module], "row of `{module}`: left the table, right the imports");
+    }
+}
+
+#[test]
+fn data_flows_one_way() {
+    let table = table();
+    for (k, (module, uses)) in table.iter().enumerate() {
+        for used in uses {
+            let at = table.iter().position(|(m, _)| m == used);
+            assert!(at.is_some_and(|at| at < k), "`{module}` uses `{used}`, which does not stand above it");
+        }
+    }
+}
