@@ -683,6 +683,22 @@ def positive(gram, n):
     return h
 
 
+def linked(model, start, lists):
+    """Pairs of addresses of one point join the pieces of each state that is reached: its attractor is connected."""
+    order = [start]
+    for e in order:
+        order += [t for t in dict.fromkeys(p[0] for p in model.states[e][1]) if t not in order]
+    need(isinstance(lists, list) and len(lists) == len(order), "links")
+    for e, pairs in zip(order, lists):
+        part = list(range(len(model.states[e][1])))
+        for pair in pairs:
+            a, b = (address(x) for x in pair)
+            need(model.point(e, a) == model.point(e, b), "links")
+            old, new = part[letter(b, 0)], part[letter(a, 0)]
+            part = [new if p == old else p for p in part]
+        need(len(set(part)) == 1, "links")
+
+
 # ---- rules for a branch ----------------------------------------------------------------------------------------------
 
 class Line:
@@ -710,7 +726,8 @@ class Branch:
             "corollary-line": [], "corollary": ["top"], "null-point": ["top", "functional", "address"],
             "sign-change": ["top", "functional", "isolation", "positive", "negative"],
             "orbit": ["top", "address", "own"], "direction": ["top"],
-            "crossing": ["top", "second", "first", "positive", "negative", "cover"]}
+            "crossing": ["top", "second", "first", "positive", "negative", "cover"],
+            "leading-sign": ["top", "functional", "radius", "rows", "cover", "positive", "negative", "links"]}
         rule = value.get("rule") if isinstance(value, dict) else None
         need(rule in rules, "format")
         _, *rest = fields(value, "rule", *rules[rule])
@@ -792,6 +809,44 @@ class Branch:
         self.changing_part(row, positive_point, negative_point)
         germ.cover([(germ.on_points(r), Q(0)) for r in echelon(germ.falls)[0]], isolation)
         self.injective()
+
+    def leading_sign(self, top, functional, radius, rows, cover, positive_point, negative_point, links):
+        row, germ, model = self.leading_row(top, functional), self.germ, self.germ.model
+        if links is None:
+            self.changing_part(row, positive_point, negative_point)
+        else:
+            pieces = []
+            for value, sign in ((positive_point, 1), (negative_point, -1)):
+                y, addr = germ.placed_point(value)[0], address(value)
+                need(i_sign(self.field.value(weighted(y, row))) == sign, "sign-change")
+                pieces.append(next(p for p in germ.ring if [letter(addr, k) for k in range(len(p[0]))] == p[0]))
+            need(pieces[0][0] == pieces[1][0], "sign-change")
+            linked(model, pieces[0][1], links)
+        r, rows = rational(radius), [vector(v, germ.n) for v in rows]
+        need(r > 0 and rows, "disc")
+        space, pivots = echelon(rows)
+        images = mul(space, germ.linear)
+        inner = [[v[p] for p in pivots] for v in images]
+        need(mul(inner, space) == images, "group")
+        outside = lambda m: len(m) - inside([c * r ** k for k, c in enumerate(characteristic(m))])
+        need(len(space) == outside(germ.linear) == outside(inner), "group")
+        germ.cover([(germ.on_points(v), Q(0)) for v in rows], cover)
+        # The sum of the eigenspaces outside is the image of the characteristic polynomial of L on the common kernel.
+        image, free = identity(germ.n), [k for k in range(germ.n) if k not in pivots]
+        if free:
+            kernel = []
+            for j in free:
+                v = [Q(int(k == j)) for k in range(germ.n)]
+                for s, p in zip(space, pivots):
+                    v[p] = -s[j]
+                kernel.append(v)
+            own = transpose([[apply(germ.linear, v)[j] for j in free] for v in kernel])
+            image = [[Q(0)] * germ.n for _ in range(germ.n)]
+            for c in reversed(characteristic(own)):
+                image = mul(image, germ.linear)
+                for k in range(germ.n):
+                    image[k][k] += c
+        need(len(echelon(mul(germ.view, image))[0]) == len(space), "leading-sign")
 
     def direction(self, top):
         self.leading(top)

@@ -14,7 +14,9 @@ use serde_json::{Value, json};
 pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) -> Option<usize>) -> Option<Value> {
     let every = found.everywhere.as_ref()?;
     let witness: Vec<usize> = every.witness.and_then(|k| position(&found.points[k])).into_iter().collect();
-    if every.witness.is_some() && witness.is_empty() {
+    // The format has no rule for derivatives of polynomial curves.
+    let left_out = every.witness.is_some() || every.hodograph.is_some();
+    if left_out && witness.is_empty() {
         return None;
     }
     if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {

@@ -2,6 +2,7 @@
 //!
 //! The writer only collects what the theorem checker found. Whether it proves anything is decided by `secant-check`, which
 //! shares no code with this crate.
+#![deny(clippy::disallowed_methods)]
 
 mod branch;
 mod confirm;
@@ -26,7 +27,7 @@ pub use vertex::{confirm_vertices, vertex_certificate};
 
 use crate::arith::Rational;
 use crate::case::Case;
-use crate::shape::{Address, CellKind, Contraction, Shape};
+use crate::shape::{Address, CellKind, Contraction, HullWeights, Shape};
 use crate::theorem::{Assertion, Certified, Claim, PointReport, Role, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
@@ -111,7 +112,8 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
         return surface::surface(case, found, found_surface);
     }
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
-    let states = contraction(&case.shape, &found.contraction, radii, found.polygons.as_deref())?;
+    let hulls = found.polygons.as_deref().map(|polygons| (polygons, found.polygon_weights.as_ref()));
+    let states = contraction(&case.shape, &found.contraction, radii, hulls)?;
     let mut points = Points { case, places: Vec::new(), json: Vec::new() };
     for point in &found.points {
         points.add(point)?;
@@ -126,7 +128,7 @@ fn contraction<'a>(
     shape: &Shape,
     found: &Contraction,
     radii: impl Iterator<Item = (usize, &'a Rational)>,
-    polygons: Option<&[Vec<Vec<Rational>>]>,
+    polygons: Option<(&[Vec<Vec<Rational>>], Option<&HullWeights>)>,
 ) -> Result<Value, Unsupported> {
     let mut states = Vec::new();
     for (state, radius) in radii {
@@ -135,7 +137,11 @@ fn contraction<'a>(
             Contraction::Polytopes(proof) => hull::polytope(proof, state),
             _ => return unsupported("a system whose contraction is not proved", "contraction"),
         };
-        let hull = polygons.map_or(Ok(Value::Null), |polygons| hull::hull(shape, state, polygons))?;
+        let hull = match polygons {
+            Some((polygons, Some(weights))) => hull::with_weights(&polygons[state], &weights[state]),
+            Some((polygons, None)) => hull::hull(shape, state, polygons)?,
+            None => Value::Null,
+        };
         states.push(json!({"state": state, "radius": number(radius), "code": code, "hull": hull}));
     }
     Ok(Value::Array(states))

@@ -409,7 +409,7 @@ impl CommonCone {
     fn best_rate(&self, shape: &Shape) -> Option<ConeRate> {
         let pieces = most_pieces(shape);
         let states = shape.reachable().len();
-        let rays = self.cones.iter().map(|c| c.rays.cols()).max().unwrap_or(1);
+        let rays = self.cones.iter().map(|c| c.rays.cols()).fold(1, usize::max);
         let mut best: Option<(Rational, ConeRate)> = None;
         for length in 1..=MAX_RATE_LENGTH {
             let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
@@ -438,7 +438,7 @@ const MAX_RATE_LENGTH: u32 = 3;
 /// The largest number of pieces of a state.
 #[must_use]
 pub fn most_pieces(shape: &Shape) -> usize {
-    shape.reachable().iter().map(|e| shape.states[*e].pieces.len()).max().unwrap_or(1)
+    shape.reachable().iter().map(|e| shape.states[*e].pieces.len()).fold(1, usize::max)
 }
 
 /// A short number not below one that is at least 1.

@@ -7,7 +7,7 @@ use super::verdict::{Certified, DenseSet, PointReport, Role};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::answer::Verdict;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, closures};
 use crate::shape::CellKind;
 use crate::statement::Statement;
 
@@ -141,26 +141,19 @@ fn tangents_span(cx: &Context, upstairs: &[PointReport]) -> bool {
         let lines = upstairs.iter().filter(at_home).filter_map(|p| p.tangent.as_ref()?.rational());
         spans[e] = Matrix::from_rows(dimension(e), lines.collect()).echelon().rows;
     }
-    loop {
-        let mut grown = false;
-        for &e in &reachable {
-            for piece in &cx.shape.states[e].pieces {
-                let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
-                // `onto` factors through the quotient: solve A visible(target) = visible(e) T.
-                let Some(on_quotient) = cx.spaces.of(piece.target).visible.transpose().solve(&onto.transpose()) else {
-                    return false;
-                };
-                let joined = spans[e].stack(&(&spans[piece.target] * &on_quotient)).echelon().rows;
-                if joined.rows() > spans[e].rows() {
-                    spans[e] = joined;
-                    grown = true;
-                }
-            }
-        }
-        if !grown {
-            return reachable.iter().all(|&e| spans[e].rows() == dimension(e));
+    let mut arrows = Vec::new();
+    for &e in &reachable {
+        for piece in &cx.shape.states[e].pieces {
+            let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
+            // `onto` factors through the quotient: solve A visible(target) = visible(e) T.
+            let Some(on_quotient) = cx.spaces.of(piece.target).visible.transpose().solve(&onto.transpose()) else {
+                return false;
+            };
+            arrows.push((piece.target, e, on_quotient));
         }
     }
+    let spans = closures(spans, &arrows);
+    reachable.iter().all(|&e| spans[e].rows() == dimension(e))
 }
 
 /// Joints of the levels after the first, in breadth-first order.

@@ -3,6 +3,7 @@
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
+use super::hodograph::{Hodograph, hodograph};
 use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
@@ -24,14 +25,16 @@ pub struct Everywhere {
     pub seen: bool,
     /// The first-level joints of all reachable states, where cones were found.
     pub joints: Vec<EveryJoint>,
-    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where no cones were found.
-    pub derivative: Option<Box<CurveOrder>>,
     /// A lower bound of the Hölder exponent of the tangent in the uniform parameter, where cones shrink geometrically.
     pub exponent: Option<Rational>,
     /// A cycle that admits no strictly invariant cone.
     pub obstacle: Option<ConeObstacle>,
     /// The index in [`Certified::points`] of a point that refutes G¹.
     pub witness: Option<usize>,
+    /// The derivative of a polynomial curve, where it decides.
+    pub hodograph: Option<Hodograph>,
+    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
+    pub derivative: Option<Box<CurveOrder>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<String>,
 }
@@ -70,11 +73,46 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
     let hopeless = cx.shape.control.is_none() && found.points.iter().any(has_no_cone) || found.similarities.is_some();
     let answer =
         if hopeless { Some(ConeAnswer::Undetermined) } else { common_cone(cx.shape, cx.spaces, cx.budget.cone_steps) };
-    Some(match answer? {
+    let every = match answer? {
         ConeAnswer::Proved(cone) => with_cone(cx, found, cone),
         ConeAnswer::Refuted(obstacle) => without_cone(cx, found, Some(obstacle)),
         ConeAnswer::Undetermined => without_cone(cx, found, None),
-    })
+    };
+    let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
+    Some(if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every })
+}
+
+/// Decides G¹ of a polynomial curve by the zeros of its derivative.
+fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Everywhere {
+    let Some(hodograph) = hodograph(cx) else { return every };
+    let (verdict, reason) = match hodograph.turns.first() {
+        None => (Verdict::Proved, None),
+        Some(turn) => (Verdict::Refuted, Some(hodograph.reason(turn))),
+    };
+    let address = hodograph.turns.iter().find_map(|turn| hodograph.address(cx, turn));
+    let spec =
+        address.and_then(|a| a.normalise(cx.shape, cx.from.root()).ok()).and_then(|a| point::address_spec(cx, &a));
+    let known = spec.as_ref().and_then(|s| {
+        found.points.iter().position(|p| p.role == s.role && p.branches.iter().all(|b| b.address == s.branches[0].1))
+    });
+    let witness = known.or_else(|| add_point(cx, spec, found)).filter(|&k| breaks(&found.points[k]));
+    Everywhere { verdict, reason, witness, hodograph: Some(hodograph), ..every }
+}
+
+/// Largest number of coordinates of a state, and most states, for which this is tried.
+const MAX_GRAPH: (usize, usize) = (12, 6);
+
+/// Proves G¹ of a curve that is a graph over its uniform parameter.
+fn as_graph(cx: &Context, every: Everywhere) -> Everywhere {
+    let states = cx.shape.reachable();
+    let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
+    let order = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
+    match order {
+        Some(order) if every.witness.is_none() => {
+            Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(order)), ..every }
+        }
+        _ => every,
+    }
 }
 
 /// Whether a point contradicts invariant cones.
@@ -104,10 +142,11 @@ fn broken(p: &PointReport) -> String {
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
     let witness = found.points.iter().position(breaks);
-    let joints = if witness.is_none() { joints(cx, found) } else { None };
+    let examined = if witness.is_none() { joints(cx, found) } else { Some(Vec::new()) };
+    let complete = examined.is_some();
+    let joints = examined.unwrap_or_else(Vec::new);
     let regular = |p: &PointReport| p.verdict == Verdict::Proved && p.kind == Kind::Regular;
-    let agree = joints.as_ref().is_some_and(|all| all.iter().all(|j| regular(j.report(found))));
-    let joints = joints.unwrap_or_else(Vec::new);
+    let agree = complete && joints.iter().all(|j| regular(j.report(found)));
     let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
         Some(k) => (Verdict::Refuted, Some(broken(&found.points[k]))),
@@ -116,13 +155,21 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
         None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
-    let derivative = if verdict == Verdict::Undetermined { derivative(cx) } else { None };
-    let (verdict, reason) = if derivative.is_some() { (Verdict::Proved, None) } else { (verdict, reason) };
-    Everywhere { verdict, cone: Some(cone), seen, joints, derivative, exponent, obstacle: None, witness, reason }
+    Everywhere {
+        verdict,
+        cone: Some(cone),
+        seen,
+        joints,
+        exponent,
+        obstacle: None,
+        witness,
+        hodograph: None,
+        derivative: None,
+        reason,
+    }
 }
 
 /// The first-level joints of all reachable states; what was examined already is used where nothing is lost in it.
-/// `None` where one of them cannot be examined.
 fn joints(cx: &Context, found: &Certified) -> Option<Vec<EveryJoint>> {
     let mut out = Vec::new();
     for state in cx.shape.reachable() {
@@ -155,9 +202,7 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
     if let (None, Some(obstacle)) = (witness, &obstacle) {
         witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
     }
-    let derivative = if witness.is_none() { derivative(cx) } else { None };
     let (verdict, reason) = match (witness, &obstacle) {
-        (None, _) if derivative.is_some() => return by_derivative(derivative, obstacle),
         (Some(k), _) => (Verdict::Refuted, broken(&found.points[k])),
         (None, Some(o)) => {
             let word = crate::shape::word_text(&o.word);
@@ -171,35 +216,12 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         cone: None,
         seen: false,
         joints: Vec::new(),
-        derivative: None,
         exponent: None,
         obstacle,
         witness,
+        hodograph: None,
+        derivative: None,
         reason,
-    }
-}
-
-/// Largest number of coordinates of a state, and most states, for which a derivative is looked for.
-const MAX_DERIVATIVE: (usize, usize) = (12, 6);
-
-fn derivative(cx: &Context) -> Option<Box<CurveOrder>> {
-    let states = cx.shape.reachable();
-    let small = states.len() <= MAX_DERIVATIVE.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_DERIVATIVE.0);
-    let found = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
-    found.map(Box::new)
-}
-
-fn by_derivative(derivative: Option<Box<CurveOrder>>, obstacle: Option<ConeObstacle>) -> Everywhere {
-    Everywhere {
-        verdict: Verdict::Proved,
-        cone: None,
-        seen: true,
-        joints: Vec::new(),
-        derivative,
-        exponent: None,
-        obstacle,
-        witness: None,
-        reason: None,
     }
 }
 
