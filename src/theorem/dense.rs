@@ -78,14 +78,13 @@ fn partly(cx: &Context, dense: &mut DenseSet, count: usize, folded: Option<(usiz
     found.claims.push(examined);
     let by_frames = dense.frames.as_ref().is_some_and(|f| f.frames.iter().all(FrameReport::dense));
     let by_frames = by_frames.then(|| Claim::proved(Assertion::UnkilledJoints, Some(Statement::FramesDense)));
-    found.claims.push(match folded {
-        None => {
-            let claim = projected(cx, dense);
-            if claim.verdict() == Verdict::Proved { claim } else { by_frames.unwrap_or(claim) }
-        }
-        Some((state, letter)) => {
-            by_frames.unwrap_or_else(|| Claim::open(Assertion::DenseJoints, Reason::NotInjective { state, letter }))
-        }
+    let by_itself = match folded {
+        None => projected(cx, dense),
+        Some((state, letter)) => Claim::open(Assertion::DenseJoints, Reason::NotInjective { state, letter }),
+    };
+    found.claims.push(match by_frames {
+        Some(claim) if by_itself.verdict() != Verdict::Proved => claim,
+        _ => by_itself,
     });
 }
 
