@@ -104,6 +104,9 @@ statements! {
     Joint = "joint",
     Theorem5 = "theorem-5",
     Theorem5Projected = "theorem-5-projected",
+    Frames = "theorem-11",
+    FramesDense = "theorem-11-prime",
+    FramesCones = "theorem-11-cones",
     SurfacePoint = "surface-point",
     Theorem5Surface = "theorem-5-surface",
     TensorProduct = "tensor-product",
@@ -119,12 +122,19 @@ statements! {
     Theorem6Slow = "theorem-6-slow",
     Theorem6Polynomial = "theorem-6-polynomial",
     ConeExponent = "cone-exponent",
+    Graph = "theorem-12",
     Radius = "radius",
     Smoothness = "smoothness",
     Theorem10 = "theorem-10",
 }
 
 impl Statement {
+    /// Whether it is about frames.
+    #[must_use]
+    pub fn uses_frames(self) -> bool {
+        matches!(self, Self::Frames | Self::FramesDense | Self::FramesCones)
+    }
+
     /// Its number and name.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -19,6 +19,11 @@ pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) 
     if left_out && witness.is_empty() {
         return None;
     }
+    if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
+        // What has no certificate is left out: it is no claim of the case.
+        let radius = super::regularity::order(order).ok()?["radius"].take();
+        return Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}));
+    }
     match &every.cone {
         // What the format cannot express is left out: it is no claim of the case.
         Some(cone) => with_cone(shape, found, every, cone, &witness, &position).ok(),
@@ -30,7 +35,7 @@ pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) 
     }
 }
 
-fn matrix(m: &Matrix) -> Value {
+pub fn matrix(m: &Matrix) -> Value {
     (0..m.rows()).map(|i| numbers(m.row(i))).collect()
 }
 

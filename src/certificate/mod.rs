@@ -7,6 +7,7 @@
 mod branch;
 mod confirm;
 mod everywhere;
+mod frames;
 mod hull;
 mod joint;
 mod radius;
@@ -260,16 +261,26 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
     let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
     let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
-    let mut upstairs = Vec::new();
+    let mut upstairs = json!([]);
+    let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
     let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
+        (Verdict::Proved, Some(what)) if by_frames.is_some() => {
+            let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
+                return unsupported("frames that are not there", "joints");
+            };
+            upstairs = frames::frames(&case.shape, frames)?;
+            if *what == Assertion::UnkilledJoints { "11'" } else { "11" }
+        }
         (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
         (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
+            let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
                 let Role::Joint { state, left, right, .. } = &point.role else { continue };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
-                upstairs.push(json!({"state": state, "point": point}));
+                joints.push(json!({"state": state, "point": point}));
             }
+            upstairs = Value::Array(joints);
             "5'"
         }
         (Verdict::Proved, _) => return unsupported("this theorem", "joints"),

@@ -31,7 +31,7 @@ pub fn regularity_certificate(
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
 }
 
-fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
+pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
     let radius = match (&order.system, &order.radius) {
         (None, _) => Value::Null,
         (Some(system), Some(radius)) => radius_proof(system, &radius_with_a_rational_word(system, radius))?,

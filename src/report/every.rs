@@ -44,6 +44,10 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
         verdict.extend(words(format!("; {reason}")));
     }
     let mut facts = vec![("smoothness".to_owned(), verdict)];
+    if every.derivative.is_some() {
+        let text = "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)";
+        facts.push(("derivative".to_owned(), words(text)));
+    }
     if let Some(cone) = &every.cone {
         facts.push(("cones".to_owned(), cones(case, cone)));
     }
@@ -167,7 +171,7 @@ pub fn value(found: &Certified) -> Value {
     json!({
         "verdict": every.verdict.word(),
         "claim": claim(every),
-        "half_tangents": every.cone.is_some() && every.seen,
+        "half_tangents": every.seen && every.cone.is_some() || every.derivative.is_some(),
         "exponent": every.exponent.as_ref().map(|e| decimal(e, false, PLACES)),
         "cone": cone,
         "witness": every.witness.and_then(|k| found.points.get(k)).map(super::words::addresses),

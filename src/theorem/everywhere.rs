@@ -4,9 +4,11 @@ use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
 use super::hodograph::{Hodograph, hodograph};
+use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
+use crate::radius::Options;
 use crate::shape::{Address, CellKind};
 
 /// What is known of every point of a curve, not only of a dense set.
@@ -31,6 +33,8 @@ pub struct Everywhere {
     pub witness: Option<usize>,
     /// The derivative of a polynomial curve, where it decides.
     pub hodograph: Option<Hodograph>,
+    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
+    pub derivative: Option<Box<CurveOrder>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<String>,
 }
@@ -74,7 +78,8 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
         ConeAnswer::Refuted(obstacle) => without_cone(cx, found, Some(obstacle)),
         ConeAnswer::Undetermined => without_cone(cx, found, None),
     };
-    Some(if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every })
+    let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
+    Some(if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every })
 }
 
 /// Decides G¹ of a polynomial curve by the zeros of its derivative.
@@ -92,6 +97,22 @@ fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Ever
     });
     let witness = known.or_else(|| add_point(cx, spec, found)).filter(|&k| breaks(&found.points[k]));
     Everywhere { verdict, reason, witness, hodograph: Some(hodograph), ..every }
+}
+
+/// Largest number of coordinates of a state, and most states, for which this is tried.
+const MAX_GRAPH: (usize, usize) = (12, 6);
+
+/// Proves G¹ of a curve that is a graph over its uniform parameter.
+fn as_graph(cx: &Context, every: Everywhere) -> Everywhere {
+    let states = cx.shape.reachable();
+    let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
+    let order = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
+    match order {
+        Some(order) if every.witness.is_none() => {
+            Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(order)), ..every }
+        }
+        _ => every,
+    }
 }
 
 /// Whether a point contradicts invariant cones.
@@ -134,7 +155,18 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
         None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
-    Everywhere { verdict, cone: Some(cone), seen, joints, exponent, obstacle: None, witness, hodograph: None, reason }
+    Everywhere {
+        verdict,
+        cone: Some(cone),
+        seen,
+        joints,
+        exponent,
+        obstacle: None,
+        witness,
+        hodograph: None,
+        derivative: None,
+        reason,
+    }
 }
 
 /// The first-level joints of all reachable states; what was examined already is used where nothing is lost in it.
@@ -188,6 +220,7 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         obstacle,
         witness,
         hodograph: None,
+        derivative: None,
         reason,
     }
 }

@@ -193,6 +193,37 @@ impl CurveOrder {
     }
 }
 
+/// The order 1 of a curve that is a graph over its uniform parameter, as it is seen (Theorem 12); `None` where its hypotheses are
+/// not all proved.
+///
+/// # Cost
+/// One joint spectral radius where the chords allow it, otherwise some linear algebra.
+#[must_use]
+pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
+    let curve = Curve::new(shape, spaces).ok()?;
+    let (_, chords) = curve.first().ok()?;
+    let families = curve.differences(1, &chords);
+    let outside = |family: &Matrix, chord: &[Rational]| {
+        family.stack(&Matrix::from_rows(chord.len(), vec![chord.to_vec()])).rank() > family.rank()
+    };
+    // Any lift of a vector of the visible quotient is seen as the same vector.
+    let start = spaces.of(shape.start);
+    let pivots = start.visible.echelon().pivots;
+    let view = &shape.view() * &start.basis;
+    let view = Matrix::from_fn(view.rows(), pivots.len(), |i, j| view[(i, pivots[j])].clone());
+    let home = curve.position(shape.start);
+    let seen = outside(&(&families[home] * &view.transpose()), &view.apply(&chords[home]));
+    if !seen || !families.iter().zip(&chords).all(|(f, c)| outside(f, c)) {
+        return None;
+    }
+    let mut order = curve.order(1, &families, options);
+    if !order.is_below() || curve.joints(1, &curve.ends(1, &families, &chords)?).is_some() {
+        return None;
+    }
+    order.outcome = Outcome::Holds;
+    Some(order)
+}
+
 /// The joint spectral radius of these operators; 0 without them.
 fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
     let Some(system) = system else { return (None, Some(Interval::point(Rational::from(0)))) };

@@ -2,6 +2,7 @@
 
 use super::claim::Claim;
 use super::direction::Direction;
+use super::frames::Frames;
 use super::ring::{RingPiece, RingProof, Witness};
 pub use crate::answer::Verdict;
 use crate::arith::Rational;
@@ -331,6 +332,8 @@ pub struct DenseSet {
     pub joints: Vec<usize>,
     /// For Theorem 5′: the same joints in the visible quotients `W_e` of their own states, before the control points.
     pub upstairs: Vec<PointReport>,
+    /// The frames of Theorems 11, 11′ and 11″, where Theorem 5 does not apply.
+    pub frames: Option<Frames>,
 }
 
 /// What is known of the relevant space of one reachable state.

@@ -3,6 +3,7 @@
 pub mod case;
 mod claims;
 mod everywhere;
+mod frames;
 mod germ;
 mod model;
 mod points;

@@ -14,7 +14,8 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     let Some(claim) = found.dense_claim() else { return Vec::new() };
     let projected = claim.what == Assertion::ProjectedJoints;
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    let statement = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
+    let plain = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
+    let statement = claim.statement().unwrap_or(plain);
     match claim.verdict() {
         Verdict::Proved => blocks.push(seen.once(statement)),
         Verdict::Undetermined => {
@@ -27,7 +28,10 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
             blocks.push(Block::text(text, []));
         }
     }
-    blocks.push(evidence(case, found, dense, statement, claim.verdict() == Verdict::Proved).block());
+    blocks.push(match &dense.frames {
+        Some(frames) if statement.uses_frames() => Block::Checks(super::frames::checks(case, frames)),
+        _ => evidence(case, found, dense, plain, claim.verdict() == Verdict::Proved).block(),
+    });
     let mut conclusion: Line = line("**Conclusion.** ", []);
     conclusion.push(mark(claim.verdict()));
     conclusion.extend(words(format!(": {}", claims::judged(claim))));

@@ -6,6 +6,7 @@ mod cycles;
 mod dense;
 mod every;
 mod evidence;
+mod frames;
 mod functionals;
 mod many;
 mod points;
