@@ -99,6 +99,52 @@ fn the_program_prints_spectra_over_fields() {
 }
 
 #[test]
+fn coefficients_in_powers_of_the_generator_are_printed() {
+    for (entries, factor) in [
+        ("1 cbrt(2)", "(x - α)"),
+        ("1 -cbrt(2)", "(x + α)"),
+        ("1 3*cbrt(2)/2", "(x - 3/2α)"),
+        ("1 cbrt(2)^2-1", "(x + (-α^2 + 1))"),
+        ("2 0 cbrt(2) 1 0", "(x^2 - α)"),
+        ("2 cbrt(2)^2 3*cbrt(2) 1 0", "(x^2 - α^2 x - 3α)"),
+        ("2 0 1 1 cos(2*pi/7)", "(x^2 - 1/2α x - 1)"),
+        ("2 0 sqrt(5)/2 1 1+sqrt(5)", "(x^2 + (-1 - sqrt(5))x - sqrt(5)/2)"),
+    ] {
+        let path = file("field-powers.txt", entries);
+        let path = path.to_str().unwrap();
+        let (text, _) = output(&["spectrum", path], 0);
+        assert!(text.contains(&format!("characteristic polynomial  {factor}\n")), "{entries}: {text}");
+        output(&["spectrum", "--json", path], 0);
+        let (latex, _) = output(&["spectrum", "--latex", path], 0);
+        assert_eq!(latex.matches('{').count(), latex.matches('}').count(), "{latex}");
+    }
+}
+
+#[test]
+fn fields_of_large_degree_are_refused_at_once() {
+    for text in ["7**4.4/11**4.4", "2^(1/24)*3^(1/13)", "2^(1/5)*3^(1/5)*7^(1/5)"] {
+        let path = file("field-degree.txt", &format!("1\n{text}\n"));
+        let (_, err) = output(&["spectrum", path.to_str().unwrap()], 2);
+        let words = err.split(|c: char| c.is_whitespace() || c == '│').filter(|w| !w.is_empty()).collect::<Vec<_>>();
+        assert!(words.join(" ").contains("which is over the limit"), "{text}: {err}");
+    }
+}
+
+#[test]
+fn rational_literals_have_certificates() {
+    for text in ["Matrix([[0, 1], [1, 1/2]])", "{{0, 1//2}, {1, Rational(1, 3)}}", "2\n0 1//2\n1 0\n"] {
+        let path = file("literal.txt", text);
+        let certificate = path.with_extension("json");
+        let paths = [path.to_str().unwrap(), certificate.to_str().unwrap()];
+        output(&["spectrum", paths[0], "--certificate", paths[1]], 0);
+        let written = std::fs::read_to_string(&certificate).unwrap();
+        assert!(secant_check::check(text, &written).is_ok(), "{text}");
+    }
+    let (_, err) = output(&["spectrum", file("slashes.txt", "1\n1/2//3\n").to_str().unwrap()], 2);
+    assert!(err.contains("use brackets"), "{err}");
+}
+
+#[test]
 fn named_schemes_with_irrational_weights_have_spectra() {
     let (text, _) = output(&["schemes", "loop-original", "n=7"], 0);
     let (spectrum, _) = output(&["spectrum", file("field-loop7.txt", &text).to_str().unwrap()], 0);

@@ -201,7 +201,9 @@ class Ring:
 
 
 def root_near(p, z, e):
-    """Whether n |p(z)| <= e |p'(z)|: then a root of p is within e of z."""
+    """Whether n |p(z)| <= e |p'(z)|, n >= 1, e >= 0: then a root of p is within e of z. A constant has no root."""
+    if len(p) < 2 or p[-1] == 0 or e < 0:
+        return False
     size = lambda p: sum(part[0] ** 2 for part in horner_complex(p, [(x, x) for x in z]))
     return (len(p) - 1) ** 2 * size(p) <= e * e * size([k * c for k, c in enumerate(p)][1:])
 
@@ -482,7 +484,7 @@ class Model:
             self.hull[e] = [vector(v, self.case.dims[e]) for v in fields(hull, "points", "images")[0]]
             need(self.hull[e] and all(sum(v) == 1 for v in self.hull[e]), "hull")
         for e, hull in hulls:
-            need(len(hull["images"]) == len(self.states[e][1]), "hull")
+            need(self.states[e][1] and len(hull["images"]) == len(self.states[e][1]), "hull")
             for (target, op, _), images in zip(self.states[e][1], hull["images"]):
                 need(len(images) == len(self.hull[target]), "hull")
                 common = set(range(len(self.hull[e])))
@@ -584,6 +586,8 @@ class Germ:
     def cover(self, functionals, items, part=None):
         pieces_seen = [piece for piece in self.ring if part in (None, piece[2])]
         need(isinstance(items, list) and len(items) == len(pieces_seen), "cover")
+        # Where nothing is covered, or by nothing, no leaf says anything.
+        need(pieces_seen and functionals, "cover")
         cells = []
         for item, (piece, end, position) in zip(items, pieces_seen):
             letters, tree = fields(item, "piece", "cells")
@@ -617,6 +621,8 @@ class Top:
         r = rational(radius)
         need(r > 0, "disc")
         count = n - inside([c * r ** k for k, c in enumerate(characteristic(linear))])
+        # A top without eigenvalues would have nothing to prove.
+        need(count > 0, "disc")
         getattr(self, kind)(linear, r, count, *rest)
 
     def real(self, linear, r, count, m, interval, chains):
@@ -808,7 +814,7 @@ class Branch:
         need(self.residual(c1) == c2, "crossing")
         part = self.changing_part(c2, positive_point, negative_point)
         cells = germ.cover([germ.functional(self.field, c) for c in (c2, c1)], cover, part)
-        need(len({sign for _, sign, k in cells if k == 1}) <= 1, "crossing")
+        need(len({sign for _, sign, k in cells if k == 1}) == 1, "crossing")
         plane([[self.field.value(weighted(r, v)) for r in germ.view] for v in self.vectors], "crossing")
 
 
@@ -1086,10 +1092,10 @@ class Cones:
             self.pulls(item, e, letters)
         if rate is not None:
             self.rate(*fields(rate, "length", "cross_ratio"))
-        agree = not any(model.joints(e) for e in model.reachable)
-        if joints:
+        # A curve that is more than a point has joints.
+        need(any(model.joints(e) for e in model.reachable), "every-point")
+        if agree := joints != []:
             self.joints(joints)
-            agree = True
         return "refuted" if witness else "proved" if agree and view is not None else "undetermined"
 
     def cone(self, e, value):
@@ -1292,7 +1298,7 @@ class Spectra:
             else:
                 need(all(self.inverted(m, rational(square)) for m in members), "moduli")
             above = below
-        need(sorted(listed) == list(range(len(self.discs))), "moduli")
+        need(listed and sorted(listed) == list(range(len(self.discs))), "moduli")
         self.lines.append(f"proved: classes of equal modulus {[len(c['members']) for c in classes]}")
 
     def others(self, m):
@@ -1399,7 +1405,8 @@ class Solved:
         n, chosen = self.count, [index(k, len(self.equations)) for k in conflict]
         contradict = lambda part: len(set(self.ranks(part))) == 2
         if solutions == "none":
-            need(values is None and directions == [] and chosen == sorted(set(chosen)) and contradict(chosen), "solve")
+            need(values is None and directions == [] and chosen and chosen == sorted(set(chosen)), "solve")
+            need(contradict(chosen), "solve")
             need(not any(contradict([k for k in chosen if k != left_out]) for left_out in chosen), "solve")
         else:
             need(solutions == ("family" if directions else "one") and not chosen, "solve")

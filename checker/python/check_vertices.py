@@ -83,6 +83,7 @@ def norms(matrix, factor, bound=ONE):
         need(len(found) <= SQUARINGS, "domination")
         if found:
             power = [[dot(row, column) for column in zip(*power)] for row in power]
+        need(power, "domination")
         found.append(max(sum(x.m for x in row) for row in power))
     return found
 
@@ -419,7 +420,7 @@ def check(case, value):
     items, = fields(proof, "valences")
     need(isinstance(items, list) and all(isinstance(item, dict) for item in items), "format")
     valences = [item.get("valence") for item in items]
-    need(all(isinstance(n, int) for n in valences) and valences == sorted(set(valences)), "valence")
+    need(valences and all(isinstance(n, int) for n in valences) and valences == sorted(set(valences)), "valence")
     found = [check_valence(case, n, item) for n, item in zip(valences, items)]
     counted = [c1 for n, (c1, _) in zip(valences, found) if case.names(n)]
     complete = bool(counted) and case.all_in(valences)

@@ -2,8 +2,9 @@
 
 use crate::base::{
     Accepted, Checked, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Verdict, bits, file, has_root_near, index,
-    matrix, need, spend, total, word,
+    list, matrix, need, spend, total, word,
 };
+use crate::claim::{Claim, Decided};
 use crate::curve::positive_definite;
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -29,10 +30,14 @@ fn matrix_list(source: &str) -> Checked<System> {
             }
             matrices.push(matrix(&item)?);
         }
-        let name = word(node, "name")?.unwrap_or_default().to_owned();
+        // A file without a name is one with an empty name.
+        let name = match word(node, "name")? {
+            Some(name) => name.to_owned(),
+            None => String::new(),
+        };
+        node.need(!matrices.is_empty(), "case", "no matrix")?;
         let (dims, arrows) = if node.get("states").is_none() && node.get("arrows").is_none() {
-            let dim = matrices.first().map_or(0, |m| m.rows);
-            (vec![dim], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
+            (vec![matrices[0].rows], matrices.into_iter().map(|m| (0, 0, m)).collect::<Vec<_>>())
         } else {
             let dims = node.field("states")?.each(|v| index(v, MAX_COORDINATES + 1))?;
             let arrow = |arrow: &Node<'_>| {
@@ -53,8 +58,7 @@ fn matrix_list(source: &str) -> Checked<System> {
 pub fn check(text: &str, node: &Node<'_>) -> Checked<Accepted> {
     let system = matrix_list(text)?;
     let Bounds { lower, upper, blocks } = bounds(&system, node)?;
-    let which = if lower == upper { format!("{lower}") } else { format!("at least {lower} and at most {upper}") };
-    let claim = format!("proved: the joint spectral radius is {which}");
+    let claim = Claim::Radius(lower, upper).is(Verdict::Proved);
     Ok(Accepted { case: system.name, verdict: Verdict::Proved, claims: vec![claim], points: blocks })
 }
 
@@ -64,13 +68,15 @@ pub struct Bounds {
     pub lower: Q,
     /// It is at most this.
     pub upper: Q,
-    /// One line for each block.
-    pub blocks: Vec<String>,
+    /// Those of the blocks.
+    pub blocks: Vec<Decided>,
 }
 
 /// Checks `{"lower", "upper", "bases", "blocks"}` for a system.
 pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
     let [lower, upper, bases, blocks] = node.fields("lower upper bases blocks")?;
+    // Where all spaces are 0 the radius is 0, and there are no blocks; without states or arrows there is nothing to bound.
+    need(!system.dims.is_empty() && !system.arrows.is_empty(), "block", "a system has states and arrows")?;
     let lo = if lower.is_null() { Q::zero() } else { lower.at(below(system, &lower))? };
     let hi = upper.rational()?;
     // The matrices in the bases.
@@ -83,8 +89,8 @@ pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
     for item in blocks.list()? {
         let [dims, bound, norm] = item.fields("dims bound norm")?;
         let (dims, bound) = (dims.indices(usize::MAX)?, bound.rational()?);
-        let fits = dims.len() == used.len() && !bound.is_negative() && bound <= hi;
-        item.need(fits, "block", "one size for each state, and a bound up to the upper one, are needed")?;
+        let fits = dims.len() == used.len() && dims.iter().any(|d| *d > 0) && !bound.is_negative() && bound <= hi;
+        item.need(fits, "block", "one size for each state, not all 0, and a bound up to the upper one, are needed")?;
         let start = used.clone();
         used.iter_mut().zip(&dims).for_each(|(u, d)| *u = u.saturating_add(*d));
         let room = used.iter().zip(&system.dims).all(|(u, d)| u <= d);
@@ -129,7 +135,8 @@ fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
     let closed = (0..word.len()).all(|k| arrow(k).1 == arrow((k + 1) % word.len()).0);
     need(closed, "word", "the arrows form no closed path")?;
     let product = (1..word.len()).try_fold(arrow(0).2.clone(), |p, k| p.times(&arrow(k).2))?;
-    need(product.rows > 0, "word", "the path lies in spaces of dimension 0")?;
+    // Of a space 0 there are no eigenvalues.
+    need(product.rows > 0, "word", "the path begins in a space without dimensions")?;
     let near = has_root_near(&product.characteristic()?, &centre, &e)?;
     error.need(near, "word", "no eigenvalue is seen in this disc")?;
     let reach = power(&bound, word.len())? + &e;
@@ -230,24 +237,26 @@ impl Polytope {
 /// A diagonal block: the arrows between its parts of the states.
 impl System {
     /// Checks that the norm shows that products of `k` matrices are at most a constant times `bound^k`; says so.
-    fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<String> {
-        let kind = node.tag("norm")?;
-        match kind {
+    fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<Decided> {
+        let norm = match node.tag("norm")? {
             "zero" => {
                 let [_] = node.fields("norm")?;
                 need(self.arrows.iter().all(|a| a.2.is_zero()), "zero", "a matrix of the block is not 0")?;
+                "zero"
             }
-            "symmetric" | "monotone" | "balanced" => self.polytope(node, kind, bound)?,
+            "symmetric" => self.polytope(node, "symmetric", bound)?,
+            "monotone" => self.polytope(node, "monotone", bound)?,
+            "balanced" => self.polytope(node, "balanced", bound)?,
             "quadratic" => self.quadratic(node, bound)?,
             "tree" => self.tree(node, bound)?,
             _ => return node.reject("format", "unknown kind of norm"),
-        }
-        Ok(format!("block of dimensions {:?}: {kind}, at most {bound}", self.dims))
+        };
+        Ok(Claim::Block { dims: self.dims.clone(), norm, bound: bound.clone() }.is(Verdict::Proved))
     }
 
     /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,
     /// everything being nonnegative.
-    fn polytope(&self, node: &Node<'_>, kind: &str, bound: &Q) -> Checked<()> {
+    fn polytope(&self, node: &Node<'_>, kind: &'static str, bound: &Q) -> Checked<&'static str> {
         let [_, points, inclusions, axes] = node.fields("norm points inclusions axes")?;
         let monotone = kind == "monotone";
         let hull = Polytope::read(&points, if kind == "balanced" { 2 } else { 1 }, &self.dims)?;
@@ -276,33 +285,36 @@ impl System {
         for (k, (state, _)) in hull.points.iter().enumerate() {
             let missing = |a: &usize| !seen[k][*a] && self.arrows[*a].1 == *state && !self.arrows[*a].2.is_zero();
             let first = (0..self.arrows.len()).find(missing);
-            let why = format_args!("the image of point {k} under arrow {first:?} is missing");
+            let which = first.iter().map(usize::to_string).collect::<String>();
+            let why = format_args!("the image of point {k} under arrow {which} is missing");
             inclusions.need(first.is_none(), "inclusion", why)?;
         }
-        Ok(())
+        Ok(kind)
     }
 
     /// Positive definite forms with `Tᵗ P T <= square P`, `square <= bound²`.
-    fn quadratic(&self, node: &Node<'_>, bound: &Q) -> Checked<()> {
+    fn quadratic(&self, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
         let [_, forms, square] = node.fields("norm forms square")?;
         let square = square.rational()?;
-        let mut read: Vec<Matrix> = self.dims.iter().map(|d| Matrix::identity(*d)).collect();
+        // A space 0 has one form.
+        let mut read: Vec<Option<Matrix>> = self.dims.iter().map(|d| (*d == 0).then(|| Matrix::identity(0))).collect();
         for item in forms.list()? {
             let [state, form] = item.fields("state form")?;
             let s = state.index(self.dims.len())?;
-            read[s] = positive_definite(&form, self.dims[s])?;
+            read[s] = Some(positive_definite(&form, self.dims[s])?);
         }
+        let read: Vec<Matrix> = forms.some(read.into_iter().collect(), "quadratic", "a state without a form")?;
         need(square <= bound * bound, "quadratic", "the bound is below the root of the square")?;
         for (from, to, m) in &self.arrows {
             let image = m.transpose().times(&read[*from])?.times(m)?;
             let shrinks = read[*to].scaled(&square).minus(&image).is_positive(false)?;
             need(shrinks, "quadratic", "a matrix expands the form")?;
         }
-        Ok(())
+        Ok("quadratic")
     }
 
     /// Complete prefix codes of words whose norms are at most `bound^length`, for weighted sums of absolute values.
-    fn tree(&self, node: &Node<'_>, bound: &Q) -> Checked<()> {
+    fn tree(&self, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
         let [_, codes] = node.fields("norm codes")?;
         let mut weights: Vec<Option<Vec<Q>>> = self.dims.iter().map(|d| (*d == 0).then(Vec::new)).collect();
         let mut words: Vec<Vec<Vec<usize>>> = vec![Vec::new(); self.dims.len()];
@@ -325,7 +337,7 @@ impl System {
         for from in (0..self.dims.len()).filter(|&from| self.dims[from] > 0) {
             codes.at(code.descend(&words[from], 0, from, from, &Matrix::identity(self.dims[from])))?;
         }
-        Ok(())
+        Ok("tree")
     }
 }
 
@@ -347,7 +359,11 @@ impl Code<'_> {
                 let weighed = |i: usize| product.at(i, j).abs() * &self.weights[from][i];
                 within &= total((0..product.rows).map(weighed))? <= &most * &self.weights[at][j];
             }
-            return need(within, "tree", format_args!("{:?} is too long, or a word begins with it", words[0]));
+            return need(
+                within,
+                "tree",
+                format_args!("the word {} is too long, or a word begins with it", list(&words[0])),
+            );
         }
         if product.is_zero() && depth > 0 {
             // What follows is 0, whatever the code says about it.

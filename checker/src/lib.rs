@@ -4,8 +4,10 @@
 //! algebra again, and takes from the certificate only what had to be found. All arithmetic is exact.
 
 mod base;
+mod claim;
 mod curve;
 mod jsr;
+mod literal;
 mod regularity;
 mod solve;
 mod spectrum;
@@ -14,6 +16,7 @@ mod vertex;
 
 pub use base::{Accepted, Checked, Rejected, Verdict, number};
 use base::{Json, Node, need, reject, unreadable};
+pub use claim::{Address, Claim, Decided, End, Joints, Place, Subject};
 use curve::case;
 
 /// The version of the certificate format that is read.

@@ -26,8 +26,7 @@ fn main() -> ExitCode {
     };
     let (text, code) = match check(&case, &certificate) {
         Ok(accepted) => {
-            let lines = accepted.claims.iter().chain(&accepted.points).map(|line| format!("  {line}\n"));
-            let lines: String = lines.collect();
+            let lines: String = accepted.claims.iter().chain(&accepted.points).map(|d| format!("  {d}\n")).collect();
             (format!("accepted: {}: {}\n{lines}", accepted.case, accepted.verdict.word()), 0)
         }
         Err(rejected) => (format!("{rejected}\n"), if rejected.unreadable { 2 } else { 1 }),

@@ -1,7 +1,8 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, some, whole};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, whole};
+use crate::claim::Claim;
 use crate::curve::{Case, End, Kind, Model, Piece, Shape, Spaces, Way, close};
 use crate::jsr::{System, bounds};
 use num_traits::{One, Zero};
@@ -40,10 +41,9 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
             level = item.at(level.next())?;
         }
         let found: Vec<usize> = level.shape.reachable.iter().map(|&e| level.families[e].rows).collect();
-        dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {found:?}"))?;
+        dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {}", list(&found)))?;
         let (low, high) = level.radius(&radius)?;
-        let text = format!("the joint spectral radius on the differences of derivatives of order {k}");
-        lines.push(format!("proved: {text} is at least {low} and at most {high}"));
+        lines.push(Claim::RadiusOfOrder(k, low.clone(), high.clone()).is(Verdict::Proved));
         let (smooth, last) = match outcome.text()? {
             "curve" if k == 0 => (true, false),
             word @ ("holds" | "joint") if k > 0 => {
@@ -70,21 +70,17 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
             _ => return outcome.reject("orders", "an outcome that this order cannot have"),
         };
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
-        let word = if smooth { "proved" } else { "refuted" };
-        claims.push(format!("{word}: the curve is C^{k} in the uniform parameter"));
+        let verdict = if smooth { Verdict::Proved } else { Verdict::Refuted };
+        claims.push(Claim::Smooth { order: k }.is(verdict));
         if smooth {
             exponent = (!found.iter().all(|d| *d == 0)).then_some((k, low, high));
         }
     }
-    claims.push(match exponent {
-        None => "proved: the curve is a polynomial in the uniform parameter".to_owned(),
-        Some((k, low, high)) => format!(
-            "proved: the supremum of its exponents k + a, with Hölder exponents a of the derivative of order k = {k}, is the \
-             logarithm of 1/r to the base {}, at least {k} and at most {}, for a number r from {low} to {high}",
-            level.pieces,
-            k + 1
-        ),
-    });
+    let smoothest = match exponent {
+        None => Claim::Polynomial,
+        Some((order, low, high)) => Claim::Exponent { order, pieces: level.pieces, low, high },
+    };
+    claims.push(smoothest.is(Verdict::Proved));
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
 }
 

@@ -1,6 +1,7 @@
 //! Certificates of the kind `solve`: the unknown entries of a case, from the identities of its curves and the column sums.
 
 use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, need, spend};
+use crate::claim::Claim;
 use crate::curve::{Case, Op};
 use num_bigint::BigInt;
 use num_traits::One;
@@ -19,18 +20,18 @@ impl Equations {
     /// All equations are affine, because no product has two factors with unknown entries.
     fn of(case: &Case) -> Checked<Self> {
         let Case { shape, holes, .. } = case;
-        let unknowns = holes.iter().map(|h| h.unknown + 1).max().unwrap_or(0);
+        let unknowns = holes.iter().fold(0, |most, h| most.max(h.unknown + 1));
         need(unknowns > 0, "solve", "no entry is unknown")?;
         need(unknowns <= MAX_UNKNOWNS, "limit", "too many unknowns")?;
         let is_open = |op: Op| holes.iter().any(|h| h.op == op);
         // The factor by which an unknown is multiplied in an operator.
         let slope = |op: Op, unknown: usize| {
-            let (rows, cols) = (shape.op(op).rows, shape.op(op).cols);
+            let Matrix { rows, cols, .. } = *shape.op(op)?;
             let mut slope = Matrix::zeros(rows, cols);
             for h in holes.iter().filter(|h| (h.op, h.unknown) == (op, unknown)) {
                 slope.data[h.row * cols + h.col] = BigInt::one();
             }
-            slope
+            Ok(slope)
         };
         let mut sources = Vec::new();
         for e in 0..shape.states.len() {
@@ -39,20 +40,20 @@ impl Equations {
                 let squared = is_open(a) && is_open(b) || is_open(c) && is_open(d);
                 need(!squared, "solve", "two operators with unknown entries are multiplied")?;
                 let change = |x: Op, y: Op, k: usize| match is_open(x) {
-                    true => slope(x, k).times(shape.op(y)),
-                    false => shape.op(x).times(&slope(y, k)),
+                    true => slope(x, k)?.times(shape.op(y)?),
+                    false => shape.op(x)?.times(&slope(y, k)?),
                 };
                 let columns = (0..unknowns).map(|k| Ok(change(a, b, k)?.minus(&change(c, d, k)?)));
                 let columns = columns.collect::<Checked<Vec<_>>>()?;
-                let right = shape.op(c).times(shape.op(d))?.minus(&shape.op(a).times(shape.op(b))?);
+                let right = shape.op(c)?.times(shape.op(d)?)?.minus(&shape.op(a)?.times(shape.op(b)?)?);
                 sources.push(rows(&columns, right));
             }
         }
         let mut sums: Vec<Op> = holes.iter().map(|h| h.op).collect();
         sums.dedup();
         for op in sums {
-            let (matrix, ones) = (shape.op(op), Matrix::row_of_ones(shape.op(op).rows));
-            let columns = (0..unknowns).map(|k| ones.times(&slope(op, k))).collect::<Checked<Vec<_>>>()?;
+            let (matrix, ones) = (shape.op(op)?, Matrix::row_of_ones(shape.op(op)?.rows));
+            let columns = (0..unknowns).map(|k| ones.times(&slope(op, k)?)).collect::<Checked<Vec<_>>>()?;
             sources.push(rows(&columns, Matrix::row_of_ones(matrix.cols).minus(&ones.times(matrix)?)));
         }
         Ok(Self { sources, unknowns })
@@ -86,18 +87,18 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let equations = Equations::of(case)?;
     let (n, count) = (equations.unknowns, equations.sources.len());
     let chosen = conflict.indices(count)?;
-    let (verdict, claim) = match solutions.text()? {
+    let claim = match solutions.text()? {
         "none" => {
             let only = values.is_null() && directions.list()?.is_empty() && chosen.windows(2).all(|w| w[0] < w[1]);
-            need(only, "solve", "only a conflict, in ascending order, is needed")?;
+            need(only && !chosen.is_empty(), "solve", "only a conflict, in ascending order, is needed")?;
             let all = equations.contradict(chosen.iter().copied())?;
             conflict.need(all, "solve", "these equations do not contradict each other")?;
             for k in &chosen {
                 let part = equations.contradict(chosen.iter().copied().filter(|other| other != k))?;
                 conflict.need(!part, "solve", "a part of these equations is a contradiction already")?;
             }
-            let text = format!("the {n} unknowns have values; the equations {chosen:?} contradict each other");
-            (Verdict::Refuted, format!("refuted: {text}"))
+            let claim = Claim::Solvable { unknowns: n, equations: count, free: None, conflict: chosen };
+            claim.is(Verdict::Refuted)
         }
         kind @ ("one" | "family") => {
             let (rank, extended) = equations.ranks(0..count)?;
@@ -114,13 +115,10 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
             for source in &equations.sources {
                 values.need(source.times(&kernel)?.is_zero(), "solve", "an equation does not hold")?;
             }
-            let text =
-                if free == 0 { "are determined".to_owned() } else { format!("form a family of {free} parameters") };
-            let claim =
-                format!("proved: the {n} unknowns have values that satisfy {count} matrix equations; they {text}");
-            (Verdict::Proved, claim)
+            let claim = Claim::Solvable { unknowns: n, equations: count, free: Some(free), conflict: Vec::new() };
+            claim.is(Verdict::Proved)
         }
         _ => return solutions.reject("format", "one, family or none"),
     };
-    Ok(Accepted { case: case.name.clone(), verdict, claims: vec![claim], points: Vec::new() })
+    Ok(Accepted { case: case.name.clone(), verdict: claim.verdict, claims: vec![claim], points: Vec::new() })
 }

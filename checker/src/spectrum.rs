@@ -1,17 +1,16 @@
 //! Certificates of the kind `spectrum`: roots, Jordan blocks and equal moduli of rational matrices, without factorisation.
 
-use crate::base::number::decimal_fraction;
 use crate::base::{
     Accepted, Checked, Field, MAX_PIECES, Matrix, Node, Q, Rejected, Verdict, bits, has_root_near, need, some, spend,
 };
+use crate::claim::Claim;
 use crate::curve::{case, chain};
+use crate::literal;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::rc::Rc;
 
-/// Largest matrix of a file.
-const MAX_SIZE: usize = 256;
 /// The modulus of a determinant lies below this.
 const MAX_MODULUS: usize = 1 << 31;
 
@@ -36,29 +35,19 @@ fn modulus_squared(disc: &[BigInt]) -> BigInt {
     &disc[0] * &disc[0] + &disc[1] * &disc[1]
 }
 
-/// Reads `n` and then `n` rows of numbers; `#` starts a comment.
-fn plain(source: &str) -> Checked<Matrix> {
-    let words = source.lines().flat_map(|line| line.split('#').next().unwrap_or("").split_ascii_whitespace());
-    let mut words = words.take(MAX_SIZE * MAX_SIZE + 2).map(decimal_fraction);
-    let size = words.next().flatten().and_then(|n| if n.is_integer() { n.numer().to_usize() } else { None });
-    let n = some(size.filter(|n| (1..=MAX_SIZE).contains(n)), "matrix", "the size of a matrix is needed first")?;
-    let entries = words.collect::<Option<Vec<Q>>>().filter(|entries| entries.len() == n * n);
-    Ok(Matrix::new(n, n, &some(entries, "matrix", "n rows of n exact numbers are needed after the size")?))
-}
-
 /// Checks the proof of a certificate of the kind `spectrum` about the text of a case or of a matrix.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let [spectra] = node.fields("spectra")?;
     let items = spectra.each(|item| item.fields::<4>("operator factors modulus classes"));
-    let mut operators: Vec<(String, Matrix, Option<(usize, usize)>)> = Vec::new();
+    let mut operators: Vec<(Matrix, Option<(usize, usize)>)> = Vec::new();
     let mut name = "matrix".to_owned();
     if items.as_ref().is_ok_and(|items| items.first().is_some_and(|[operator, ..]| operator.is_null())) {
-        operators.push((name.clone(), plain(source)?, None));
+        operators.push((literal::matrix(source)?, None));
     } else {
         let case = case::read(source, false).map_err(|r| Rejected { unreadable: false, ..r })?;
         for (e, state) in case.shape.states.into_iter().enumerate() {
             for (k, piece) in state.pieces.into_iter().enumerate().filter(|(_, p)| p.target == e) {
-                operators.push((format!("operator {k} of state {e}"), piece.op, Some((e, k))));
+                operators.push((piece.op, Some((e, k))));
             }
         }
         name = case.name;
@@ -67,7 +56,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let all = items.len() == operators.len() && !items.is_empty();
     spectra.need(all, "spectrum", "one item for each operator is needed")?;
     let mut claims = Vec::new();
-    for ([operator, factors, modulus, classes], (of, matrix, place)) in items.iter().zip(&operators) {
+    for ([operator, factors, modulus, classes], (matrix, place)) in items.iter().zip(&operators) {
         let same = match place {
             None => operator.is_null(),
             Some(place) => {
@@ -75,17 +64,22 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
                 (state.index(case::MAX_STATES)?, piece.index(MAX_PIECES)?) == *place
             }
         };
-        operator.need(same, "spectrum", format_args!("{of} is expected here"))?;
-        let (discs, lines) = factors.at(roots_and_chains(matrix, factors, modulus))?;
-        let classes = classes.at(moduli(&discs, classes))?;
-        claims.extend(lines.into_iter().chain([classes]).map(|line| format!("{of}: {line}")));
+        operator.need(same, "spectrum", "another operator is expected here")?;
+        let (discs, found) = factors.at(roots_and_chains(matrix, factors, modulus))?;
+        let sizes = classes.at(moduli(&discs, classes))?;
+        let jordan = |(factor, blocks)| Claim::Jordan { operator: *place, factor, blocks }.is(Verdict::Proved);
+        claims.extend(found.into_iter().map(jordan));
+        claims.push(Claim::Moduli { operator: *place, sizes }.is(Verdict::Proved));
     }
     Ok(Accepted { case: name, verdict: Verdict::Proved, claims, points: Vec::new() })
 }
 
+/// Factors with the sizes of the Jordan blocks of their roots.
+type Blocks = Vec<(Vec<Q>, Vec<usize>)>;
+
 /// Rules `roots` and `chains`: discs that hold one root each of the factors, and a Jordan basis over `Q[x]/(factor)`.
-fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Checked<(Discs, Vec<String>)> {
-    let (mut numbers, mut factors, mut lines) = (Vec::new(), Vec::new(), Vec::new());
+fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Checked<(Discs, Blocks)> {
+    let (mut numbers, mut factors, mut found) = (Vec::new(), Vec::new(), Vec::new());
     let mut basis = Matrix::empty(matrix.rows);
     for item in node.list()? {
         let [polynomial, roots, chains] = item.fields("polynomial roots chains")?;
@@ -114,7 +108,7 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
         }
         let descend = !blocks.is_empty() && blocks.windows(2).all(|w| w[0] >= w[1]);
         chains.need(descend, "chains", "there are chains, and the longest come first")?;
-        lines.push(format!("each root of {} has Jordan blocks of the sizes {blocks:?}", text(&p)));
+        found.push((p, blocks));
     }
     let discs = Discs { rows: Matrix::new(factors.len(), 3, &numbers), factors };
     for k in 0..discs.factors.len() {
@@ -126,12 +120,7 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
     node.need(basis.rows == matrix.rows, "chains", why)?;
     let independent = invertible(&basis, modulus)?;
     modulus.need(independent, "chains", "the vectors are not seen to be independent for this modulus")?;
-    Ok((discs, lines))
-}
-
-fn text(p: &[Q]) -> String {
-    let terms = p.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()).map(|(k, c)| format!("({c}) x^{k}"));
-    terms.collect::<Vec<_>>().join(" + ")
+    Ok((discs, found))
 }
 
 /// Whether the determinant is a unit modulo a number: elimination finds invertible pivots. The number need not be prime.
@@ -141,8 +130,9 @@ fn invertible(basis: &Matrix, modulus: &Node<'_>) -> Checked<bool> {
         return Ok(false);
     }
     spend(n * n * n, 64)?;
-    let residue = |x: &BigInt| ((x % p + p) % p).to_u64().unwrap_or(0);
-    let mut rows: Vec<Vec<u64>> = (0..n).map(|i| basis.integers(i).iter().map(residue).collect()).collect();
+    let residue = |x: &BigInt| ((x % p + p) % p).to_u64();
+    let rows = (0..n).map(|i| basis.integers(i).iter().map(residue).collect()).collect::<Option<Vec<Vec<u64>>>>();
+    let mut rows = some(rows, "chains", "an entry has no residue")?;
     for j in 0..n {
         let Some((i, inverse)) = (j..n).find_map(|i| Some((i, inverse(rows[i][j], p)?))) else { return Ok(false) };
         rows.swap(i, j);
@@ -162,7 +152,7 @@ fn inverse(a: u64, p: u64) -> Option<u64> {
 }
 
 /// Rule `moduli`: classes of equal modulus, the largest first, with radii that separate them.
-fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
+fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<Vec<usize>> {
     let (mut listed, mut sizes) = (vec![false; discs.factors.len()], Vec::new());
     let mut above: Option<Q> = None;
     let items = node.list()?;
@@ -175,21 +165,29 @@ fn moduli(discs: &Discs, node: &Node<'_>) -> Checked<String> {
         }
         let below = if k + 1 == items.len() && below.is_null() { None } else { Some(below.rational()?) };
         for &m in &chosen {
-            let inside = above.as_ref().map_or(Ok(true), |a| discs.beyond(m, a, -1))?;
-            let outside = below.as_ref().map_or(Ok(true), |b| discs.beyond(m, b, 1))?;
+            // Nothing bounds the first class from above, or the last one from below.
+            let side = |radius: &Option<Q>, side| match radius {
+                Some(radius) => discs.beyond(m, radius, side),
+                None => Ok(true),
+            };
+            let (inside, outside) = (side(&above, -1)?, side(&below, 1)?);
             item.need(inside && outside, "moduli", "the radii do not separate the classes")?;
         }
         let square = if square.is_null() { None } else { Some(square.rational()?) };
         // The first member has the modulus of the class, which where no square is given is its own.
         for &m in &chosen[usize::from(square.is_none())..] {
-            let equal = square.as_ref().map_or_else(|| discs.opposite(chosen[0], m), |s| discs.inverted(m, s))?;
+            let equal = match &square {
+                None => discs.opposite(chosen[0], m)?,
+                Some(s) => discs.inverted(m, s)?,
+            };
             item.need(equal, "moduli", "the roots of a class are not seen to have one modulus")?;
         }
         sizes.push(chosen.iter().map(|&m| if discs.rows.integers(m)[1].is_zero() { 1 } else { 2 }).sum::<usize>());
         above = below;
     }
-    node.need(listed.iter().all(|l| *l), "moduli", "a root stands in no class")?;
-    Ok(format!("different eigenvalues by modulus, the largest first: {sizes:?}"))
+    let all = !listed.is_empty() && listed.iter().all(|l| *l);
+    node.need(all, "moduli", "a root stands in no class")?;
+    Ok(sizes)
 }
 
 impl Discs {

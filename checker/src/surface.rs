@@ -4,19 +4,20 @@ mod branch;
 mod chart;
 mod product;
 
-use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
+use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
+use crate::claim::{Claim, Decided};
 use crate::curve::{Address, Model, Root, case, injective, read_address};
 use branch::{Bounds, independent};
 use chart::Chart;
 use product::Product;
 
-/// A question of the case: a claim in words, and the points it is about, by their numbers; none for the dense set.
-type Question = (String, Vec<usize>);
-
-/// An address in words.
-fn name(address: &Address) -> String {
-    let letters = |word: &[usize]| word.iter().map(usize::to_string).collect::<Vec<_>>().join(",");
-    format!("{}({})", letters(&address.prefix), letters(&address.cycle))
+/// A question of the case.
+#[derive(PartialEq)]
+enum Question {
+    /// A claim, and the points it is about, by their numbers.
+    Points(Claim, Vec<usize>),
+    /// The dense set.
+    Dense,
 }
 
 /// What is asked of a patch with parameters (its vertices, the dense set, the addresses) or of single branches, and the points
@@ -29,27 +30,29 @@ fn questions(
     let (start, mut asked, mut points) = (model.shape.start, Vec::new(), Vec::new());
     let mut number = |addresses: Vec<Address>| -> usize {
         let known = points.iter().position(|p| *p == addresses);
-        known.unwrap_or_else(|| {
-            points.push(addresses);
-            points.len() - 1
-        })
+        match known {
+            Some(known) => known,
+            None => {
+                points.push(addresses);
+                points.len() - 1
+            }
+        }
     };
     if let Some(chart) = chart {
         let vertices = chart.vertices()?;
         let vertices = vertices.iter().map(|v| Ok(number(chart.addresses(start, v)?))).collect::<Checked<_>>()?;
-        let text = "at every vertex of the first subdivision the cells around it have together a tangent plane";
-        asked.extend([(text.to_owned(), vertices), (String::new(), Vec::new())]);
+        asked.extend([Question::Points(Claim::PlaneAtVertices, vertices), Question::Dense]);
         for address in addresses {
-            let text = format!("the cells around the point {} have together a tangent plane there", name(&address));
-            asked.push((text, vec![number(chart.addresses(start, &chart.locate(start, &address)?)?)]));
+            let around = number(chart.addresses(start, &chart.locate(start, &address)?)?);
+            asked.push(Question::Points(Claim::PlaneAt(address), vec![around]));
         }
         return Ok((asked, points));
     }
     let pieces = model.shape.states[start].pieces.iter().enumerate().filter(|(_, p)| p.target == start);
     let own = pieces.map(|(i, _)| Address { prefix: Vec::new(), cycle: vec![i] });
     for address in own.chain(addresses) {
-        let question =
-            (format!("the germ of the branch {} has a tangent plane", name(&address)), vec![number(vec![address])]);
+        let branch = number(vec![address.clone()]);
+        let question = Question::Points(Claim::PlaneOfBranch(address), vec![branch]);
         if !asked.contains(&question) {
             asked.push(question);
         }
@@ -85,26 +88,27 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     }
     let (asked, places) = questions(&model, chart.as_ref(), addresses)?;
     let root = Root { state: shape.start, view: shape.view.clone() };
-    let (mut verdicts, mut lines) = (Vec::new(), Vec::new());
+    let mut found_at: Vec<Decided> = Vec::new();
     for (item, place) in points.exactly(places.len(), "points")?.iter().zip(&places) {
         let check = || Ok(surface.point(&root, Some(place), item)?.1);
-        verdicts.push(if item.is_null() { Verdict::Undetermined } else { check()? });
-        let names: Vec<String> = place.iter().map(name).collect();
-        lines.push(format!("{}: {}", verdicts[verdicts.len() - 1].word(), names.join(" = ")));
+        let verdict = if item.is_null() { Verdict::Undetermined } else { check()? };
+        found_at.push(Claim::PlaneOfCells(place.clone()).is(verdict));
     }
     dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
-    let (mut together, mut found) = (Vec::new(), Vec::new());
-    for (item, (text, numbers)) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
-        let (text, verdict) = match (&chart, numbers.iter().map(|&k| verdicts[k]).min()) {
-            (Some(chart), None) => surface.dense_set(chart, &dense)?,
-            (_, verdict) => (text, verdict.unwrap_or(Verdict::Undetermined)),
+    let mut found: Vec<Decided> = Vec::new();
+    for (item, question) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
+        let decided = match (question, &chart) {
+            (Question::Points(claim, numbers), _) => claim.is(together(numbers.iter().map(|&k| found_at[k].verdict))),
+            (Question::Dense, Some(chart)) => surface.dense_set(chart, &dense)?,
+            (Question::Dense, None) => {
+                return item.reject("dense", "a shape without parameters has no vertices inside");
+            }
         };
-        item.follows("answers", verdict.word())?;
-        together.push(verdict);
-        found.push(format!("{}: {text}", verdict.word()));
+        item.follows("answers", decided.verdict.word())?;
+        found.push(decided);
     }
-    let verdict = together.into_iter().min().unwrap_or(Verdict::Undetermined);
-    Ok(Accepted { case: case.name, verdict, claims: found, points: lines })
+    let verdict = together(found.iter().map(|d| d.verdict));
+    Ok(Accepted { case: case.name, verdict, claims: found, points: found_at })
 }
 
 /// A case with what is known of it.
@@ -145,11 +149,10 @@ impl Surface<'_> {
     }
 
     /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
-    fn dense_set(&self, chart: &Chart, node: &Node<'_>) -> Checked<(String, Verdict)> {
+    fn dense_set(&self, chart: &Chart, node: &Node<'_>) -> Checked<Decided> {
         let model = self.model;
-        let mut text = "the surface has a tangent plane at a dense set of points, one inside every cell".to_owned();
         if node.is_null() {
-            return Ok((text, Verdict::Undetermined));
+            return Ok(Claim::PlaneDense { projected: false }.is(Verdict::Undetermined));
         }
         for (e, item) in model.for_states(node, "dense")? {
             let space = model.spaces.of(e)?;
@@ -160,12 +163,7 @@ impl Surface<'_> {
             item.need(all, "dense", "these are not all addresses of a point inside the face")?;
             item.need(verdict == Verdict::Proved, "dense", "the face has no tangent plane there")?;
         }
-        if !injective(model, "dense")? {
-            text = "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
-                one where it does not fold that plane"
-            .to_owned();
-        }
-        Ok((text, Verdict::Proved))
+        Ok(Claim::PlaneDense { projected: !injective(model, "dense")? }.is(Verdict::Proved))
     }
 }
 

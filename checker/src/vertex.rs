@@ -1,15 +1,20 @@
 //! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh, for schemes that are splines away
 //! from it (docs/theory.md §10.1, Theorems 2, 7 and 8).
 
-use crate::base::{Accepted, Checked, Json, Node, Q, Verdict, file, index, need, number, reject};
+use crate::base::{Accepted, Checked, Json, Node, Q, Verdict, file, index, need, number, reject, spend, together};
+use crate::claim::Claim;
+use std::collections::BTreeSet;
 mod ball;
 mod mesh;
 mod patch;
 
 use ball::{Ball, Balls, deflated, dominated, dot, leading};
 use mesh::{Centre, MAX_VALENCE, Mesh, Net, Spline, powers};
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, ToPrimitive};
 use patch::{Patch, boundary, patches};
+
+/// Largest frequency of the weights in a face.
+const MAX_FREQUENCY: usize = 1024;
 
 /// A case about the vertices of a mesh.
 struct Case {
@@ -18,7 +23,7 @@ struct Case {
     /// The weights at the centre, by valence.
     centre: Box<dyn Fn(usize) -> Centre>,
     /// The valences of the case, which may name none; `None` where it asks for all that there are.
-    asked: Option<Vec<usize>>,
+    asked: Option<BTreeSet<usize>>,
 }
 
 /// Checks the proof of a certificate of the kind `vertex`.
@@ -30,34 +35,46 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
         let (n, smooth, plane) = item.at(case.valence(&item))?;
         item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
         listed.push(n);
-        for (verdict, what) in [(smooth, "the surface is C1"), (plane, "it has a tangent plane")] {
-            claims.push(format!("{} for almost all control points: at valence {n} {what}", verdict.word()));
-        }
+        claims.extend([Claim::SmoothAtVertex(n).is(smooth), Claim::PlaneAtVertex(n).is(plane)]);
         // Only valences that the case names count; one that names none leaves the choice to the certificate.
         if case.asked.as_ref().is_none_or(|asked| asked.is_empty() || asked.contains(&n)) {
             counted.push(smooth);
         }
     }
+    valences.need(!listed.is_empty(), "vertex", "no valence is listed")?;
     let all = case.asked.is_some_and(|asked| asked.iter().all(|n| listed.contains(n)));
-    let verdict = match counted.into_iter().min() {
-        Some(Verdict::Proved) if !all => Verdict::Undetermined,
-        found => found.unwrap_or(Verdict::Undetermined),
+    // Where none of the listed valences counts nothing is proved.
+    let verdict = match together(counted) {
+        Verdict::Proved if !all => Verdict::Undetermined,
+        found => found,
     };
     Ok(Accepted { case: case.name, verdict, claims, points: Vec::new() })
 }
 
 /// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.
-fn read_valences(node: &Node<'_>) -> Checked<Option<Vec<usize>>> {
-    let Json::Text(text) = node.value else { return Ok(Some(vec![index(node, MAX_VALENCE + 1)?])) };
+fn read_valences(node: &Node<'_>) -> Checked<Option<BTreeSet<usize>>> {
+    let valence = |n: &usize| (3..=MAX_VALENCE).contains(n);
+    let Json::Text(text) = node.value else {
+        let n = index(node, MAX_VALENCE + 1)?;
+        node.need(valence(&n), "format", format_args!("a valence is a number from 3 to {MAX_VALENCE}"))?;
+        return Ok(Some(BTreeSet::from([n])));
+    };
     if text.trim() == "all" {
         return Ok(None);
     }
-    let mut all = Vec::new();
+    let mut all = BTreeSet::new();
     for part in text.split(',') {
-        let (low, high) = part.split_once("..").unwrap_or((part, part));
-        let bound = |s: &str| s.trim().parse::<usize>().ok().filter(|n| *n <= MAX_VALENCE);
-        match (bound(low), bound(high.trim_start_matches('='))) {
-            (Some(low), Some(high)) if 3 <= low && low <= high => all.extend(low..=high),
+        let (low, high) = match part.split_once("..") {
+            Some((low, high)) => (low, high.trim_start_matches('=')),
+            None => (part, part),
+        };
+        let bound = |s: &str| s.trim().parse().ok().filter(valence);
+        match (bound(low), bound(high)) {
+            (Some(low), Some(high)) if low <= high => {
+                // A long list of long ranges is no more than all valences.
+                spend(high - low + 1, 0)?;
+                all.extend(low..=high);
+            }
             _ => return node.reject("format", "valences are numbers and ranges"),
         }
     }
@@ -115,7 +132,14 @@ impl Case {
             }
             "doo-sabin" => (Spline::Biquadratic, Box::new(|_| Centre::Frequency(1)), ""),
             "doo-sabin-frequency" => {
-                let f = table.get("frequency").map_or(Ok(2), |node| index(&node, 1025))?;
+                let f = match table.get("frequency") {
+                    None => 2,
+                    Some(node) => {
+                        let f = number(&node)?;
+                        let f = f.to_usize().filter(|k| f.is_integer() && (1..=MAX_FREQUENCY).contains(k));
+                        node.some(f, "format", format_args!("a whole number from 1 to {MAX_FREQUENCY} is needed here"))?
+                    }
+                };
                 (Spline::Biquadratic, Box::new(move |_| Centre::Frequency(f)), "frequency")
             }
             "doo-sabin-catmull-clark" => {
@@ -125,7 +149,10 @@ impl Case {
             _ => return table.reject("format", "a scheme for which there are no certificates"),
         };
         table.known(&format!("mesh valence {keys}"))?;
-        let asked = table.get("valence").map_or(Ok(Some(Vec::new())), |node| read_valences(&node))?;
+        let asked = match table.get("valence") {
+            None => Some(BTreeSet::new()),
+            Some(node) => read_valences(&node)?,
+        };
         Ok(Self { name, spline, centre, asked })
     }
 
@@ -145,6 +172,7 @@ impl Case {
         } else {
             let (x, y) = pair(&half_plane)?;
             let against = Ball::new(&x, &y).conjugate();
+            need(!ring.is_empty(), "vertex", "a ring has patches")?;
             let positive = ring.iter().flat_map(Patch::points).all(|p| p.times(&against).real_sign() == 1);
             half_plane.need(positive && 0 < k && 2 * k < n, "half-plane", "the ring of a sector does not lie in it")?;
             true
@@ -176,7 +204,7 @@ impl Case {
 
 fn one_sign(signs: impl Iterator<Item = i32>) -> bool {
     let all: Vec<i32> = signs.collect();
-    all.iter().all(|s| *s != 0 && *s == all[0])
+    !all.is_empty() && all.iter().all(|s| *s != 0 && *s == all[0])
 }
 
 /// Proves that the block `k` has exactly one eigenvalue of modulus `radius` or more but the 1 of block 0, that it is simple and smaller

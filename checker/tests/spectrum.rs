@@ -32,8 +32,8 @@ fn rejected(pointer: &str, new: Value) -> String {
 fn a_spectrum_is_accepted() {
     let accepted = secant_check::check(MATRIX, &certificate().to_string()).unwrap();
     assert_eq!(accepted.claims.len(), 4);
-    assert!(accepted.claims[0].ends_with("has Jordan blocks of the sizes [2]"), "{:?}", accepted.claims);
-    assert!(accepted.claims[3].ends_with("[3, 1]"), "{:?}", accepted.claims);
+    assert!(accepted.claims[0].to_string().ends_with("has Jordan blocks of the sizes 2"), "{:?}", accepted.claims);
+    assert!(accepted.claims[3].to_string().ends_with("3, 1"), "{:?}", accepted.claims);
 }
 
 #[test]

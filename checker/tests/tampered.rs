@@ -1,5 +1,8 @@
 //! Systematic tampering: a certificate with one thing changed is rejected, or still proves the same statement.
+#![allow(clippy::disallowed_methods, reason = "what a test leaves out proves nothing")]
 
+use secant_check::number::{Q, canonical, whole};
+use secant_check::{Accepted, Claim, Decided, Place, Verdict};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -167,95 +170,90 @@ fn lists(items: &[Value]) -> Vec<Value> {
     new
 }
 
-/// Whether a certificate states the same as another one: the order in which points are listed does not matter, and a bound may
-/// be further from the truth, which lies within the bounds of the original.
-fn same(found: &secant_check::Accepted, original: &secant_check::Accepted) -> bool {
-    // Inside a curve a refuted point is a witness for the answer about every point, which any other witness is as well.
-    let named = |line: &String| if line.starts_with("refuted: Inside") { "a witness".to_owned() } else { line.clone() };
-    let sorted = |x: &secant_check::Accepted| {
-        let mut points: Vec<String> = x.points.iter().map(named).collect();
-        points.sort();
-        points
-    };
-    if original.claims[0].contains("C^0") {
-        // Orders of smoothness: fewer of them, with weaker bounds of the radii, are a weaker statement.
-        let weaker = |(a, b): (&String, &String)| {
-            let split =
-                |line: &str| Some((line.split(" is ").next()?.to_owned(), line.split_once(" is ")?.1.to_owned()));
-            let (Some((text, a)), Some((other, b))) = (split(a), split(b)) else { return false };
-            let bounds = |x: &str| radius(&format!("proved: the joint spectral radius is {x}"));
-            text == other && bounds(&a).zip(bounds(&b)).is_some_and(|((l, h), (low, high))| l <= high && low <= h)
-        };
-        return original.claims.starts_with(&found.claims)
-            && found.case == original.case
-            && found.points.len() == found.claims.len()
-            && found.points.iter().zip(&original.points).all(weaker);
-    }
-    if original.claims[0].contains("almost all") {
-        // Vertices: fewer valences, or no plane without a half-plane.
-        let open = |claim: &String| claim.starts_with("undetermined");
-        let known = found.claims.iter().all(|c| open(c) || original.claims.contains(c));
-        return known && (found.verdict == original.verdict || found.verdict.word() == "undetermined");
-    }
-    if original.claims[0].contains("tangent plane") {
-        // Of a surface, points may be left open where others refute the same.
-        let weaker = |(a, b): (&String, &String)| {
-            a == b || a.strip_prefix("undetermined") == b.find(':').map(|colon| &b[colon..])
-        };
-        return (&found.case, found.verdict, &found.claims) == (&original.case, original.verdict, &original.claims)
-            && found.points.len() == original.points.len()
-            && found.points.iter().zip(&original.points).all(weaker);
-    }
-    // The answers about every point and about any point may be left out, whatever they are.
-    let given = |of: &str| found.claims.iter().any(|claim| claim.contains(of));
-    let asked = |c: &&String| ["G¹", "some point of the shape"].iter().all(|of| !c.contains(of) || given(of));
-    let claims: Vec<&String> = original.claims.iter().filter(asked).collect();
-    let head = (&found.case, found.verdict, found.claims.len()) == (&original.case, original.verdict, claims.len());
-    // Of a spectrum each claim is about one factor, in any order.
-    if original.claims[0].contains("Jordan blocks") {
-        return head && found.claims.iter().all(|c| original.claims.contains(c));
-    }
-    let mut both = found.claims.iter().zip(claims);
-    match radius(&original.claims[0]) {
-        Some((low, high)) => head && radius(&found.claims[0]).is_some_and(|(l, h)| l <= high && low <= h),
-        None => {
-            // Half-tangents of the curve before the projection, instead of those that are seen.
-            let unseen = |a: &str, b: &str| a.replacen("before the projection ", "", 1) == b;
-            // The same without a rate.
-            let unrated = |a: &str, b: &str| b.split_once(" (cones shrink").is_some_and(|(text, _)| text == a);
-            let weaker = |(a, b): (&String, &String)| a == b || unseen(a, b) || unrated(a, b) || weaker_rate(a, b);
-            head && sorted(found) == sorted(original) && both.all(weaker)
+/// Whether bounds are no better than others.
+fn wider(found: (&Q, &Q), original: (&Q, &Q)) -> bool {
+    found.0 <= original.0 && original.1 <= found.1
+}
+
+/// Whether a claim says no more than another one: the same, a wider bound, a slower rate.
+fn weaker(found: &Decided, original: &Decided) -> bool {
+    let verdicts = found.verdict == original.verdict;
+    match (&found.claim, &original.claim) {
+        (Claim::Radius(a, b), Claim::Radius(c, d)) => verdicts && wider((a, b), (c, d)),
+        (Claim::RadiusOfOrder(k, a, b), Claim::RadiusOfOrder(l, c, d)) => verdicts && k == l && wider((a, b), (c, d)),
+        (Claim::TangentTurns { rate: None }, Claim::TangentTurns { .. }) => verdicts,
+        // More letters with no better a ratio say less; the original is rounded up a little.
+        (Claim::TangentTurns { rate: Some((n, d)) }, Claim::TangentTurns { rate: Some((least, low)) }) => {
+            let room = whole(1) + canonical("1/1073741824").unwrap();
+            verdicts && n >= least && d * room >= *low
         }
+        // Half-tangents of the curve before the projection, instead of those that are seen.
+        (Claim::HalfTangents { projected: true }, Claim::HalfTangents { .. }) => verdicts,
+        // A point of a surface may be left open where others refute the same.
+        (Claim::PlaneOfCells(a), Claim::PlaneOfCells(b)) => {
+            a == b && (verdicts || found.verdict == Verdict::Undetermined)
+        }
+        _ => found == original,
     }
 }
 
-fn number(text: &str) -> secant_check::number::Q {
-    secant_check::number::canonical(text).unwrap()
+fn all_weaker(found: &[Decided], original: &[Decided]) -> bool {
+    found.len() == original.len() && found.iter().zip(original).all(|(a, b)| weaker(a, b))
 }
 
-/// The bounds of a joint spectral radius that a claim states.
-fn radius(claim: &str) -> Option<(secant_check::number::Q, secant_check::number::Q)> {
-    let bounds = claim.strip_prefix("proved: the joint spectral radius is ")?;
-    let (low, high) = match bounds.strip_prefix("at least ") {
-        Some(both) => both.split_once(" and at most ")?,
-        None => (bounds, bounds),
-    };
-    Some((number(low), number(high)))
-}
-
-/// Whether a claim is the same but for a cross-ratio that is no smaller (the original is rounded up a little).
-fn weaker_rate(found: &str, original: &str) -> bool {
-    let split = |claim: &str| {
-        let (text, rate) = claim.split_once("with every ")?;
-        let (letters, ratio) = rate.strip_suffix(')')?.split_once(" letters, D = ")?;
-        Some((text.to_owned(), letters.parse::<usize>().ok()?, number(ratio)))
-    };
-    let (Some((text, letters, ratio)), Some((other, least, low))) = (split(found), split(original)) else {
+/// Whether a certificate states the same as another one, or less: the order in which points are listed does not matter, and a
+/// bound may be further from the truth, which lies within the bounds of the original.
+fn same(found: &Accepted, original: &Accepted) -> bool {
+    if found.case != original.case {
         return false;
+    }
+    let verdicts = found.verdict == original.verdict;
+    match original.claims[0].claim {
+        // Fewer orders, with weaker bounds of the radii.
+        Claim::Smooth { .. } => {
+            let orders = found.points.len();
+            original.claims.starts_with(&found.claims)
+                && orders == found.claims.len()
+                && all_weaker(&found.points, &original.points[..orders])
+        }
+        // Fewer valences, or no plane without a half-plane.
+        Claim::SmoothAtVertex(_) => {
+            let open = |claim: &Decided| claim.verdict == Verdict::Undetermined;
+            let known = found.claims.iter().all(|c| open(c) || original.claims.contains(c));
+            known && (verdicts || found.verdict == Verdict::Undetermined)
+        }
+        Claim::PlaneAtVertices | Claim::PlaneAt(_) | Claim::PlaneOfBranch(_) => {
+            verdicts && found.claims == original.claims && all_weaker(&found.points, &original.points)
+        }
+        // Each claim is about one factor, in any order.
+        Claim::Jordan { .. } => verdicts && found.claims.iter().all(|c| original.claims.contains(c)),
+        Claim::Radius(..) => verdicts && all_weaker(&found.claims, &original.claims),
+        _ => verdicts && answers(found, original) && sorted(found) == sorted(original),
+    }
+}
+
+/// The answers about every point and about any point may be left out, whatever they are.
+fn answers(found: &Accepted, original: &Accepted) -> bool {
+    let turns = |d: &Decided| matches!(d.claim, Claim::TangentTurns { .. } | Claim::HalfTangents { .. });
+    let given = [found.claims.iter().any(turns), found.claims.iter().any(|d| d.claim == Claim::TangentSomewhere)];
+    let asked = |d: &&Decided| (given[0] || !turns(d)) && (given[1] || d.claim != Claim::TangentSomewhere);
+    let claims: Vec<Decided> = original.claims.iter().filter(asked).cloned().collect();
+    // What is said of half-tangents is part of the answer about every point.
+    let half =
+        found.claims.iter().filter(|d| !matches!(d.claim, Claim::HalfTangents { .. })).cloned().collect::<Vec<_>>();
+    all_weaker(&found.claims, &claims) || all_weaker(&half, &claims)
+}
+
+/// The points in any order. Inside a curve a refuted point is a witness for the answer about every point, which any other is as
+/// well.
+fn sorted(x: &Accepted) -> Vec<String> {
+    let named = |d: &Decided| match &d.claim {
+        Claim::Point { place: Place::Inside(_), .. } if d.verdict == Verdict::Refuted => "a witness".to_owned(),
+        _ => d.to_string(),
     };
-    let room = secant_check::number::whole(1) + number("1/1073741824");
-    // More letters with no better a ratio say less.
-    text == other && letters >= least && ratio * room >= low
+    let mut points: Vec<String> = x.points.iter().map(named).collect();
+    points.sort();
+    points
 }
 
 /// Tries every mutant of the stored certificates, or every `step`-th.

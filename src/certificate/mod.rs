@@ -4,6 +4,7 @@
 //! shares no code with this crate.
 
 mod branch;
+mod confirm;
 mod everywhere;
 mod hull;
 mod joint;
@@ -16,6 +17,7 @@ mod top;
 mod tree;
 mod vertex;
 
+pub use confirm::{Doubt, checked, confirm};
 pub use joint::radius_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
@@ -143,60 +145,6 @@ fn contraction<'a>(
 pub fn sha256(text: impl AsRef<[u8]>) -> String {
     use sha2::{Digest, Sha256};
     Sha256::digest(text.as_ref()).iter().map(|b| format!("{b:02x}")).collect()
-}
-
-/// Why a decided verdict was not proved again.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum Doubt {
-    /// It has no certificate.
-    #[error(transparent)]
-    Unsupported(#[from] Unsupported),
-    /// The checker does not accept its certificate.
-    #[error("the certificate is not accepted: {0}")]
-    Rejected(#[from] secant_check::Rejected),
-    /// The checker comes to another verdict.
-    #[error("the certificate proves \"{0}\", which is not the verdict found")]
-    Differs(&'static str),
-}
-
-/// Writes the certificate and has it checked by `secant-check` against the text of the case.
-///
-/// # Errors
-/// [`Doubt`] where there is no certificate, or the checker does not accept it with the same verdict.
-///
-/// # Cost
-/// That of [`certificate`] and of [`secant_check::check`].
-pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
-    let certificate = certificate(case, found)?;
-    let accepted = accepted(&case.checked_text(), &certificate)?;
-    if accepted.verdict.word() == found.verdict.word() {
-        Ok(certificate)
-    } else {
-        Err(Doubt::Differs(accepted.verdict.word()))
-    }
-}
-
-/// Has a certificate checked by `secant-check` against the text of what it is about.
-///
-/// # Errors
-/// [`Doubt`] where the checker does not accept it.
-///
-/// # Cost
-/// That of [`secant_check::check`].
-pub fn checked(source: &str, certificate: Certificate) -> Result<Certificate, Doubt> {
-    accepted(source, &certificate)?;
-    Ok(certificate)
-}
-
-/// What the checker says. Where its budget does not last, nothing was found to be wrong: there is just no second proof.
-fn accepted(source: &str, certificate: &Certificate) -> Result<secant_check::Accepted, Doubt> {
-    match secant_check::check(source, &certificate.text()) {
-        Err(rejected) if rejected.rule == "limit" => {
-            let what = "evidence that takes so much arithmetic".to_owned();
-            Err(Unsupported { what, place: rejected.place }.into())
-        }
-        answer => Ok(answer?),
-    }
 }
 
 fn number(x: &Rational) -> Value {

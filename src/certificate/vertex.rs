@@ -1,6 +1,7 @@
 //! Certificates of a scheme at the vertices of a mesh.
 
-use super::{Certificate, Doubt, accepted, number};
+use super::confirm::{accepted, same_verdict};
+use super::{Certificate, Doubt, number};
 use crate::algebraic::sqrt_down;
 use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};
@@ -10,6 +11,7 @@ use crate::vertex::field::{Enclosures, Field};
 use crate::vertex::top::Top;
 use crate::vertex::{Again, AtValence, Eigenvector, Ground};
 use malachite_base::num::arithmetic::traits::Floor;
+use secant_check::Claim;
 use serde_json::{Value, json};
 
 /// Binary places of eigenvectors and of roots of unity in a certificate.
@@ -117,16 +119,34 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
     }))
 }
 
+/// A certificate, the valences that it is about, and its verdict.
+struct Covered {
+    certificate: Certificate,
+    listed: Vec<usize>,
+    verdict: Verdict,
+}
+
+fn covered(case: &VertexCase, found: &[AtValence]) -> Option<Covered> {
+    let (mut claims, mut valences) = (Vec::new(), Vec::new());
+    for f in found {
+        // A valence without a rule is not claimed to be proved again.
+        if let Some(evidence) = evidence(case, f) {
+            claims.push((f.valence, f.smooth));
+            valences.push(evidence);
+        }
+    }
+    if claims.is_empty() || !case.declared {
+        return None;
+    }
+    let verdict = together(case, &claims);
+    let certificate = Certificate::new("vertex", &case.name, verdict.word(), json!({ "valences": valences }));
+    Some(Covered { certificate, listed: claims.into_iter().map(|(n, _)| n).collect(), verdict })
+}
+
 /// The certificate of the valences for which the format has a rule; `None` where there is none of them.
 #[must_use]
 pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Option<Certificate> {
-    let covered: Vec<(&AtValence, Value)> = found.iter().filter_map(|f| Some((f, evidence(case, f)?))).collect();
-    if covered.is_empty() || !case.declared {
-        return None;
-    }
-    let valences: Vec<(usize, Verdict)> = covered.iter().map(|(f, _)| (f.valence, f.smooth)).collect();
-    let proof = json!({ "valences": covered.into_iter().map(|(_, evidence)| evidence).collect::<Vec<_>>() });
-    Some(Certificate::new("vertex", &case.name, together(case, &valences).word(), proof))
+    covered(case, found).map(|c| c.certificate)
 }
 
 /// Has the verdicts at the valences for which the format has a rule checked by `secant-check`, and marks them as checked.
@@ -138,24 +158,25 @@ pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Option<Cert
 /// That of [`secant_check::check`].
 pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Option<Certificate>, Doubt> {
     found.iter_mut().for_each(|f| f.again = Again::NoRule);
-    let Some(certificate) = vertex_certificate(case, found) else { return Ok(None) };
+    let Some(Covered { certificate, listed, verdict }) = covered(case, found) else { return Ok(None) };
     let accepted = match accepted(&case.text.text, &certificate) {
         Err(Doubt::Unsupported(_)) => return Ok(None),
         answer => answer?,
     };
-    let said = |f: &AtValence| {
-        [(f.smooth, "the surface is C1"), (f.plane, "it has a tangent plane")].map(|(verdict, what)| {
-            format!("{} for almost all control points: at valence {} {what}", verdict.word(), f.valence)
-        })
-    };
-    let listed = certificate.json()["proof"]["valences"].as_array().into_iter().flatten();
-    let listed: Vec<usize> = listed.filter_map(|item| usize::try_from(item["valence"].as_u64()?).ok()).collect();
+    // Both claims about each valence that the certificate lists, in its order, and nothing else.
     let mut claims = accepted.claims.iter();
+    let mut said = |claim: Claim, verdict: Verdict| {
+        claims.next().is_some_and(|d| d.claim == claim && same_verdict(verdict, d.verdict))
+    };
     for f in found.iter_mut().filter(|f| listed.contains(&f.valence)) {
-        if !said(f).iter().all(|claim| claims.next() == Some(claim)) {
+        let smooth = said(Claim::SmoothAtVertex(f.valence), f.smooth);
+        if !(said(Claim::PlaneAtVertex(f.valence), f.plane) && smooth) {
             return Err(Doubt::Differs(accepted.verdict.word()));
         }
         f.again = Again::Proved;
+    }
+    if claims.next().is_some() || !same_verdict(verdict, accepted.verdict) {
+        return Err(Doubt::Differs(accepted.verdict.word()));
     }
     Ok(Some(certificate))
 }

@@ -5,7 +5,8 @@ use super::progress::Waiting;
 use super::{PROVED, SpectrumArgs, UNDETERMINED};
 use crate::algebraic::field::FieldMatrix;
 use crate::approx::{ApproxSpectrum, approximate_spectrum};
-use crate::case::{Case, FieldCase, matrix_file};
+use crate::case::matrix_file::{self, Format};
+use crate::case::{Case, FieldCase};
 use crate::certificate::{self, Doubt, Operator};
 use crate::diagnostic::Problem;
 use crate::jordan::{BUDGET, FieldSpectrum, Spectrum, estimated_field_work, estimated_work};
@@ -91,7 +92,8 @@ fn matrices(path: &Path) -> Result<Input, Problem> {
     if file.decimals > 0 {
         eprintln!("note: {} decimals were read as the exact fractions that they write", file.decimals);
     }
-    let about = (file.format == matrix_file::Format::Plain).then(|| (text, "matrix".to_owned()));
+    let checked = matches!(file.format, Format::Plain | Format::NestedBrackets | Format::NestedBraces);
+    let about = checked.then(|| (text, "matrix".to_owned()));
     Ok(Input { matrices: vec![(name, file.matrix.into(), None)], about })
 }
 
@@ -174,7 +176,7 @@ fn write_certificate(path: &Path, input: &Input, found: &[Found]) -> Result<(), 
         }
     }
     let Some((text, name)) = &input.about else {
-        let message = "certificates are about plain matrices and rational cases only";
+        let message = "certificates are about plain matrices, rows in nested brackets, and rational cases only";
         return Err(none(message, "write the matrix as plain text: n, then n rows of n numbers"));
     };
     let written = certificate::spectra(name, &operators).map_err(Doubt::from);

@@ -10,30 +10,25 @@ use crate::jordan::{Chain, FieldFactor, FieldSpectrum};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
-/// A polynomial over the field, with the texts of its coefficients.
+/// A polynomial over the field, with the texts of its coefficients: those of several terms in brackets, and a blank
+/// between an irrational coefficient and the power, where nothing else parts them.
 fn polynomial(f: &[Elem], power: impl Fn(usize) -> String, show: impl Fn(&Elem) -> String) -> String {
     let mut out = String::new();
     for (k, c) in f.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()) {
-        let text = show(c);
-        let (negative, size) = match text.strip_prefix('-') {
-            Some(rest) if !rest.contains([' ', '+']) && !rest[1..].contains('-') => (true, rest.to_owned()),
-            _ if text.contains(' ') || text[1..].contains(['+', '-']) => (false, format!("({text})")),
-            _ => (false, text),
-        };
-        match (out.is_empty(), negative) {
-            (true, false) => {}
-            (true, true) => out.push('-'),
-            (false, false) => out.push_str(" + "),
-            (false, true) => out.push_str(" - "),
-        }
-        if k == 0 || size != "1" {
-            out.push_str(&size);
-            if k > 0
-                && size.ends_with(|c: char| c.is_ascii_alphanumeric())
-                && !size.ends_with(|c: char| c.is_ascii_digit())
-            {
-                out.push(' ');
-            }
+        let several = c.0.coeffs().iter().filter(|x| **x != 0).count() > 1;
+        let negative = !several && c.0.leading().is_some_and(|x| *x < 0);
+        let size = if negative { c.neg() } else { c.clone() };
+        let text = if several { format!("({})", show(&size)) } else { show(&size) };
+        out.push_str(match (out.is_empty(), negative) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        });
+        if k == 0 || text != "1" {
+            out.push_str(&text);
+            let open = size.is_rational().is_none() && text.ends_with(char::is_alphanumeric);
+            out.push_str(if k > 0 && open { " " } else { "" });
         }
         out.push_str(&power(k));
     }

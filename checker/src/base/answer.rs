@@ -1,5 +1,6 @@
 //! What a check answers, and how a premise is stated.
 
+use crate::claim::Decided;
 use std::fmt;
 
 /// What follows for a question; of several questions together the least.
@@ -28,10 +29,10 @@ pub struct Accepted {
     pub case: String,
     /// The verdict on all questions of the case together.
     pub verdict: Verdict,
-    /// What was proved or refuted, one claim a line.
-    pub claims: Vec<String>,
-    /// The points with their verdicts and kinds, one a line.
-    pub points: Vec<String>,
+    /// What was proved or refuted.
+    pub claims: Vec<Decided>,
+    /// What the claims rest on: points of curves and surfaces, blocks and orders of a radius.
+    pub points: Vec<Decided>,
 }
 
 /// Why a certificate proves nothing.
@@ -71,10 +72,26 @@ pub fn need(holds: bool, rule: &str, why: impl fmt::Display) -> Checked<()> {
 
 /// The same for something that must exist.
 pub fn some<T>(found: Option<T>, rule: &str, why: impl fmt::Display) -> Checked<T> {
-    found.map_or_else(|| reject(rule, why), Ok)
+    match found {
+        Some(found) => Ok(found),
+        None => reject(rule, why),
+    }
 }
 
 /// Marks a rejection as that of a text that cannot be read.
 pub fn unreadable<T>(read: Checked<T>) -> Checked<T> {
     read.map_err(|r| Rejected { unreadable: true, ..r })
+}
+
+/// `1, 2, 3`.
+pub fn list<T: fmt::Display>(items: &[T]) -> String {
+    items.iter().map(T::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// The verdict on several questions together, the least; there is none on no questions.
+pub fn together(verdicts: impl IntoIterator<Item = Verdict>) -> Verdict {
+    match verdicts.into_iter().min() {
+        Some(verdict) => verdict,
+        None => Verdict::Undetermined,
+    }
 }

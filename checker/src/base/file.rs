@@ -41,10 +41,11 @@ pub fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
 
 /// Whether a key is set to true.
 pub fn flag(node: &Node<'_>, key: &str) -> Checked<bool> {
-    node.get(key).map_or(Ok(false), |n| match n.value {
-        Json::Flag(flag) => Ok(*flag),
-        _ => n.reject("format", "true or false is needed here"),
-    })
+    match node.get(key) {
+        None => Ok(false),
+        Some(Node { value: Json::Flag(flag), .. }) => Ok(*flag),
+        Some(n) => n.reject("format", "true or false is needed here"),
+    }
 }
 
 /// A text that may be left out.
@@ -54,7 +55,10 @@ pub fn word<'a>(node: &Node<'a>, key: &str) -> Checked<Option<&'a str>> {
 
 /// A list that may be left out: its elements.
 pub fn items<'a>(node: &Node<'a>, key: &str) -> Checked<Vec<Node<'a>>> {
-    node.get(key).map_or(Ok(Vec::new()), |n| n.list())
+    match node.get(key) {
+        None => Ok(Vec::new()),
+        Some(n) => n.list(),
+    }
 }
 
 /// A number: a text or a number of the file.
@@ -68,7 +72,8 @@ pub fn number(node: &Node<'_>) -> Checked<Q> {
 /// Reads a matrix of 1 to 64 rows and columns.
 pub fn matrix(node: &Node<'_>) -> Checked<Matrix> {
     let rows = node.each(|row| row.each(|x| number(x)))?;
-    let cols = rows.first().map_or(0, Vec::len);
+    node.need(!rows.is_empty(), "case", "a matrix without rows")?;
+    let cols = rows[0].len();
     let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
     let regular = fits(rows.len()) && fits(cols) && rows.iter().all(|r| r.len() == cols);
     node.need(regular, "case", format_args!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;

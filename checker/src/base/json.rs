@@ -68,7 +68,7 @@ impl<'de> Visitor<'de> for Reader {
         while let Some((key, value)) = items.next_entry::<String, Json>()? {
             room()?;
             if fields.len() == MAX_FIELDS || fields.iter().any(|(k, _)| *k == key) {
-                return Err(A::Error::custom(format!("the key {key:?} is repeated, or one too many")));
+                return Err(A::Error::custom(format!("the key `{key}` is repeated, or one too many")));
             }
             fields.push((key, value));
         }
@@ -114,7 +114,7 @@ impl<'a> Node<'a> {
 
     /// Demands that this text is the one that follows.
     pub fn follows(&self, rule: &str, word: &str) -> Checked<()> {
-        self.need(self.text()? == word, rule, format_args!("what follows is {word:?}"))
+        self.need(self.text()? == word, rule, format_args!("what follows is \"{word}\""))
     }
 
     /// Whether this is `null`.
@@ -134,7 +134,7 @@ impl<'a> Node<'a> {
     pub fn fields<const K: usize>(&self, names: &str) -> Checked<[Node<'a>; K]> {
         let fields = self.object()?;
         let same = fields.len() == K && fields.iter().map(|(key, _)| key.as_str()).eq(names.split(' '));
-        self.need(same, "format", format_args!("the fields must be exactly {names:?}, in this order"))?;
+        self.need(same, "format", format_args!("the fields must be exactly `{names}`, in this order"))?;
         Ok(std::array::from_fn(|k| self.child(&fields[k])))
     }
 
@@ -142,7 +142,7 @@ impl<'a> Node<'a> {
     pub fn tag(&self, name: &str) -> Checked<&'a str> {
         match self.object()?.first() {
             Some((key, Json::Text(text))) if key == name => Ok(text),
-            _ => self.reject("format", format_args!("the first field must be the text {name:?}")),
+            _ => self.reject("format", format_args!("the first field must be the text `{name}`")),
         }
     }
 
@@ -153,13 +153,15 @@ impl<'a> Node<'a> {
 
     /// The value of a field.
     pub fn field(&self, name: &str) -> Checked<Node<'a>> {
-        self.form(self.get(name), &format!("the field {name:?}"))
+        self.form(self.get(name), &format!("the field `{name}`"))
     }
 
     /// Demands an object with no other keys than these (separated by spaces).
     pub fn known(&self, names: &str) -> Checked<()> {
-        let unknown = self.object()?.iter().find(|(key, _)| names.split_ascii_whitespace().all(|name| name != key));
-        self.need(unknown.is_none(), "format", format_args!("unknown key {:?}", unknown.map(|(key, _)| key)))
+        match self.object()?.iter().find(|(key, _)| names.split_ascii_whitespace().all(|name| name != key)) {
+            None => Ok(()),
+            Some((key, _)) => self.reject("format", format_args!("unknown key `{key}`")),
+        }
     }
 
     /// The elements of a list.

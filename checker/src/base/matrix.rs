@@ -1,6 +1,6 @@
 //! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
 
-use super::number::{gcd, lcm, ratio};
+use super::number::{gcd, lcm, longest, ratio};
 use super::{Checked, Q, charge, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -121,7 +121,7 @@ impl Matrix {
 
     /// The largest size of the integers in bits.
     pub fn bits(&self) -> u64 {
-        self.data.iter().chain([&self.den]).map(BigInt::bits).max().unwrap_or(0)
+        longest(&self.data).max(self.den.bits())
     }
 
     /// The product.
@@ -182,7 +182,7 @@ impl Matrix {
     pub fn is_positive(&self, strictly: bool) -> Checked<bool> {
         let mut a = self.data.clone();
         for n in (1..=self.rows).rev() {
-            spend(2 * n * n, a.iter().map(BigInt::bits).max().unwrap_or(0))?;
+            spend(2 * n * n, longest(&a))?;
             if a[0].is_negative() || a[0].is_zero() && (strictly || a[..n].iter().any(|x| !x.is_zero())) {
                 return Ok(false);
             }
@@ -202,7 +202,7 @@ impl Matrix {
             let top = pivots.len();
             let Some(found) = (top..rows.len()).find(|&i| !rows[i][j].is_zero()) else { continue };
             rows.swap(top, found);
-            let bits = rows.iter().flatten().map(BigInt::bits).max().unwrap_or(0);
+            let bits = longest(rows.iter().flatten());
             spend(rows.len() * self.cols, bits)?;
             let pivot = rows[top].clone();
             for (i, row) in rows.iter_mut().enumerate() {
@@ -239,8 +239,9 @@ impl Matrix {
 
     /// The echelon form of these rows, which are in that form, and of others; `None` where the others are combinations.
     pub fn joined(&self, others: &Self) -> Checked<Option<(Self, Vec<usize>)>> {
-        let leading = |i: usize| self.integers(i).iter().position(|x| !x.is_zero());
-        let pivots: Vec<usize> = (0..self.rows).filter_map(leading).collect();
+        // No row of an echelon form is 0.
+        let pivots: Vec<usize> =
+            (0..self.rows).flat_map(|i| self.integers(i).iter().position(|x| !x.is_zero())).collect();
         if pivots.len() == self.cols || others.columns(&pivots).times(self)? == *others {
             return Ok(None);
         }

@@ -7,11 +7,11 @@ mod matrix;
 pub mod number;
 mod poly;
 
-pub use answer::{Accepted, Checked, Rejected, Verdict, need, reject, some, unreadable};
+pub use answer::{Accepted, Checked, Rejected, Verdict, list, need, reject, some, together, unreadable};
 pub use file::{MAX_COORDINATES, file, flag, index, items, matrix, number, word};
 pub use json::{Json, Node};
 pub use matrix::{Matrix, primitive};
-pub use number::{Q, bits, charge, spend, total, whole};
+pub use number::{Q, bits, charge, longest, spend, total, whole};
 pub use poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, products, roots_in_disc, values};
 
 /// Longest word of a certificate or address of a case.

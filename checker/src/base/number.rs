@@ -39,7 +39,11 @@ pub fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     match short.magnitude().to_u64() {
         Some(0) => long.abs(),
         Some(1) => BigInt::one(),
-        Some(word) => (long.magnitude() % word).to_u64().map_or_else(BigInt::one, |rest| word.gcd(&rest).into()),
+        // A rest that does not fit, which cannot be, leaves the fraction as it is.
+        Some(word) => match (long.magnitude() % word).to_u64() {
+            Some(rest) => word.gcd(&rest).into(),
+            None => BigInt::one(),
+        },
         // The cost of the division, and of the algorithm of the library, which takes off a bit or two in each step.
         None if charge((long.bits() / short.bits()) as usize + 64, short.bits()) => short.gcd(&(long % short)),
         None => BigInt::one(),
@@ -62,6 +66,11 @@ pub fn bits(x: &Q) -> u64 {
     x.numer().bits() + x.denom().bits()
 }
 
+/// The size of the longest of some integers in bits; that of no integers is 0.
+pub fn longest<'a>(numbers: impl IntoIterator<Item = &'a BigInt>) -> u64 {
+    numbers.into_iter().fold(0, |most, x| most.max(x.bits()))
+}
+
 /// A sum of numbers.
 pub fn total(numbers: impl IntoIterator<Item = Q>) -> Checked<Q> {
     numbers.into_iter().try_fold(Q::zero(), |sum, x| {
@@ -75,10 +84,26 @@ pub fn whole(k: i64) -> Q {
     Q::from_integer(BigInt::from(k))
 }
 
+/// The two parts of a text around a mark, or all of it and what stands for the second part.
+fn halves<'a>(text: &'a str, mark: char, without: &'a str) -> (&'a str, &'a str) {
+    match text.split_once(mark) {
+        Some(parts) => parts,
+        None => (text, without),
+    }
+}
+
+/// A text without its sign, where it has one of these.
+fn unsigned<'a>(text: &'a str, signs: &[char]) -> &'a str {
+    match text.strip_prefix(signs) {
+        Some(rest) => rest,
+        None => text,
+    }
+}
+
 /// Reads a rational number in canonical form: lowest terms, no superfluous sign, zero or denominator.
 pub fn canonical(text: &str) -> Option<Q> {
-    let (numerator, denominator) = text.split_once('/').unwrap_or((text, "1"));
-    let digits = numerator.strip_prefix('-').unwrap_or(numerator);
+    let (numerator, denominator) = halves(text, '/', "1");
+    let digits = unsigned(numerator, &['-']);
     let plain = |s: &str| s.bytes().all(|b| b.is_ascii_digit()) && s.bytes().next().is_some_and(|b| b != b'0');
     let zero = text == "0";
     if text.len() > MAX_DIGITS || !(zero || plain(digits)) || !plain(denominator) || text.ends_with("/1") {
@@ -94,18 +119,18 @@ pub fn decimal_fraction(text: &str) -> Option<Q> {
     if text.len() > MAX_DIGITS {
         return None;
     }
-    let (p, q) = text.split_once('/').unwrap_or((text, "1"));
+    let (p, q) = halves(text, '/', "1");
     let q = decimal(q.trim()).filter(|q| !q.is_zero())?;
     Some(decimal(p.trim())? / q)
 }
 
 fn decimal(text: &str) -> Option<Q> {
-    let body = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let body = unsigned(text, &['-', '+']);
     let (mantissa, exponent) = match body.split_once(['e', 'E']) {
         Some((m, e)) => (m, e.parse::<i32>().ok()?),
         None => (body, 0),
     };
-    let (before, after) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let (before, after) = halves(mantissa, '.', "");
     let digits = format!("{before}{after}");
     if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
         return None;

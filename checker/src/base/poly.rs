@@ -1,6 +1,6 @@
 //! Real number fields with a chosen embedding, interval enclosures, and the count of roots in a disc.
 
-use super::{Checked, Matrix, Node, Q, primitive, spend};
+use super::{Checked, Matrix, Node, Q, longest, primitive, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -103,9 +103,12 @@ fn derivative(p: &Matrix) -> Matrix {
     Matrix { data, ..p.clone() }
 }
 
-/// Whether a polynomial of degree `n` (a row) is seen to have a root within `error` of a point `z` of the plane: some root is
-/// nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`.
+/// Whether a polynomial of degree `n ≥ 1` (a row) is seen to have a root within `error ≥ 0` of a point `z` of the plane: some root
+/// is nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`. A polynomial of degree 0 has no root: its sum is empty.
 pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Checked<bool> {
+    if p.cols < 2 || p.data[p.cols - 1].is_zero() || error.is_negative() {
+        return Ok(false);
+    }
     let [re, im] = values(&p.stack(&derivative(p)), &point(&z[0]), &point(&z[1]))?;
     let square = |k: usize| &re.lo.data[k] * &re.lo.data[k] + &im.lo.data[k] * &im.lo.data[k];
     let (far, degree) = (error.numer(), error.denom() * (p.cols - 1));
@@ -248,12 +251,12 @@ impl Field {
 /// The number of roots of `p` in the open unit disc, with multiplicity, where the recursion of Schur and Cohn is regular;
 /// then no root lies on the circle. `None` where it is not.
 pub fn roots_in_disc(p: &[BigInt]) -> Checked<Option<usize>> {
-    let n = p.len().saturating_sub(1);
     let (Some(low), Some(high)) = (p.first(), p.last()) else { return Ok(None) };
+    let n = p.len() - 1;
     if n == 0 {
         return Ok(if low.is_zero() { None } else { Some(0) });
     }
-    spend(4 * n, p.iter().map(BigInt::bits).max().unwrap_or(0))?;
+    spend(4 * n, longest(p))?;
     let grows = low.abs() > high.abs();
     if low.abs() == high.abs() {
         return Ok(None);
@@ -316,5 +319,9 @@ mod tests {
         assert!(has_root_near(&p, &z, &(whole(1) / whole(4))).unwrap());
         assert!(!has_root_near(&p, &z, &(whole(1) / whole(5))).unwrap());
         assert!(!has_root_near(&p, &[whole(0), whole(0)], &whole(100)).unwrap());
+        // 0 · |1| ≤ e · |0| holds anywhere, but constants have no roots; nor has a product of size 0 x 0 eigenvalues.
+        let constant = Matrix::new(1, 1, &[whole(1)]);
+        assert!(!has_root_near(&constant, &[whole(5), whole(0)], &whole(100)).unwrap());
+        assert!(!has_root_near(&Matrix::identity(0).characteristic().unwrap(), &z, &whole(1)).unwrap());
     }
 }

@@ -86,7 +86,10 @@ impl Reader {
             let mut holes = self.holes.borrow_mut();
             at.need(holes.len() < MAX_HOLES, "limit", "too many unknown entries")?;
             let known = holes.iter().find(|(_, n)| !name.is_empty() && *n == name).map(|(h, _)| h.unknown);
-            let unknown = known.unwrap_or_else(|| holes.iter().map(|(h, _)| h.unknown + 1).max().unwrap_or(0));
+            let unknown = match known {
+                Some(known) => known,
+                None => holes.iter().fold(0, |next, (h, _)| next.max(h.unknown + 1)),
+            };
             holes.push((Hole { op, row, col, unknown }, name));
             entries.push(Q::zero());
         }
@@ -153,7 +156,10 @@ impl Reader {
             (None, None) => 0,
             (None, Some(first)) => {
                 let rows = first.field("matrix")?.list()?;
-                if self.by_rows { rows.first().map_or(Ok(Vec::new()), Node::list)?.len() } else { rows.len() }
+                match rows.first() {
+                    Some(row) if self.by_rows => row.list()?.len(),
+                    _ => rows.len(),
+                }
             }
         };
         Ok(Head { name: table.field("name")?.text()?, kind, dim, pieces })

@@ -1,8 +1,9 @@
 //! The whole certificate: contraction, points, answers, and the verdict that follows from them.
 
-use super::{Address, Case, End, Kind, Model, Piece, Place, Point, Root, Way};
+use super::{Address, Case, End, Germ, Kind, Model, Piece, Place, Point, Root, Way};
 use super::{close, complete, everywhere, positive_definite, read_address};
-use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need};
+use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
+use crate::claim::{Claim, Decided, Joints, Subject};
 use num_traits::Signed;
 
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
@@ -56,7 +57,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         item.need(checked.iter().all(|p| p.place != point.place), "points", "the same point twice")?;
         checked.push(point);
     }
-    let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], lines: Vec::new() };
+    let mut claims = Claims { model: &model, points: &checked, used: vec![false; checked.len()], found: Vec::new() };
     let (items, mut asked) = (answers.list()?, questions(case));
     answers.need(items.len() >= asked.len(), "answers", format_args!("{} questions are asked", asked.len()))?;
     for (k, item) in items.iter().enumerate().skip(asked.len()) {
@@ -68,10 +69,10 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         found.extend((question.0 != "every point").then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
-    let verdict = found.into_iter().min().unwrap_or(Verdict::Undetermined);
-    let line = |p: &Point| format!("{}: {:?}, {}", p.verdict.word(), p.place, p.kind);
+    let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
     let points = checked.iter().map(line).collect();
-    Ok(Accepted { case: case.name.clone(), verdict, claims: claims.lines, points })
+    // A set none of whose maps leads back to it asks nothing; then nothing is proved.
+    Ok(Accepted { case: case.name.clone(), verdict: together(found), claims: claims.found, points })
 }
 
 /// All operators are injective on the visible quotients; whether the map into the space where the shape is looked at is, too.
@@ -89,45 +90,68 @@ struct Claims<'a> {
     model: &'a Model<'a>,
     points: &'a [Point],
     used: Vec<bool>,
-    lines: Vec<String>,
+    found: Vec<Decided>,
 }
 
 impl<'a> Claims<'a> {
     /// Checks the answer to a question.
     fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
+        let mut more = Vec::new();
         let (stated, verdict, claim) = match question {
             ("ends", _) => {
                 let [_, stated, points] = node.fields("question verdict points")?;
                 let found = self.all(&points, &[Place::End(End::Start), Place::End(End::Finish)])?;
-                (stated, found, "the curve has a tangent line at both end points".to_owned())
+                (stated, found, Claim::TangentAtEnds)
             }
             (_, Some(address)) => {
                 let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
                 let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
-                let place = format!("the address {:?} ({:?})", address.prefix, address.cycle);
-                (stated, found, format!("the shape has a tangent line at {place}"))
+                (stated, found, Claim::TangentAt { address: address.clone(), of: self.subject(address, found)? })
             }
             ("joints", _) => {
                 let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
                 let (found, places) = self.joints([&theorem, &points, &upstairs])?;
-                (stated, found, format!("the curve has a tangent line at {places}"))
+                (stated, found, Claim::TangentAtJoints(places))
             }
             ("every point", _) => {
-                let found = everywhere::check(self.model, self.points, node)?;
+                let mut found = everywhere::check(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
-                (node.field("verdict")?, found.verdict, found.claim)
+                more = found.claims.split_off(1);
+                let first = found.claims.swap_remove(0);
+                (node.field("verdict")?, first.verdict, first.claim)
             }
             (_, None) => {
                 let [_, stated, products] = node.fields("question verdict products")?;
                 self.similarities(&products)?;
-                (stated, Verdict::Refuted, "some point of the shape has a tangent line".to_owned())
+                (stated, Verdict::Refuted, Claim::TangentSomewhere)
             }
         };
         let asked = node.tag("question")? == question.0 && stated.text()? == verdict.word();
         node.need(asked, "answers", format_args!("another question, or what follows is \"{}\"", verdict.word()))?;
-        self.lines.push(format!("{}: {claim}", verdict.word()));
+        self.found.push(claim.is(verdict));
+        self.found.append(&mut more);
         Ok(verdict)
+    }
+
+    /// What the claim about an address is about (theory §9, Branch and shape). Of a set every refutation by a branch is one of the
+    /// whole set. What is proved of the germ of a branch, which every rule for a line proves to be isolated unless `Y` is a line,
+    /// is proved of the set where everything near the point belongs to the branch: it has no prefix, different points are seen
+    /// as different ones, and no piece that `L` collapses, which may pass through the point, was left out.
+    fn subject(&self, address: &Address, verdict: Verdict) -> Checked<Subject> {
+        let shape = self.model.shape;
+        if shape.states[shape.start].kind == Kind::Edge {
+            return Ok(Subject::Curve);
+        }
+        match verdict {
+            Verdict::Refuted => return Ok(Subject::Set),
+            Verdict::Undetermined => return Ok(Subject::Branch),
+            Verdict::Proved => {}
+        }
+        let germ = Germ::new(self.model, &Root { state: shape.start, view: shape.view.clone() }, address)?;
+        let nothing_aside = germ.dim() == 1 || !germ.collapses;
+        let whole = address.prefix.is_empty() && germ.view.rank()? == germ.dim() && nothing_aside;
+        Ok(if whole { Subject::Set } else { Subject::Branch })
     }
 
     /// The points with the indices given.
@@ -143,14 +167,14 @@ impl<'a> Claims<'a> {
         let chosen = self.select(node)?;
         let asked = chosen.iter().all(|p| places.contains(&p.place));
         node.need(asked, "answers", "a point that is not asked for")?;
-        Ok(match chosen.iter().map(|p| p.verdict).min() {
-            Some(Verdict::Proved) if chosen.len() < places.len() => Verdict::Undetermined,
-            found => found.unwrap_or(Verdict::Undetermined),
+        Ok(match together(chosen.iter().map(|p| p.verdict)) {
+            Verdict::Proved if places.is_empty() || chosen.len() < places.len() => Verdict::Undetermined,
+            found => found,
         })
     }
 
     /// The joints: refuted by one of them; proved by Theorem 5 or 5′. Says at which joints.
-    fn joints(&mut self, [theorem, points, upstairs]: [&Node<'_>; 3]) -> Checked<(Verdict, &'static str)> {
+    fn joints(&mut self, [theorem, points, upstairs]: [&Node<'_>; 3]) -> Checked<(Verdict, Joints)> {
         let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
         let chosen = self.select(points)?;
         upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
@@ -160,17 +184,17 @@ impl<'a> Claims<'a> {
         if name == "none" {
             let refuted = together == Some(Verdict::Refuted);
             let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };
-            return Ok((verdict, "every joint of every level"));
+            return Ok((verdict, Joints::All));
         }
         let fits = matches!(name, "5" | "5'") && together == Some(Verdict::Proved);
         theorem.need(fits, "joints", "a theorem proves that joints have tangents; \"none\" otherwise")?;
         complete(model, &listed, points, "joints")?;
         theorem.at(self.injective(name == "5"))?;
         if name == "5" {
-            return Ok((Verdict::Proved, "every joint of every level, a dense set"));
+            return Ok((Verdict::Proved, Joints::All));
         }
         self.upstairs(&items, upstairs)?;
-        Ok((Verdict::Proved, "the joints listed and every joint whose line upstairs is not killed, a dense set"))
+        Ok((Verdict::Proved, Joints::NotKilled))
     }
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.

@@ -3,7 +3,8 @@
 
 use super::rate::Bounds;
 use super::{End, Kind, Leading, Line, Model, Place, Point, complete};
-use crate::base::{Checked, Matrix, Node, Verdict, need, whole};
+use crate::base::{Checked, Matrix, Node, Q, Verdict, list, need, whole};
+use crate::claim::{Claim, Decided};
 use num_traits::Signed;
 
 /// Longest window, and most words of one window without a positive factor.
@@ -12,14 +13,12 @@ const MAX_WORDS: usize = 1_000;
 /// Longest words and most products from which a rate is computed.
 const MAX_RATE: (usize, usize) = (12, 5_000);
 
-/// What follows from the answer to "every point": the verdict on G¹, the point used, and a claim in words.
+/// What follows from the answer to "every point": the verdict on G¹, the point used, and the claims.
 pub struct Answer {
-    /// Whether the curve is G¹.
-    pub verdict: Verdict,
     /// The index of the point that refutes it.
     pub witness: Option<usize>,
-    /// The claim.
-    pub claim: String,
+    /// The claims, that on G¹ first.
+    pub claims: Vec<Decided>,
 }
 
 /// The cones of all reachable states, breadth first, and the matrices of the images of their rays.
@@ -38,28 +37,32 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<An
     let start = &model.shape.states[model.shape.start];
     node.need(start.kind == Kind::Edge, "every-point", "only of a curve it is asked whether it is G¹")?;
     let witness = refuting(points, &witness)?;
-    let answer = |verdict, claim: String| Ok(Answer { verdict, witness, claim });
+    let answer = |verdict, rate, more: Option<Claim>| {
+        let claims = [Claim::TangentTurns { rate }.is(verdict)].into_iter();
+        let claims = claims.chain(more.map(|claim| claim.is(Verdict::Proved))).collect();
+        Ok(Answer { witness, claims })
+    };
     if cones.list()?.is_empty() {
         let empty = [&maps, &slow, &together].into_iter().all(|n| n.list().is_ok_and(|l| l.is_empty()));
         let nothing = empty && view.is_null() && rate.is_null() && window.index(1)? == 0;
         node.need(nothing && witness.is_some(), "every-point", "without cones only a point can refute")?;
-        return answer(Verdict::Refuted, "the curve is G¹".to_owned());
+        return answer(Verdict::Refuted, None, None);
     }
     let found = cones.at(Cones::read(model, &cones, &maps))?;
     let seen = view.at(found.seen(&cones, &view))?;
     slow.at(found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
     let rate = rate.at(found.rate(&rate))?;
-    let agree = !together.list()?.is_empty() || model.joints().is_empty();
+    // A curve that is more than a point has joints.
+    node.need(!model.joints()?.is_empty(), "every-point", "a curve without joints")?;
+    let agree = !together.list()?.is_empty();
     if agree {
         together.at(regular_joints(model, points, &together))?;
     }
     if witness.is_none() && seen && agree {
-        let claim = format!("the curve is G¹: a tangent at every point, which turns continuously{rate}");
-        return answer(Verdict::Proved, claim);
+        return answer(Verdict::Proved, rate, None);
     }
     let verdict = if witness.is_some() { Verdict::Refuted } else { Verdict::Undetermined };
-    let before = if seen { "" } else { "before the projection " };
-    answer(verdict, format!("the curve is G¹; but {before}both half-tangents exist at every point"))
+    answer(verdict, None, Some(Claim::HalfTangents { projected: !seen }))
 }
 
 /// The index of a point at which the tangent does not exist or does not turn continuously.
@@ -238,7 +241,7 @@ impl<'a> Cones<'a> {
     fn pulls(&self, node: &Node<'_>, e: usize, word: &[usize]) -> Checked<()> {
         let [state, letters, top, functional] = node.fields("state word top functional")?;
         let same = state.index(usize::MAX)? == e && letters.word()? == word;
-        node.need(same, "slow", format_args!("the cycle {word:?} of state {e} is expected here"))?;
+        node.need(same, "slow", format_args!("the cycle {} of state {e} is expected here", list(word)))?;
         let model = self.model;
         let (product, _) = model.shape.product(e, word)?;
         let turn = whole(i64::from(model.shape.orientation(e, word)?));
@@ -261,9 +264,9 @@ impl<'a> Cones<'a> {
     }
 
     /// Products of `length` letters have cross-ratios of at most `cross_ratio`; says what follows.
-    fn rate(&self, node: &Node<'_>) -> Checked<String> {
+    fn rate(&self, node: &Node<'_>) -> Checked<Option<(usize, Q)>> {
         if node.is_null() {
-            return Ok(String::new());
+            return Ok(None);
         }
         let [length, bound] = node.fields("length cross_ratio")?;
         let (length, most) = (length.index(MAX_RATE.0 + 1)?, bound.rational()?);
@@ -285,7 +288,7 @@ impl<'a> Cones<'a> {
             let within = length > 0 && product.within(&most)?;
             bound.need(within, "rate", "a product is not seen to be positive, or to have so small a cross-ratio")?;
         }
-        Ok(format!(" (cones shrink by (√D − 1)/(√D + 1) with every {length} letters, D = {most})"))
+        Ok(Some((length, most)))
     }
 }
 

@@ -42,6 +42,8 @@ pub struct Germ {
     pub view: Matrix,
     /// The pieces of the ring that are neither repeated nor the point itself and do not collapse.
     pub ring: Vec<RingPiece>,
+    /// Whether a piece was left out because it collapses.
+    pub collapses: bool,
 }
 
 impl Germ {
@@ -62,8 +64,9 @@ impl Germ {
         let ordered = shape.states[state].kind == Kind::Edge;
         let turn = if ordered { shape.orientation(state, &address.cycle)? } else { 1 };
         let prefix_sign = shape.orientation(root.state, &address.prefix)?;
-        let mut germ = Self { state, prefix_sign, turn, fixed, chart, linear, view, ring: Vec::new() };
-        germ.ring = germ.ring_of(model, &address.cycle)?;
+        let mut germ =
+            Self { state, prefix_sign, turn, fixed, chart, linear, view, ring: Vec::new(), collapses: false };
+        (germ.ring, germ.collapses) = germ.ring_of(model, &address.cycle)?;
         Ok(germ)
     }
 
@@ -77,10 +80,11 @@ impl Germ {
         self.chart.times(&point.minus(&self.fixed))
     }
 
-    /// The standard ring of the cycle without repeated pieces of sets, copies of `q`, and pieces that collapse (Lemma 2).
-    fn ring_of(&self, model: &Model<'_>, cycle: &[usize]) -> Checked<Vec<RingPiece>> {
+    /// The standard ring of the cycle without repeated pieces of sets, copies of `q`, and pieces that collapse (Lemma 2); whether
+    /// there are such.
+    fn ring_of(&self, model: &Model<'_>, cycle: &[usize]) -> Checked<(Vec<RingPiece>, bool)> {
         let falls = self.linear.power(self.dim())?.times(&self.chart)?;
-        let mut kept: Vec<RingPiece> = Vec::new();
+        let (mut kept, mut some_collapse): (Vec<RingPiece>, bool) = (Vec::new(), false);
         let mut product = Matrix::identity(model.shape.states[self.state].dim);
         let (mut at, mut forward) = (self.state, true);
         for (i, &turn) in cycle.iter().enumerate() {
@@ -95,11 +99,12 @@ impl Germ {
                 let repeated = !ordered && (as_cycle || level.contains(&(piece.target, op.clone())));
                 let space = model.spaces.of(piece.target)?;
                 let image = op.times(&space.base)?;
-                if repeated || model.spaces.is_point(at, letter) && image == self.fixed {
+                if repeated || model.spaces.is_point(at, letter)? && image == self.fixed {
                     continue;
                 }
                 let collapses = falls.times(&image.minus(&self.fixed))?.is_zero()
                     && falls.times(&op)?.times(&space.basis)?.is_zero();
+                some_collapse |= collapses;
                 if !collapses {
                     let word = [&cycle[..i], &[letter]].concat();
                     kept.push(RingPiece { word, end: piece.target, op: op.clone(), side });
@@ -110,6 +115,6 @@ impl Germ {
             forward ^= cycled.reversed;
             at = cycled.target;
         }
-        Ok(kept)
+        Ok((kept, some_collapse))
     }
 }

@@ -1,7 +1,7 @@
 //! Trees of words: contraction codes, and covers of a ring by cells on which a functional keeps its sign (theory §1, §7).
 
 use super::{Germ, Shape, Spaces};
-use crate::base::{Checked, Enclosed, Field, Json, Matrix, Node, Q, bits, need, reject, spend};
+use crate::base::{Checked, Enclosed, Field, Json, Matrix, Node, Q, bits, list, need, reject, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -16,17 +16,21 @@ pub struct Model<'a> {
     hulls: Vec<Matrix>,
 }
 
-/// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator on zero-sum vectors.
+/// The largest `½ Σ_k |t_ki − t_kj|`: the norm of an operator on zero-sum vectors; 0 where there is one column, as those are 0 then.
 fn dobrushin(op: &Matrix) -> Q {
     let entry = |i: usize, j: usize| &op.data[i * op.cols + j];
     let distance = |i: usize, j: usize| (0..op.rows).map(|k| (entry(k, i) - entry(k, j)).abs()).sum::<BigInt>();
     let pairs = (0..op.cols).flat_map(|i| (0..i).map(move |j| (i, j)));
-    Q::new(pairs.map(|(i, j)| distance(i, j)).max().unwrap_or_default(), &op.den * 2)
+    Q::new(pairs.map(|(i, j)| distance(i, j)).fold(BigInt::zero(), BigInt::max), &op.den * 2)
 }
 
 /// `max − min`.
 fn oscillation(row: &[BigInt]) -> BigInt {
-    row.iter().max().zip(row.iter().min()).map_or_else(BigInt::zero, |(hi, lo)| hi - lo)
+    match (row.iter().max(), row.iter().min()) {
+        (Some(hi), Some(lo)) => hi - lo,
+        // A row without entries is 0 everywhere.
+        _ => BigInt::zero(),
+    }
 }
 
 /// Rows on the points of the germ's state that vanish at its fixed point, and by how much each may be wrong on its attractor.
@@ -135,6 +139,7 @@ impl<'a> Model<'a> {
         for (e, hull) in hulls {
             let [points, images] = hull.fields("points images")?;
             self.hulls[e] = points.matrix(self.shape.states[e].dim)?.transpose();
+            points.need(self.hulls[e].cols > 0, "hull", "a hull has points")?;
             entries.push((e, points, images));
         }
         for (e, points, images) in entries {
@@ -171,7 +176,7 @@ impl<'a> Model<'a> {
             let common = (0..own.cols).any(|k| weights.iter().all(|w| w[k].is_positive()));
             need(common || !shrinking, "contraction", "the images under a piece have no vertex in common")?;
             let weights = Matrix::from_rows(own.cols, &weights).transpose();
-            need(weights.is_affine() && target.cols > 0, "hull", "the weights do not add up to 1, or there are none")?;
+            need(weights.is_affine(), "hull", "the weights do not add up to 1")?;
             let combined = own.times(&weights)?;
             need(piece.op.times(target)? == combined, "hull", "an image is not this convex combination")?;
         }
@@ -225,11 +230,17 @@ impl<'a> Model<'a> {
     /// `"-0"`, `"+1"`, ….
     pub fn cover(&self, germ: &Germ, by: &Functionals, part: Option<i32>, node: &Node<'_>) -> Checked<Vec<Cell>> {
         let pieces: Vec<_> = germ.ring.iter().filter(|p| part.is_none_or(|part| p.side == part)).collect();
+        // Where no piece were left, no leaf would say anything. (Then the germ were a point, or `L` nilpotent.)
+        node.need(
+            !pieces.is_empty() && by.rows.rows > 0,
+            "cover",
+            "no piece of the ring is seen, or no functional given",
+        )?;
         let mut cells = Vec::new();
         for (item, piece) in node.exactly(pieces.len(), "cover")?.iter().zip(pieces) {
             let [word, tree] = item.fields("piece cells")?;
             let same = word.word()? == piece.word;
-            word.need(same, "cover", format_args!("the piece {:?} of the ring is expected here", piece.word))?;
+            word.need(same, "cover", format_args!("the piece {} of the ring is expected here", list(&piece.word)))?;
             let mut leaf = |rows: &Matrix, state: usize, leaf: &str| {
                 let named = (0..rows.rows).flat_map(|k| [(k, 1, format!("+{k}")), (k, -1, format!("-{k}"))]);
                 let Some((functional, sign, _)) = named.into_iter().find(|(_, _, name)| name == leaf) else {
@@ -287,7 +298,8 @@ mod tests {
         let ball = model(&shape, 3, Matrix::empty(2).transpose());
         let fixed = ball.spaces.of(0).unwrap().base.clone();
         let (chart, linear, view) = (row(&[1, -1]), one.clone(), one);
-        let germ = Germ { state: 0, prefix_sign: 1, turn: 1, fixed, chart, linear, view, ring: Vec::new() };
+        let germ =
+            Germ { state: 0, prefix_sign: 1, turn: 1, fixed, chart, linear, view, ring: Vec::new(), collapses: false };
         // The root of 2 lies within 1/2 of 3/2; two points of the ball differ by at most 6, their chart by 6.
         let by_root = Field::companion(&[-2, 0, 1].map(whole));
         let root = Field { interval: [whole(1), whole(2)], by_root };

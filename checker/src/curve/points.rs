@@ -41,6 +41,22 @@ pub struct Point {
     pub common: Option<Matrix>,
 }
 
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::End(End::Start) => f.write_str("left end"),
+            Self::End(End::Finish) => f.write_str("right end"),
+            Self::Joint { path, left, right } if path.is_empty() => write!(f, "joint of the pieces {left} and {right}"),
+            Self::Joint { path, left, right } => {
+                let path: Vec<String> = path.iter().map(usize::to_string).collect();
+                write!(f, "joint of the pieces {left} and {right} along the path {}", path.join(","))
+            }
+            Self::Inside(address) => write!(f, "point {address} inside"),
+            Self::OfSet(address) => write!(f, "branch {address} of the set"),
+        }
+    }
+}
+
 impl Place {
     /// Reads a place.
     pub fn read(node: &Node<'_>) -> Checked<Self> {
@@ -62,9 +78,10 @@ impl Place {
         match self {
             Self::End(end) => Ok(vec![(Some(*end), end_branch(model, &[], root.state, *end)?)]),
             Self::Joint { path, left, right } => {
-                let neighbours = self.joint(model, root.state).filter(|j| model.joints_of(j.0).contains(j));
                 let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
-                let (state, ..) = some(neighbours, "joint", why)?;
+                let joint = some(self.joint(model, root.state), "joint", why)?;
+                need(model.joints_of(joint.0)?.contains(&joint), "joint", why)?;
+                let state = joint.0;
                 let branch = |letter: usize, end: End| {
                     let piece = &model.shape.states[state].pieces[letter];
                     end_branch(model, &[path, &[letter][..]].concat(), piece.target, end.in_piece(piece))
@@ -98,24 +115,27 @@ impl Place {
         if states.iter().chain(&cycle).any(|&e| shape.states[e].kind != Kind::Edge) {
             return Ok(Self::OfSet(address.clone()));
         }
-        let mut ends = [End::Start, End::Finish].into_iter();
-        let Some(mut end) = ends.find(|&end| is_end(model, state, &address.cycle, end)) else {
+        let mut end = if is_end(model, state, &address.cycle, End::Start)? {
+            End::Start
+        } else if is_end(model, state, &address.cycle, End::Finish)? {
+            End::Finish
+        } else {
             return Ok(Self::Inside(address.clone()));
         };
         for (k, &letter) in address.prefix.iter().enumerate().rev() {
             let pieces = &shape.states[states[k]].pieces;
             end = end.in_piece(&pieces[letter]);
-            let solid = |mut letters: std::ops::Range<usize>| letters.any(|i| !model.spaces.is_point(states[k], i));
-            if model.spaces.is_point(states[k], letter) {
+            if model.spaces.is_point(states[k], letter)? {
+                let solid = model.spaces.solid(states[k])?;
                 // All of the piece is one point: an end of the state, or between two pieces, where no branch shows it.
-                end = match (solid(0..letter), solid(letter + 1..pieces.len())) {
+                end = match (solid.iter().any(|i| *i < letter), solid.iter().any(|i| *i > letter)) {
                     (false, true) => End::Start,
                     (true, false) => End::Finish,
                     _ => return Ok(Self::Inside(address.clone())),
                 };
             }
             let meets = |&(_, l, r): &(_, usize, usize)| if end == End::Start { r == letter } else { l == letter };
-            if let Some((_, left, right)) = model.joints_of(states[k]).into_iter().find(meets) {
+            if let Some((_, left, right)) = model.joints_of(states[k])?.into_iter().find(meets) {
                 return Ok(Self::Joint { path: address.prefix[..k].to_vec(), left, right });
             }
         }
@@ -125,42 +145,47 @@ impl Place {
 
 impl Model<'_> {
     /// All first-level joints: the reachable states, and the pairs of neighbours among their pieces that are more than points.
-    pub fn joints(&self) -> Vec<(usize, usize, usize)> {
-        self.shape.reachable.iter().flat_map(|&e| self.joints_of(e)).collect()
+    pub fn joints(&self) -> Checked<Vec<(usize, usize, usize)>> {
+        let all = self.shape.reachable.iter().map(|&e| self.joints_of(e)).collect::<Checked<Vec<_>>>()?;
+        Ok(all.concat())
     }
 
-    fn joints_of(&self, e: usize) -> Vec<(usize, usize, usize)> {
-        let count = self.shape.states[e].pieces.len();
-        let solid: Vec<usize> = (0..count).filter(|&k| !self.spaces.is_point(e, k)).collect();
-        solid.windows(2).map(|w| (e, w[0], w[1])).collect()
+    fn joints_of(&self, e: usize) -> Checked<Vec<(usize, usize, usize)>> {
+        Ok(self.spaces.solid(e)?.windows(2).map(|w| (e, w[0], w[1])).collect())
     }
 }
 
 /// Whether all first-level joints are among these.
 pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
-    let missing = model.joints().into_iter().find(|joint| !listed.contains(joint));
-    node.need(missing.is_none(), rule, format_args!("the joint {missing:?} (state and pieces) is missing"))
+    match model.joints()?.into_iter().find(|joint| !listed.contains(joint)) {
+        None => Ok(()),
+        Some((e, left, right)) => {
+            node.reject(rule, format_args!("the joint of the pieces {left} and {right} of state {e} is missing"))
+        }
+    }
 }
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
-    let skip = |e: usize, letter: usize| model.spaces.is_point(e, letter);
+    let solid = model.shape.reachable.iter().map(|&e| Ok((e, model.spaces.solid(e)?))).collect::<Checked<Vec<_>>>()?;
+    // Pieces of states that are not reached are none.
+    let skip = |e: usize, letter: usize| !solid.iter().any(|(of, letters)| *of == e && letters.contains(&letter));
     let address = some(model.shape.end_address(state, end, &skip), "end", "a curve all of whose pieces are points")?;
     Ok(Address { prefix: [path, &address.prefix].concat(), ..address })
 }
 
 /// Whether the fixed point of a cycle is this end of its cell: nothing but points lies on that side, for two turns.
-fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> bool {
+fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> Checked<bool> {
     let (mut at, mut side) = (state, end);
     for letter in cycle.iter().chain(cycle) {
         let pieces = &model.shape.states[at].pieces;
-        let outside = if side == End::Start { 0..*letter } else { letter + 1..pieces.len() };
-        if outside.into_iter().any(|i| !model.spaces.is_point(at, i)) {
-            return false;
+        let outside = |i: &usize| if side == End::Start { i < letter } else { i > letter };
+        if model.spaces.solid(at)?.iter().any(outside) {
+            return Ok(false);
         }
         side = side.in_piece(&pieces[*letter]);
         at = pieces[*letter].target;
     }
-    true
+    Ok(true)
 }
 
 impl Point {
@@ -195,12 +220,14 @@ impl Point {
 /// The conclusions: `plane` (a branch has more than one dimension), `line` (all branches have the same line), `differ` (the
 /// two branches have different lines, or their tangent subspaces contain different lines).
 fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[Branch]) -> Checked<Point> {
-    let given: Vec<(Side, &Found)> = found.iter().filter_map(|(side, found)| Some((*side, found.as_ref()?))).collect();
+    need(!found.is_empty(), "point", "a point has branches")?;
+    // `plane` and `differ` are about the branches that have a certificate; `line` is about all.
+    let given: Vec<&Found> = found.iter().flat_map(|(_, found)| found).collect();
     let refuted = |place, kind| Ok(Point { place, verdict: Verdict::Refuted, kind, common: None });
     match (rule, &given[..]) {
-        ("plane", [(_, Found::Plane)]) if common.is_null() => refuted(place, "none"),
+        ("plane", [Found::Plane]) if common.is_null() => refuted(place, "none"),
         ("plane", _) => reject("plane", "one branch with a plane, and nothing else, is needed"),
-        ("differ", [(_, Found::Line(a) | Found::Direction(a)), (_, Found::Line(b) | Found::Direction(b))])
+        ("differ", [Found::Line(a) | Found::Direction(a), Found::Line(b) | Found::Direction(b)])
             if common.is_null() =>
         {
             need(a.differs(b), "differ", "the two lines are not seen to be different")?;
@@ -209,12 +236,11 @@ fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[B
         }
         ("differ", _) => reject("differ", "two branches with a line each, and nothing else, are needed"),
         ("line", _) => {
-            let lines = found.iter().filter_map(|(side, found)| match found {
-                Some(Found::Line(line)) => Some((*side, line)),
-                _ => None,
-            });
-            let lines: Vec<(Side, &Line)> = lines.collect();
-            need(lines.len() == found.len(), "point", "every branch needs a proved line")?;
+            let line = |(side, found): &'_ Branch| match found {
+                Some(Found::Line(line)) => Ok((*side, line.clone())),
+                _ => reject("point", "every branch needs a proved line"),
+            };
+            let lines: Vec<(Side, Line)> = found.iter().map(line).collect::<Checked<_>>()?;
             let (relations, common) = relations(common, size, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
             for ((side, line), factor) in lines.iter().zip(relations) {
@@ -231,7 +257,7 @@ fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[B
 /// For each line the ray on which a common vector lies, as a sign; the vector is returned where it is rational. Of a single
 /// line `common` may be `null`; otherwise it is a rational vector, or a list with one algebraic number for each coordinate,
 /// each the root of a polynomial in an interval, as elements of the fields of the lines.
-fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Checked<(Vec<i32>, Option<Matrix>)> {
+fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, Line)]) -> Checked<(Vec<i32>, Option<Matrix>)> {
     let shared = |ray| common.some(ray, "line", "the lines are not seen to have this vector in common");
     if common.is_null() {
         return Ok((vec![shared((lines.len() == 1).then_some(1))?], None));
@@ -254,7 +280,11 @@ fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, &Line)]) -> Ch
     }
     let mut signs = Vec::new();
     for ((_, line), vector) in lines.iter().zip(vectors) {
-        signs.push(shared(line.along(&rational.as_ref().map_or(vector, |v| line.field.embedded(v)))?)?);
+        let vector = match &rational {
+            Some(v) => line.field.embedded(v),
+            None => vector,
+        };
+        signs.push(shared(line.along(&vector)?)?);
     }
     Ok((signs, rational))
 }

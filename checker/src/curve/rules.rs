@@ -5,6 +5,7 @@ use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, need};
 use num_traits::Zero;
 
 /// A proved tangent line, or a line in the tangent subspace.
+#[derive(Clone)]
 pub struct Line {
     /// The field of its coordinates.
     pub field: Field,
@@ -178,7 +179,8 @@ impl Branch<'_> {
     /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
     fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix, i32)> {
         let address = read_address(node)?;
-        let letters = self.germ.ring.iter().map(|p| p.word.len()).max().unwrap_or(0);
+        let letters = self.germ.ring.iter().map(|p| p.word.len()).max();
+        let letters = node.some(letters, "ring", "no piece of the ring is seen")?;
         let word: Vec<usize> = (0..letters).map(|k| address.letter(k)).collect();
         let piece = self.germ.ring.iter().find(|p| word.starts_with(&p.word));
         let piece = node.some(piece, "ring", "the address begins with no piece of the ring that is seen")?;
@@ -269,7 +271,8 @@ impl Branch<'_> {
         let rows = self.model.functionals(&self.germ, &top.field, &[&c2, &c1])?;
         let cells = self.model.cover(&self.germ, &rows, Some(part), &cover)?;
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
-        cover.need(signs.windows(2).all(|s| s[0] == s[1]), "crossing", "g_1 takes both signs where g_2 may vanish")?;
+        let one = !signs.is_empty() && signs.windows(2).all(|s| s[0] == s[1]);
+        cover.need(one, "crossing", "g_1 takes both signs where g_2 may vanish, or is used nowhere")?;
         let vectors = top.vectors.iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
         Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }

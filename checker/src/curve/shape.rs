@@ -68,6 +68,18 @@ pub struct Address {
     pub cycle: Vec<usize>,
 }
 
+impl std::fmt::Display for Address {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let commas = self.prefix.iter().chain(&self.cycle).any(|i| *i > 9);
+        let join =
+            |w: &[usize]| w.iter().map(ToString::to_string).collect::<Vec<_>>().join(if commas { "," } else { "" });
+        let between = if commas && !self.prefix.is_empty() { "," } else { "" };
+        // A comma says that letters are not single digits.
+        let behind = if commas && self.prefix.len() + self.cycle.len() == 1 { "," } else { "" };
+        write!(f, "{}{between}({}{behind})", join(&self.prefix), join(&self.cycle))
+    }
+}
+
 impl Address {
     /// Reads `01(10)` or `3,12(0,4)`.
     pub fn parse(text: &str) -> Option<Self> {
@@ -88,7 +100,10 @@ impl Address {
 
     /// The letter at a position of the infinite word.
     pub fn letter(&self, k: usize) -> usize {
-        *self.prefix.get(k).unwrap_or_else(|| &self.cycle[(k - self.prefix.len()) % self.cycle.len()])
+        match self.prefix.get(k) {
+            Some(letter) => *letter,
+            None => self.cycle[(k - self.prefix.len()) % self.cycle.len()],
+        }
     }
 
     /// The address whose sequence of (state, letter) pairs is written with the shortest prefix and the shortest period.
@@ -229,7 +244,7 @@ impl Shape {
                 need(meet, "curve", format_args!("pieces {j} and {} of state {e} do not meet", j + 1))?;
             }
             for [a, b, c, d] in self.identities(e)? {
-                let holds = self.op(a).times(self.op(b))? == self.op(c).times(self.op(d))?;
+                let holds = self.op(a)?.times(self.op(b)?)? == self.op(c)?.times(self.op(d)?)?;
                 need(holds, "curve", format_args!("an identity of incidence or adjacency fails in state {e}"))?;
             }
         }
@@ -260,13 +275,13 @@ impl Shape {
         Ok(all)
     }
 
-    /// The matrix of an operator; that of piece 0 of the start where there is no such operator.
-    pub fn op(&self, op: Op) -> &Matrix {
-        let (state, end) = match op {
-            Op::Piece(state, letter) => return &self.states[state].pieces[letter].op,
-            Op::End(state, end) => (state, end),
+    /// The matrix of an operator.
+    pub fn op(&self, op: Op) -> Checked<&Matrix> {
+        let found = match op {
+            Op::Piece(state, letter) => self.states[state].pieces.get(letter).map(|p| &p.op),
+            Op::End(state, end) => self.states[state].ends[end as usize].as_ref().map(|b| &b.1),
         };
-        self.states[state].ends[end as usize].as_ref().map_or(&self.states[self.start].pieces[0].op, |b| &b.1)
+        some(found, "curve", "an operator that does not exist")
     }
 }
 
@@ -328,8 +343,14 @@ impl Spaces {
     }
 
     /// Whether a piece of a reachable state is a single point.
-    pub fn is_point(&self, state: usize, letter: usize) -> bool {
-        self.of(state).ok().and_then(|space| space.points.get(letter)).is_none_or(|point| *point)
+    pub fn is_point(&self, state: usize, letter: usize) -> Checked<bool> {
+        some(self.of(state)?.points.get(letter).copied(), "word", "a letter that does not exist")
+    }
+
+    /// The pieces of a reachable state that are more than a point, ascending.
+    pub fn solid(&self, state: usize) -> Checked<Vec<usize>> {
+        let points = &self.of(state)?.points;
+        Ok((0..points.len()).filter(|&k| !points[k]).collect())
     }
 
     /// The map between visible quotients that a piece of a state induces.

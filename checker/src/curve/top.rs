@@ -46,6 +46,8 @@ pub fn outside(chi: &Matrix, radius: &Node<'_>) -> Checked<(Q, usize)> {
     let scaled = |(k, a): (usize, &BigInt)| a * pow(r.numer().clone(), k) * pow(r.denom().clone(), n - k);
     let inside = roots_in_disc(&primitive(chi.data.iter().enumerate().map(scaled).collect()))?;
     let inside = radius.some(inside, "disc", "the recursion of Schur and Cohn is not regular for this radius")?;
+    // A top without eigenvalues would have nothing to prove.
+    radius.need(inside < n, "disc", "no eigenvalue lies outside the disc")?;
     Ok((r, n - inside))
 }
 
@@ -60,7 +62,10 @@ pub fn chain(list: &Node<'_>, matrix: &Matrix, by_root: &Matrix, sign: i32, rule
     for item in list.list()? {
         let v = Field::coordinates(by_root.rows, &item, matrix.rows)?;
         let residual = residual(by_root, matrix, sign, &v)?;
-        let continues = vectors.last().map_or(residual.is_zero(), |before| residual == *before);
+        let continues = match vectors.last() {
+            None => residual.is_zero(),
+            Some(before) => residual == *before,
+        };
         item.need(continues, rule, "the vector does not continue the Jordan chain")?;
         vectors.push(v);
     }

@@ -57,7 +57,8 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
         Top::Conformal(_) => (Field::rational(&Zero::zero()), zero, 0, [].as_slice()),
     };
     bound.need(parts > 0, "leading", "a top that is real, or a pair, is needed here")?;
-    let longest = chains.iter().map(|c| c.vectors.len()).max().unwrap_or(0);
+    // A pair has no chains here: its rows are asked for nothing but to be left eigenvectors.
+    let longest = chains.iter().fold(0, |most, c| most.max(c.vectors.len()));
     let mut rows = Vec::new();
     for item in list.list()? {
         let row = field.vector(&item, germ.dim())?;
@@ -83,7 +84,7 @@ fn group<'n>(germ: &Germ, bound: &Node<'n>) -> Checked<(usize, Vec<Enclosed>, No
     rows.need(inner.times(&space)? == images, "group", "the space of the rows is not invariant")?;
     let (_, all) = outside(&germ.linear.characteristic()?, &radius)?;
     let (_, own) = outside(&inner.characteristic()?, &radius)?;
-    let fits = space.rows == all && own == all && bound.tag("by")? == "group";
+    let fits = all > 0 && space.rows == all && own == all && bound.tag("by")? == "group";
     rows.need(fits, "group", "as many independent rows as eigenvalues outside the disc, and with these, are needed")?;
     let exact = |i: usize| Enclosed::exact(list.row(i).transpose());
     Ok((all, (0..list.rows).map(exact).collect(), cover))
@@ -111,9 +112,10 @@ fn minor(vectors: &[&Enclosed], rows: &[usize]) -> [BigInt; 2] {
 
 /// Whether some `k` of the vectors, `k ≤ 3`, have a minor that is certainly not 0.
 pub fn independent(vectors: &[&Enclosed], k: usize) -> Checked<bool> {
-    need(k <= 3 && vectors.len() <= MAX_VECTORS, "limit", "too many dimensions, or vectors")?;
-    let rows = subsets(vectors.first().map_or(0, |v| v.lo.rows), k);
-    let bits = vectors.iter().map(|v| v.lo.bits().max(v.hi.bits())).max().unwrap_or(0);
+    need((1..=3).contains(&k) && vectors.len() <= MAX_VECTORS, "limit", "too many dimensions, or vectors")?;
+    let Some(first) = vectors.first() else { return Ok(false) };
+    let rows = subsets(first.lo.rows, k);
+    let bits = vectors.iter().fold(0, |most, v| v.lo.bits().max(v.hi.bits()).max(most));
     for chosen in subsets(vectors.len(), k) {
         let chosen: Vec<&Enclosed> = chosen.iter().map(|&i| vectors[i]).collect();
         for rows in &rows {

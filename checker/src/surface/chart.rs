@@ -53,7 +53,8 @@ fn affine(places: &[[usize; 2]], columns: usize, rows: usize) -> Matrix {
 /// they are no symmetries.
 fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option<Vec<Piece>>> {
     let (Some(layout), true) = (state.get("layout"), state.get(side(triangle)).is_some()) else { return Ok(None) };
-    let (cells, columns, rows) = cells(layout.text()?).unwrap_or_default();
+    let parts = cells(layout.text()?);
+    let (cells, columns, rows) = layout.some(parts, "case", "this is no layout of a face")?;
     let fits = cells.len() == pieces.len() && cells.iter().all(|c| c.len() == if triangle { 3 } else { 4 });
     layout.need(fits, "case", "the layout of a face does not fit its pieces or its sides")?;
     let mut maps = Vec::new();
@@ -101,9 +102,10 @@ impl Chart {
 
     /// Whether a piece of the start lies in its part of a division into columns and rows without a turn.
     pub fn is_plain(&self, letter: usize, columns: usize, rows: usize) -> bool {
-        let (cells, ..) = cells(&format!("{columns}x{rows}")).unwrap_or_default();
-        let plain = cells.get(letter).map(|cell| affine(cell, columns, rows));
-        !self.triangle && plain.as_ref() == Some(&self.maps.states[self.maps.start].pieces[letter].op)
+        let parts = cells(&format!("{columns}x{rows}"));
+        let plain = parts.and_then(|(cells, ..)| Some(affine(cells.get(letter)?, columns, rows)));
+        let here = self.maps.states[self.maps.start].pieces.get(letter);
+        !self.triangle && here.is_some_and(|piece| plain.as_ref() == Some(&piece.op))
     }
 
     /// The parameters of an address of a face.

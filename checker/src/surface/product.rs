@@ -14,12 +14,9 @@ pub fn curve(node: &Node<'_>) -> Checked<Shape> {
         item.need(op.is_affine() && op.rows > 0, "product", "a matrix whose columns sum to 1 is needed")?;
         pieces.push(Piece { target: 0, op, reversed: false });
     }
-    let dim = pieces.first().map_or(0, |p| p.op.rows);
-    operators.need(
-        pieces.iter().all(|p| p.op.rows == dim) && dim > 0,
-        "product",
-        "operators of one size are needed",
-    )?;
+    operators.need(!pieces.is_empty(), "product", "a curve has pieces")?;
+    let dim = pieces[0].op.rows;
+    operators.need(pieces.iter().all(|p| p.op.rows == dim), "product", "operators of one size are needed")?;
     let states = vec![State { kind: Kind::Edge, dim, pieces, ends: [None, None] }];
     Ok(Shape::new(states, 0, Matrix::identity(dim)))
 }
@@ -63,8 +60,8 @@ impl<'a> Product<'a> {
             let model = Model::read(shape, &contraction)?;
             shape.check_curves()?;
             // Along a piece that is a point the curve is constant, and its germ at a parameter is not that of the set.
-            let moves = (0..shape.states[0].pieces.len()).all(|i| !model.spaces.is_point(0, i));
-            let moves = moves && model.spaces.of(0)?.basis.cols > 0;
+            let pieces = shape.states[0].pieces.len();
+            let moves = pieces > 0 && model.spaces.solid(0)?.len() == pieces && model.spaces.of(0)?.basis.cols > 0;
             node.need(moves, "product", "the curve or one of its pieces is a point")?;
             let check = |item: &Node<'_>| Point::check(&model, &root(shape), item);
             let points = points.each(check)?;

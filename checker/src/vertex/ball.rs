@@ -121,13 +121,14 @@ pub fn dot<'a>(a: impl IntoIterator<Item = &'a Ball>, b: impl IntoIterator<Item 
 /// The largest sum of the sizes of a row.
 fn norm(m: &Balls) -> Q {
     let row = |row: &Vec<Ball>| row.iter().map(Ball::size).sum::<BigInt>();
-    Q::new(m.iter().map(row).max().unwrap_or_default(), BigInt::one() << PLACES)
+    Q::new(m.iter().map(row).fold(BigInt::zero(), BigInt::max), BigInt::one() << PLACES)
 }
 
 /// Proves that all eigenvalues are smaller than `radius` in modulus, and returns a bound of `Σ ‖(M/radius)^k‖`, `k ≥ 0`.
 ///
 /// With `P = M/radius` and `n_i = ‖P^(2^i)‖`: where `n_j < 1`, the sum is at most `Π_{i<j} (1 + n_i) / (1 − n_j)`.
 pub fn dominated(matrix: &Balls, radius: &Q) -> Checked<Q> {
+    need(!matrix.is_empty(), "vertex", "a block without rows")?;
     let inverse = Ball::real(&(Q::one() / radius));
     let mut power: Balls = matrix.iter().map(|row| row.iter().map(|x| x.times(&inverse)).collect()).collect();
     let (half, large) = (Q::one() / whole(2), whole(1 << 32));
@@ -167,7 +168,7 @@ pub fn leading(matrix: &Balls, near: &[(Q, Q)], radius: &Q) -> Checked<(Ball, Ve
     let bound = dominated(&deflated(matrix, &exact, p), radius)? / radius;
     let value = dot(&matrix[p], &exact);
     let residual = |(row, v): (&Vec<Ball>, &Ball)| dot(row, &exact).minus(&value.times(v)).at_most();
-    let off = matrix.iter().zip(&exact).map(residual).max().unwrap_or_default();
+    let off = matrix.iter().zip(&exact).map(residual).fold(Q::zero(), Q::max);
     let row: Q = matrix[p].iter().map(Ball::at_most).sum();
     need(value.at_least() >= *radius, "vertex", "the eigenvalue is not larger than the bound for the others")?;
     let small = &bound * &bound * &row * &off * whole(8) <= Q::one();

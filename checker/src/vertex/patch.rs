@@ -159,7 +159,8 @@ impl Patch {
 
 /// The control points of the outer boundary of the ring of sector 0, from its first spoke to the next.
 pub fn boundary(mesh: &Mesh, patches: &[Patch]) -> Vec<Ball> {
-    let last = |k: usize| patches[k].rows.iter().filter_map(|row| row.last().cloned()).collect::<Vec<_>>();
+    // Every row has a control point.
+    let last = |k: usize| patches[k].rows.iter().map(|row| row[row.len() - 1].clone()).collect::<Vec<_>>();
     let top = |k: usize| patches[k].rows[patches[k].degree()].clone();
     let first = |k: usize| patches[k].rows[0].clone();
     match mesh.spline() {

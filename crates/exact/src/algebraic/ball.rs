@@ -52,6 +52,21 @@ impl Ball {
         Self { im: -&self.im, ..self.clone() }
     }
 
+    /// The disc moved by an integer.
+    pub fn moved(mut self, by: &Integer) -> Self {
+        if *by != 0 {
+            let exp = self.exp.min(0);
+            let shift = self.exp - exp;
+            self = Self {
+                re: shifted(&self.re, shift) + shifted(by, -exp),
+                im: shifted(&self.im, shift),
+                radius: shifted(&self.radius, shift),
+                exp,
+            };
+        }
+        self
+    }
+
     /// Whether the radius is at most `2^t`.
     pub fn is_within(&self, t: i64) -> bool {
         self.radius == 0 || self.exp + self.radius.significant_bits() as i64 <= t
@@ -183,6 +198,11 @@ impl Values {
     /// Whether the value is too small to be told from 0.
     pub fn is_noise(&self) -> bool {
         abs(&self.value.0) + abs(&self.value.1) <= self.value_error
+    }
+
+    /// Whether the value at a real point is positive; `None` when it is too small to be told from 0.
+    pub fn real_sign(&self) -> Option<bool> {
+        (abs(&self.value.0) > self.value_error).then(|| self.value.0 > 0)
     }
 
     /// The Newton step `f / f'` in units of the point's grid; `None` when the computed derivative is 0.

@@ -1,8 +1,13 @@
 use super::root::{Root, roots};
-use crate::arith::{Interval, Rational, sign};
+use crate::arith::{Integer, Interval, Natural, Rational, sign};
 use crate::linalg::Matrix;
-use crate::poly::Poly;
+use crate::linalg::dependency::combination;
+use crate::poly::{IntPoly, Poly, ints};
+use malachite_base::num::arithmetic::traits::SubMulAssign;
 use std::cmp::Ordering;
+
+/// Up to this degree inverses come from Euclid's algorithm, above it from a linear system modulo primes.
+const EUCLID: usize = 6;
 
 /// An element of `Q[x] / (f)`, as a polynomial of smaller degree than the monic irreducible `f`.
 ///
@@ -72,7 +77,41 @@ impl Elem {
     /// `self * other`.
     #[must_use]
     pub fn mul(&self, other: &Self, f: &Poly) -> Self {
-        Self::reduced(&(&self.0 * &other.0), f)
+        match (self.0.coeffs(), other.0.coeffs()) {
+            ([], _) | (_, []) => Self::zero(),
+            ([c], _) => other.scale(c),
+            (_, [c]) => self.scale(c),
+            (a, b) => Self::integral_product(a, b, f),
+        }
+    }
+
+    /// The product with one denominator for each factor, so that there is one reduction to lowest terms for each coefficient.
+    fn integral_product(a: &[Rational], b: &[Rational], f: &Poly) -> Self {
+        let cleared = |p: &[Rational]| -> (IntPoly, Natural) {
+            let d = ints::common_denominator(p);
+            (p.iter().map(|c| ints::cleared(c, &d)).collect(), d)
+        };
+        let ((a, da), (b, db), (modulus, lead)) = (cleared(a), cleared(b), cleared(f.coeffs()));
+        let n = modulus.len() - 1;
+        let mut product = ints::mul(&a, &b);
+        let mut denominator = Integer::from(da * db);
+        let lead = Integer::from(lead);
+        while product.len() > n {
+            let top = product.pop().expect("more than n coefficients");
+            if top == 0 {
+                continue;
+            }
+            if lead != 1 {
+                product.iter_mut().for_each(|c| *c *= &lead);
+                denominator *= &lead;
+            }
+            let base = product.len() - n;
+            for (c, m) in product[base..].iter_mut().zip(&modulus) {
+                c.sub_mul_assign(&top, m);
+            }
+        }
+        let rational = |c: &Integer| Rational::from_integers_ref(c, &denominator);
+        Self(Poly::new(product.iter().map(rational).collect()))
     }
 
     /// `1 / self`, or `None` for 0.
@@ -81,6 +120,21 @@ impl Elem {
         if let Some(q) = self.is_rational() {
             return (q != 0).then(|| Self::from_rational(&(Rational::from(1) / q)));
         }
+        let n = f.degree()?;
+        if n <= EUCLID {
+            return self.inverse_by_euclid(f);
+        }
+        // The combination of self, self x, self x², … that is 1.
+        let x = Self::generator(f);
+        let coordinates = |e: &Self| (0..n).map(|k| e.0.coeff(k)).collect::<Vec<_>>();
+        let columns: Vec<Vec<Rational>> = std::iter::successors(Some(self.clone()), |e| Some(e.mul(&x, f)))
+            .take(n)
+            .map(|e| coordinates(&e))
+            .collect();
+        combination(&columns, &coordinates(&Self::from_rational(&Rational::from(1)))).map(|c| Self(Poly::new(c)))
+    }
+
+    fn inverse_by_euclid(&self, f: &Poly) -> Option<Self> {
         let (mut r0, mut r1) = (f.clone(), self.0.clone());
         let (mut t0, mut t1) = (Poly::zero(), Poly::constant(Rational::from(1)));
         while r1.degree() > Some(0) {

@@ -16,12 +16,13 @@ pub mod field;
 mod isolate;
 mod modulus;
 mod propose;
+mod real;
 mod relation;
 mod root;
 
 pub use elem::{Elem, cmp_real, locate};
 pub use modulus::sqrt_down;
-pub use root::{Root, roots};
+pub use root::{Root, positive_roots, real_roots, roots};
 
 #[cfg(test)]
 mod tests;

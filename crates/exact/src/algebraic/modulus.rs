@@ -4,7 +4,7 @@ use super::isolate::GUARD;
 use super::relation::{equal_roots, pair_products, squarefree_part};
 use super::root::{Root, roots};
 use crate::arith::{Integer, Interval, Natural, Rational, abs};
-use crate::poly::{Poly, ints};
+use crate::poly::{IntPoly, Poly, ints};
 use malachite_base::num::arithmetic::traits::{Ceiling, CeilingSqrt, CheckedRoot, Floor, FloorSqrt, Pow};
 use std::cmp::Ordering;
 
@@ -133,7 +133,7 @@ fn on_circle(root: &Root, r: &Rational) -> bool {
         let gap = Interval::new(&square.lo - r, &square.hi - r).magnitude();
         let modulus = enclosure(root, bits).lo;
         if modulus > 0 {
-            let disc = &root.set.discs[root.index];
+            let disc = root.set.isolating(root.index);
             let reach = gap / modulus + (Rational::from(1) >> bits) * Rational::from(2);
             let guard = super::ball::dyadic(&disc.radius, disc.exp) * Rational::from(GUARD - 1);
             if reach < guard {
@@ -181,13 +181,9 @@ pub(super) fn compare(x: &Root, y: &Root) -> Ordering {
     (2..).find_map(|k| numeric(start << k)).unwrap_or(Ordering::Equal)
 }
 
-/// The number of bits that small numbers need before their first digit.
+/// The number of bits that small numbers, or small distances from a centre, need before their first digit.
 fn bits_above(x: &Root) -> u64 {
-    let size = match x.set.discs.get(x.index) {
-        Some(disc) => disc.log_size(),
-        None => 0,
-    };
-    u64::try_from(-size).unwrap_or(0)
+    x.set.log_size(x.index).min(0).unsigned_abs()
 }
 
 /// Decides `|x| = |y|` by algebra.
@@ -213,13 +209,17 @@ fn equal_modulus(x: &Root, y: &Root) -> bool {
 }
 
 /// Equality of a root of `f` and a root of `g`, both real.
-fn same_norm(f: &Poly, g: &Poly, enclosures: impl Fn(u64) -> (Interval, Interval)) -> bool {
-    let common = f.gcd(g);
-    if common.degree() == Some(0) {
+fn same_norm(f: &[Integer], g: &[Integer], enclosures: impl Fn(u64) -> (Interval, Interval)) -> bool {
+    // Both numbers are roots of both polynomials where they are equal.
+    let common = if f == g { f.to_vec() } else { ints::gcd(f, g) };
+    if common.len() == 1 {
         return false;
     }
+    if f == g {
+        return equal_roots(f, enclosures);
+    }
     // Both polynomials are square-free, so that their least common multiple is.
-    let all = &f.div_rem(&common).0 * g;
+    let all = ints::mul(&ints::div_exact(f, &common).expect("a common divisor divides"), g);
     equal_roots(&all, enclosures)
 }
 
@@ -256,27 +256,28 @@ fn mirrored(f: &Poly) -> Poly {
 }
 
 /// A square-free polynomial that vanishes at the squared absolute value of the root.
-fn norm_polynomial(root: &Root) -> Poly {
+fn norm_polynomial(root: &Root) -> IntPoly {
     if let Some(q) = root.rational() {
-        return Poly::linear(&(&q * &q));
+        return Poly::linear(&(&q * &q)).primitive();
     }
     let f = root.minpoly();
     if root.is_real() {
         let product = f * &mirrored(f);
-        return squarefree_part(&Poly::new(product.coeffs().iter().step_by(2).cloned().collect()).monic());
+        let squares: Vec<Rational> = product.coeffs().iter().step_by(2).cloned().collect();
+        return squarefree_part(&Poly::new(squares).primitive());
     }
-    squarefree_part(&pair_products(f))
+    squarefree_part(&pair_products(&root.set.ints))
 }
 
 /// A square-free polynomial that vanishes at the `e`-th powers of the roots of `f`.
-fn power_polynomial(f: &Poly, e: u64) -> Poly {
+fn power_polynomial(f: &[Integer], e: u64) -> IntPoly {
     if e == 1 {
-        return f.clone();
+        return f.to_vec();
     }
-    let n = f.degree().unwrap_or(0);
+    let (n, f) = (f.len() - 1, Poly::from_ints(f).monic());
     let companion = crate::linalg::Matrix::from_fn(n, n, |i, j| {
         if j + 1 == n { -f.coeff(i) } else { Rational::from(u8::from(i == j + 1)) }
     });
     let power = (1..e).fold(companion.clone(), |acc, _| &acc * &companion);
-    squarefree_part(&crate::linalg::char_poly(&power))
+    squarefree_part(&crate::linalg::char_poly(&power).primitive())
 }

@@ -1,22 +1,35 @@
 use super::ball::Ball;
 use super::isolate::{isolate, refine};
 use super::modulus;
+use super::real::{Cell, isolate_real};
 use super::relation;
 use crate::arith::{Integer, Interval, Rational, sign, to_f64};
-use crate::poly::{IntPoly, Poly};
+use crate::poly::{IntPoly, Poly, ints};
 use std::cmp::Ordering;
 use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 
 /// All roots of one irreducible polynomial, shared by the [`Root`]s.
+///
+/// Everything is done for `local(x) = f(x + centre)`: a polynomial with small roots, where those of `f` are close
+/// together and far from 0.
 pub(super) struct RootSet {
     pub poly: Poly,
     pub ints: IntPoly,
+    centre: Integer,
+    local: IntPoly,
+    /// The number of real roots.
     pub real: usize,
-    /// The isolating discs, in canonical order; empty for degree 1.
-    pub discs: Vec<Ball>,
-    refined: Vec<Mutex<Ball>>,
+    /// The real roots one by one, where the others were not asked for at first; empty otherwise.
+    cells: Vec<Mutex<Cell>>,
+    all: OnceLock<Discs>,
     pub bases: OnceLock<modulus::Bases>,
+}
+
+/// Isolating discs of all roots, in canonical order, and refined ones inside them.
+struct Discs {
+    discs: Vec<Ball>,
+    refined: Vec<Mutex<Ball>>,
 }
 
 /// A root of an irreducible polynomial over the rationals, with an isolating enclosure that refines on demand.
@@ -45,35 +58,136 @@ pub fn roots(minpoly: &Poly) -> Vec<Root> {
     (0..set.poly.degree().unwrap_or(0)).map(|index| Root { set: Arc::clone(&set), index }).collect()
 }
 
+/// The real roots of an irreducible polynomial, ascending. The complex ones are not isolated before they are needed.
+///
+/// # Panics
+/// If the polynomial is constant.
+///
+/// # Cost
+/// Descartes' rule of signs on intervals that are halved until each has one root.
+///
+/// ```
+/// use secant_exact::{algebraic::real_roots, arith::ratio, poly::Poly};
+///
+/// let f = Poly::new(vec![ratio(-2, 1), ratio(0, 1), ratio(0, 1), ratio(1, 1)]); // x³ − 2
+/// let roots = real_roots(&f);
+/// assert_eq!(roots.len(), 1);
+/// assert!(roots[0].sign() > 0 && roots[0].enclosure(100).0.hi < ratio(1_259_922, 1_000_000));
+/// ```
+#[must_use]
+pub fn real_roots(minpoly: &Poly) -> Vec<Root> {
+    let set = Arc::new(RootSet::real_only(&minpoly.monic()));
+    (0..set.real).map(|index| Root { set: Arc::clone(&set), index }).collect()
+}
+
+/// The different positive roots of any polynomial, ascending; none for the zero polynomial.
+///
+/// # Cost
+/// A factorisation; only real roots are isolated.
+///
+/// ```
+/// use secant_exact::{algebraic::positive_roots, arith::ratio, poly::Poly};
+///
+/// let f = Poly::new([-1, -1, 0, 1].map(|c| ratio(c, 1)).to_vec()); // x³ − x − 1
+/// let rho = positive_roots(&f).pop().expect("one sign change");
+/// assert_eq!(format!("{:.4}", rho.to_f64().0), "1.3247");
+/// ```
+#[must_use]
+pub fn positive_roots(f: &Poly) -> Vec<Root> {
+    let mut found: Vec<Root> =
+        crate::poly::factor(f).iter().flat_map(|(g, _)| real_roots(g)).filter(|r| r.sign() > 0).collect();
+    found.sort_by(super::cmp_real);
+    found
+}
+
 impl RootSet {
+    fn prepared(poly: &Poly) -> Self {
+        let f = poly.primitive();
+        assert!(f.len() > 1, "a polynomial of positive degree");
+        let centre = ints::far_centre(&f);
+        let local = if centre == 0 { f.clone() } else { ints::taylor_shift(&f, &centre) };
+        let (cells, all, bases) = (Vec::new(), OnceLock::new(), OnceLock::new());
+        Self { poly: poly.clone(), ints: f, centre, local, real: 1, cells, all, bases }
+    }
+
     fn new(poly: &Poly) -> Self {
-        let ints = poly.primitive();
-        assert!(ints.len() > 1, "a polynomial of positive degree");
-        let mut set =
-            Self { poly: poly.clone(), ints, real: 1, discs: Vec::new(), refined: Vec::new(), bases: OnceLock::new() };
-        if set.ints.len() == 2 {
-            return set;
+        let mut set = Self::prepared(poly);
+        if set.ints.len() > 2 {
+            let (discs, real) = Discs::of(&set.local);
+            set.real = real;
+            set.all = OnceLock::from(discs);
         }
-        let found = isolate(&set.ints);
-        set.real = found.real.len();
-        set.discs = found.real;
-        let upper = relation::sorted_by_parts(&set.poly, &set.ints, found.upper);
-        set.discs.extend(upper.into_iter().flat_map(|b| [b.clone(), b.conjugate()]));
-        set.refined = set.discs.iter().map(|b| Mutex::new(b.clone())).collect();
         set
+    }
+
+    fn real_only(poly: &Poly) -> Self {
+        let mut set = Self::prepared(poly);
+        if set.ints.len() > 2 {
+            set.cells = isolate_real(&set.local).into_iter().map(Mutex::new).collect();
+            set.real = set.cells.len();
+        }
+        set
+    }
+
+    fn all(&self) -> &Discs {
+        self.all.get_or_init(|| Discs::of(&self.local).0)
+    }
+
+    /// The isolating disc of a root, around its distance from the centre: no other root lies in the disc of
+    /// [`super::isolate::GUARD`] times its radius. Not for degree 1.
+    pub fn isolating(&self, index: usize) -> &Ball {
+        &self.all().discs[index]
+    }
+
+    /// The binary logarithm, rounded up, of the size of a root; of its distance from the centre where there is one.
+    pub fn log_size(&self, index: usize) -> i64 {
+        if self.ints.len() == 2 {
+            return 0;
+        }
+        match self.cells.get(index) {
+            Some(cell) => locked(cell).ball().log_size(),
+            None => self.isolating(index).log_size(),
+        }
     }
 
     /// The disc of a root with radius at most `2^t`.
     pub fn disc(&self, index: usize, t: i64) -> Ball {
+        self.local_disc(index, t).moved(&self.centre)
+    }
+
+    fn local_disc(&self, index: usize, t: i64) -> Ball {
+        if let Some(cell) = self.cells.get(index) {
+            let mut cell = locked(cell);
+            cell.refine(&self.local, t);
+            return cell.ball();
+        }
         // The lower half plane mirrors the upper one, so that conjugates have conjugate enclosures.
         if index >= self.real && (index - self.real) % 2 == 1 {
-            return self.disc(index - 1, t).conjugate();
+            return self.local_disc(index - 1, t).conjugate();
         }
-        let mut cell = self.refined[index].lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if !cell.is_within(t) {
-            *cell = refine(&self.ints, &self.discs[index], &cell, t);
+        let all = self.all();
+        let mut disc = locked(&all.refined[index]);
+        if !disc.is_within(t) {
+            *disc = refine(&self.local, &all.discs[index], &disc, t);
         }
-        cell.clone()
+        disc.clone()
+    }
+}
+
+fn locked<T>(cell: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    cell.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}
+
+impl Discs {
+    /// The discs, and how many of the roots are real.
+    fn of(f: &[Integer]) -> (Self, usize) {
+        let found = isolate(f);
+        let real = found.real.len();
+        let mut discs = found.real;
+        let upper = relation::sorted_by_parts(f, found.upper);
+        discs.extend(upper.into_iter().flat_map(|b| [b.clone(), b.conjugate()]));
+        let refined = discs.iter().map(|b| Mutex::new(b.clone())).collect();
+        (Self { discs, refined }, real)
     }
 }
 
@@ -187,8 +301,7 @@ impl Root {
         if let Some(q) = self.rational() {
             return (to_f64(&q), 0.0);
         }
-        let disc = self.set.discs[self.index].log_size();
-        let (re, im) = self.disc(disc - 60).enclosure();
+        let (re, im) = self.disc(self.set.log_size(self.index) - 60).enclosure();
         (to_f64(&re.mid()), to_f64(&im.mid()))
     }
 

@@ -140,7 +140,7 @@ impl PrimeField {
     /// The element of a small number.
     #[must_use]
     pub fn from_u64(&self, x: u64) -> u64 {
-        self.mul(x % self.p, self.r2)
+        self.reduce(u128::from(x) * u128::from(self.r2))
     }
 
     /// The residue in `0..p`.
@@ -152,11 +152,11 @@ impl PrimeField {
     /// The residue of a natural number.
     #[must_use]
     pub fn from_natural(&self, x: &Natural) -> u64 {
-        let mut acc = 0;
-        for limb in x.as_limbs_asc().iter().rev() {
-            acc = self.add(self.mul(acc, self.r2), limb % self.p);
-        }
-        self.mul(acc, self.r2)
+        // A limb times r2 is below p 2^64, so that its residue needs no division; r2 is also the element 2^64.
+        x.as_limbs_asc().iter().rev().fold(0, |acc, limb| {
+            let shifted = self.mul(acc, self.r2);
+            self.add(shifted, self.reduce(u128::from(*limb) * u128::from(self.r2)))
+        })
     }
 
     /// The residue of an integer.
@@ -200,10 +200,21 @@ pub fn is_prime(n: u64) -> bool {
             return n == q;
         }
     }
-    let mul = |a: u64, b: u64| (u128::from(a) * u128::from(b) % u128::from(n)) as u64;
+    // Without a factor up to 37 a composite number is at least 41 squared.
+    if n < 41 * 41 {
+        return true;
+    }
     let s = (n - 1).trailing_zeros();
-    'bases: for base in BASES {
-        let (mut x, mut b, mut e) = (1, base, (n - 1) >> s);
+    if n < 1 << 62 {
+        // Powers in Montgomery form need no division; the formulas hold for every odd modulus.
+        let ring = PrimeField::new(n);
+        let (one, minus) = (ring.one(), ring.neg(ring.one()));
+        let base = |b: u64| ring.pow(ring.from_u64(b), (n - 1) >> s);
+        return BASES.iter().all(|b| is_probable(base(*b), one, minus, s, |x| ring.mul(x, x)));
+    }
+    let mul = |a: u64, b: u64| (u128::from(a) * u128::from(b) % u128::from(n)) as u64;
+    let power = |b: u64| {
+        let (mut x, mut b, mut e) = (1, b, (n - 1) >> s);
         while e > 0 {
             if e & 1 == 1 {
                 x = mul(x, b);
@@ -211,18 +222,23 @@ pub fn is_prime(n: u64) -> bool {
             b = mul(b, b);
             e >>= 1;
         }
-        if x == 1 || x == n - 1 {
-            continue;
-        }
-        for _ in 1..s {
-            x = mul(x, x);
-            if x == n - 1 {
-                continue 'bases;
-            }
-        }
-        return false;
+        x
+    };
+    BASES.iter().all(|b| is_probable(power(*b), 1, n - 1, s, |x| mul(x, x)))
+}
+
+/// Whether `x`, an odd power of a base, is 1, or one of the first `s` repeated squares of it is -1.
+fn is_probable(mut x: u64, one: u64, minus: u64, s: u32, square: impl Fn(u64) -> u64) -> bool {
+    if x == one || x == minus {
+        return true;
     }
-    true
+    for _ in 1..s {
+        x = square(x);
+        if x == minus {
+            return true;
+        }
+    }
+    false
 }
 
 /// The first primes are `2^62 - k` with these `k`; a test says that none is left out.
@@ -278,6 +294,11 @@ mod tests {
     #[test]
     fn prime_sequences() {
         assert_eq!(primes_above(100).take(3).collect::<Vec<_>>(), [101, 103, 107]);
+        let plain = |n: u64| n > 1 && (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
+        assert!((0..20_000).all(|n| is_prime(n) == plain(n)));
+        // Strong pseudoprimes to several bases, and the largest prime of a word.
+        assert!([3_215_031_751, 3_825_123_056_546_413_051, u64::MAX].iter().all(|n| !is_prime(*n)));
+        assert!(is_prime(u64::MAX - 58));
         let p: Vec<u64> = large_primes().take(2).collect();
         assert!(p[0] == (1 << 62) - 57 && p[1] < p[0] && is_prime(p[1]));
         let sought: Vec<u64> = (0..600).map(|k| (1 << 62) - 1 - 2 * k).filter(|p| is_prime(*p)).collect();

@@ -1,10 +1,12 @@
 //! Rational vectors that generate the cyclic summands of a primary component: proposed modulo primes, then exact.
 
-use super::echelon::{ModEchelon, ModSpan};
+use super::echelon::ModSpan;
 use super::operator::{ModOperator, Operator, make_primitive};
-use super::reconstruct::Residues;
 use crate::arith::Integer;
 use crate::arith::modular::{PrimeField, large_primes};
+use crate::linalg::echelon::ModEchelon;
+use crate::linalg::lifting::{self, Lifting};
+use crate::linalg::reconstruct::Residues;
 use crate::poly::{IntPoly, Poly, ints};
 
 /// An integer vector with `F(N)^size u = 0`; it generates a cyclic module `Q[x] / (F^size)`, that is one Jordan block
@@ -81,6 +83,12 @@ fn from_prime(operator: &Operator, part: &Part, p: u64) -> Option<Vec<Generator>
     for size in (1..=levels.len()).rev() {
         let columns: Vec<usize> = picks.iter().filter(|p| p.size == size).map(|p| p.column).collect();
         if !columns.is_empty() {
+            if size == 1
+                && levels.len() == 1
+                && let Some(answer) = lifted(operator, part, &image.field, &levels[0], &columns)
+            {
+                return answer.map(|v| v.into_iter().map(|vector| Generator { vector, size }).collect());
+            }
             let vectors = reconstruct(operator, part, size, &columns, (&image.field, &levels[size - 1]))?;
             found.extend(vectors.into_iter().map(|vector| Generator { vector, size }));
         }
@@ -138,6 +146,35 @@ fn picks(image: &ModOperator, poly: &[u64], part: &Part, levels: &[ModEchelon]) 
         }
     }
     Some(picks)
+}
+
+/// The eigenvectors of a rational eigenvalue at the given free columns, by lifting; `None` where that cannot be done in
+/// words, `Some(None)` where the prime was unlucky.
+fn lifted(
+    operator: &Operator,
+    part: &Part,
+    field: &PrimeField,
+    echelon: &ModEchelon,
+    columns: &[usize],
+) -> Option<Option<Vec<Vec<Integer>>>> {
+    let [minus_root, _] = &part.poly[..] else { return None };
+    let rows = lifting::words(&operator.minus(&-minus_root))?;
+    let Some(lifting) = Lifting::new(&rows, *field, &echelon.pivots) else { return Some(None) };
+    let mut vectors: Vec<_> = columns.iter().map(|c| lifting.start(*c)).collect();
+    let (p, mut power) = (Integer::from(field.modulus()), Integer::from(1));
+    let mut next_try = 1;
+    for count in 1..=lifting.enough() {
+        vectors.iter_mut().for_each(|v| lifting.step(v, &power));
+        power *= &p;
+        if count >= next_try || count == lifting.enough() {
+            let known: Vec<Residues> = vectors.iter().map(|v| lifting.residues(v, &power)).collect();
+            if let Some(found) = verified(operator, part, 1, &known) {
+                return Some(Some(found));
+            }
+            next_try = count + count / 4 + 1;
+        }
+    }
+    Some(None)
 }
 
 /// The most primes tried before the first one is suspected of being unlucky.

@@ -7,7 +7,6 @@ mod echelon;
 mod field;
 mod generators;
 mod operator;
-mod reconstruct;
 mod summand;
 mod symmetry;
 

@@ -26,6 +26,16 @@ impl Operator {
         self.rows.len()
     }
 
+    /// The sparse rows of `N - c`.
+    pub fn minus(&self, c: &Integer) -> Vec<Vec<(usize, Integer)>> {
+        let row = |(i, row): (usize, &Vec<(usize, Integer)>)| {
+            let diagonal = row.iter().find(|(j, _)| *j == i).map_or_else(|| -c, |(_, x)| x - c);
+            let others = row.iter().filter(|(j, _)| *j != i).cloned();
+            others.chain((diagonal != 0).then_some((i, diagonal))).collect()
+        };
+        self.rows.iter().enumerate().map(row).collect()
+    }
+
     /// `N v`.
     pub fn apply(&self, v: &[Integer]) -> Vec<Integer> {
         self.rows

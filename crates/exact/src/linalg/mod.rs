@@ -1,7 +1,11 @@
 //! Exact matrices over the rationals: products, echelon form, kernels, solving, characteristic polynomials.
 
 mod char_poly;
+pub(crate) mod dependency;
+pub(crate) mod echelon;
+pub(crate) mod lifting;
 mod matrix;
+pub(crate) mod reconstruct;
 mod strong;
 pub use char_poly::char_poly;
 pub(crate) use char_poly::char_poly_blocks;

@@ -18,7 +18,20 @@ use malachite_base::num::logic::traits::SignificantBits;
 /// Source: von zur Gathen and Gerhard, *Modern Computer Algebra*, chapters 14 and 15.
 #[must_use]
 pub fn factor(f: &Poly) -> Vec<(Poly, usize)> {
-    let mut f = f.primitive();
+    let f = f.primitive();
+    // Roots that are close together and far from 0 make long coefficients; a shift makes them short.
+    let centre = ints::far_centre(&f);
+    if centre == 0 {
+        return near_zero(f);
+    }
+    let back = |(g, e): (Poly, usize)| (Poly::from_ints(&ints::taylor_shift(&g.primitive(), &-&centre)).monic(), e);
+    let mut out: Vec<(Poly, usize)> = near_zero(ints::taylor_shift(&f, &centre)).into_iter().map(back).collect();
+    out.sort();
+    out
+}
+
+/// The factors of a primitive polynomial, in order.
+fn near_zero(mut f: IntPoly) -> Vec<(Poly, usize)> {
     let mut out = Vec::new();
     let zeros = f.iter().take_while(|c| **c == 0).count();
     if zeros > 0 && zeros < f.len() {

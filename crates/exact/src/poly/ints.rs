@@ -114,6 +114,44 @@ pub(crate) fn height_bits(f: &[Integer]) -> u64 {
     f.iter().map(SignificantBits::significant_bits).max().unwrap_or(0)
 }
 
+/// The binary logarithm of a bound for the moduli of all roots (Fujiwara).
+pub(crate) fn root_bound(f: &[Integer]) -> i64 {
+    let n = f.len() - 1;
+    let lead = f[n].significant_bits() as i64 - 1;
+    let bits = |k: usize| f[n - k].significant_bits() as i64;
+    let ratios = (1..=n).filter(|k| f[n - k] != 0).map(|k| (bits(k) - lead).div_euclid(k as i64) + 1);
+    ratios.max().map_or(0, |r| r + 1)
+}
+
+/// `f(x + shift)`.
+pub(crate) fn taylor_shift(f: &[Integer], shift: &Integer) -> IntPoly {
+    let mut out = f.to_vec();
+    for i in 0..out.len() {
+        for j in (i..out.len() - 1).rev() {
+            let (low, high) = out.split_at_mut(j + 1);
+            low[j].add_mul_assign(&high[0], shift);
+        }
+    }
+    out
+}
+
+/// Roots are far from 0 when their distances are smaller than their sizes by so many bits.
+const FAR: u64 = 24;
+
+/// An integer near all roots of a polynomial, where they are close together and far from 0; otherwise 0.
+pub(crate) fn far_centre(f: &[Integer]) -> Integer {
+    if f.len() < 3 {
+        return Integer::from(0);
+    }
+    let n = f.len() - 1;
+    let mean = -&f[n - 1] / (&f[n] * Integer::from(n));
+    if mean.significant_bits() < FAR {
+        return Integer::from(0);
+    }
+    let spread = root_bound(&taylor_shift(f, &mean));
+    if spread + FAR as i64 <= mean.significant_bits() as i64 { mean } else { Integer::from(0) }
+}
+
 /// The primitive gcd with positive leading coefficient, of primitive polynomials.
 ///
 /// Source: Brown's modular algorithm; the candidate is accepted only when it divides both.

@@ -168,6 +168,7 @@ impl<'a> Expression<'a> {
 
     fn product(&mut self, builder: &mut FieldBuilder, depth: usize) -> Read<Value> {
         let mut value = self.signed(builder, depth)?;
+        let mut divided = false;
         while self.skip_inside() {
             let at = self.at;
             let divide = match self.peek() {
@@ -177,6 +178,14 @@ impl<'a> Expression<'a> {
                 }
                 Some('/') => {
                     self.at += 1;
+                    // Julia writes `1//2` for a rational, and binds it more tightly than `/`.
+                    if self.peek() == Some('/') {
+                        self.at += 1;
+                        if divided {
+                            return Err(error("syntax", at, "`/` and `//` in one product").help("use brackets"));
+                        }
+                    }
+                    divided = true;
                     true
                 }
                 // `2 Pi`, `3 Sqrt[5]`, `(1/2)(3)`

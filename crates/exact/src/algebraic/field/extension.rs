@@ -158,7 +158,17 @@ impl NumberField {
     /// The field of `α` and a real number, as an extension, and its generator `θ`.
     pub(super) fn joined(&self, beta: &Root) -> Result<(Extension, Root), FieldError> {
         let (f, g) = (self.poly(), beta.minpoly());
+        // Both degrees divide that of the field.
+        let (d, e) = (self.degree(), beta.degree());
+        let least = (1..=e).map(|k| k * d).find(|n| n.is_multiple_of(e)).unwrap_or(d * e);
+        if least > super::MAX_FIELD_DEGREE {
+            return Err(FieldError::Degree(least));
+        }
         let norm = Norm::of(f, g)?;
+        let smallest = norm.factors.iter().filter_map(Poly::degree).filter(|n| n.is_multiple_of(least)).min();
+        if let Some(degree) = smallest.filter(|n| *n > super::MAX_FIELD_DEGREE) {
+            return Err(FieldError::Degree(degree));
+        }
         let (m, theta) = self.sum_root(&norm, beta);
         if theta.degree() > super::MAX_FIELD_DEGREE {
             return Err(FieldError::Degree(theta.degree()));

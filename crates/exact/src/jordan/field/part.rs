@@ -1,12 +1,12 @@
 //! The factors of the summands of a matrix over a field, with their chains, and how they come together.
 
-use super::dependency::combination;
 use crate::algebraic::field::{Extension, FieldMatrix, NumberField, place};
 use crate::algebraic::{Elem, Root, roots};
 use crate::arith::Rational;
 use crate::jordan::Chain;
 use crate::jordan::summand::{Merged, Side, Summand, decompose, decompose_some, embed_vector};
 use crate::jordan::symmetry::Symmetry;
+use crate::linalg::dependency::combination;
 use crate::linalg::{Matrix, char_poly};
 use crate::poly::Poly;
 use std::collections::BTreeMap;
@@ -80,6 +80,9 @@ fn minimal(x: &Elem, m: &Poly) -> Poly {
     }
     let n = m.degree().unwrap_or(1);
     let t = Elem::generator(m);
+    if *x == t {
+        return m.monic();
+    }
     let mut columns = Vec::with_capacity(n);
     let mut image = x.clone();
     for _ in 0..n {
@@ -222,7 +225,8 @@ fn separated(field: &NumberField, merged: Merged, shift: i64) -> Option<Part> {
     let alpha = action(field, &merged.right[0].vectors[0], m)?;
     let eigenvectors = || merged.right.iter().chain(&merged.left).map(|c| &c.vectors[0]);
     let scalar = |v: &Vec<Elem>| times_alpha(field, v).iter().zip(v).all(|(y, x)| *y == alpha.mul(x, m));
-    if !eigenvectors().all(scalar) {
+    // One eigenvector is mapped to a multiple of itself, because α commutes with the matrix.
+    if merged.right.len() > 1 && !eigenvectors().all(scalar) {
         return None;
     }
     let lambda = Elem::generator(m).sub(&alpha.scale(&Rational::from(shift)));
@@ -269,13 +273,7 @@ fn action(field: &NumberField, v: &[Elem], m: &Poly) -> Option<Elem> {
 
 /// The image of a vector under the map that takes `α` to its value.
 fn projected(v: &[Elem], values: &[Elem], m: &Poly) -> Vec<Elem> {
-    let entry = |block: &[Elem]| {
-        let mut sum = Poly::zero();
-        for (x, p) in block.iter().zip(values).filter(|(x, _)| !x.is_zero()) {
-            sum = &sum + &(&x.0 * &p.0);
-        }
-        Elem::reduced(&sum, m)
-    };
+    let entry = |block: &[Elem]| block.iter().zip(values).fold(Elem::zero(), |sum, (x, p)| sum.add(&x.mul(p, m)));
     v.chunks_exact(values.len()).map(entry).collect()
 }
 

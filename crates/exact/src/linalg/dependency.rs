@@ -1,15 +1,17 @@
 //! A vector as a combination of independent ones: solved modulo primes, verified exactly.
 
-use crate::arith::Rational;
+use super::echelon::ModEchelon;
+use super::reconstruct::Residues;
 use crate::arith::modular::{PrimeField, large_primes};
-use crate::jordan::echelon::ModEchelon;
-use crate::jordan::reconstruct::Residues;
+use crate::arith::{Integer, Rational};
+use crate::poly::ints;
+use malachite_base::num::arithmetic::traits::AddMulAssign;
 
 /// After so many primes the system is taken to have no solution.
 const UNLUCKY: usize = 8;
 
 /// The coefficients with `sum of c_j columns[j] = target`; `None` where the columns are dependent or there are none.
-pub(super) fn combination(columns: &[Vec<Rational>], target: &[Rational]) -> Option<Vec<Rational>> {
+pub(crate) fn combination(columns: &[Vec<Rational>], target: &[Rational]) -> Option<Vec<Rational>> {
     let k = columns.len();
     let expected: Vec<usize> = (0..k).collect();
     let mut residues = Residues::default();
@@ -45,8 +47,16 @@ pub(super) fn combination(columns: &[Vec<Rational>], target: &[Rational]) -> Opt
 }
 
 fn satisfies(columns: &[Vec<Rational>], c: &[Rational], target: &[Rational]) -> bool {
+    // With common denominators of the combination and of each row, everything is integral.
+    let common = ints::common_denominator(c);
+    let c: Vec<Integer> = c.iter().map(|x| ints::cleared(x, &common)).collect();
     (0..target.len()).all(|i| {
-        let terms = columns.iter().zip(c).filter(|(col, x)| **x != 0 && col[i] != 0).map(|(col, x)| &col[i] * x);
-        terms.fold(Rational::from(0), |s, t| s + t) == target[i]
+        let row = || columns.iter().map(|column| &column[i]);
+        let d = ints::common_denominator(row().chain([&target[i]]));
+        let mut sum = Integer::from(0);
+        for (x, y) in row().zip(&c).filter(|(x, y)| **x != 0 && **y != 0) {
+            sum.add_mul_assign(ints::cleared(x, &d), y);
+        }
+        sum == ints::cleared(&target[i], &d) * Integer::from(&common)
     })
 }

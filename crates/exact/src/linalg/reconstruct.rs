@@ -7,9 +7,14 @@ use malachite_base::num::arithmetic::traits::{DivMod, FloorSqrt, ModAssign};
 
 /// A vector known modulo a growing product of primes.
 #[derive(Default)]
-pub(super) struct Residues(CrtPoly);
+pub(crate) struct Residues(CrtPoly);
 
 impl Residues {
+    /// The vector with these residues modulo a number.
+    pub fn new(coeffs: Vec<Integer>, modulus: Integer) -> Self {
+        Self(CrtPoly { coeffs, modulus })
+    }
+
     pub fn absorb(&mut self, field: &PrimeField, v: &[u64]) {
         self.0.absorb(field, v);
     }

@@ -1,0 +1,304 @@
+//! What a certificate may prove or refute, as data; sentences are made from it where it is shown.
+
+use crate::base::{Q, Verdict, list};
+pub use crate::curve::{Address, End, Place};
+use std::fmt::{Display, Formatter, Result};
+
+/// What a claim about a tangent line at an address is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Subject {
+    /// The curve near the parameter with this address, to both sides where it has two.
+    Curve,
+    /// All of the set near the point: what is refuted of a branch, or what is proved of one to which everything near the point
+    /// belongs, because its address has no prefix, different points are seen as different ones, and no piece of the ring is
+    /// left out that collapses.
+    Set,
+    /// The germ of the branch with this address: what else comes near the point is not looked at.
+    Branch,
+}
+
+/// At which joints a claim says that there are tangents.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Joints {
+    /// Every joint of every level, which where it is proved (Theorem 5) are a dense set.
+    All,
+    /// The joints listed, and every joint whose line before the projection is not killed, a dense set (Theorem 5′).
+    NotKilled,
+}
+
+/// A claim; its letters, states and pieces are numbered as in the case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Claim {
+    /// The curve has a tangent line at both end points.
+    TangentAtEnds,
+    /// The curve has a tangent line at its joints.
+    TangentAtJoints(Joints),
+    /// There is a tangent line at the point with an address.
+    TangentAt {
+        /// The address, in its normal form.
+        address: Address,
+        /// What has it.
+        of: Subject,
+    },
+    /// The curve is G¹: it has a tangent at every point, which turns continuously.
+    TangentTurns {
+        /// Every so many letters shrink cones by `(√D − 1)/(√D + 1)`, for this `D`.
+        rate: Option<(usize, Q)>,
+    },
+    /// At every point both half-tangents exist.
+    HalfTangents {
+        /// Whether it is about the curve before the projection by the control points.
+        projected: bool,
+    },
+    /// Some point has a tangent line.
+    TangentSomewhere,
+    /// A point of the list of points of a certificate has a tangent line.
+    Point {
+        /// Where it is.
+        place: Place,
+        /// Its kind, such as `cusp`.
+        kind: &'static str,
+    },
+    /// At every vertex of the first subdivision the cells around it have together a tangent plane.
+    PlaneAtVertices,
+    /// The cells around the point with an address have together a tangent plane there.
+    PlaneAt(Address),
+    /// The germ of the branch with an address has a tangent plane.
+    PlaneOfBranch(Address),
+    /// The cells that meet in a point with these addresses have together a tangent plane there.
+    PlaneOfCells(Vec<Address>),
+    /// There is a tangent plane at a dense set of points, one inside every cell.
+    PlaneDense {
+        /// Whether it is about the surface before the projection by the control points.
+        projected: bool,
+    },
+    /// For almost all control points the surface is C¹ at vertices of this valence.
+    SmoothAtVertex(usize),
+    /// For almost all control points the surface has a tangent plane at vertices of this valence.
+    PlaneAtVertex(usize),
+    /// The joint spectral radius is at least the first and at most the second number.
+    Radius(Q, Q),
+    /// A diagonal block of a system of matrices has a joint spectral radius of at most a number.
+    Block {
+        /// Its dimensions, by state.
+        dims: Vec<usize>,
+        /// The kind of norm that shows it.
+        norm: &'static str,
+        /// The bound.
+        bound: Q,
+    },
+    /// The curve is C^k in the uniform parameter.
+    Smooth {
+        /// `k`.
+        order: usize,
+    },
+    /// The curve is a polynomial in the uniform parameter.
+    Polynomial,
+    /// The supremum of the exponents `k + a` of the curve, with Hölder exponents `a` of the derivative of order `k`, is the
+    /// logarithm of `1/r` to the base of the number of pieces, for a number `r` from `low` to `high`.
+    Exponent {
+        /// `k`.
+        order: usize,
+        /// The number of pieces.
+        pieces: usize,
+        /// The least `r`.
+        low: Q,
+        /// The greatest `r`.
+        high: Q,
+    },
+    /// Bounds of the joint spectral radius on the differences of derivatives of this order.
+    RadiusOfOrder(usize, Q, Q),
+    /// Each root of a polynomial (lowest coefficient first) is an eigenvalue of an operator (state and piece; none of a plain
+    /// matrix) with Jordan blocks of these sizes.
+    Jordan {
+        /// The operator.
+        operator: Option<(usize, usize)>,
+        /// The polynomial.
+        factor: Vec<Q>,
+        /// The sizes, the largest first.
+        blocks: Vec<usize>,
+    },
+    /// So many different eigenvalues of an operator have one modulus, the largest modulus first.
+    Moduli {
+        /// The operator.
+        operator: Option<(usize, usize)>,
+        /// The numbers.
+        sizes: Vec<usize>,
+    },
+    /// The unknown entries have values that satisfy all equations.
+    Solvable {
+        /// The number of unknowns.
+        unknowns: usize,
+        /// The number of matrix equations.
+        equations: usize,
+        /// The number of parameters of the solutions; 0 where there is one. `None` where there is no solution.
+        free: Option<usize>,
+        /// The equations, by number, that contradict each other.
+        conflict: Vec<usize>,
+    },
+}
+
+/// A claim with what was found about it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Decided {
+    /// The claim.
+    pub claim: Claim,
+    /// Whether it is proved, refuted, or neither.
+    pub verdict: Verdict,
+}
+
+impl Claim {
+    /// The claim with a verdict.
+    pub fn is(self, verdict: Verdict) -> Decided {
+        Decided { claim: self, verdict }
+    }
+}
+
+impl Display for Decided {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let (word, refuted) = (self.verdict.word(), self.verdict == Verdict::Refuted);
+        match &self.claim {
+            // The order of words is that of what is known.
+            Claim::Solvable { conflict, .. } if refuted => {
+                let listed = list(conflict);
+                write!(f, "{word}: {}; the equations {listed} contradict each other", self.claim)
+            }
+            Claim::Point { place, kind } => write!(f, "{word}: {place}, {kind}"),
+            claim => write!(f, "{word}: {claim}"),
+        }
+    }
+}
+
+/// What stands before a claim about an operator.
+fn of(operator: Option<(usize, usize)>) -> String {
+    match operator {
+        None => "the matrix".to_owned(),
+        Some((state, piece)) => format!("operator {piece} of state {state}"),
+    }
+}
+
+/// A polynomial with its highest power first.
+fn polynomial(p: &[Q]) -> String {
+    let mut text = String::new();
+    for (k, c) in p.iter().enumerate().rev().filter(|(_, c)| **c != crate::base::whole(0)) {
+        let negative = *c < crate::base::whole(0);
+        let size = if negative { -c } else { c.clone() };
+        text += match (text.is_empty(), negative) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        };
+        let power = match k {
+            0 => String::new(),
+            1 => "x".to_owned(),
+            _ => format!("x^{k}"),
+        };
+        let one = size == crate::base::whole(1) && k > 0;
+        text += &match (one, k, size.is_integer()) {
+            (true, ..) => power,
+            (_, 0, _) => size.to_string(),
+            (_, _, true) => format!("{size}{power}"),
+            _ => format!("({size}){power}"),
+        };
+    }
+    text
+}
+
+impl Display for Claim {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let curve = |projected: &bool| if *projected { "the curve before the projection" } else { "the curve" };
+        match self {
+            Self::TangentAtEnds => f.write_str("the curve has a tangent line at both end points"),
+            Self::TangentAtJoints(Joints::All) => {
+                f.write_str("the curve has a tangent line at every joint of every level")
+            }
+            Self::TangentAtJoints(Joints::NotKilled) => f.write_str(
+                "the curve has a tangent line at the joints listed and at every joint whose line the projection does not kill, \
+                 a dense set",
+            ),
+            Self::TangentAt { address, of: Subject::Curve } => {
+                write!(f, "the curve has a tangent line at the parameter {address}")
+            }
+            Self::TangentAt { address, of: Subject::Set } => {
+                write!(f, "the set has a tangent line at the point {address}")
+            }
+            Self::TangentAt { address, of: Subject::Branch } => {
+                write!(f, "the germ of the branch {address} has a tangent line")
+            }
+            Self::TangentTurns { rate } => {
+                f.write_str("the curve is G¹: it has a tangent at every point, which turns continuously")?;
+                match rate {
+                    None => Ok(()),
+                    Some((length, d)) => {
+                        write!(f, " (cones shrink by (√D − 1)/(√D + 1) with every {length} letters, D = {d})")
+                    }
+                }
+            }
+            Self::HalfTangents { projected } => {
+                write!(f, "both half-tangents of {} exist at every point", curve(projected))
+            }
+            Self::TangentSomewhere => f.write_str("some point of the shape has a tangent line"),
+            Self::Point { place, kind } => write!(f, "a tangent line at {place} ({kind})"),
+            Self::PlaneAtVertices => {
+                f.write_str("at every vertex of the first subdivision the cells around it have together a tangent plane")
+            }
+            Self::PlaneAt(address) => {
+                write!(f, "the cells around the point {address} have together a tangent plane there")
+            }
+            Self::PlaneOfBranch(address) => write!(f, "the germ of the branch {address} has a tangent plane"),
+            Self::PlaneOfCells(addresses) => {
+                let names: Vec<String> = addresses.iter().map(Address::to_string).collect();
+                write!(f, "the cells at the point {} have together a tangent plane", names.join(" = "))
+            }
+            Self::PlaneDense { projected: false } => {
+                f.write_str("the surface has a tangent plane at a dense set of points, one inside every cell")
+            }
+            Self::PlaneDense { projected: true } => f.write_str(
+                "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
+                 one where it does not fold that plane",
+            ),
+            Self::SmoothAtVertex(n) => {
+                write!(f, "for almost all control points the surface is C¹ at a vertex of valence {n}")
+            }
+            Self::PlaneAtVertex(n) => {
+                write!(f, "for almost all control points it has a tangent plane at a vertex of valence {n}")
+            }
+            Self::Radius(low, high) if low == high => write!(f, "the joint spectral radius is {low}"),
+            Self::Radius(low, high) => write!(f, "the joint spectral radius is at least {low} and at most {high}"),
+            Self::Block { dims, norm, bound } => {
+                write!(f, "block of dimensions {}: at most {bound}, by a norm of the kind {norm}", list(dims))
+            }
+            Self::Smooth { order } => write!(f, "the curve is C^{order} in the uniform parameter"),
+            Self::Polynomial => f.write_str("the curve is a polynomial in the uniform parameter"),
+            Self::Exponent { order, pieces, low, high } => write!(
+                f,
+                "the supremum of its exponents k + a, with Hölder exponents a of the derivative of order k = {order}, is the \
+                 logarithm of 1/r to the base {pieces}, at least {order} and at most {}, for a number r from {low} to {high}",
+                order + 1
+            ),
+            Self::RadiusOfOrder(order, low, high) => write!(
+                f,
+                "the joint spectral radius on the differences of derivatives of order {order} is at least {low} and at most \
+                 {high}"
+            ),
+            Self::Jordan { operator, factor, blocks } => {
+                let (of, p) = (of(*operator), polynomial(factor));
+                write!(f, "{of}: each root of {p} has Jordan blocks of the sizes {}", list(blocks))
+            }
+            Self::Moduli { operator, sizes } => {
+                write!(f, "{}: different eigenvalues by modulus, the largest first: {}", of(*operator), list(sizes))
+            }
+            Self::Solvable { unknowns, equations, free, .. } => {
+                let what = "values that satisfy";
+                write!(f, "the {unknowns} unknowns have {what} {equations} matrix equations")?;
+                match free {
+                    None => Ok(()),
+                    Some(0) => f.write_str("; they are determined"),
+                    Some(k) => write!(f, "; they form a family of {k} parameters"),
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Extraordinary vertices.
+
+use super::{rule, stored};
+use serde_json::{Value, json};
+
+/// A certificate for another case, whose name is put in.
+fn moved(from: &str, to: &str, changes: &[(&str, Value)]) -> String {
+    let (case, _) = stored(to);
+    let mut forged: Value = serde_json::from_str(&stored(from).1).unwrap();
+    forged["case"] = json!(to);
+    for (pointer, value) in changes {
+        *forged.pointer_mut(pointer).unwrap() = value.clone();
+    }
+    match secant_check::check(&case, &forged.to_string()) {
+        Ok(accepted) => panic!("{from} for {to} is accepted: {accepted:?}"),
+        Err(rejected) => rejected.rule,
+    }
+}
+
+#[test]
+fn extraordinary_vertices() {
+    // e^(4πi/5), e^(-2πi/5) and 1 are other roots of unity.
+    let second = json!([
+        "-809016994374947424102293/1000000000000000000000000",
+        "293892626146236564584353/500000000000000000000000"
+    ]);
+    let short = |x: &str, y: &str| json!([x, y]);
+    let at = |k: usize, rest: &str| format!("/valences/{k}{rest}");
+    let of = |rest: &str| at(1, rest);
+    let (rule_of, turn, others, vector) = (of("/rule"), of("/turn"), of("/others"), of("/vector"));
+    let (half, frequency, valence) = (of("/half_plane"), of("/frequency"), of("/valence"));
+    let first = of("/vector/0");
+    let loop_five: &[(&str, &[(&str, Value)])] = &[
+        ("vertex", &[(&turn, second)]),
+        ("vertex", &[(&turn, short("1", "0"))]),
+        ("vertex", &[(&turn, short("-809017/1000000", "146946313/250000000"))]),
+        ("vertex", &[(&turn, short("309017/1000000", "-237764129/250000000"))]),
+        ("vertex", &[(&turn, short("0", "0"))]),
+        ("vertex", &[(&others, json!("0"))]),
+        ("vertex", &[(&others, json!("-2/5"))]),
+        ("vertex", &[(&others, json!("1/2"))]),
+        ("vertex", &[(&others, json!("1/5"))]),
+        ("vertex", &[(&vector, json!([["1", "0"], ["1", "0"], ["1", "0"]]))]),
+        ("vertex", &[(&vector, json!([["0", "0"], ["0", "0"], ["0", "0"]]))]),
+        ("vertex", &[(&vector, json!([]))]),
+        ("vertex", &[(&first, short("1", "1"))]),
+        ("half-plane", &[(&half, short("0", "0"))]),
+        ("half-plane", &[(&half, short("-1", "0"))]),
+        ("theorem-7", &[(&half, Value::Null)]),
+        ("vertex", &[(&frequency, json!(2))]),
+        ("vertex", &[(&frequency, json!(0))]),
+        ("vertex", &[(&frequency, json!(3))]),
+        ("theorem-8-winding", &[(&rule_of, json!("theorem-8-winding"))]),
+        ("theorem-8-fold", &[(&rule_of, json!("theorem-8-fold"))]),
+        ("theorem-2", &[(&rule_of, json!("theorem-2")), (&half, Value::Null)]),
+        ("theorem-8-path", &[(&rule_of, json!("theorem-8-path")), (&half, Value::Null)]),
+        ("format", &[(&rule_of, json!("theorem-9"))]),
+        ("vertex", &[(&valence, json!(6))]),
+        ("vertex", &[(&valence, json!(4))]),
+        ("vertex", &[(&valence, json!(2))]),
+        ("format", &[(&valence, json!(257))]),
+        ("vertex", &[("/valences", json!([]))]),
+    ];
+    for (wanted, changes) in loop_five {
+        assert_eq!(rule("vertex-loop", changes), *wanted, "{changes:?}");
+    }
+    // A valence left out, listed twice, or in another order.
+    let (_, text) = stored("vertex-loop");
+    let list = serde_json::from_str::<Value>(&text).unwrap()["proof"]["valences"].clone();
+    assert_eq!(rule("vertex-loop", &[("/valences", json!([list[0]]))]), "verdict");
+    assert_eq!(rule("vertex-loop", &[("/valences", json!([list[0], list[0], list[1]]))]), "vertex");
+    assert_eq!(rule("vertex-loop", &[("/valences", json!([list[1], list[0]]))]), "vertex");
+    // The other sides of the theorems.
+    let own = |rest: &str| at(0, rest);
+    let (rule_of, half, frequency) = (own("/rule"), own("/half_plane"), own("/frequency"));
+    assert_eq!(rule("vertex-fold", &[(&rule_of, json!("theorem-7")), ("^/verdict", json!("proved"))]), "theorem-7");
+    assert_eq!(rule("vertex-frequency", &[(&rule_of, json!("theorem-7"))]), "theorem-7");
+    assert_eq!(rule("vertex-frequency", &[(&frequency, json!(1))]), "vertex");
+    assert_eq!(rule("vertex-line", &[(&rule_of, json!("theorem-7"))]), "theorem-7");
+    assert_eq!(rule("vertex-line", &[(&half, json!(["1", "0"]))]), "half-plane");
+    assert_eq!(rule("vertex-path", &[(&rule_of, json!("theorem-2"))]), "theorem-2");
+    assert_eq!(rule("vertex-midedge", &[(&rule_of, json!("theorem-8-fold"))]), "theorem-8-fold");
+    // A valence that the case does not name refutes nothing.
+    let (case, text) = stored("vertex-line");
+    let other = case.replace("valence = 4", "valence = 7");
+    assert_eq!(secant_check::check(&other, &text).unwrap_err().rule, "verdict");
+    let text = text.replace("\"verdict\": \"refuted\"", "\"verdict\": \"undetermined\"");
+    assert_eq!(secant_check::check(&other, &text).unwrap().claims.len(), 2);
+    // Weights whose sum is not 1 leave the eigenvalue of the constant nets open.
+    let (case, text) = stored("vertex-fold");
+    let short = case.replace("\"14/15\"", "\"13/15\"");
+    assert_eq!(secant_check::check(&short, &text).unwrap_err().rule, "vertex");
+    // A name that ends its line.
+    let named = case.replace("\"vertex-fold\"", "\"vertex-fold\\nproved: all\"");
+    let text = text.replace("\"vertex-fold\"", "\"vertex-fold\\nproved: all\"");
+    assert!(secant_check::check(&named, &text).unwrap_err().unreadable);
+    // The same net is an eigenvector of Loop's scheme with another weight, in whose block 0 a larger eigenvalue leads.
+    let only = |k: usize| [("/proof/valences", json!([list[k]])), ("/verdict", json!("proved"))];
+    assert_eq!(moved("vertex-loop", "vertex-line", &only(0)), "vertex");
+    for to in ["vertex-catmull-clark", "vertex-midedge", "vertex-frequency", "vertex-fold"] {
+        assert_eq!(moved("vertex-loop", to, &only(1)), "vertex", "{to}");
+    }
+}

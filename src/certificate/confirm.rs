@@ -1,0 +1,104 @@
+//! What the checker says of a certificate, compared with what was found.
+
+use super::{Certificate, Unsupported, certificate};
+use crate::case::Case;
+use crate::theorem::{About, Assertion, Certified, Verdict};
+use secant_check::{Accepted, Decided, Joints, Subject};
+use thiserror::Error;
+
+/// Why a decided verdict was not proved again.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Doubt {
+    /// It has no certificate.
+    #[error(transparent)]
+    Unsupported(#[from] Unsupported),
+    /// The checker does not accept its certificate.
+    #[error("the certificate is not accepted: {0}")]
+    Rejected(#[from] secant_check::Rejected),
+    /// The checker comes to another verdict.
+    #[error("the certificate proves \"{0}\", which is not the verdict found")]
+    Differs(&'static str),
+    /// The checker proves another claim than the one that is printed.
+    #[error("the certificate proves another claim: {0}")]
+    Claims(String),
+}
+
+/// Writes the certificate and has it checked by `secant-check` against the text of the case.
+///
+/// # Errors
+/// [`Doubt`] where there is no certificate, or the checker does not accept it with the same verdict.
+///
+/// # Cost
+/// That of [`certificate`] and of [`secant_check::check`].
+pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
+    let certificate = certificate(case, found)?;
+    let accepted = accepted(&case.checked_text(), &certificate)?;
+    if !same_verdict(found.verdict, accepted.verdict) {
+        return Err(Doubt::Differs(accepted.verdict.word()));
+    }
+    if found.surface.is_none() {
+        same_claims(found, &accepted)?;
+    }
+    Ok(certificate)
+}
+
+/// Whether the checker's claims about curves and sets say of what secant's claims are said: the verdicts are those of the
+/// certificate, which it has compared.
+fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
+    for claim in found.claims.iter().filter(|c| c.verdict() != Verdict::Undetermined) {
+        let expected = match &claim.what {
+            Assertion::TangentAt { address, about, .. } => {
+                let address = secant_check::Address { prefix: address.prefix.clone(), cycle: address.cycle.clone() };
+                let of = match about {
+                    About::Curve => Subject::Curve,
+                    About::Shape => Subject::Set,
+                    About::Branch => Subject::Branch,
+                };
+                secant_check::Claim::TangentAt { address, of }
+            }
+            Assertion::TangentAtEnds => secant_check::Claim::TangentAtEnds,
+            Assertion::DenseJoints => secant_check::Claim::TangentAtJoints(Joints::All),
+            Assertion::ProjectedJoints => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
+            // The certificate's answers about single points and about all of them carry these.
+            _ => continue,
+        };
+        let known = |d: &Decided| d.claim == expected && same_verdict(claim.verdict(), d.verdict);
+        if !accepted.claims.iter().any(known) {
+            let said: Vec<String> = accepted.claims.iter().map(ToString::to_string).collect();
+            return Err(Doubt::Claims(format!("{}, not {expected}", said.join("; "))));
+        }
+    }
+    Ok(())
+}
+
+/// Has a certificate checked by `secant-check` against the text of what it is about.
+///
+/// # Errors
+/// [`Doubt`] where the checker does not accept it.
+///
+/// # Cost
+/// That of [`secant_check::check`].
+pub fn checked(source: &str, certificate: Certificate) -> Result<Certificate, Doubt> {
+    accepted(source, &certificate)?;
+    Ok(certificate)
+}
+
+/// Whether the checker comes to the same verdict.
+pub(super) fn same_verdict(own: Verdict, checked: secant_check::Verdict) -> bool {
+    match own {
+        Verdict::Proved => checked == secant_check::Verdict::Proved,
+        Verdict::Refuted => checked == secant_check::Verdict::Refuted,
+        Verdict::Undetermined => checked == secant_check::Verdict::Undetermined,
+    }
+}
+
+/// What the checker says. Where its budget does not last, nothing was found to be wrong: there is just no second proof.
+pub(super) fn accepted(source: &str, certificate: &Certificate) -> Result<Accepted, Doubt> {
+    match secant_check::check(source, &certificate.text()) {
+        Err(rejected) if rejected.rule == "limit" => {
+            let what = "evidence that takes so much arithmetic".to_owned();
+            Err(Unsupported { what, place: rejected.place }.into())
+        }
+        answer => Ok(answer?),
+    }
+}
