@@ -142,7 +142,8 @@ fn a_scheme_a_mask_and_a_symbol_are_asked_like_files() {
         let done = Command::new(env!("CARGO_BIN_EXE_secant")).args(["certify", "--json"]).args(args).output().unwrap();
         (serde_json::from_slice::<serde_json::Value>(&done.stdout).unwrap(), done.status.code())
     };
-    let verdicts = |json: &serde_json::Value| json["claims"].as_array().unwrap().iter().map(|c| c["verdict"].clone()).collect();
+    let verdicts =
+        |json: &serde_json::Value| json["claims"].as_array().unwrap().iter().map(|c| c["verdict"].clone()).collect();
     let chaikin: Vec<serde_json::Value> = verdicts(&certify(&["chaikin"]).0);
     for text in ["1/4,3/4,3/4,1/4", "0.25, 0.75, 0.75, 0.25", "(1+z)^3/4"] {
         let (json, code) = certify(&[text]);

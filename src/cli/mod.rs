@@ -12,6 +12,7 @@ mod gallery;
 mod import;
 mod init;
 mod irrational;
+mod jsr;
 mod many;
 mod output;
 mod progress;
@@ -301,13 +302,30 @@ struct RegularityArgs {
 
 #[derive(Debug, Args)]
 struct JsrArgs {
-    /// A TOML file with `matrices = [...]` (docs/radius.md).
-    file: PathBuf,
+    /// Files with `matrices = [...]`, JSON, or plain text (docs/radius.md).
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Print JSON; of several files a list.
+    #[arg(long)]
+    json: bool,
+    /// Print a line of JSON for each file.
+    #[arg(long, conflicts_with = "json")]
+    jsonl: bool,
+    /// Search for about this long, and no longer. Without it a fixed amount of work is spent, a few seconds at most, so that the
+    /// same file gives the same bytes.
+    #[arg(long, value_name = "SECONDS")]
+    time: Option<f64>,
+    /// The longest word of the search (16).
+    #[arg(long, value_name = "LETTERS")]
+    longest: Option<usize>,
+    /// Stop when the bounds are this close, relatively (1e-11).
+    #[arg(long, value_name = "WIDTH")]
+    width: Option<f64>,
     /// Draw the invariant polytope (systems with a state of two dimensions).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "OUT")]
     svg: Option<PathBuf>,
     /// Write a certificate of the bounds that secant-check proves again (docs/certificate.md).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "OUT")]
     certificate: Option<PathBuf>,
 }
 
@@ -354,7 +372,7 @@ fn run(command: Command) -> u8 {
     match command {
         Command::Certify(args) => certify::run(&args.with_parameters()),
         Command::Spectrum(args) => spectrum::run(&args),
-        Command::Jsr(args) => radius::jsr(&args),
+        Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => radius::regularity(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),
