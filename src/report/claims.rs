@@ -106,10 +106,7 @@ pub fn limit(limit: &Limit) -> String {
     let ended = match limit {
         Limit::Words => "the search for contracting words ended at its limit".to_owned(),
         Limit::Cells { branch, cell } => {
-            format!(
-                "the ring of the branch {branch} was divided up to the limit, and the cell {} is left",
-                word_text(cell)
-            )
+            format!("the search in the ring of the branch {branch} ended at the cell {}", word_text(cell))
         }
     };
     format!("{ended} (--{name}; --effort hard takes eight times as many {name})", name = limit.name())

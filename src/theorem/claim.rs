@@ -287,7 +287,7 @@ pub enum Reason {
 pub enum Limit {
     /// `words` (or `work`): the products formed did not all shrink.
     Words,
-    /// `cells`: the ring of a branch was divided as often as allowed.
+    /// `cells`: the search in the ring of a branch ended (it may also be the places of its enclosures, which are fixed).
     Cells {
         /// The address of the branch.
         branch: Address,
