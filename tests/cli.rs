@@ -480,3 +480,47 @@ fn certificates_of_schemes_are_about_files() {
     assert!(refused.why.contains("beside the certificate"), "{refused}");
     secant_check::check(&read("six.case.toml"), &read("six.json")).unwrap();
 }
+
+#[test]
+fn regularity_of_masks_as_they_are_written() {
+    // Superscripts lost in a text.
+    for (symbol, wanted) in [("(1+z)2(1+z)/4", "^2"), ("1/2+z+z2/2", "^2"), ("(1+z)**3/4", "^3"), ("(1+z)²/2", "^2")] {
+        let (_, err) = output(&["regularity", symbol], 2);
+        let err = err.replace(['\n', '│'], "").split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(err.contains(&format!("did you mean `{wanted}`")), "{symbol}: {err}");
+    }
+    assert!(output(&["regularity", "(1+z)^2/2"], 0).0.contains("mask        1/2 1 1/2\n"));
+    // Masks without continuous limits say so, whether their translates are independent or not.
+    for arguments in [&["four-point", "w=1/2"][..], &["four-point", "w=-1/2"], &["-1/8,1/4,3/4,1/4,-1/8"], &["rbio2.2"]]
+    {
+        let (out, _) = output(&[&["regularity"], arguments].concat(), 0);
+        assert!(out.contains("does not converge") && !out.contains("exponent"), "{out}");
+    }
+    assert!(output(&["regularity", "haar"], 0).0.contains("discontinuous"));
+    // Radicals, decimals, names.
+    let (out, _) = output(&["regularity", "(1+sqrt(3))/4,(3+sqrt(3))/4,(3-sqrt(3))/4,(1-sqrt(3))/4"], 0);
+    assert!(out.contains("exponent    [0.550015686523, 0.550015686524]\nsmoothness  C^0\n"), "{out}");
+    let (out, _) =
+        output(&["regularity", "0.4829629131445341,0.8365163037378079,0.2241438680420134,-0.1294095225512604"], 0);
+    assert!(out.contains("exponent    [0.550015686523, 0.550015686524] (of the scheme"), "{out}");
+    assert!(out.contains("at most 0.0000000000000000") && out.contains("sum rules of order 2"), "{out}");
+    assert!(output(&["regularity", "rbio4.4"], 0).0.contains("1.0683553757"));
+    assert!(output(&["regularity", "bior4.4"], 0).0.contains("1.7011374872"));
+}
+
+#[test]
+fn regularity_of_several_cases() {
+    let inputs = ["four-point", "w=1/16", "db2", "1,2", "cases/classical/takagi-landsberg-1-3.toml"];
+    let (out, _) = output(&[&["regularity", "--jsonl"][..], &inputs].concat(), 2);
+    let lines: Vec<serde_json::Value> = out.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    let field = |k: usize, key: &str| lines[k][key].clone();
+    assert_eq!(lines.len(), 4);
+    assert_eq!((field(0, "input"), field(0, "smoothness")), ("four-point".into(), 1.into()));
+    assert_eq!(field(1, "exponent"), serde_json::json!(["0.550015686523504", "0.550015686523505"]));
+    assert!(field(2, "error").as_str().unwrap().contains("add up to 2"));
+    assert_eq!(lines[3]["orders"][1]["joint"]["left"], serde_json::json!(["1", "-1"]));
+    let (out, _) = output(&["regularity", "--json", "db2", "haar"], 0);
+    let list: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((list.as_array().unwrap().len(), &list[1]["converges"]), (2, &false.into()));
+    assert!(output(&["regularity", "db2", "haar"], 0).0.contains("== haar\n"));
+}

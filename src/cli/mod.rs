@@ -16,7 +16,7 @@ mod jsr;
 mod many;
 mod output;
 mod progress;
-mod radius;
+mod regularity;
 mod render;
 mod resume;
 mod schemes;
@@ -285,19 +285,25 @@ struct SolveArgs {
 
 #[derive(Debug, Args)]
 struct RegularityArgs {
-    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet `db2` to `db12`, a mask such as
-    /// "1/4,3/4,3/4,1/4", or a symbol such as "(1+z)^3/4".
+    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet (haar, db1 to db20, bior2.2, rbio2.2, …), a
+    /// mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4".
     #[arg(allow_hyphen_values = true, value_name = "CASE")]
     what: String,
-    /// Parameters of a named scheme, as in `w=1/16`.
-    #[arg(value_name = "NAME=VALUE")]
-    parameters: Vec<String>,
-    /// The arity of a mask.
+    /// Parameters of the scheme before, as in `w=1/16`, and further cases (after `--` also masks that begin with a minus sign).
+    #[arg(value_name = "NAME=VALUE|CASE")]
+    more: Vec<String>,
+    /// The arity of masks and symbols.
     #[arg(long, default_value_t = 2)]
     arity: usize,
     /// Write a certificate of the orders of smoothness of the curve of a case file (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+    /// Print data; of several cases a list.
+    #[arg(long, conflicts_with = "jsonl")]
+    json: bool,
+    /// Print a line of data for each case.
+    #[arg(long)]
+    jsonl: bool,
 }
 
 #[derive(Debug, Args)]
@@ -373,7 +379,7 @@ fn run(command: Command) -> u8 {
         Command::Certify(args) => certify::run(&args.with_parameters()),
         Command::Spectrum(args) => spectrum::run(&args),
         Command::Jsr(args) => jsr::jsr(&args),
-        Command::Regularity(args) => radius::regularity(&args),
+        Command::Regularity(args) => regularity::run(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),

@@ -48,7 +48,8 @@ pub enum SchemeError {
     Arity(usize),
     /// A mask too short for a curve.
     #[error(
-        "the mask gives a constant, not a curve; it needs at least {needed} coefficients between its first and last nonzero one, and has {found}"
+        "the limit of this mask is constant between the integers, with jumps there, and no curve; a curve needs at least \
+         {needed} coefficients between the first and last nonzero one, and the mask has {found}"
     )]
     Short {
         /// Coefficients needed.

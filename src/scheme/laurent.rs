@@ -238,6 +238,7 @@ impl Parser {
 
     fn power(&mut self) -> Result<Laurent, SchemeError> {
         let base = self.base()?;
+        self.lost_power()?;
         if !self.accept('^') {
             return Ok(base);
         }
@@ -254,6 +255,26 @@ impl Parser {
             result = self.times(&result, &start)?;
         }
         Ok(result)
+    }
+
+    /// Refuses a digit right behind `z` or a bracket, as a text has that lost its superscripts, and other ways to write a power.
+    fn lost_power(&self) -> Result<(), SchemeError> {
+        let behind = self.at.checked_sub(1).and_then(|k| self.text.get(k));
+        if !matches!(behind, Some('z' | ')')) {
+            return Ok(());
+        }
+        let digits: String = self.text[self.at..].iter().take_while(|c| c.is_ascii_digit()).collect();
+        let rest = &self.text[self.at..];
+        let power = match rest {
+            [c, ..] if c.is_ascii_digit() => digits,
+            ['*', '*', ..] => rest[2..].iter().take_while(|c| c.is_ascii_digit()).collect(),
+            [c, ..] => match "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == *c) {
+                Some(value) => value.to_string(),
+                None => return Ok(()),
+            },
+            [] => return Ok(()),
+        };
+        Err(self.error(&format!("a power is written with `^`: did you mean `^{power}`? A factor is written with `*`")))
     }
 
     fn exponent(&mut self) -> Result<i64, SchemeError> {

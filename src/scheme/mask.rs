@@ -202,13 +202,26 @@ pub(super) fn verify(shape: &Shape) -> Result<(), SchemeError> {
         if shape.states[state].kind == CellKind::Edge {
             for end in [End::Start, End::Finish] {
                 if shape.end_point(state, end).is_none() {
-                    let message = "the operator at an end of the curve has more than one fixed point";
-                    return Err(SchemeError::Divergent(message.to_owned()));
+                    return Err(SchemeError::Divergent(why_no_end(shape, state, end).to_owned()));
                 }
             }
         }
     }
     Ok(shape.check_curves()?)
+}
+
+/// Why an end of a curve is not one point. Columns sum to 1, so that 1 is an eigenvalue of the operator of the cycle.
+fn why_no_end(shape: &Shape, state: usize, end: End) -> &'static str {
+    let Some(address) = shape.end_address(state, end, |_| false) else { return "a state has no pieces" };
+    let (_, home) = shape.product(state, &address.prefix);
+    let (cycle, _) = shape.product(home, &address.cycle);
+    let kernel = (&cycle - &Matrix::identity(cycle.rows())).kernel();
+    let sum = |j: usize| kernel.column(j).iter().fold(Rational::from(0), |s, x| s + x);
+    if (0..kernel.cols()).all(|j| sum(j) == 0) {
+        "the operator at an end of the curve has no fixed point: its eigenvalue 1 has a Jordan block"
+    } else {
+        "the operator at an end of the curve has more than one fixed point"
+    }
 }
 
 /// The curve with its end points as vertices on one coordinate; a curve that has boundaries is left as it is.

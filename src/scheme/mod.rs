@@ -17,6 +17,7 @@ mod tensor;
 mod text;
 mod univariate;
 mod vertex;
+mod wavelets;
 
 pub use curves::{
     PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, fractal_interpolation, hilbert, koch, lebesgue, levy,
@@ -40,3 +41,4 @@ pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };
 pub use vertex::{LocalMatrix, MAX_POINTS, MAX_VALENCE, local_matrix, local_matrix_of};
+pub use wavelets::{wavelet_mask, wavelet_names};

@@ -98,6 +98,19 @@ impl Regularity {
         self.orders.iter().take_while(|o| o.smooth == Some(true)).map(|o| o.order).last()
     }
 
+    /// Whether the scheme converges uniformly for all control points, which is so if and only if the radius of the first
+    /// differences is below 1; `None` where the bounds do not tell.
+    #[must_use]
+    pub fn converges(&self) -> Option<bool> {
+        self.orders.first().and_then(|o| o.smooth)
+    }
+
+    /// Whether all coefficients are 1: the limits are constant between the integers.
+    #[must_use]
+    pub fn is_haar(&self) -> bool {
+        self.mask.len() == self.arity && self.mask.iter().all(|x| *x == 1)
+    }
+
     /// Whether [`Regularity::smoothness`] is exact: the next order was refuted.
     #[must_use]
     pub fn smoothness_is_exact(&self) -> bool {
