@@ -11,7 +11,8 @@ use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Role, Side, Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Role, Side, Verdict,
+    Witness,
 };
 use serde_json::{Value, json};
 
