@@ -2,7 +2,7 @@
 
 use super::branch::point;
 use super::top::{elements, top};
-use super::{Unsupported, number, numbers};
+use super::{Unsupported, number, numbers, unsupported};
 use crate::arith::{Integer, Interval, Rational};
 use crate::linalg::Matrix;
 use crate::shape::Shape;
@@ -42,9 +42,12 @@ fn with_cone(
 ) -> Result<Value, Unsupported> {
     let states = shape.reachable();
     let own = |e: usize| cone.cones.iter().find(|c| c.state == e);
-    let cones = states.iter().filter_map(|&e| own(e)).map(|c| {
-        json!({"rays": matrix(&c.rays.transpose()), "functional": numbers(&c.functional), "chord": numbers(&c.chord)})
+    let cones = states.iter().map(|&e| {
+        let Some(c) = own(e) else { return unsupported("a state without a cone", format!("state {e}")) };
+        let (rays, functional, chord) = (matrix(&c.rays.transpose()), numbers(&c.functional), numbers(&c.chord));
+        Ok(json!({"rays": rays, "functional": functional, "chord": chord}))
     });
+    let cones = cones.collect::<Result<Vec<_>, _>>()?;
     let maps = states.iter().map(|&e| {
         let images = cone.maps.iter().filter(|m| m.state == e);
         images.map(|m| matrix(&m.matrix)).collect::<Value>()
@@ -58,7 +61,9 @@ fn with_cone(
     if every.verdict == Verdict::Proved {
         for joint in &every.joints {
             let report = joint.report(found);
-            let Role::Joint { state, left, right, .. } = &report.role else { continue };
+            let Role::Joint { state, left, right, .. } = &report.role else {
+                return unsupported("a point that is no joint", "every point");
+            };
             let place = json!({"at": "joint", "path": [], "left": left, "right": right});
             joints.push(match joint {
                 EveryJoint::Listed(_) => json!({"state": state, "listed": position(report)}),
@@ -70,7 +75,7 @@ fn with_cone(
     Ok(json!({
         "question": "every point",
         "verdict": every.verdict.word(),
-        "cones": cones.collect::<Value>(),
+        "cones": cones,
         "maps": maps.collect::<Value>(),
         "view": seen.map(numbers),
         "window": cone.window,

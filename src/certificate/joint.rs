@@ -60,11 +60,14 @@ fn below(product: &Matrix, lower: &Lower) -> Result<Value, Unsupported> {
         None => Interval::point(disc(product, &x, &y)).outward(2 * BITS).hi,
     };
     let exact = if error == 0 { lower.rational() } else { None };
-    let bound = exact.unwrap_or_else(|| {
-        let square = &x * &x + &y * &y;
-        let modulus = crate::radius::square_root(&square, 2 * BITS).lo - &error;
-        crate::radius::root_floor(&modulus.max(Rational::from(0)), lower.length, BITS)
-    });
+    let bound = match exact {
+        Some(bound) => bound,
+        None => {
+            let square = &x * &x + &y * &y;
+            let modulus = crate::radius::square_root(&square, 2 * BITS).lo - &error;
+            crate::radius::root_floor(&modulus.max(Rational::from(0)), lower.length, BITS)
+        }
+    };
     Ok(json!({
         "word": lower.path,
         "centre": [number(&x), number(&y)],

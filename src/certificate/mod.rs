@@ -2,6 +2,7 @@
 //!
 //! The writer only collects what the theorem checker found. Whether it proves anything is decided by `secant-check`, which
 //! shares no code with this crate.
+#![deny(clippy::disallowed_methods, reason = "what is missing is a typed refusal, never a default or a dropped item")]
 
 mod branch;
 mod confirm;
@@ -134,7 +135,10 @@ fn contraction<'a>(
             Contraction::Polytopes(proof) => hull::polytope(proof, state),
             _ => return unsupported("a system whose contraction is not proved", "contraction"),
         };
-        let hull = polygons.map_or(Ok(Value::Null), |polygons| hull::hull(shape, state, polygons))?;
+        let hull = match polygons {
+            Some(polygons) => hull::hull(shape, state, polygons)?,
+            None => Value::Null,
+        };
         states.push(json!({"state": state, "radius": number(radius), "code": code, "hull": hull}));
     }
     Ok(Value::Array(states))
@@ -187,12 +191,18 @@ impl Points<'_> {
     }
 
     /// The indices of the decided points among those for which `wanted` holds.
-    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Vec<usize> {
-        let places = found.points.iter().filter(|p| wanted(p)).map(place_json);
-        let mut indices: Vec<usize> = places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
+    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Result<Vec<usize>, Unsupported> {
+        let decided = found.points.iter().filter(|p| wanted(p) && p.verdict != Verdict::Undetermined);
+        let mut indices = Vec::new();
+        for place in decided.map(place_json) {
+            match self.places.iter().position(|p| *p == place) {
+                Some(index) => indices.push(index),
+                None => return unsupported("a decided point that is not listed", place.to_string()),
+            }
+        }
         indices.sort_unstable();
         indices.dedup();
-        indices
+        Ok(indices)
     }
 }
 
@@ -202,13 +212,11 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
     let curve = shape.states[shape.start].kind == CellKind::Edge;
     let mut answers = Vec::new();
     if curve {
-        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd));
-        let verdict = found
-            .claims
-            .iter()
-            .find(|c| c.what == Assertion::TangentAtEnds)
-            .map_or(Verdict::Undetermined, Claim::verdict);
-        answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
+        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd))?;
+        let Some(claim) = found.claims.iter().find(|c| c.what == Assertion::TangentAtEnds) else {
+            return unsupported("a curve without a claim about its ends", "ends");
+        };
+        answers.push(json!({"question": "ends", "verdict": claim.verdict().word(), "points": ends}));
         answers.push(joints(case, found, points)?);
     }
     let mut asked: Vec<Address> = Vec::new();
@@ -224,7 +232,12 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         }
     }
     // Addresses that were asked for besides those of the case come after them.
-    let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict(), c.what.asked()?))).collect();
+    let mut claims = Vec::new();
+    for claim in &found.claims {
+        if let Some(address) = claim.what.asked() {
+            claims.push((claim.verdict(), address));
+        }
+    }
     for (_, (address, _)) in &claims {
         if !asked.contains(address) {
             asked.push((*address).clone());
@@ -253,13 +266,15 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
 fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
     let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
     let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
-    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
+    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }))?;
     let mut upstairs = Vec::new();
     let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
         (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
         (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
-                let Role::Joint { state, left, right, .. } = &point.role else { continue };
+                let Role::Joint { state, left, right, .. } = &point.role else {
+                    return unsupported("a point that is no joint", "joints");
+                };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
                 upstairs.push(json!({"state": state, "point": point}));

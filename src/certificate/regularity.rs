@@ -55,7 +55,8 @@ const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
     let irrational = radius.lower.as_ref().filter(|l| l.root.rational().is_none());
     let power = irrational.and_then(|lower| {
-        let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
+        // Powers that give no bound are of no use.
+        let powers = POWERS.iter().flat_map(|k| Lower::of(system, &lower.path.repeat(*k)));
         powers.into_iter().find(|l| l.root.rational().is_some())
     });
     JointRadius { lower: power.or_else(|| radius.lower.clone()), ..radius.clone() }

@@ -64,7 +64,11 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     if parameters && surface.dense.is_none() {
         return unsupported("a patch without vertices inside", "dense");
     }
-    let own: Vec<Address> = case.examine.iter().filter_map(|a| a.normalise(shape, shape.start).ok()).collect();
+    let own = case.examine.iter().map(|a| a.normalise(shape, shape.start)).collect::<Result<Vec<Address>, _>>();
+    let own = match own {
+        Ok(own) => own,
+        Err(error) => return unsupported(error.to_string(), "examine"),
+    };
     let pieces = &shape.states[shape.start].pieces;
     let fixed = |a: &Address| {
         !parameters && a.prefix.is_empty() && a.cycle.len() == 1 && pieces[a.cycle[0]].target == shape.start
@@ -103,10 +107,13 @@ impl Product<'_> {
         let mut indices = [0, 0];
         for (k, report) in [&evidence.first, &evidence.second].into_iter().enumerate() {
             let (place, known) = (super::place_json(report), &mut self.points[k]);
-            if !known.iter().any(|(p, _)| *p == place) {
-                known.push((place.clone(), branch::point(&factors[k].shape, report, &place)?));
-            }
-            indices[k] = known.iter().position(|(p, _)| *p == place).unwrap_or(0);
+            indices[k] = match known.iter().position(|(p, _)| *p == place) {
+                Some(index) => index,
+                None => {
+                    known.push((place.clone(), branch::point(&factors[k].shape, report, &place)?));
+                    known.len() - 1
+                }
+            };
         }
         Ok(indices)
     }
@@ -194,7 +201,11 @@ fn certified(shape: &Shape, b: &SurfaceBranch, exact: bool) -> Result<Value, Uns
 fn by_leading(shape: &Shape, b: &SurfaceBranch, proof: &RingProof, lead: Eigenvalue) -> Result<Value, Unsupported> {
     let root = b.spectrum.root(lead);
     let imaginary = |f: &Functional| f.part == crate::theorem::Part::Imaginary;
-    let place = |f: &Functional| f.root.clone().unwrap_or_else(|| root.clone());
+    // A functional that names no root is over that of the top.
+    let place = |f: &Functional| match &f.root {
+        Some(own) => own.clone(),
+        None => root.clone(),
+    };
     // Of a pair the certificate takes the root above the real axis.
     let below = |f: &Functional| imaginary(f) && place(f).enclosure(64).1.hi < 0;
     let mut functionals = Vec::new();
