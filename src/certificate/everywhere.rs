@@ -2,7 +2,7 @@
 
 use super::branch::point;
 use super::top::{elements, top};
-use super::{Unsupported, number, numbers, unsupported};
+use super::{Unsupported, number, numbers};
 use crate::arith::{Integer, Interval, Rational};
 use crate::linalg::Matrix;
 use crate::shape::Shape;
@@ -14,8 +14,15 @@ use serde_json::{Value, json};
 pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) -> Option<usize>) -> Option<Value> {
     let every = found.everywhere.as_ref()?;
     let witness: Vec<usize> = every.witness.and_then(|k| position(&found.points[k])).into_iter().collect();
-    if every.witness.is_some() && witness.is_empty() {
+    // The format has no rule for derivatives of polynomial curves.
+    let left_out = every.witness.is_some() || every.hodograph.is_some();
+    if left_out && witness.is_empty() {
         return None;
+    }
+    if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
+        // What has no certificate is left out: it is no claim of the case.
+        let radius = super::regularity::order(order).ok()?["radius"].take();
+        return Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}));
     }
     match &every.cone {
         // What the format cannot express is left out: it is no claim of the case.
@@ -28,7 +35,7 @@ pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) 
     }
 }
 
-fn matrix(m: &Matrix) -> Value {
+pub fn matrix(m: &Matrix) -> Value {
     (0..m.rows()).map(|i| numbers(m.row(i))).collect()
 }
 
@@ -42,12 +49,9 @@ fn with_cone(
 ) -> Result<Value, Unsupported> {
     let states = shape.reachable();
     let own = |e: usize| cone.cones.iter().find(|c| c.state == e);
-    let cones = states.iter().map(|&e| {
-        let Some(c) = own(e) else { return unsupported("a state without a cone", format!("state {e}")) };
-        let (rays, functional, chord) = (matrix(&c.rays.transpose()), numbers(&c.functional), numbers(&c.chord));
-        Ok(json!({"rays": rays, "functional": functional, "chord": chord}))
+    let cones = states.iter().filter_map(|&e| own(e)).map(|c| {
+        json!({"rays": matrix(&c.rays.transpose()), "functional": numbers(&c.functional), "chord": numbers(&c.chord)})
     });
-    let cones = cones.collect::<Result<Vec<_>, _>>()?;
     let maps = states.iter().map(|&e| {
         let images = cone.maps.iter().filter(|m| m.state == e);
         images.map(|m| matrix(&m.matrix)).collect::<Value>()
@@ -61,9 +65,7 @@ fn with_cone(
     if every.verdict == Verdict::Proved {
         for joint in &every.joints {
             let report = joint.report(found);
-            let Role::Joint { state, left, right, .. } = &report.role else {
-                return unsupported("a point that is no joint", "every point");
-            };
+            let Role::Joint { state, left, right, .. } = &report.role else { continue };
             let place = json!({"at": "joint", "path": [], "left": left, "right": right});
             joints.push(match joint {
                 EveryJoint::Listed(_) => json!({"state": state, "listed": position(report)}),
@@ -75,7 +77,7 @@ fn with_cone(
     Ok(json!({
         "question": "every point",
         "verdict": every.verdict.word(),
-        "cones": cones,
+        "cones": cones.collect::<Value>(),
         "maps": maps.collect::<Value>(),
         "view": seen.map(numbers),
         "window": cone.window,

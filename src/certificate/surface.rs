@@ -24,7 +24,12 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     let by_product = matches!(found.contraction, Contraction::Product(_));
     let mut states = match by_product {
         true => Value::Null,
-        false => contraction(shape, &found.contraction, radii, found.polygons.as_deref())?,
+        false => contraction(
+            shape,
+            &found.contraction,
+            radii,
+            found.polygons.as_deref().map(|p| (p, found.polygon_weights.as_ref())),
+        )?,
     };
     let injective = surface.dense.as_ref().is_some_and(|d| d.view_injective);
     let mut product = Product {
@@ -64,11 +69,7 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     if parameters && surface.dense.is_none() {
         return unsupported("a patch without vertices inside", "dense");
     }
-    let own = case.examine.iter().map(|a| a.normalise(shape, shape.start)).collect::<Result<Vec<Address>, _>>();
-    let own = match own {
-        Ok(own) => own,
-        Err(error) => return unsupported(error.to_string(), "examine"),
-    };
+    let own: Vec<Address> = case.examine.iter().filter_map(|a| a.normalise(shape, shape.start).ok()).collect();
     let pieces = &shape.states[shape.start].pieces;
     let fixed = |a: &Address| {
         !parameters && a.prefix.is_empty() && a.cycle.len() == 1 && pieces[a.cycle[0]].target == shape.start
@@ -125,7 +126,7 @@ impl Product<'_> {
             let rows = |m: &Matrix| -> Value { (0..m.rows()).map(|i| numbers(m.row(i))).collect() };
             let operators: Value = shape.states[shape.start].pieces.iter().map(|p| rows(&p.op)).collect();
             let radii = states.iter().map(|(e, radius)| (*e, radius));
-            let contraction = contraction(shape, found, radii, polygons.as_deref())?;
+            let contraction = contraction(shape, found, radii, polygons.as_deref().map(|p| (p, None)))?;
             let points: Vec<&Value> = self.points[k].iter().map(|(_, point)| point).collect();
             Ok(json!({"operators": operators, "contraction": contraction, "points": points}))
         };
@@ -201,11 +202,7 @@ fn certified(shape: &Shape, b: &SurfaceBranch, exact: bool) -> Result<Value, Uns
 fn by_leading(shape: &Shape, b: &SurfaceBranch, proof: &RingProof, lead: Eigenvalue) -> Result<Value, Unsupported> {
     let root = b.spectrum.root(lead);
     let imaginary = |f: &Functional| f.part == crate::theorem::Part::Imaginary;
-    // A functional that names no root is over that of the top.
-    let place = |f: &Functional| match &f.root {
-        Some(own) => own.clone(),
-        None => root.clone(),
-    };
+    let place = |f: &Functional| f.root.clone().unwrap_or_else(|| root.clone());
     // Of a pair the certificate takes the root above the real axis.
     let below = |f: &Functional| imaginary(f) && place(f).enclosure(64).1.hi < 0;
     let mut functionals = Vec::new();

@@ -25,15 +25,15 @@ pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) 
     let members = &spectrum.classes[0].members;
     if members.iter().all(|&m| spectrum.root(m).is_real()) {
         let plus = members.iter().filter(|&&m| spectrum.root(m).same(spectrum.root(lead)));
-        let most = plus.fold(0, |most, &m| most.max(spectrum.factor(m).blocks.len()));
-        let others = members.iter().fold(0, |most, &m| most.max(spectrum.factor(m).blocks.len()));
+        let most = plus.map(|&m| spectrum.factor(m).blocks.len()).fold(0, usize::max);
+        let others = members.iter().map(|&m| spectrum.factor(m).blocks.len()).fold(0, usize::max);
         if most.max(others) <= 2 {
             return Ok(real(spectrum, lead, &radius));
         }
     }
     let one_block = |m: &Eigenvalue| spectrum.factor(*m).blocks.len() == 1;
     if members.len() == 2 && members.iter().all(one_block) && !spectrum.root(members[0]).is_real() {
-        return pair(spectrum, &radius, place);
+        return Ok(pair(spectrum, &radius));
     }
     match conformal(linear, spectrum, &radius) {
         Some(value) => Ok(value),
@@ -71,26 +71,24 @@ pub fn mirrored(v: &[Elem], same: bool) -> Vec<Elem> {
     v.iter().map(|e| if same { e.clone() } else { flip(e) }).collect()
 }
 
-fn pair(spectrum: &Spectrum, radius: &Rational, place: &str) -> Result<Value, Unsupported> {
+fn pair(spectrum: &Spectrum, radius: &Rational) -> Value {
     let members = &spectrum.classes[0].members;
     let upper = |root: &&Root| root.enclosure(64).1.lo > 0;
     let roots = [spectrum.root(members[0]), spectrum.root(members[1])];
-    let Some(root) = roots.into_iter().find(upper) else {
-        return unsupported("a pair that is not seen to lie off the real axis", place);
-    };
+    let root = roots.into_iter().find(upper).map_or(roots[0], |root| root);
     let vectors: Value =
         spectrum.factor(members[0]).right.iter().flat_map(|c| &c.vectors).map(|v| elements(v)).collect();
     let (re, im) = root.enclosure(200);
     let centre = |x: &Interval| number(&Interval::point(x.mid()).outward(200).lo);
     let error = Rational::from(1) / Rational::from(Integer::from(1) << 120u64);
-    Ok(json!({
+    json!({
         "top": "pair",
         "radius": number(radius),
         "polynomial": numbers(root.minpoly().coeffs()),
         "centre": [centre(&re), centre(&im)],
         "error": number(&error),
         "vectors": vectors,
-    }))
+    })
 }
 
 /// A rational invariant space with a scalar product that `L` stretches, where all eigenvalues are semisimple and the square

@@ -57,9 +57,8 @@ fn unity(k: usize, n: usize) -> Complex {
     (cosine, sine)
 }
 
-/// The values on the first two rings, in the order of the format, without their constant part in block 0; `None` where one is
-/// missing.
-fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Option<Vec<Complex>> {
+/// The values on the first two rings, in the order of the format, without their constant part in block 0.
+fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Vec<Complex> {
     let inside = |&(i, j): &(usize, usize)| match (case.rule.dual(), case.rule.sector()) {
         (true, _) => i < 2 && j < 2,
         (false, Sector::Quads) => i > 0,
@@ -68,13 +67,13 @@ fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Option<Vec<Compl
     let turn = unity(vector.frequency, n);
     let value = |(x, y): &Complex| (x + y * &turn.0, y * &turn.1);
     let places = (0..=2).flat_map(|i| (0..=2).map(move |j| (i, j))).filter(inside);
-    let known = places.map(|place| vector.points.iter().find(|(p, _)| *p == place).map(|(_, v)| value(v)));
-    let mut all = known.collect::<Option<Vec<Complex>>>()?;
+    let known = places.filter_map(|place| vector.points.iter().find(|(p, _)| *p == place));
+    let mut all: Vec<Complex> = known.map(|(_, v)| value(v)).collect();
     if vector.frequency == 0 {
         let own = if case.rule.dual() { all.remove(0) } else { value(&vector.centre) };
         all.iter_mut().for_each(|v| *v = (&v.0 - &own.0, &v.1 - &own.1));
     }
-    Some(all)
+    all
 }
 
 /// Whether the leading eigenvalue is so far from all others that the checker sees it in some forty squarings.
@@ -98,7 +97,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
         Ground::Line => "theorem-2",
         Ground::Path => "theorem-8-path",
     };
-    let values = values(case, vector, n)?;
+    let values = values(case, vector, n);
     let largest = values.iter().max_by_key(|v| square(v))?;
     let inverse = scaled(&conjugate(largest), &(Rational::from(1) / square(largest)));
     let half_plane = found.half_plane.as_ref().map(|(a, b)| {

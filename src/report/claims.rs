@@ -18,6 +18,14 @@ pub fn assertion(what: &Assertion) -> String {
             "the projected curve has a tangent line at every joint whose tangent line before the projection is not killed by it; \
              in every cell that is more than a point there are such joints"
         }
+        Assertion::SeenJoints => {
+            "the curve has a tangent line at every joint of every level between pieces that are more than a point where it is \
+             looked at; these are dense in every cell that is more than a point"
+        }
+        Assertion::UnkilledJoints => {
+            "the curve has a tangent line at every joint whose tangent line is not killed on the way to where it is looked at; \
+             in every cell that is more than a point there are such joints"
+        }
         Assertion::TangentAt { address, about, .. } => {
             return match about {
                 About::Branch => format!(

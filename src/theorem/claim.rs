@@ -85,6 +85,10 @@ pub enum Assertion {
     ExaminedJoints,
     /// The projected curve has a tangent line at every joint whose tangent line is not killed (Theorem 5′).
     ProjectedJoints,
+    /// The same at every joint between pieces that are more than a point where they are looked at (Theorem 11).
+    SeenJoints,
+    /// The curve has a tangent line at every joint whose tangent line is not killed where it is looked at (Theorem 11′).
+    UnkilledJoints,
     /// There is a tangent line at the address.
     TangentAt {
         /// The address, normalised.
@@ -147,6 +151,8 @@ impl Assertion {
             Self::DenseJoints => "dense-joints",
             Self::ExaminedJoints => "examined-joints",
             Self::ProjectedJoints => "projected-joints",
+            Self::SeenJoints => "seen-joints",
+            Self::UnkilledJoints => "unkilled-joints",
             Self::TangentAt { .. } => "tangent-at",
             Self::SomePoint => "some-point",
             Self::G1 => "g1",
@@ -163,13 +169,13 @@ impl Assertion {
     /// Whether it is about all joints of a curve, or those examined: the question `joints` of a certificate.
     #[must_use]
     pub fn is_of_joints(&self) -> bool {
-        matches!(self, Self::DenseJoints | Self::ExaminedJoints | Self::ProjectedJoints)
+        *self == Self::ExaminedJoints || self.is_of_dense_joints()
     }
 
-    /// Whether it is about a dense set of joints, by Theorem 5 or 5′.
+    /// Whether it is about a dense set of joints, by Theorem 5 or 5′, or by frames.
     #[must_use]
     pub fn is_of_dense_joints(&self) -> bool {
-        matches!(self, Self::DenseJoints | Self::ProjectedJoints)
+        matches!(self, Self::DenseJoints | Self::ProjectedJoints | Self::SeenJoints | Self::UnkilledJoints)
     }
 
     /// The address that it is about, and the index of its point in the list that belongs to it.

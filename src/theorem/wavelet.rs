@@ -9,7 +9,7 @@ use crate::algebraic::roots;
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::Matrix;
 use crate::poly::{Poly, factor};
-use crate::radius::{JointRadius, Lower, Options, Proof, System, joint_radius};
+use crate::radius::{JointRadius, Leading, Lower, Options, System, joint_radius};
 use malachite_base::num::arithmetic::traits::Square;
 
 /// The regularity of a scaling function.
@@ -126,25 +126,7 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
         if entries.any(|x| *x != 0 && abs(x) <= *error) {
             return None;
         }
-        // Of a complex number, |re| + |im|.
-        let (size, interior) = match part.proof.as_ref()? {
-            Proof::Polytope(p) => {
-                let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(abs)).max()?;
-                (size, p.interior(&part.block.system, 0)?)
-            }
-            Proof::Balanced(p) => {
-                let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(|z| abs(&z.0) + abs(&z.1))).max()?;
-                (size, p.interior(&part.block.system, 0)?)
-            }
-            Proof::Tree(tree) => {
-                largest = largest.max(tree.bound_near(&part.block.system, error)?);
-                continue;
-            }
-            Proof::Quadratic(_) => return None,
-        };
-        let n = Rational::from(part.block.system.dims[0] as u64);
-        // ‖E q‖_1 <= n · n · error · max|q|.
-        largest = largest.max(part.bound.clone()? + interior * &n * &n * error * size);
+        largest = largest.max(part.proof.as_ref()?.bound_near(&part.block.system, error)?);
     }
     Some(largest)
 }
@@ -153,9 +135,7 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
 /// difference of the matrices cannot undo.
 fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rational> {
     let lower = radius.lower.as_ref()?;
-    if !lower.root.is_real() {
-        return turning(system, lower, error);
-    }
+    let Some(root) = lower.root().filter(|r| r.is_real()) else { return turning(system, lower, error) };
     let product = system.product(&lower.path);
     let n = product.rows();
     let count = Rational::from((n * n) as u64);
@@ -165,7 +145,7 @@ fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
     for _ in 1..lower.length {
         change *= &size;
     }
-    let value = lower.root.enclosure(BITS).0.mid();
+    let value = root.enclosure(BITS).0.mid();
     let step = abs(&value) / Rational::from(Integer::from(1) << 60u64);
     let sides = [&value - &step, &value + &step];
     let mut signs = Vec::new();
@@ -204,7 +184,10 @@ fn turning(system: &System, lower: &Lower, error: &Rational) -> Option<Rational>
     }
     let chi = characteristic(&product);
     let n = product.len();
-    let (re, im) = lower.root.enclosure(BITS);
+    let (re, im) = match &lower.eigenvalue {
+        Leading::Exact(root) => root.enclosure(BITS),
+        Leading::Disc(disc) => (Interval::point(disc.centre.0.clone()), Interval::point(disc.centre.1.clone())),
+    };
     let z = (Interval::point(re.mid()), Interval::point(im.mid()));
     let derivative: Vec<Interval> = (1..chi.len()).map(|k| &chi[k] * &Rational::from(k as u64)).collect();
     let square = |p: &[Interval]| {
@@ -257,7 +240,7 @@ fn value(p: &[Interval], z: &(Interval, Interval)) -> (Interval, Interval) {
 
 /// The largest 1-norm of a column.
 fn norm(m: &Matrix) -> Rational {
-    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).max().unwrap_or_default()
+    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).fold(Rational::from(0), Rational::max)
 }
 
 fn determinant(m: &Matrix) -> Rational {
