@@ -179,9 +179,9 @@ fn value(p: &[Interval], z: &(Interval, Interval)) -> (Interval, Interval) {
     })
 }
 
-/// The largest 1-norm of a column.
+/// The largest 1-norm of a column; 0 of a matrix without columns.
 fn norm(m: &Matrix) -> Rational {
-    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).max().unwrap_or_default()
+    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).fold(Rational::from(0), Rational::max)
 }
 
 fn determinant(m: &Matrix) -> Rational {

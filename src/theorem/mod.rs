@@ -26,7 +26,7 @@ pub mod wavelet;
 
 pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
-pub use claim::{AboutPlane, Assertion, Claim, Reason, Seen};
+pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};

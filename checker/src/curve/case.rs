@@ -151,6 +151,13 @@ impl Reader {
             Some("set" | "face") => Kind::Set,
             Some(_) => return table.reject("format", "unknown kind of a state"),
         };
+        if word(table, "kind")? == Some("face") {
+            let triangle = table.field("layout")?.text()? == "triangle";
+            let sides = if triangle { "side01 side12 side02" } else { "bottom right top left" };
+            let given = sides.split(' ').filter(|side| table.get(side).is_some()).count();
+            let whole = given == 0 || given == sides.split(' ').count();
+            table.need(whole, "case", "a face has all of its sides, or none")?;
+        }
         let dim = match (table.get("dimension"), pieces.first()) {
             (Some(n), _) => index(&n, MAX_COORDINATES + 1)?,
             (None, None) => 0,
