@@ -1,5 +1,9 @@
 //! Every function that reads text from outside, by name; the fuzz targets and the test `garbage` drive the same list.
 
+#[path = "readers.rs"]
+#[allow(dead_code)]
+mod readers;
+
 use secant::arith::parse_rational;
 use secant::case::{Case, matrix_file};
 use secant::scheme::{Laurent, Mask, parse_fractint, parse_json};
@@ -8,8 +12,8 @@ use secant::shape::Address;
 /// A case for the certificates that are read.
 const CASE: &str = include_str!("../tests/certs/run/case.toml");
 
-/// The parsers. What they return does not matter; they must return.
-pub const ENTRIES: [(&str, fn(&str)); 11] = [
+/// The parsers. What they return does not matter; they must return. `readers` compares two of them.
+pub const ENTRIES: [(&str, fn(&str)); 12] = [
     ("case", |text| drop(Case::parse("garbage", text))),
     ("case_open", |text| drop(Case::parse_open("garbage", text))),
     ("matrix", |text| drop(matrix_file::parse(text))),
@@ -21,6 +25,7 @@ pub const ENTRIES: [(&str, fn(&str)); 11] = [
     ("address", |text| drop(Address::parse(text))),
     ("certificate", |text| drop(secant_check::check(CASE, text))),
     ("checked_case", |text| drop(secant_check::check(text, include_str!("../tests/certs/run/0-itself.json")))),
+    ("readers", readers::compare),
 ];
 
 /// Feeds a text to the parser of this name.

@@ -78,7 +78,7 @@ pub mod strategies;
 pub mod theorem;
 pub mod vertex;
 
-pub use secant_exact::{algebraic, arith, jordan, linalg, poly};
+pub use secant_exact::{algebraic, arith, jordan, linalg, poly, ring};
 
 pub use prove::{Findings, prove};
 

@@ -80,6 +80,8 @@ statements! {
     Theorem2 = "theorem-2",
     Theorem3 = "theorem-3",
     Theorem4 = "theorem-4",
+    Theorem4Sign = "theorem-4-sign",
+    Theorem4Winding = "theorem-4-winding",
     Corollary = "corollary",
     CorollaryLine = "corollary-line",
     CorollaryImage = "corollary-image",
@@ -93,6 +95,8 @@ statements! {
     Section6Surface = "section-6-surface",
     Section6TwoBlocks = "section-6-two-blocks",
     Enclosures = "enclosures",
+    LinkedPieces = "linked-pieces",
+    OwnPoints = "own-points",
     Holder = "holder",
     Transport = "transport",
     BranchAndShape = "branch-and-shape",
@@ -100,6 +104,9 @@ statements! {
     Joint = "joint",
     Theorem5 = "theorem-5",
     Theorem5Projected = "theorem-5-projected",
+    Frames = "theorem-11",
+    FramesDense = "theorem-11-prime",
+    FramesCones = "theorem-11-cones",
     SurfacePoint = "surface-point",
     Theorem5Surface = "theorem-5-surface",
     TensorProduct = "tensor-product",
@@ -112,13 +119,21 @@ statements! {
     Theorem9 = "theorem-9",
     Theorem6 = "theorem-6",
     Theorem6Slow = "theorem-6-slow",
+    Theorem6Polynomial = "theorem-6-polynomial",
     ConeExponent = "cone-exponent",
+    Graph = "theorem-12",
     Radius = "radius",
     Smoothness = "smoothness",
     Theorem10 = "theorem-10",
 }
 
 impl Statement {
+    /// Whether it is about frames.
+    #[must_use]
+    pub fn uses_frames(self) -> bool {
+        matches!(self, Self::Frames | Self::FramesDense | Self::FramesCones)
+    }
+
     /// Its number and name.
     #[must_use]
     pub fn name(self) -> &'static str {

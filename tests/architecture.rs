@@ -35,7 +35,9 @@ fn imported(text: &str) -> BTreeSet<String> {
     for rest in text.split("crate::").skip(1) {
         match rest.strip_prefix('{') {
             Some(list) => all.extend(list.split('}').next().unwrap().split(',').map(|part| word(part.trim()))),
-            None => drop(all.insert(word(rest))),
+            None => {
+                all.insert(word(rest));
+            }
         }
     }
     all.remove("");
@@ -57,9 +59,7 @@ fn imports() -> BTreeMap<String, BTreeSet<String>> {
     for (module, uses) in &mut all {
         uses.remove(module);
         if EXACT.iter().any(|m| uses.remove(*m)) {
-            EXACT.iter().for_each(|m| {
-                uses.remove(*m);
-            });
+            uses.retain(|used| !EXACT.contains(&used.as_str()));
             uses.insert("exact".to_owned());
         }
     }

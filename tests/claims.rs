@@ -1,9 +1,11 @@
 //! What a verdict is about, and why: sentences that say no more than was proved.
 
 use secant::case::Case;
+use secant::certificate::confirm;
 use secant::report::claims::{assertion, judged, reason};
+use secant::shape::cell_text;
 use secant::theorem::surface::certify_complex;
-use secant::theorem::{About, Assertion, Certified, Kind, PointReport, Reason, Verdict};
+use secant::theorem::{About, Assertion, Certified, Kind, Outcome, PointReport, Reason, Statement, Verdict, Witness};
 use std::path::Path;
 
 fn certified(name: &str) -> Certified {
@@ -91,4 +93,83 @@ fn a_refuted_claim_names_the_place_that_refutes_it() {
         Some(Reason::End(index)) => assert_eq!(found.points[*index].verdict, refuted.verdict()),
         other => panic!("{other:?}"),
     }
+}
+/// Theorem 4′ where all of its hypotheses hold, with a certificate, and where one of them fails.
+#[test]
+fn a_change_of_sign_refutes_on_connected_parts_only() {
+    for (name, verdict, statement) in [
+        ("sign-block-3", Verdict::Refuted, Some(Statement::Theorem4Sign)),
+        ("sign-projected", Verdict::Refuted, Some(Statement::Theorem4Sign)),
+        ("sign-apart", Verdict::Proved, None),
+        ("sign-on-a-line", Verdict::Undetermined, None),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("cases/counterexamples/{name}.toml"));
+        let case = Case::read(&path).unwrap();
+        let found = certify_complex(&case.complex(), &case.examine).unwrap();
+        let point = at(&found, "(0)");
+        assert_eq!(point.verdict, verdict, "{name}: {:?}", point.reason);
+        if let (Some(wanted), Outcome::AtLeast { statement, dimension, .. }) = (statement, &point.branches[0].outcome) {
+            assert_eq!((*statement, *dimension), (wanted, 2), "{name}");
+        }
+        confirm(&case, &found).unwrap_or_else(|doubt| panic!("{name}: {doubt}"));
+    }
+}
+
+/// The functional only touches 0, at a point with a short address, and the cells at hand shrink to it.
+#[test]
+fn points_with_short_cycles_are_witnesses() {
+    let found = certified("self-affine/witness-0-1");
+    let point = at(&found, "(2)");
+    let Outcome::AtLeast { witness: Some(Witness::Point { address, .. }), .. } = &point.branches[0].outcome else {
+        panic!("{:?}", point.reason);
+    };
+    assert_eq!(address.to_string(), "0(1)");
+}
+
+#[test]
+fn long_cells_are_written_with_powers() {
+    let word = |text: &str, times: usize| -> Vec<usize> {
+        [vec![0], text.bytes().map(|b| usize::from(b - b'0')).collect::<Vec<_>>().repeat(times)].concat()
+    };
+    assert_eq!(cell_text(&word("1", 2000)), "0 1^2000");
+    assert_eq!(cell_text(&word("10", 40)), "0 (10)^40");
+    assert_eq!(cell_text(&[0, 1, 1, 1, 1]), "01111");
+}
+
+/// Control points of a cubic arc, whether it is G¹ at every point, and at how many parameters it turns back.
+#[test]
+fn polynomial_curves_are_decided_at_every_point() {
+    for (control, verdict, turns) in [
+        ("[[0, 0], [0, 0], [2, 4], [4, 0]]", Verdict::Proved, 0),
+        ("[[0, 0], [\"-2/3\", 0], [0, \"-1/3\"], [0, 1]]", Verdict::Refuted, 1),
+        ("[[1, 1], [0, 0], [3, 3], [2, 2]]", Verdict::Refuted, 2),
+        ("[[0, 0], [0, 0], [1, 1], [1, 1]]", Verdict::Proved, 0),
+        ("[[0, 0], [1, 0], [1, 1], [0, 1]]", Verdict::Proved, 0),
+    ] {
+        let text = format!("name = \"arc\"\ncontrol = {control}\n[scheme]\nname = \"bezier\"\ndegree = 3\n");
+        let path =
+            std::env::temp_dir().join(format!("secant-arc-{}-{turns}-{}.toml", std::process::id(), control.len()));
+        std::fs::write(&path, text).unwrap();
+        let case = Case::read(&path);
+        std::fs::remove_file(&path).unwrap();
+        let case = case.unwrap();
+        let found = certify_complex(&case.complex(), &case.examine).unwrap();
+        let every = found.everywhere.as_ref().unwrap();
+        assert_eq!(every.verdict, verdict, "{control}: {:?}", every.reason);
+        if let Some(h) = &every.hodograph {
+            assert_eq!(h.turns.len(), turns, "{control}");
+        } else {
+            assert_eq!(verdict, Verdict::Proved, "{control}");
+        }
+        confirm(&case, &found).unwrap_or_else(|doubt| panic!("{control}: {doubt}"));
+    }
+}
+
+#[test]
+fn the_same_curve_in_other_units_has_the_same_verdicts() {
+    let kinds =
+        |name: &str| -> Vec<(Verdict, Kind)> { certified(name).points.iter().map(|p| (p.verdict, p.kind)).collect() };
+    let (small, large) = (kinds("self-affine/flat-scaled"), kinds("self-affine/flat-unscaled"));
+    assert_eq!(small, large);
+    assert!(small.iter().all(|(v, _)| *v != Verdict::Undetermined), "{small:?}");
 }

@@ -459,6 +459,28 @@ fn orders_of_smoothness_have_certificates() {
     assert!(err.contains("case file") && !file.exists());
 }
 
+/// The certificate of a case with `[scheme]` is about the file that people have; of a mesh it is about the case beside it.
+#[test]
+fn certificates_of_schemes_are_about_files() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = |name: &str| dir.path().join(name);
+    let read = |name: &str| std::fs::read_to_string(file(name)).unwrap();
+    let chaikin = "name = \"chaikin\"\n\n[scheme]\nmask = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"]\n";
+    let mesh = "name = \"six\"\n\n[scheme]\nmesh = \"loop\"\nvalence = 6\n";
+    for (name, text) in [("chaikin", chaikin), ("six", mesh)] {
+        std::fs::write(file(&format!("{name}.toml")), text).unwrap();
+        let (case, json) = (file(&format!("{name}.toml")), file(&format!("{name}.json")));
+        let arguments = ["certify", case.to_str().unwrap(), "--certificate", json.to_str().unwrap()];
+        let (_, err) = output(&arguments, 0);
+        assert_eq!(err.contains("expanded case"), name == "six", "{err}");
+    }
+    secant_check::check(&read("chaikin.toml"), &read("chaikin.json")).unwrap();
+    assert!(!file("chaikin.case.toml").exists());
+    let refused = secant_check::check(&read("six.toml"), &read("six.json")).unwrap_err();
+    assert!(refused.why.contains("beside the certificate"), "{refused}");
+    secant_check::check(&read("six.case.toml"), &read("six.json")).unwrap();
+}
+
 #[test]
 fn regularity_of_masks_as_they_are_written() {
     // Superscripts lost in a text.

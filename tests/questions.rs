@@ -135,3 +135,24 @@ fn a_surface_has_one_verdict() {
     let (json, code) = program(&std::fs::read_to_string(&path).unwrap());
     assert_eq!((json["verdict"].as_str(), code), (Some("proved"), Some(0)));
 }
+
+#[test]
+fn a_scheme_a_mask_and_a_symbol_are_asked_like_files() {
+    let certify = |args: &[&str]| {
+        let done = Command::new(env!("CARGO_BIN_EXE_secant")).args(["certify", "--json"]).args(args).output().unwrap();
+        (serde_json::from_slice::<serde_json::Value>(&done.stdout).unwrap(), done.status.code())
+    };
+    let verdicts =
+        |json: &serde_json::Value| json["claims"].as_array().unwrap().iter().map(|c| c["verdict"].clone()).collect();
+    let named: Vec<serde_json::Value> = verdicts(&certify(&["bspline", "degree=2"]).0);
+    for text in ["1/4,3/4,3/4,1/4", "0.25, 0.75, 0.75, 0.25", "(1+z)^3/4"] {
+        let (json, code) = certify(&[text]);
+        assert_eq!((verdicts(&json), code), (named.clone(), Some(0)), "{text}");
+        assert_eq!(json["title"], text);
+    }
+    let (json, code) = certify(&["four-point", "w=1/16"]);
+    assert_eq!((json["case"].as_str(), code), (Some("four-point"), Some(0)));
+    assert_eq!(certify(&["four-point", "v=1/16"]).1, Some(2));
+    assert_eq!(certify(&["no-such-file"]).1, Some(2));
+    assert_eq!(certify(&["1/4,3/4,3/4"]).1, Some(2));
+}

@@ -421,3 +421,149 @@ fn forged_cones_are_rejected() {
         assert!(secant_check::check(source, &forged).is_err(), "{place:?}");
     }
 }
+
+fn euler(digits: i64) -> System {
+    let dim = usize::try_from(digits - 1).unwrap();
+    let matrix = |e: i64| {
+        let entry = |i: usize, j: usize| (0..digits).contains(&(2 * i as i64 - j as i64 + e));
+        Matrix::from_fn(dim, dim, |i, j| Rational::from(u8::from(entry(i, j))))
+    };
+    System::plain(&[matrix(0), matrix(1)]).unwrap()
+}
+
+/// Radii that are the norm of the letters: the columns of both matrices have the sum `d/2` for an even number `d` of digits.
+#[test]
+fn norms_of_letters_are_exact_bounds() {
+    for digits in [4, 6, 8] {
+        let found = joint_radius(&euler(digits), &Options::default()).unwrap();
+        assert!(found.exact && found.upper == Some(Rational::from(digits / 2)), "{digits}");
+        assert!(matches!(&found.blocks[0].proof, Some(Proof::Tree(t)) if t.codes[0].iter().all(|w| w.len() == 1)));
+    }
+    // Rows instead of columns: the transposed matrices.
+    let rows = System::plain(&euler(6).arrows.iter().map(|a| a.matrix.transpose()).collect::<Vec<_>>()).unwrap();
+    let found = joint_radius(&rows, &Options::default()).unwrap();
+    assert!(found.exact && found.upper == Some(Rational::from(3)));
+    assert!(matches!(found.blocks[0].proof, Some(Proof::Transposed(_))));
+}
+
+/// Words whose proofs need only that the cycle comes back: before, boundary points were solved for in a field of degree 16.
+#[test]
+fn long_words_of_small_pairs_are_exact() {
+    for (matrices, word, value) in [
+        ("[[[6,-4],[1,3]],[[-3,1],[-2,-6]]]", "00001111", 5.894_032_130_742),
+        ("[[[1,1],[0,1]],[[\"1/5\",0],[\"1/5\",\"1/5\"]]]", "", 0.0),
+    ] {
+        let found = radius(matrices);
+        assert!(found.exact, "{matrices}");
+        let lower = found.lower.unwrap();
+        let own: String = lower.word.iter().map(ToString::to_string).collect();
+        assert!(word.is_empty() || own == word, "{own}");
+        assert!(value == 0.0 || (to_f64(&lower.enclosure(64).lo) - value).abs() < 1e-11);
+    }
+}
+
+/// `u^k v` with a long power: the leading word of 41 letters, and A^273 B.
+#[test]
+fn powers_with_an_insertion_are_found() {
+    let found = radius("[[[-1,1,-1],[-1,-1,1],[0,1,1]],[[-1,1,-1],[-1,-1,0],[0,1,1]]]");
+    let lower = found.lower.unwrap();
+    assert_eq!(lower.length, 41);
+    assert!((to_f64(&lower.enclosure(64).lo) - 1.684_185_282_491).abs() < 1e-11);
+    let found = radius("[[[1,1],[0,1]],[[0,0],[\"1/100\",0]]]");
+    assert_eq!(found.growth, Growth::Bounded);
+    let lower = found.lower.unwrap();
+    assert!(to_f64(&lower.enclosure(64).lo) > 1.00367 && lower.length == 274);
+}
+
+/// Brute force from below and a plain tree in floats from above never contradict the bounds, for sets of many kinds.
+#[test]
+fn bounds_hold_against_floats() {
+    let mut random = oorandom::Rand32::new(7);
+    let options = Options { work: Some(60_000_000), ..Options::default() };
+    for round in 0..60 {
+        let (dim, count) = (1 + round % 4, 1 + (round / 4) % 3);
+        let mut entry = || match round % 5 {
+            0 => Rational::from(random.rand_range(0..3)),
+            1 => Rational::from(i64::from(random.rand_range(0..3)) - 1),
+            2 => Rational::from(i64::from(random.rand_range(0..41)) - 20) / Rational::from(7),
+            3 => Rational::from(u8::from(random.rand_range(0..3) == 0)),
+            _ => Rational::from(i64::from(random.rand_range(0..2001)) - 1000) / Rational::from(100_000),
+        };
+        let matrices: Vec<Matrix> = (0..count).map(|_| Matrix::from_fn(dim, dim, |_, _| entry())).collect();
+        let found = joint_radius(&System::plain(&matrices).unwrap(), &options).unwrap();
+        let (lo, hi) = brute(&matrices);
+        let own = found.enclosure(64).expect("an upper bound");
+        let (least, most) = (to_f64(&own.lo), to_f64(&own.hi));
+        assert!(least <= most && least <= hi * (1.0 + 1e-9) + 1e-12, "round {round}: {least} above {hi}");
+        assert!(most >= lo * (1.0 - 1e-9) - 1e-12, "round {round}: {most} below {lo}");
+        assert!(!found.exact || most <= hi * (1.0 + 1e-9) + 1e-12);
+    }
+}
+
+/// Bounds of the joint spectral radius in floats: all words of up to eight letters.
+fn brute(matrices: &[Matrix]) -> (f64, f64) {
+    let dense = |m: &Matrix| nalgebra::DMatrix::from_fn(m.rows(), m.cols(), |i, j| to_f64(&m[(i, j)]));
+    let letters: Vec<_> = matrices.iter().map(dense).collect();
+    let (mut lower, mut upper) = (0.0_f64, f64::INFINITY);
+    let mut layer = letters.clone();
+    for length in 1..=8 {
+        let power = 1.0 / f64::from(length);
+        let size = |m: &nalgebra::DMatrix<f64>| m.complex_eigenvalues().iter().map(|z| z.norm()).fold(0.0, f64::max);
+        lower = lower.max(layer.iter().map(|m| size(m).powf(power)).fold(0.0, f64::max));
+        upper = upper.min(layer.iter().map(|m| m.norm().powf(power)).fold(0.0, f64::max));
+        if layer.len() * letters.len() > 3000 {
+            break;
+        }
+        layer = layer.iter().flat_map(|p| letters.iter().map(move |m| p * m)).collect();
+    }
+    (lower, upper)
+}
+
+/// Large nonnegative sets and cycles longer than the words that are searched get an interval too.
+#[test]
+fn every_set_gets_an_answer() {
+    let mut random = oorandom::Rand32::new(5);
+    let large: Vec<Matrix> =
+        (0..2).map(|_| Matrix::from_fn(40, 40, |_, _| Rational::from(random.rand_range(0..9)))).collect();
+    let found = joint_radius(&System::plain(&large).unwrap(), &Options::default()).unwrap();
+    let own = found.enclosure(64).unwrap();
+    assert!(own.lo > 0 && own.width() < &own.lo * rational("1/1000000"));
+    // A ring of 23 states: no cycle of up to 16 letters.
+    let arrows: Vec<String> = (0..23).map(|k| format!("[{k}, {}, 0]", (k + 1) % 23)).collect();
+    let dims = vec!["1"; 23].join(", ");
+    let text = format!("matrices = [[[2]]]\nstates = [{dims}]\narrows = [{}]", arrows.join(", "));
+    let found = joint_radius(&file::parse(&text).unwrap().system, &Options::default()).unwrap();
+    assert_eq!(found.upper, Some(Rational::from(2)));
+    // Hardly any budget.
+    let options = Options { work: Some(1000), ..Options::default() };
+    let found = joint_radius(&euler(9), &options).unwrap();
+    assert!(found.upper.is_some() && !found.exact);
+}
+
+#[test]
+fn forged_transposed_norms_are_rejected() {
+    let matrices = "[[[1,1,1],[0,1,1],[1,0,1]],[[1,1,1],[1,1,0],[0,1,1]]]";
+    let text = format!("name = \"rows\"\nmatrices = {matrices}\n");
+    let file = file::parse(&text).unwrap();
+    let found = joint_radius(&file.system, &Options::default()).unwrap();
+    let certificate = radius_certificate(&file, &found).unwrap().text();
+    let json: serde_json::Value = serde_json::from_str(&certificate).unwrap();
+    let norm = &json["proof"]["blocks"][0]["norm"];
+    assert_eq!(norm["norm"], "transposed");
+    assert!(secant_check::check(&text, &certificate).is_ok());
+    let inner = norm["of"].clone();
+    let twice = serde_json::json!({"norm": "transposed", "of": norm});
+    for (place, value) in [
+        (vec!["norm"], inner.clone()),
+        (vec!["norm"], twice),
+        (vec!["norm", "of"], serde_json::json!({"norm": "zero"})),
+        (vec!["norm", "of", "codes"], serde_json::json!([])),
+        (vec!["norm", "of", "codes", "0", "words"], serde_json::json!([[0]])),
+        (vec!["norm", "of", "codes", "0", "words"], serde_json::json!([[]])),
+        (vec!["norm", "of", "codes", "0", "weights"], serde_json::json!(["1", "1", "1/9"])),
+        (vec!["bound"], "5/2".into()),
+    ] {
+        let whole = [&["proof", "blocks", "0"], place.as_slice()].concat();
+        assert!(secant_check::check(&text, &change(&certificate, &whole, value)).is_err(), "{place:?}");
+    }
+}

@@ -683,6 +683,22 @@ def positive(gram, n):
     return h
 
 
+def linked(model, start, lists):
+    """Pairs of addresses of one point join the pieces of each state that is reached: its attractor is connected."""
+    order = [start]
+    for e in order:
+        order += [t for t in dict.fromkeys(p[0] for p in model.states[e][1]) if t not in order]
+    need(isinstance(lists, list) and len(lists) == len(order), "links")
+    for e, pairs in zip(order, lists):
+        part = list(range(len(model.states[e][1])))
+        for pair in pairs:
+            a, b = (address(x) for x in pair)
+            need(model.point(e, a) == model.point(e, b), "links")
+            old, new = part[letter(b, 0)], part[letter(a, 0)]
+            part = [new if p == old else p for p in part]
+        need(len(set(part)) == 1, "links")
+
+
 # ---- rules for a branch ----------------------------------------------------------------------------------------------
 
 class Line:
@@ -710,7 +726,8 @@ class Branch:
             "corollary-line": [], "corollary": ["top"], "null-point": ["top", "functional", "address"],
             "sign-change": ["top", "functional", "isolation", "positive", "negative"],
             "orbit": ["top", "address", "own"], "direction": ["top"],
-            "crossing": ["top", "second", "first", "positive", "negative", "cover"]}
+            "crossing": ["top", "second", "first", "positive", "negative", "cover"],
+            "leading-sign": ["top", "functional", "radius", "rows", "cover", "positive", "negative", "links"]}
         rule = value.get("rule") if isinstance(value, dict) else None
         need(rule in rules, "format")
         _, *rest = fields(value, "rule", *rules[rule])
@@ -793,6 +810,44 @@ class Branch:
         germ.cover([(germ.on_points(r), Q(0)) for r in echelon(germ.falls)[0]], isolation)
         self.injective()
 
+    def leading_sign(self, top, functional, radius, rows, cover, positive_point, negative_point, links):
+        row, germ, model = self.leading_row(top, functional), self.germ, self.germ.model
+        if links is None:
+            self.changing_part(row, positive_point, negative_point)
+        else:
+            pieces = []
+            for value, sign in ((positive_point, 1), (negative_point, -1)):
+                y, addr = germ.placed_point(value)[0], address(value)
+                need(i_sign(self.field.value(weighted(y, row))) == sign, "sign-change")
+                pieces.append(next(p for p in germ.ring if [letter(addr, k) for k in range(len(p[0]))] == p[0]))
+            need(pieces[0][0] == pieces[1][0], "sign-change")
+            linked(model, pieces[0][1], links)
+        r, rows = rational(radius), [vector(v, germ.n) for v in rows]
+        need(r > 0 and rows, "disc")
+        space, pivots = echelon(rows)
+        images = mul(space, germ.linear)
+        inner = [[v[p] for p in pivots] for v in images]
+        need(mul(inner, space) == images, "group")
+        outside = lambda m: len(m) - inside([c * r ** k for k, c in enumerate(characteristic(m))])
+        need(len(space) == outside(germ.linear) == outside(inner), "group")
+        germ.cover([(germ.on_points(v), Q(0)) for v in rows], cover)
+        # The sum of the eigenspaces outside is the image of the characteristic polynomial of L on the common kernel.
+        image, free = identity(germ.n), [k for k in range(germ.n) if k not in pivots]
+        if free:
+            kernel = []
+            for j in free:
+                v = [Q(int(k == j)) for k in range(germ.n)]
+                for s, p in zip(space, pivots):
+                    v[p] = -s[j]
+                kernel.append(v)
+            own = transpose([[apply(germ.linear, v)[j] for j in free] for v in kernel])
+            image = [[Q(0)] * germ.n for _ in range(germ.n)]
+            for c in reversed(characteristic(own)):
+                image = mul(image, germ.linear)
+                for k in range(germ.n):
+                    image[k][k] += c
+        need(len(echelon(mul(germ.view, image))[0]) == len(space), "leading-sign")
+
     def direction(self, top):
         self.leading(top)
         line = Line(self.germ, self.field, self.vectors[0])
@@ -820,7 +875,17 @@ class Branch:
 
 # ---- points and answers ----------------------------------------------------------------------------------------------
 
-def branches_of(model, root, place):
+def hidden_between(model, root, view, path, state, pair):
+    """Whether all pieces between two, which are more than points, are single points where they are looked at."""
+    pieces, (left, right) = model.states[state][1], pair
+    if not left < right < len(pieces) or any(model.is_point(pieces[k]) for k in pair):
+        return False
+    seen = mul(view, model.product(root, path)[0])
+    images = [apply(mul(seen, op), v) for target, op, _ in pieces[left + 1:right] for v in model.basis[target]]
+    return not any(x for v in images for x in v)
+
+
+def branches_of(model, root, view, place):
     at = place.get("at") if isinstance(place, dict) else None
     skip = model.is_point
     if at in ("left end", "right end"):
@@ -829,7 +894,8 @@ def branches_of(model, root, place):
     if at == "joint":
         _, path, left, right = fields(place, "at", "path", "left", "right")
         path, state = word(path), model.path(root, word(path))[-1]
-        need((index(left, 64), index(right, 64)) in model.joints(state), "joint")
+        pair = (index(left, 64), index(right, 64))
+        need(pair in model.joints(state) or hidden_between(model, root, view, path, state, pair), "joint")
         branches = []
         for k, finish in ((left, True), (right, False)):
             target, _, backwards = model.states[state][1][k]
@@ -846,7 +912,7 @@ def branches_of(model, root, place):
 
 def check_point(model, root, view, value):
     place, verdict, kind, rule, common, items = fields(value, "place", "verdict", "kind", "rule", "common", "branches")
-    addresses = branches_of(model, root, place)
+    addresses = branches_of(model, root, view, place)
     need(len(addresses) == len(items), "point")
     found = [(side, item and (Branch(Germ(model, root, view, a)).check(item) or "plane"))
              for (side, a), item in zip(addresses, items)]
@@ -931,6 +997,9 @@ def envelope(value):
     return fields(value, "format", "version", "kind", "case", "verdict", "proof")
 
 
+DERIVATIVE = "every point by its derivative"
+
+
 class Certificate:
     def __init__(self, case, value):
         form, version, of_kind, name, verdict, proof = envelope(value)
@@ -963,7 +1032,7 @@ class Certificate:
         need(len(answers) >= len(asked), "answers")
         for k in range(len(asked), len(answers)):
             question = answers[k].get("question")
-            if question == "every point":
+            if question in ("every point", DERIVATIVE):
                 need(question not in asked, "answers")
             elif k + 1 < len(answers) or question != "any point":
                 question = address(answers[k].get("address"))
@@ -988,6 +1057,16 @@ class Certificate:
             need(verdict == Cones(self.model, self.points, self.used).check(*rest), "answers")
             self.lines.append(f"{verdict}: every point")
             return None
+        elif question == DERIVATIVE:
+            what, verdict, radius = fields(value, "question", "verdict", "radius")
+            import check_radii
+            try:
+                check_radii.graph(self.model, radius)
+            except Exception:  # that module has its own copy of this one, and of its exceptions
+                need(False, "graph")
+            need(verdict == "proved", "answers")
+            self.lines.append("proved: every point, by its derivative")
+            return None
         elif question == "any point":
             what, verdict, products = fields(value, "question", "verdict", "products")
             found, text = self.similarities(products), "any point"
@@ -1010,11 +1089,15 @@ class Certificate:
 
     def joints(self, theorem, chosen, upstairs):
         model, start = self.model, self.case.start
-        need(all(p[0]["at"] == "joint" for p in chosen) and (theorem == "5'" or upstairs == []), "joints")
+        need(all(p[0]["at"] == "joint" for p in chosen), "joints")
+        need(theorem in ("5'", "11", "11'") or upstairs == [], "joints")
         verdicts = [p[1] for p in chosen]
         if theorem == "none":
             return "refuted" if "refuted" in verdicts else "undetermined"
-        need(theorem in ("5", "5'") and chosen and set(verdicts) == {"proved"}, "joints")
+        need(theorem in ("5", "5'", "11", "11'") and chosen and set(verdicts) == {"proved"}, "joints")
+        if theorem in ("11", "11'"):
+            Frames(model, theorem == "11").check(upstairs)
+            return "proved"
         required = {(e, *pair) for e in model.reachable for pair in model.joints(e)}
         need(required == {(model.path(start, p["path"])[-1], p["left"], p["right"]) for p, *_ in chosen}, "joints")
         for e in model.reachable:
@@ -1058,6 +1141,157 @@ class Certificate:
         on_v = mul(self.case.view, transpose(model.basis[self.case.start]))
         need(len(echelon(on_v)[1]) == len(model.basis[self.case.start]), "similarities")
         return "refuted"
+
+
+# ---- frames: Theorems 11, 11' and 11'' --------------------------------------------------------------------------------
+
+class Frames:
+    """Joints of shapes that start somewhere. A frame is a state with the echelon rows, on V, of what is seen of it."""
+
+    def __init__(self, model, every):
+        self.model, self.every = model, every
+        need(all(model.states[e][0] == "edge" for e in model.reachable), "frames")
+
+    def behind(self, frame, k):
+        e, rows = frame
+        target, op, _ = self.model.states[e][1][k]
+        return target, echelon(mul(rows, self.model.linear(op, e, target)))[0] if rows else []
+
+    def joints(self, frame):
+        kept = [k for k in range(len(self.model.states[frame[0]][1])) if self.behind(frame, k)[1]]
+        return list(zip(kept, kept[1:]))
+
+    def view(self, frame):
+        """The rows on the coordinates of the state."""
+        e, rows = frame
+        out = [[Q(0)] * self.model.case.dims[e] for _ in rows]
+        for new, row in zip(out, rows):
+            for p, x in zip(self.model.pivots[e], row):
+                new[p] = x
+        return out
+
+    def below(self, e):
+        found, open_ = set(), [e]
+        while open_:
+            for target, *_ in self.model.states[open_.pop()][1]:
+                if target not in found:
+                    found.add(target)
+                    open_.append(target)
+        return found
+
+    def family(self, frame, states):
+        found = {e: [] for e in states}
+        found[frame[0]], size = frame[1], None
+        while size != (size := [len(found[e]) for e in states]):
+            for e in states:
+                for k in range(len(self.model.states[e][1])):
+                    target, rows = self.behind((e, found[e]), k)
+                    if target in found:
+                        found[target] = echelon(found[target] + rows)[0]
+        return [(e, found[e]) for e in states]
+
+    def check(self, items):
+        model = self.model
+        on_v = mul(model.case.view, transpose(model.basis[model.case.start], len(model.case.view[0])))
+        open_, count = [(model.case.start, echelon(on_v)[0])], 0
+        need(open_[0][1], "frames")
+        for frame in open_:
+            need(len(open_) <= 200, "limit")
+            need(len(items) >= len(open_), "frames")
+            joints, exits = self.frame(frame, items[open_.index(frame)])
+            count += joints
+            for further in exits:
+                if further[1] and further not in open_:
+                    open_.append(further)
+        need(len(items) == len(open_) and count > 0, "frames")
+
+    def frame(self, frame, item):
+        model = self.model
+        state, joints, cones = fields(item, "state", "joints", "cones")
+        e = frame[0]
+        need(index(state, len(model.states)) == e, "frames")
+        ahead = self.below(e)
+        own = [f for f in model.reachable if f in ahead and e in self.below(f)]
+        component = self.family(frame, own) if own else [frame]
+        ranks = {f: len(rows) for f, rows in component}
+        good = ranks[e] == len(frame[1]) and all(
+            len(self.behind(f, k)[1]) == ranks[p[0]]
+            for f in component for k, p in enumerate(model.states[f[0]][1]) if p[0] in own)
+        if not own or good:
+            need(cones is None, "frames")
+            count, _ = self.examined(component, joints)
+            return count, [self.behind(f, k) for f in component for k, p in enumerate(model.states[f[0]][1])
+                           if p[0] not in own]
+        states = [f for f in model.reachable if f in ahead]
+        family = self.family(frame, states)
+        count, lines = self.examined(family, joints)
+        if cones is None:
+            need(not self.every, "frames")
+            self.spans(family, lines)
+        else:
+            self.in_sight(frame, states, cones)
+        return count, []
+
+    def examined(self, family, items):
+        wanted = [(f, pair) for f in family for pair in self.joints(f)]
+        lines = {f[0]: [] for f in family}
+        need(len(items) == len(wanted), "frames")
+        for item, (frame, (left, right)) in zip(items, wanted):
+            e, point = fields(item, "state", "point")
+            need(index(e, len(self.model.states)) == frame[0], "frames")
+            place, verdict, _, common = check_point(self.model, e, self.view(frame), point)
+            need(place == {"at": "joint", "path": [], "left": left, "right": right} and verdict == "proved", "frames")
+            lines[e] += [common] if common is not None else []
+        return len(wanted), lines
+
+    def spans(self, family, lines):
+        spans, rows, size = {e: echelon(lines[e])[0] for e, _ in family}, dict(family), None
+        while size != (size := [len(spans[e]) for e, _ in family]):
+            for e, own in family:
+                for target, op, _ in self.model.states[e][1]:
+                    if spans[target]:
+                        onto = mul(own, self.model.linear(op, e, target))
+                        leading = echelon(rows[target])[1]
+                        on_quotient = [[row[p] for p in leading] for row in onto]
+                        need(mul(on_quotient, rows[target]) == onto, "frames")
+                        spans[e] = echelon(spans[e] + mul(spans[target], transpose(on_quotient)))[0]
+        need(all(len(spans[e]) == len(own) for e, own in family), "frames")
+
+    def in_sight(self, frame, states, value):
+        model, e = self.model, frame[0]
+        cones, maps, code, above = fields(value, "cones", "maps", "code", "above")
+        need(len(cones) == len(maps) == len(states), "cone")
+        found = Cones(model, [], set())
+        found.rays = {f: found.cone(f, c) for f, c in zip(states, cones)}
+        for f, m in zip(states, maps):
+            found.images(f, m)
+        words = [(word(w), h) for w, h in (fields(item, "word", "functional") for item in code)]
+        inner, open_, leaves = [], [[]], 0
+        while open_:
+            letters = open_.pop()
+            op, end = model.product(e, letters)
+            own = [h for w, h in words if w == letters]
+            if own:
+                leaves += 1
+                seen = [apply(mul(self.view(frame), op), ray) for ray in found.rays[end]]
+                h = vector(own[0], len(frame[1]))
+                need(seen and all(sum(x * y for x, y in zip(h, ray)) > 0 for ray in seen), "frames")
+                continue
+            need(any(len(w) > len(letters) and w[:len(letters)] == letters for w, _ in words), "frames")
+            inner.append(letters)
+            open_ += [letters + [k] for k in range(len(model.states[end][1]))]
+        need(leaves == len(words), "frames")
+        listed = []
+        for item in above:
+            (point,) = fields(item, "point")
+            point = check_point(model, e, self.view(frame), point)
+            need(point.place["at"] == "joint" and point.verdict == "proved", "frames")
+            listed.append((point.place["path"], point.place["left"], point.place["right"]))
+        for letters in inner:
+            at = frame
+            for k in letters:
+                at = self.behind(at, k)
+            need(all((letters, *pair) in listed for pair in self.joints(at)), "frames")
 
 
 # ---- every point: Theorems 6 and 6' ----------------------------------------------------------------------------------

@@ -257,16 +257,8 @@ class Smoothness:
         contraction, orders = fields(proof, "contraction", "orders")
         need(form == "secant certificate" and version == 1 and verdict == "proved" and name == case.name, "format")
         self.case, self.verdict, self.lines = case, verdict, []
-        self.model = model = Model(case, contraction)
-        self.n = len(model.states[case.start][1])
-        for e in model.reachable:
-            kind, pieces = model.states[e]
-            need(kind == "edge" and len(pieces) == self.n >= 2, "orders")
-        self.dim = {e: len(model.visible[e]) for e in model.reachable}
-        self.maps = {e: [model.on_visible(e, p)[0] for p in model.states[e][1]] for e in model.reachable}
-        need(self.dim[case.start] > 0, "orders")
-        space = {e: identity(self.dim[e]) for e in model.reachable}
-        chord = {e: self.seen(e, sub(model.end_point(e, True), model.end_point(e, False))) for e in model.reachable}
+        model = Model(case, contraction)
+        space, chord = self.first(model)
         need(0 < len(orders) <= MAX_ORDERS, "orders")
         last = False
         for k, item in enumerate(orders):
@@ -293,6 +285,19 @@ class Smoothness:
             smooth = outcome in ("curve", "holds")
             last = last or not smooth
             self.lines.append(f"{'proved' if smooth else 'refuted'}: the curve is C^{k}; radius from {low} to {high}")
+
+    def first(self, model):
+        """The spaces and the chords of the curves themselves."""
+        self.model, start = model, model.case.start
+        self.n = len(model.states[start][1])
+        for e in model.reachable:
+            kind, pieces = model.states[e]
+            need(kind == "edge" and len(pieces) == self.n >= 2, "orders")
+        self.dim = {e: len(model.visible[e]) for e in model.reachable}
+        self.maps = {e: [model.on_visible(e, p)[0] for p in model.states[e][1]] for e in model.reachable}
+        need(self.dim[start] > 0, "orders")
+        space = {e: identity(self.dim[e]) for e in model.reachable}
+        return space, {e: self.seen(e, sub(model.end_point(e, True), model.end_point(e, False))) for e in model.reachable}
 
     def seen(self, e, v):
         return apply(self.model.own_view(e), v)
@@ -365,6 +370,23 @@ class Smoothness:
         reached = lambda e: check_reached(self.model, e)
         closed = all(e in reached(d) for d in reached(e))
         return bool(before[e]) and closed and len(echelon(space[e] + [chord[e]])[0]) == len(space[e])
+
+
+def graph(model, value):
+    """The curve is a graph over its uniform parameter (Theorem 12)."""
+    curve, start = Smoothness.__new__(Smoothness), model.case.start
+    _, chord = curve.first(model)
+    space = curve.differences(1, chord)
+    need(curve.radius(space, value)[1] * curve.n < 1, "graph")
+    need(curve.agree(1, {e: [curve.limit(1, e, side, space, chord) for side in (False, True)] for e in model.reachable}),
+         "graph")
+    outside = lambda rows, v: len(echelon(rows + [v])[0]) > len(echelon(rows)[0])
+    need(all(outside(space[e], chord[e]) for e in model.reachable), "graph")
+    leading = echelon(model.visible[start])[1]
+    # Any lift of a vector of the visible quotient is seen as the same vector.
+    lift = lambda v: [sum(x * model.basis[start][p][j] for x, p in zip(v, leading)) for j in range(model.case.dims[start])]
+    seen = lambda v: apply(model.case.view, lift(v))
+    need(outside([seen(v) for v in space[start]], seen(chord[start])), "graph")
 
 
 def check_reached(model, e):

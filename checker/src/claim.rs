@@ -20,8 +20,10 @@ pub enum Subject {
 /// At which joints a claim says that there are tangents.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Joints {
-    /// Every joint of every level, which where it is proved (Theorem 5) are a dense set.
+    /// Every joint of every level, which where it is proved (Theorems 5 and 11) are a dense set.
     All,
+    /// Every joint of every level between pieces that are more than a point where they are looked at (Theorem 11).
+    Seen,
     /// The joints listed, and every joint whose line before the projection is not killed, a dense set (Theorem 5′).
     NotKilled,
 }
@@ -214,6 +216,10 @@ impl Display for Claim {
             Self::TangentAtJoints(Joints::All) => {
                 f.write_str("the curve has a tangent line at every joint of every level")
             }
+            Self::TangentAtJoints(Joints::Seen) => f.write_str(
+                "the curve has a tangent line at every joint of every level between pieces that are more than a point where they \
+                 are looked at",
+            ),
             Self::TangentAtJoints(Joints::NotKilled) => f.write_str(
                 "the curve has a tangent line at the joints listed and at every joint whose line the projection does not kill, \
                  a dense set",

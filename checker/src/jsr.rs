@@ -25,8 +25,8 @@ fn matrix_list(source: &str) -> Checked<System> {
         let mut matrices: Vec<Matrix> = Vec::new();
         for item in node.field("matrices")?.list()? {
             for x in item.each(Node::list)?.iter().flatten() {
-                let floats = matches!(x.value, Json::Number(text) if text.contains(['.', 'e', 'E', 'n']));
-                x.need(!floats, "case", "numbers of matrices are integers or texts")?;
+                let endless = matches!(x.value, Json::Number(text) if text.contains('n'));
+                x.need(!endless, "case", "numbers of matrices are integers, decimals or texts")?;
             }
             matrices.push(matrix(&item)?);
         }
@@ -238,20 +238,42 @@ impl Polytope {
 impl System {
     /// Checks that the norm shows that products of `k` matrices are at most a constant times `bound^k`; says so.
     fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<Decided> {
-        let norm = match node.tag("norm")? {
+        let norm = self.norm(node, bound)?;
+        Ok(Claim::Block { dims: self.dims.clone(), norm, bound: bound.clone() }.is(Verdict::Proved))
+    }
+
+    /// The same, with the name of the norm.
+    fn norm(&self, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
+        match node.tag("norm")? {
             "zero" => {
                 let [_] = node.fields("norm")?;
                 need(self.arrows.iter().all(|a| a.2.is_zero()), "zero", "a matrix of the block is not 0")?;
-                "zero"
+                Ok("zero")
             }
-            "symmetric" => self.polytope(node, "symmetric", bound)?,
-            "monotone" => self.polytope(node, "monotone", bound)?,
-            "balanced" => self.polytope(node, "balanced", bound)?,
-            "quadratic" => self.quadratic(node, bound)?,
-            "tree" => self.tree(node, bound)?,
-            _ => return node.reject("format", "unknown kind of norm"),
-        };
-        Ok(Claim::Block { dims: self.dims.clone(), norm, bound: bound.clone() }.is(Verdict::Proved))
+            "symmetric" => self.polytope(node, "symmetric", bound),
+            "monotone" => self.polytope(node, "monotone", bound),
+            "balanced" => self.polytope(node, "balanced", bound),
+            "quadratic" => self.quadratic(node, bound),
+            "tree" => self.tree(node, bound),
+            "transposed" => {
+                let [_, of] = node.fields("norm of")?;
+                match of.at(self.transposed().norm(&of, bound))? {
+                    "symmetric" => Ok("symmetric, of the transposed matrices"),
+                    "monotone" => Ok("monotone, of the transposed matrices"),
+                    "balanced" => Ok("balanced, of the transposed matrices"),
+                    "tree" => Ok("tree, of the transposed matrices"),
+                    _ => node.reject("transposed", "of a polytope or a tree of the transposed matrices"),
+                }
+            }
+            _ => node.reject("format", "unknown kind of norm"),
+        }
+    }
+
+    /// The transposed matrices with the arrows turned round: their products are the transposes of those of the reversed words, so
+    /// the radius is the same.
+    fn transposed(&self) -> Self {
+        let turned = |(from, to, m): &(usize, usize, Matrix)| (*to, *from, m.transpose());
+        Self { name: String::new(), dims: self.dims.clone(), arrows: self.arrows.iter().map(turned).collect() }
     }
 
     /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,

@@ -8,6 +8,7 @@ mod claim;
 mod curve;
 mod jsr;
 mod literal;
+pub mod reader;
 mod regularity;
 mod solve;
 mod spectrum;

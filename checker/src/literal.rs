@@ -11,7 +11,11 @@ const NAMES: [&str; 6] = ["", "matrix(", "Matrix(", "ImmutableMatrix(", "matrix(
 
 /// Reads a square matrix of size 1 to 256: plain text, or a literal such as `Matrix([[0, 1], [1, 1/2]])`.
 pub(crate) fn matrix(source: &str) -> Checked<Matrix> {
-    let text: Vec<&str> = source.lines().map(|line| line.split_once('#').map_or(line, |(before, _)| before)).collect();
+    let uncommented = |line| match str::split_once(line, '#') {
+        Some((before, _)) => before,
+        None => line,
+    };
+    let text: Vec<&str> = source.lines().map(uncommented).collect();
     let text = text.join("\n");
     if text.contains(['[', '{']) {
         let rows = nested(&text).filter(|rows| rows.iter().all(|row| row.len() == rows.len()));

@@ -84,6 +84,25 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
 }
 
+/// Theorem 12: the curve is C¹ in the uniform parameter, and a graph over it in its visible quotients and as it is seen.
+pub fn graph(model: &Model<'_>, radius: &Node<'_>) -> Checked<()> {
+    let level = Level::first(model)?.next()?;
+    let (_, high) = level.radius(radius)?;
+    radius.need(&high * &level.power(1) < Q::one(), "graph", "the radius is not below 1/N")?;
+    need(level.joined(&level.ends()?)?, "graph", "the derivatives at a joint are not equal")?;
+    let outside = |rows: &Matrix, chord: &Matrix| Ok(rows.stack(&chord.transpose()).rank()? > rows.rank()?);
+    for &e in &level.shape.reachable {
+        let free = outside(&level.families[e], &level.chords[e])?;
+        need(free, "graph", format_args!("the chord of state {e} lies among the differences of the derivative"))?;
+    }
+    let (start, shape) = (model.spaces.of(level.shape.start)?, level.shape);
+    // Any lift of a vector of the visible quotient is seen as the same vector.
+    let view = shape.view.times(&start.basis)?.columns(&start.leading);
+    let seen = level.families[shape.start].times(&view.transpose())?;
+    let seen = outside(&seen, &view.times(&level.chords[shape.start])?)?;
+    need(seen, "graph", "the projection of the chord lies among those of the differences of the derivative")
+}
+
 impl<'a> Level<'a> {
     /// The curve itself: every reachable state is an edge of the same number of pieces, and more than a point is seen.
     fn first(model: &'a Model<'a>) -> Checked<Self> {

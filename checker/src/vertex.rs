@@ -16,19 +16,23 @@ use patch::{Patch, boundary, patches};
 /// Largest frequency of the weights in a face.
 const MAX_FREQUENCY: usize = 1024;
 
+/// The keys of a case about vertices.
+pub const KEYS: &str = "name title source vertex expect";
+
 /// A case about the vertices of a mesh.
-struct Case {
-    name: String,
+pub struct Case {
+    /// The name.
+    pub name: String,
     spline: Spline,
     /// The weights at the centre, by valence.
     centre: Box<dyn Fn(usize) -> Centre>,
     /// The valences of the case, which may name none; `None` where it asks for all that there are.
-    asked: Option<BTreeSet<usize>>,
+    pub asked: Option<BTreeSet<usize>>,
 }
 
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
-    let case = file(source, "name title source vertex expect", Case::read)?;
+    let case = file(source, KEYS, Case::read)?;
     let [valences] = proof.fields("valences")?;
     let (mut listed, mut claims, mut counted) = (Vec::new(), Vec::new(), Vec::new());
     for item in valences.list()? {
@@ -101,7 +105,8 @@ fn face(n: usize, all: Q, own: Q, near: Q) -> Centre {
 }
 
 impl Case {
-    fn read(root: &Node<'_>) -> Checked<Self> {
+    /// Reads a case.
+    pub fn read(root: &Node<'_>) -> Checked<Self> {
         let name = root.field("name")?.text()?.to_owned();
         let table = root.field("vertex")?;
         let (mesh, parameter) = (table.field("mesh")?.text()?, |key: &str| number(&table.field(key)?));

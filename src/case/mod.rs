@@ -230,10 +230,20 @@ impl Case {
         complex_text(complex, &heading)
     }
 
-    /// The text that a checker reads: the file itself, or [`Case::expanded`] where it has `[scheme]`.
+    /// The text that a checker reads: the file itself, or [`Case::beside`].
     #[must_use]
     pub fn checked_text(&self) -> Cow<'_, str> {
-        if self.scheme.is_some() { Cow::Owned(self.expanded()) } else { Cow::Borrowed(&self.text.text) }
+        match self.beside() {
+            Some(expanded) => Cow::Owned(expanded),
+            None => Cow::Borrowed(&self.text.text),
+        }
+    }
+
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, which the checker does not build: a certificate is about
+    /// this text, and it is written beside it.
+    #[must_use]
+    pub fn beside(&self) -> Option<String> {
+        matches!(self.scheme, Some(Origin::Mesh { .. })).then(|| self.expanded())
     }
 
     /// A problem of one operator, shown at its matrix in the file.

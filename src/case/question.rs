@@ -3,7 +3,7 @@
 use super::node::{File, Table};
 use super::{Case, MAX_LETTERS, Valences, VertexCase};
 use crate::diagnostic::{Problem, SourceText};
-use crate::scheme::{Heading, complex_text};
+use crate::scheme::{self, Heading, complex_text};
 use crate::shape::{Address, CellKind, Complex};
 use std::path::Path;
 use std::sync::Arc;
@@ -42,6 +42,32 @@ pub enum Subject {
     Vertices,
 }
 
+/// The case that a scheme's name with parameters, a mask or a symbol stands for; `None` for anything else.
+fn scheme_case(text: &str) -> Option<String> {
+    // Strings of JSON are strings of TOML.
+    let quoted = |part: &str| serde_json::Value::from(part.trim()).to_string();
+    let mut words = text.split_whitespace();
+    let first = words.next()?;
+    let mut lines = Vec::new();
+    let name = if scheme::list().iter().any(|s| s.name == first) {
+        lines.push(format!("name = {}", quoted(first)));
+        for word in words {
+            let (key, value) = word.split_once('=')?;
+            lines.push(format!("{} = {}", quoted(key), quoted(value)));
+        }
+        first
+    } else if text.contains('z') && text.contains(['(', '^', '+']) {
+        lines.push(format!("symbol = {}", quoted(text)));
+        "symbol"
+    } else if text.contains(',') {
+        lines.push(format!("mask = [{}]", text.split(',').map(quoted).collect::<Vec<_>>().join(", ")));
+        "mask"
+    } else {
+        return None;
+    };
+    Some(format!("name = {}\ntitle = {}\n\n[scheme]\n{}\n", quoted(name), quoted(text), lines.join("\n")))
+}
+
 impl Question {
     /// Reads the question of a case file; `-` is the standard input.
     ///
@@ -49,6 +75,30 @@ impl Question {
     /// A [`Problem`] for everything that is wrong with the file. Entries left open (`"?"`) are refused.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         Self::read_open(path)?.closed()
+    }
+
+    /// The question of what somebody writes: a file or `-`, the name of a scheme with parameters, a mask, or a symbol.
+    ///
+    /// # Errors
+    /// As [`Question::read`]; what is none of these is taken for a file.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant::case::{Question, Subject};
+    /// for text in ["four-point w=1/16", "1/4,3/4,3/4,1/4", "(1+z)^3/4", "cases/thesis/half-tangent.toml"] {
+    ///     assert_eq!(Question::ask(text)?.subject(), Subject::Curve, "{text}");
+    /// }
+    /// # Ok::<(), secant::diagnostic::Problem>(())
+    /// ```
+    pub fn ask(text: &str) -> Result<Self, Problem> {
+        let path = Path::new(text);
+        if text == "-" || path.exists() || path.extension().is_some_and(|e| e == "toml") {
+            return Self::read(path);
+        }
+        match scheme_case(text) {
+            Some(case) => Self::parse(text, &case),
+            None => Self::read(path),
+        }
     }
 
     /// As [`Question::read`] for a file in which entries may be left open.

@@ -5,8 +5,11 @@ use super::{Unsupported, address_json, number, numbers, tree, unsupported};
 use crate::algebraic::locate;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
+use crate::shape::Address;
 use crate::shape::Shape;
-use crate::theorem::{BranchReport, Direction, Outcome, PointReport, RingProof, Statement, Verdict, Witness};
+use crate::theorem::{
+    BranchReport, Depth, Direction, Outcome, PointReport, Position, RingProof, Statement, Verdict, Witness, depths,
+};
 use serde_json::{Value, json};
 
 /// A decided point.
@@ -116,6 +119,9 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
                         "cover": tree::cover(shape, &b.ring, cover, Some(*part))?,
                     }))
                 }
+                (Statement::Theorem4Sign, Some(Witness::SignChange { positive, negative, .. }), Some(proof)) => {
+                    leading_sign(shape, b, &top, proof, [positive, negative])
+                }
                 _ => unsupported("this evidence", branch_name(b)),
             }
         }
@@ -126,6 +132,55 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
         }
         _ => unsupported("a branch that is not decided", branch_name(b)),
     }
+}
+
+/// Theorem 4′: the change of sign, and the rows whose common kernel meets the ring nowhere.
+fn leading_sign(
+    shape: &Shape,
+    b: &BranchReport,
+    top: &Value,
+    proof: &RingProof,
+    [positive, negative]: [&Address; 2],
+) -> Result<Value, Unsupported> {
+    let lead = b.spectrum.classes[0].members.iter().max_by_key(|m| b.spectrum.factor(**m).blocks[0]);
+    let Some(chain) = lead.and_then(|m| longest(&b.spectrum.factor(*m).left)) else {
+        return unsupported("an empty chain", branch_name(b));
+    };
+    let space = |d: &Depth| proof.functionals.len() == d.rows.rows();
+    let Some(depth) = depths(&b.spectrum, &b.linear).into_iter().find(space) else {
+        return unsupported("irrational functionals of several moduli", branch_name(b));
+    };
+    let images = &depth.rows * &b.linear;
+    let (k, pivots) = (depth.rows.rows(), depth.rows.echelon().pivots);
+    let inner = Spectrum::of(&Matrix::from_fn(k, k, |i, j| images[(i, pivots[j])].clone()));
+    let Some(radius) = super::radius::below(&b.spectrum, depth.classes, inner.char_poly.coeffs()) else {
+        return unsupported("moduli this close", branch_name(b));
+    };
+    let letters =
+        |a: &Address| -> Vec<usize> { a.prefix.iter().chain(a.cycle.iter().cycle()).take(64).copied().collect() };
+    let piece = b.ring.iter().find(|p| letters(positive).starts_with(&p.word));
+    let links = match piece {
+        Some(p) if p.position == Position::Unordered => {
+            let Some(links) = shape.links(p.end) else {
+                return unsupported("a piece that is not linked", branch_name(b));
+            };
+            let pair = |(x, y): &(Address, Address)| json!([address_json(x), address_json(y)]);
+            links.iter().map(|(_, pairs)| pairs.iter().map(pair).collect::<Value>()).collect()
+        }
+        Some(_) => Value::Null,
+        None => return unsupported("a witness outside the ring", branch_name(b)),
+    };
+    Ok(json!({
+        "rule": "leading-sign",
+        "top": top,
+        "functional": elements(&chain.vectors[0]),
+        "radius": number(&radius),
+        "rows": (0..k).map(|i| numbers(depth.rows.row(i))).collect::<Value>(),
+        "cover": tree::cover(shape, &b.ring, proof, None)?,
+        "positive": address_json(positive),
+        "negative": address_json(negative),
+        "links": links,
+    }))
 }
 
 fn theorem4(
@@ -185,12 +240,5 @@ pub fn orbit_top(linear: &Matrix, x: &[crate::arith::Rational], place: &str) -> 
 
 /// The cyclic hull of `x`, as rows in echelon form.
 fn krylov(linear: &Matrix, x: &[crate::arith::Rational]) -> crate::linalg::Echelon {
-    let mut rows = Matrix::from_rows(x.len(), vec![x.to_vec()]).echelon();
-    loop {
-        let grown = rows.rows.stack(&(&rows.rows * &linear.transpose())).echelon();
-        if grown.pivots.len() == rows.pivots.len() {
-            return rows;
-        }
-        rows = grown;
-    }
+    Matrix::from_rows(x.len(), vec![x.to_vec()]).closure(&[&linear.transpose()]).echelon()
 }

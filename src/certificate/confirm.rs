@@ -58,6 +58,8 @@ fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
             }
             Assertion::TangentAtEnds => secant_check::Claim::TangentAtEnds,
             Assertion::DenseJoints => secant_check::Claim::TangentAtJoints(Joints::All),
+            Assertion::SeenJoints => secant_check::Claim::TangentAtJoints(Joints::Seen),
+            Assertion::UnkilledJoints => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
             Assertion::ProjectedJoints => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
             // The certificate's answers about single points and about all of them carry these.
             _ => continue,

@@ -14,8 +14,15 @@ use serde_json::{Value, json};
 pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) -> Option<usize>) -> Option<Value> {
     let every = found.everywhere.as_ref()?;
     let witness: Vec<usize> = every.witness.and_then(|k| position(&found.points[k])).into_iter().collect();
-    if every.witness.is_some() && witness.is_empty() {
+    // The format has no rule for derivatives of polynomial curves.
+    let left_out = every.witness.is_some() || every.hodograph.is_some();
+    if left_out && witness.is_empty() {
         return None;
+    }
+    if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
+        // What has no certificate is left out: it is no claim of the case.
+        let radius = super::regularity::order(order).ok()?["radius"].take();
+        return Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}));
     }
     match &every.cone {
         // What the format cannot express is left out: it is no claim of the case.
@@ -28,7 +35,7 @@ pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) 
     }
 }
 
-fn matrix(m: &Matrix) -> Value {
+pub fn matrix(m: &Matrix) -> Value {
     (0..m.rows()).map(|i| numbers(m.row(i))).collect()
 }
 

@@ -23,11 +23,16 @@ pub fn hull(shape: &Shape, state: usize, hulls: &[Vec<Vec<Rational>>]) -> Result
 
 /// The polytope of a state that proves contraction, in the same form.
 pub fn polytope(proof: &Polytopes, state: usize) -> Value {
-    let points: Vec<Value> = proof.vertices[state].iter().map(|v| numbers(v)).collect();
+    with_weights(&proof.vertices[state], &proof.weights[state])
+}
+
+/// Vertices of a state with the combinations of the images under its pieces.
+pub fn with_weights(vertices: &[Vec<Rational>], weights: &[Vec<Weights>]) -> Value {
+    let points: Vec<Value> = vertices.iter().map(|v| numbers(v)).collect();
     let terms = |weights: &Weights| -> Value {
         weights.iter().map(|(k, w)| json!({"vertex": k, "weight": number(w)})).collect()
     };
-    let images: Vec<Value> = proof.weights[state].iter().map(|list| list.iter().map(terms).collect()).collect();
+    let images: Vec<Value> = weights.iter().map(|list| list.iter().map(terms).collect()).collect();
     json!({"points": points, "images": images})
 }
 

@@ -1,10 +1,13 @@
 //! Certificates of bounds of joint spectral radii.
 
 use super::{Certificate, Unsupported, number, numbers, unsupported};
+use crate::algebraic::Root;
 use crate::arith::{Interval, Rational};
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, char_poly};
 use crate::radius::file::File;
-use crate::radius::{Balanced, BlockProof, Body, JointRadius, Lower, Polytope, Proof, Quadratic, System, Tree};
+use crate::radius::{
+    Balanced, BlockProof, Body, Disc, JointRadius, Leading, Lower, Polytope, Proof, Quadratic, System, Tree,
+};
 use serde_json::{Value, json};
 
 /// How close the bounds of the certificate are to those found, in binary places.
@@ -50,47 +53,31 @@ pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value
 
 /// A disc that holds an eigenvalue of the product, and a rational below its modulus to the power `1/length`.
 fn below(product: &Matrix, lower: &Lower) -> Result<Value, Unsupported> {
-    let (re, im) = match lower.root.rational() {
-        Some(x) => (Interval::point(x), Interval::point(Rational::from(0))),
-        None => lower.root.enclosure(2 * BITS),
+    let disc = match (&lower.eigenvalue, lower.root().and_then(Root::rational)) {
+        (_, Some(x)) => Disc { centre: (x, Rational::from(0)), error: Rational::from(0) },
+        (Leading::Disc(disc), None) => disc.clone(),
+        (Leading::Exact(root), None) => {
+            let (re, im) = root.enclosure(2 * BITS);
+            let y = if root.is_real() { Rational::from(0) } else { im.mid() };
+            match Disc::around(&char_poly(product), &re.mid(), &y) {
+                Some(disc) => disc,
+                None => return unsupported("a multiple eigenvalue", format!("{:?}", lower.path)),
+            }
+        }
     };
-    let (x, y) = (re.mid(), if lower.root.is_real() { Rational::from(0) } else { im.mid() });
-    let error = match lower.root.rational() {
-        Some(_) => Rational::from(0),
-        None => Interval::point(disc(product, &x, &y)).outward(2 * BITS).hi,
-    };
+    let error = Interval::point(disc.error.clone()).outward(4 * BITS).hi;
     let exact = if error == 0 { lower.rational() } else { None };
     let bound = exact.unwrap_or_else(|| {
-        let square = &x * &x + &y * &y;
+        let square = &disc.centre.0 * &disc.centre.0 + &disc.centre.1 * &disc.centre.1;
         let modulus = crate::radius::square_root(&square, 2 * BITS).lo - &error;
         crate::radius::root_floor(&modulus.max(Rational::from(0)), lower.length, BITS)
     });
     Ok(json!({
         "word": lower.path,
-        "centre": [number(&x), number(&y)],
+        "centre": [number(&disc.centre.0), number(&disc.centre.1)],
         "error": number(&error),
         "bound": number(&bound),
     }))
-}
-
-/// An upper bound of `n |χ/χ'|` at `x + iy`.
-fn disc(product: &Matrix, x: &Rational, y: &Rational) -> Rational {
-    let chi = crate::jordan::Spectrum::of(product).char_poly;
-    let value = |coeffs: &[Rational]| {
-        let (a, b) = coeffs
-            .iter()
-            .rev()
-            .fold((Rational::from(0), Rational::from(0)), |(a, b), c| (&a * x - &b * y + c, a * y + b * x));
-        &a * &a + &b * &b
-    };
-    let derivative: Vec<Rational> =
-        chi.coeffs().iter().enumerate().skip(1).map(|(k, c)| c * Rational::from(k as u64)).collect();
-    let bottom = value(&derivative);
-    if bottom == 0 {
-        return Rational::from(1);
-    }
-    let n = Rational::from(product.rows() as u64);
-    crate::radius::square_root(&(value(chi.coeffs()) / bottom), 4 * BITS).hi * n
 }
 
 fn above(proof: &BlockProof) -> Result<(Value, Rational), Unsupported> {
@@ -98,13 +85,7 @@ fn above(proof: &BlockProof) -> Result<(Value, Rational), Unsupported> {
         return unsupported("a block without an upper bound", format!("{:?}", proof.block.states));
     };
     let names = Names { proof };
-    let norm = match data {
-        Proof::Polytope(p) => names.polytope(p),
-        Proof::Quadratic(q) => names.quadratic(q),
-        Proof::Balanced(p) => names.balanced(p),
-        Proof::Tree(t) => names.tree(t),
-    };
-    Ok((norm, bound.clone()))
+    Ok((names.norm(data), bound.clone()))
 }
 
 /// Names the states and arrows of a block as those of the whole system.
@@ -119,6 +100,16 @@ impl Names<'_> {
 
     fn arrow(&self, arrow: usize) -> usize {
         self.proof.block.system.arrows[arrow].label
+    }
+
+    fn norm(&self, data: &Proof) -> Value {
+        match data {
+            Proof::Polytope(p) => self.polytope(p),
+            Proof::Quadratic(q) => self.quadratic(q),
+            Proof::Balanced(p) => self.balanced(p),
+            Proof::Tree(t) => self.tree(t),
+            Proof::Transposed(inner) => json!({"norm": "transposed", "of": self.norm(inner)}),
+        }
     }
 
     fn axes<T>(&self, axes: &[Vec<Vec<T>>], term: impl Fn(&T) -> Value) -> Value {

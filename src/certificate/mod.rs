@@ -2,10 +2,12 @@
 //!
 //! The writer only collects what the theorem checker found. Whether it proves anything is decided by `secant-check`, which
 //! shares no code with this crate.
+#![deny(clippy::disallowed_methods)]
 
 mod branch;
 mod confirm;
 mod everywhere;
+mod frames;
 mod hull;
 mod joint;
 mod radius;
@@ -25,7 +27,7 @@ pub use vertex::{confirm_vertices, vertex_certificate};
 
 use crate::arith::Rational;
 use crate::case::Case;
-use crate::shape::{Address, CellKind, Contraction, Shape};
+use crate::shape::{Address, CellKind, Contraction, HullWeights, Shape};
 use crate::theorem::{Assertion, Certified, Claim, PointReport, Role, Verdict};
 use serde_json::{Value, json};
 use thiserror::Error;
@@ -110,7 +112,8 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
         return surface::surface(case, found, found_surface);
     }
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
-    let states = contraction(&case.shape, &found.contraction, radii, found.polygons.as_deref())?;
+    let hulls = found.polygons.as_deref().map(|polygons| (polygons, found.polygon_weights.as_ref()));
+    let states = contraction(&case.shape, &found.contraction, radii, hulls)?;
     let mut points = Points { case, places: Vec::new(), json: Vec::new() };
     for point in &found.points {
         points.add(point)?;
@@ -125,7 +128,7 @@ fn contraction<'a>(
     shape: &Shape,
     found: &Contraction,
     radii: impl Iterator<Item = (usize, &'a Rational)>,
-    polygons: Option<&[Vec<Vec<Rational>>]>,
+    polygons: Option<(&[Vec<Vec<Rational>>], Option<&HullWeights>)>,
 ) -> Result<Value, Unsupported> {
     let mut states = Vec::new();
     for (state, radius) in radii {
@@ -134,7 +137,11 @@ fn contraction<'a>(
             Contraction::Polytopes(proof) => hull::polytope(proof, state),
             _ => return unsupported("a system whose contraction is not proved", "contraction"),
         };
-        let hull = polygons.map_or(Ok(Value::Null), |polygons| hull::hull(shape, state, polygons))?;
+        let hull = match polygons {
+            Some((polygons, Some(weights))) => hull::with_weights(&polygons[state], &weights[state]),
+            Some((polygons, None)) => hull::hull(shape, state, polygons)?,
+            None => Value::Null,
+        };
         states.push(json!({"state": state, "radius": number(radius), "code": code, "hull": hull}));
     }
     Ok(Value::Array(states))
@@ -254,16 +261,26 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
     let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
     let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
-    let mut upstairs = Vec::new();
+    let mut upstairs = json!([]);
+    let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
     let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
+        (Verdict::Proved, Some(what)) if by_frames.is_some() => {
+            let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
+                return unsupported("frames that are not there", "joints");
+            };
+            upstairs = frames::frames(&case.shape, frames)?;
+            if *what == Assertion::UnkilledJoints { "11'" } else { "11" }
+        }
         (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
         (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
+            let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
                 let Role::Joint { state, left, right, .. } = &point.role else { continue };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
-                upstairs.push(json!({"state": state, "point": point}));
+                joints.push(json!({"state": state, "point": point}));
             }
+            upstairs = Value::Array(joints);
             "5'"
         }
         (Verdict::Proved, _) => return unsupported("this theorem", "joints"),

@@ -2,6 +2,7 @@
 
 use super::joint::radius_proof;
 use super::{Certificate, Unsupported, contraction, unsupported};
+use crate::algebraic::Root;
 use crate::case::Case;
 use crate::radius::{JointRadius, Lower, System};
 use crate::shape::{Balls, Contraction, Spaces};
@@ -30,7 +31,7 @@ pub fn regularity_certificate(
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
 }
 
-fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
+pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
     let radius = match (&order.system, &order.radius) {
         (None, _) => Value::Null,
         (Some(system), Some(radius)) => radius_proof(system, &radius_with_a_rational_word(system, radius))?,
@@ -53,10 +54,10 @@ const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 /// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
 /// words a certificate says more than an inequality with room.
 fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
-    let irrational = radius.lower.as_ref().filter(|l| l.root.rational().is_none());
+    let irrational = radius.lower.as_ref().filter(|l| l.root().and_then(Root::rational).is_none());
     let power = irrational.and_then(|lower| {
         let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
-        powers.into_iter().find(|l| l.root.rational().is_some())
+        powers.into_iter().find(|l| l.root().and_then(Root::rational).is_some())
     });
     JointRadius { lower: power.or_else(|| radius.lower.clone()), ..radius.clone() }
 }

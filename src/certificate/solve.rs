@@ -48,7 +48,9 @@ pub fn solve_certificate(case: &Case, problem: &Problem, solution: &Solution) ->
     };
     let (kind, verdict, point, directions, conflict): (_, _, Value, Vec<Value>, Vec<usize>) = match solution {
         Solution::None(sources) => {
-            let identities = complex.identities().unwrap_or_default();
+            let Ok(identities) = complex.identities() else {
+                return unsupported("a complex without identities", case.name.clone());
+            };
             let mut operators: Vec<OpName> = entries.iter().map(|((op, ..), _)| *op).collect();
             operators.dedup();
             let index = |source: &Source| match source {

@@ -120,7 +120,7 @@ fn between(upper: &Root, lower: &Root) -> Rational {
 fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsupported> {
     let poly = |e: &Eigenvalue| &spectrum.factor(*e).poly;
     let reflected = |p: &Poly, q: &Poly| {
-        let d = p.degree().unwrap_or(0);
+        let d = degree_of(p);
         let sign = |k: usize| Rational::from(if (d - k).is_multiple_of(2) { 1 } else { -1 });
         q.degree() == Some(d) && (0..=d).all(|k| q.coeff(k) == p.coeff(k) * sign(k))
     };
@@ -133,7 +133,7 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
         return Ok(Value::Null);
     }
     let p = poly(&members[0]);
-    let d = p.degree().unwrap_or(0);
+    let d = degree_of(p);
     let guess = spectrum.factors.iter().enumerate().find_map(|(k, f)| {
         let constant = abs(&f.poly.coeff(0));
         match (members.iter().any(|m| m.factor == k), f.poly.degree()) {
@@ -148,7 +148,7 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
     };
     let closed = |e: &Eigenvalue| {
         let p = poly(e);
-        let d = p.degree().unwrap_or(0);
+        let d = degree_of(p);
         let power = |k: usize| (0..k).fold(Rational::from(1), |x, _| x * &s);
         (0..=d).all(|j| p.coeff(d - j) * power(d - j) == p.coeff(0) * p.coeff(j))
     };
@@ -163,13 +163,13 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
 fn modulus(spectrum: &Spectrum) -> u64 {
     let mut rows: Vec<Vec<Rational>> = Vec::new();
     for factor in &spectrum.factors {
-        let degree = factor.poly.degree().unwrap_or(0);
+        let degree = degree_of(&factor.poly);
         for v in factor.right.iter().flat_map(|c| &c.vectors) {
             rows.extend((0..degree).map(|k| v.iter().map(|e| e.0.coeff(k)).collect()));
         }
     }
     let mut primes = primes_above(FIRST_PRIME).take(64);
-    primes.find(|&p| is_regular(&rows, &PrimeField::new(p))).unwrap_or(FIRST_PRIME)
+    primes.find(|&p| is_regular(&rows, &PrimeField::new(p))).map_or(FIRST_PRIME, |p| p)
 }
 
 fn is_regular(rows: &[Vec<Rational>], field: &PrimeField) -> bool {
@@ -185,4 +185,9 @@ fn is_regular(rows: &[Vec<Rational>], field: &PrimeField) -> bool {
         }
     }
     true
+}
+
+/// The degree of a factor.
+fn degree_of(p: &Poly) -> usize {
+    p.degree().expect("a factor is not 0")
 }

@@ -24,7 +24,12 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     let by_product = matches!(found.contraction, Contraction::Product(_));
     let mut states = match by_product {
         true => Value::Null,
-        false => contraction(shape, &found.contraction, radii, found.polygons.as_deref())?,
+        false => contraction(
+            shape,
+            &found.contraction,
+            radii,
+            found.polygons.as_deref().map(|p| (p, found.polygon_weights.as_ref())),
+        )?,
     };
     let injective = surface.dense.as_ref().is_some_and(|d| d.view_injective);
     let mut product = Product {
@@ -103,10 +108,13 @@ impl Product<'_> {
         let mut indices = [0, 0];
         for (k, report) in [&evidence.first, &evidence.second].into_iter().enumerate() {
             let (place, known) = (super::place_json(report), &mut self.points[k]);
-            if !known.iter().any(|(p, _)| *p == place) {
-                known.push((place.clone(), branch::point(&factors[k].shape, report, &place)?));
-            }
-            indices[k] = known.iter().position(|(p, _)| *p == place).unwrap_or(0);
+            indices[k] = match known.iter().position(|(p, _)| *p == place) {
+                Some(index) => index,
+                None => {
+                    known.push((place.clone(), branch::point(&factors[k].shape, report, &place)?));
+                    known.len() - 1
+                }
+            };
         }
         Ok(indices)
     }
@@ -118,7 +126,7 @@ impl Product<'_> {
             let rows = |m: &Matrix| -> Value { (0..m.rows()).map(|i| numbers(m.row(i))).collect() };
             let operators: Value = shape.states[shape.start].pieces.iter().map(|p| rows(&p.op)).collect();
             let radii = states.iter().map(|(e, radius)| (*e, radius));
-            let contraction = contraction(shape, found, radii, polygons.as_deref())?;
+            let contraction = contraction(shape, found, radii, polygons.as_deref().map(|p| (p, None)))?;
             let points: Vec<&Value> = self.points[k].iter().map(|(_, point)| point).collect();
             Ok(json!({"operators": operators, "contraction": contraction, "points": points}))
         };

@@ -25,8 +25,8 @@ pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) 
     let members = &spectrum.classes[0].members;
     if members.iter().all(|&m| spectrum.root(m).is_real()) {
         let plus = members.iter().filter(|&&m| spectrum.root(m).same(spectrum.root(lead)));
-        let most = plus.map(|&m| spectrum.factor(m).blocks.len()).max().unwrap_or(0);
-        let others = members.iter().map(|&m| spectrum.factor(m).blocks.len()).max().unwrap_or(0);
+        let most = plus.map(|&m| spectrum.factor(m).blocks.len()).fold(0, usize::max);
+        let others = members.iter().map(|&m| spectrum.factor(m).blocks.len()).fold(0, usize::max);
         if most.max(others) <= 2 {
             return Ok(real(spectrum, lead, &radius));
         }
@@ -75,7 +75,7 @@ fn pair(spectrum: &Spectrum, radius: &Rational) -> Value {
     let members = &spectrum.classes[0].members;
     let upper = |root: &&Root| root.enclosure(64).1.lo > 0;
     let roots = [spectrum.root(members[0]), spectrum.root(members[1])];
-    let root = roots.into_iter().find(upper).unwrap_or(roots[0]);
+    let root = roots.into_iter().find(upper).map_or(roots[0], |root| root);
     let vectors: Value =
         spectrum.factor(members[0]).right.iter().flat_map(|c| &c.vectors).map(|v| elements(v)).collect();
     let (re, im) = root.enclosure(200);

@@ -1,7 +1,7 @@
 //! `secant certify` of a single case.
 
 use super::answered::{Answered, answered, question};
-use super::output::{complain, print, problem_code, stdout_colour, write_file};
+use super::output::{complain, print, problem_code, stdout_colour, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, UNDETERMINED, approximate, many};
 use crate::answer::Verdict;
@@ -147,8 +147,15 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
     let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args.draw)?))).transpose()?;
     let png = args.png.as_deref().map(|path| Ok((path, png(answered)?))).transpose()?;
     let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
-    for (path, content) in report.into_iter().chain(svg).chain(proof) {
+    for (path, content) in report.into_iter().chain(svg) {
         write_file(path, &content)?;
+    }
+    if let Some((path, content)) = proof {
+        let case = match &answered.findings {
+            Findings::Tangents { case, .. } => Some(case),
+            Findings::Vertices { .. } => None,
+        };
+        write_certificate(path, content, case.and_then(|case| case.beside()))?;
     }
     if let Some((path, image)) = png {
         write_file(path, &image)?;

@@ -12,10 +12,10 @@ mod gallery;
 mod import;
 mod init;
 mod irrational;
+mod jsr;
 mod many;
 mod output;
 mod progress;
-mod radius;
 mod regularity;
 mod render;
 mod resume;
@@ -120,7 +120,8 @@ enum Command {
 
 #[derive(Debug, Args)]
 struct CertifyArgs {
-    /// Case files; `-` reads the standard input.
+    /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
+    /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4").
     #[arg(required = true, value_name = "CASE")]
     cases: Vec<PathBuf>,
     /// Print the result as JSON (docs/json.md).
@@ -178,6 +179,24 @@ struct CertifyArgs {
 }
 
 impl CertifyArgs {
+    /// The same with each parameter `name=value` joined to the scheme before it.
+    fn with_parameters(mut self) -> Self {
+        let mut cases: Vec<PathBuf> = Vec::new();
+        for case in self.cases {
+            let parameter = case.to_str().is_some_and(|text| text.contains('=')) && !case.exists();
+            match cases.last_mut().filter(|_| parameter) {
+                Some(scheme) => {
+                    let joined = scheme.as_mut_os_string();
+                    joined.push(" ");
+                    joined.push(case);
+                }
+                None => cases.push(case),
+            }
+        }
+        self.cases = cases;
+        self
+    }
+
     /// The budget that the options name.
     fn budget(&self) -> Budget {
         let mut budget = Budget::of(self.effort);
@@ -289,13 +308,30 @@ struct RegularityArgs {
 
 #[derive(Debug, Args)]
 struct JsrArgs {
-    /// A TOML file with `matrices = [...]` (docs/radius.md).
-    file: PathBuf,
+    /// Files with `matrices = [...]`, JSON, or plain text (docs/radius.md).
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Print JSON; of several files a list.
+    #[arg(long)]
+    json: bool,
+    /// Print a line of JSON for each file.
+    #[arg(long, conflicts_with = "json")]
+    jsonl: bool,
+    /// Search for about this long, and no longer. Without it a fixed amount of work is spent, a few seconds at most, so that the
+    /// same file gives the same bytes.
+    #[arg(long, value_name = "SECONDS")]
+    time: Option<f64>,
+    /// The longest word of the search (16).
+    #[arg(long, value_name = "LETTERS")]
+    longest: Option<usize>,
+    /// Stop when the bounds are this close, relatively (1e-11).
+    #[arg(long, value_name = "WIDTH")]
+    width: Option<f64>,
     /// Draw the invariant polytope (systems with a state of two dimensions).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "OUT")]
     svg: Option<PathBuf>,
     /// Write a certificate of the bounds that secant-check proves again (docs/certificate.md).
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "OUT")]
     certificate: Option<PathBuf>,
 }
 
@@ -340,9 +376,9 @@ pub fn main() -> ExitCode {
 
 fn run(command: Command) -> u8 {
     match command {
-        Command::Certify(args) => certify::run(&args),
+        Command::Certify(args) => certify::run(&args.with_parameters()),
         Command::Spectrum(args) => spectrum::run(&args),
-        Command::Jsr(args) => radius::jsr(&args),
+        Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { case, output } => expand::run(&case, output.as_deref()),

@@ -39,6 +39,21 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem>
     Ok(())
 }
 
+/// Writes a certificate, and beside it the case as the checker reads it where that is not the file itself.
+///
+/// # Errors
+/// A [`Problem`] where a file cannot be written.
+pub fn write_certificate(path: &Path, certificate: String, expanded: Option<String>) -> Result<(), Problem> {
+    write_file(path, certificate)?;
+    if let Some(case) = expanded {
+        let beside = path.with_extension("case.toml");
+        write_file(&beside, case)?;
+        let (case, path) = (beside.display(), path.display());
+        eprintln!("note: the certificate is about the expanded case, which is in {case}: secant-check {case} {path}");
+    }
+    Ok(())
+}
+
 /// Prints to the standard output; a reader that went away is no mistake.
 pub fn print(text: &str) {
     let mut out = std::io::stdout().lock();

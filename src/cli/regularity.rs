@@ -1,6 +1,6 @@
 //! `secant regularity`.
 
-use super::output::{complain, print, settle, write_file};
+use super::output::{complain, print, settle, write_certificate};
 use super::{BAD_INPUT, PROVED, RegularityArgs, UNDETERMINED};
 use crate::arith::{Rational, parse_rational};
 use crate::case::{Case, Origin};
@@ -335,7 +335,7 @@ fn certified(what: &str, parameters: &[String], args: &RegularityArgs, path: &Pa
     let certificate = certificate
         .map_err(|e| nothing(e.to_string()))
         .and_then(|c| crate::certificate::checked(&case.checked_text(), c).map_err(|e| nothing(e.to_string())))?;
-    write_file(path, certificate.text())?;
+    write_certificate(path, certificate.text(), case.beside())?;
     let decided = found.exponent.is_some() || found.polynomial;
     let own = report::curve_regularity(shape, &found);
     let data = report::curve_data(shape, &found);

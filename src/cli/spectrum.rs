@@ -1,6 +1,6 @@
 //! `secant spectrum`: eigenvalues, multiplicities, Jordan blocks, chains and modulus classes of a matrix or of a case.
 
-use super::output::{deliver, write_file};
+use super::output::deliver;
 use super::progress::Waiting;
 use super::{PROVED, SpectrumArgs, UNDETERMINED};
 use crate::algebraic::field::FieldMatrix;
@@ -19,6 +19,8 @@ struct Input {
     matrices: Vec<(String, Entries, Option<(usize, usize)>)>,
     /// The text that the checker reads, and the name that it finds there; none where it reads no such file.
     about: Option<(String, String)>,
+    /// The case that is written beside a certificate.
+    beside: Option<String>,
 }
 
 /// A matrix over the rationals or over a larger field.
@@ -63,7 +65,7 @@ fn field_operators(path: &Path) -> Result<Input, Problem> {
             matrices.push((format!("operator {letter} of state {name}"), op.into(), Some((index, letter))));
         }
     }
-    Ok(Input { matrices, about: None })
+    Ok(Input { matrices, about: None, beside: None })
 }
 
 fn matrices(path: &Path) -> Result<Input, Problem> {
@@ -81,7 +83,8 @@ fn matrices(path: &Path) -> Result<Input, Problem> {
                 matrices.push((name, Entries::Rational(piece.op.clone()), Some((index, letter))));
             }
         }
-        return Ok(Input { matrices, about: Some((case.checked_text().to_string(), case.name)) });
+        let (text, beside) = (case.checked_text().to_string(), case.beside());
+        return Ok(Input { matrices, about: Some((text, case.name)), beside });
     }
     let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| {
@@ -94,7 +97,7 @@ fn matrices(path: &Path) -> Result<Input, Problem> {
     }
     let checked = matches!(file.format, Format::Plain | Format::NestedBrackets | Format::NestedBraces);
     let about = checked.then(|| (text, "matrix".to_owned()));
-    Ok(Input { matrices: vec![(name, file.matrix.into(), None)], about })
+    Ok(Input { matrices: vec![(name, file.matrix.into(), None)], about, beside: None })
 }
 
 fn over_budget(name: &str, size: usize) -> Problem {
@@ -183,5 +186,5 @@ fn write_certificate(path: &Path, input: &Input, found: &[Found]) -> Result<(), 
     let accepted = written.and_then(|c| certificate::checked(text, c));
     let accepted =
         accepted.map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; nothing was written"))?;
-    write_file(path, accepted.text())
+    super::output::write_certificate(path, accepted.text(), input.beside.clone())
 }

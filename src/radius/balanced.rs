@@ -2,6 +2,7 @@
 #![allow(clippy::float_arithmetic, reason = "proposes a polytope, exact arithmetic checks it")]
 
 use super::System;
+use super::budget::Budget;
 use super::exact::{LeadingVector, axis_point, grid};
 use super::float::{Floats, dot};
 use super::grow::Origin;
@@ -136,6 +137,7 @@ pub(super) struct Task<'a> {
     pub roots: &'a [LeadingVector],
     pub radius: &'a Lower,
     pub most: usize,
+    pub budget: &'a Budget<'a>,
 }
 
 /// What a balanced polytope showed.
@@ -154,7 +156,7 @@ pub(super) fn find(task: &Task) -> Option<Found> {
     let mut seeds: Vec<Vertex> = Vec::new();
     for (k, r) in task.roots.iter().enumerate() {
         let state = task.system.arrows[r.lower.path[0]].from;
-        let values = complex_enclosure(&r.vector, &r.lower.root, 96);
+        let values = complex_enclosure(&r.vector, &r.root, 96);
         let re = values.iter().map(|z| to_f64(&z.0.mid()));
         let point = re.chain(values.iter().map(|z| to_f64(&z.1.mid()))).collect();
         seeds.push(Vertex { state, origin: Origin::Root(k), point });
@@ -188,7 +190,10 @@ fn grow(task: &Task, mut vertices: Vec<Vertex>) -> Option<(Vec<Vertex>, Vec<Insi
                 continue;
             }
             let from = task.system.arrows[arrow].from;
-            let combination = gauge(&vertices, from, &point);
+            let (combination, work) = gauge(&vertices, from, &point);
+            if !task.budget.spend(work) {
+                return None;
+            }
             if combination.value <= STRICT {
                 inside.push(Inside { vertex: next, arrow, combination });
             } else if vertices.len() < task.most {
@@ -218,20 +223,21 @@ fn returns(task: &Task, vertices: &[Vertex], vertex: usize, arrow: usize) -> Opt
         current = parent;
     }
     let Origin::Root(k) = vertices[current].origin else { return None };
-    let lower = &task.roots[k].lower;
-    if arrows != lower.path {
+    if arrows != task.roots[k].lower.path {
         return None;
     }
-    let (re, im) = lower.root.to_f64();
+    let (re, im) = task.roots[k].root.to_f64();
     let size = re.hypot(im);
     Some((current, (re / size, im / size)))
 }
 
 /// The gauge of a complex vector by column generation: a point enters with the phase that suits the dual solution best.
-fn gauge(vertices: &[Vertex], state: usize, x: &[f64]) -> Combination {
+fn gauge(vertices: &[Vertex], state: usize, x: &[f64]) -> (Combination, u64) {
     let n = x.len();
     let mut tableau = Tableau::start(x);
+    let mut work = 0;
     for _ in 0..(30 * n + 100) {
+        work += (2 * n * vertices.len() + 3 * n * n) as u64 + 100;
         let y = tableau.dual();
         let (yr, yi) = y.split_at(n / 2);
         let mut entering: Option<(usize, f64, f64)> = None;
@@ -248,11 +254,11 @@ fn gauge(vertices: &[Vertex], state: usize, x: &[f64]) -> Combination {
         let (re, im) = vertices[k].point.split_at(n / 2);
         let turned = re.iter().zip(im).map(|(r, i)| r * cos - i * sin);
         let entries: Vec<f64> = turned.chain(re.iter().zip(im).map(|(r, i)| r * sin + i * cos)).collect();
-        if !tableau.pivot(Column::Point(k, phase), &entries) || tableau.combination().value <= 1.0 - 1e-3 {
+        if !tableau.pivot(Column::Point(k, phase), &entries) || tableau.value() <= 1.0 - 1e-3 {
             break;
         }
     }
-    collect(&tableau)
+    (collect(&tableau), work)
 }
 
 fn collect(tableau: &Tableau) -> Combination {
@@ -303,10 +309,10 @@ fn missing(system: &System, vertices: &[Vertex]) -> Vec<(usize, usize)> {
         for v in vertices.iter().filter(|v| v.state == state) {
             let (re, im) = v.point.split_at(dim);
             let size = dot(&v.point, &v.point).sqrt().max(1e-300);
-            absorb(re.iter().copied().zip(im.iter().copied()).collect(), 1e-6 * size);
+            absorb(re.iter().copied().zip(im.iter().copied()).collect(), 1e-3 * size);
         }
         for axis in 0..dim {
-            if absorb((0..dim).map(|k| (f64::from(u8::from(k == axis)), 0.0)).collect(), 1e-6) {
+            if absorb((0..dim).map(|k| (f64::from(u8::from(k == axis)), 0.0)).collect(), 1e-2) {
                 missing.push((state, axis));
             }
         }
@@ -344,10 +350,15 @@ fn settle(task: &Task, vertices: &[Vertex], inside: &[Inside]) -> Option<Found> 
     let unit_terms = |state: usize, axis: usize| {
         let dim = system.dims[state];
         let unit: Vec<f64> = (0..2 * dim).map(|k| f64::from(u8::from(k == axis))).collect();
-        gauge(vertices, state, &unit).terms.into_iter().map(|(k, c)| (k, exact(c))).collect::<Vec<_>>()
+        gauge(vertices, state, &unit).0.terms.into_iter().map(|(k, c)| (k, exact(c))).collect::<Vec<_>>()
     };
     let axes = system.dims.iter().enumerate().map(|(s, &d)| (0..d).map(|a| unit_terms(s, a)).collect()).collect();
     let polytope = Balanced { points, inclusions, axes };
+    // Rationals of complex numbers, with a root for each coefficient.
+    let of = |i: &Inside| (20_000 + 8_000 * system.arrows[i.arrow].matrix.rows() * i.combination.terms.len()) as u64;
+    if !task.budget.spend(inside.iter().map(of).sum()) {
+        return None;
+    }
     let bound = polytope.bound(system)?;
     let attains = closes(task, vertices, inside, &polytope);
     Some(Found { polytope, bound, attains })
@@ -365,7 +376,10 @@ fn closes(task: &Task, vertices: &[Vertex], inside: &[Inside], polytope: &Balanc
     let mut boxes: Vec<Vec<Box2>> = Vec::new();
     for v in vertices {
         boxes.push(match &v.origin {
-            Origin::Root(k) => complex_enclosure(&task.roots[*k].vector, &task.roots[*k].lower.root, BITS + 40),
+            Origin::Root(k) => complex_enclosure(&task.roots[*k].vector, &task.roots[*k].root, BITS + 40),
+            Origin::Free(point) => {
+                point.iter().map(|x| (Interval::point(x.clone()), Interval::point(Rational::from(0)))).collect()
+            }
             Origin::Axis { axis, exponent } => {
                 let unit = axis_point(task.system.dims[v.state], *axis, *exponent);
                 unit.into_iter().map(|x| (Interval::point(x), Interval::point(Rational::from(0)))).collect()

@@ -1,10 +1,10 @@
 //! Contraction by norms, where the coefficients of short words do not show it (theory §1).
 
+use super::budget::Budget;
 use super::search::candidates;
 use super::{Arrow, JointRadius, Options, System, joint_radius};
 use crate::arith::Rational;
 use crate::shape::{Polytopes, Shape, linear_part};
-use std::cmp::Ordering;
 
 /// Whether the linear parts of a shape's operators contract.
 #[derive(Debug, Clone)]
@@ -31,7 +31,7 @@ pub enum NormContraction {
 #[must_use]
 pub fn linear_system(shape: &Shape) -> (System, Vec<(usize, usize)>) {
     let reachable = shape.reachable();
-    let number = |state: usize| reachable.iter().position(|s| *s == state).unwrap_or(0);
+    let number = |state: usize| reachable.iter().position(|s| *s == state).expect("a reachable state");
     let mut arrows = Vec::new();
     let mut letters = Vec::new();
     for &state in &reachable {
@@ -55,7 +55,8 @@ const WORDS: usize = 12;
 #[must_use]
 pub fn polytopes(shape: &Shape) -> Option<Polytopes> {
     let (system, _) = linear_system(shape);
-    let value = candidates(&system, WORDS, 1e-9).iter().map(|c| c.value).fold(0.0, f64::max);
+    let budget = Budget::new(&Options::default(), 1);
+    let value = candidates(&system, WORDS, 1e-9, &budget).iter().map(|c| c.value).fold(0.0, f64::max);
     if value < 1.0 { super::enclose::polytopes(shape, value) } else { None }
 }
 
@@ -71,7 +72,7 @@ pub fn contraction_by_norms(shape: &Shape, options: &Options) -> Option<NormCont
     let (system, letters) = linear_system(shape);
     let radius = Box::new(joint_radius(&system, options).ok()?);
     if let Some(lower) = &radius.lower
-        && lower.root.cmp_modulus_rational(&Rational::from(1)) != Ordering::Less
+        && lower.is_at_least(&Rational::from(1))
     {
         let state = letters[lower.path[0]].0;
         let word = lower.path.iter().map(|a| letters[*a].1).collect();

@@ -1,17 +1,30 @@
-//! Files for `secant jsr`: a set of matrices, or an automaton of them.
+//! Files for `secant jsr`: a set of matrices, or an automaton of them, as TOML, JSON or plain text.
 
 use super::{Arrow, System, SystemError};
 use crate::arith::{ParseNumberError, Rational, parse_rational};
 use crate::linalg::Matrix;
+use std::borrow::Cow;
+use std::ops::Range;
 use thiserror::Error;
-use toml::{Table, Value};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 /// Most matrices, and most rows and columns, that are read.
 pub const MAX_SIZE: usize = 256;
 
+/// Why a file is not a system of matrices, and where.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{problem}")]
+pub struct FileError {
+    /// Why.
+    pub problem: FileProblem,
+    /// The bytes of the text that are wrong.
+    pub span: Range<usize>,
+}
+
 /// Why a file is not a system of matrices.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum FileError {
+pub enum FileProblem {
     /// Not TOML.
     #[error("not valid TOML: {0}")]
     Toml(String),
@@ -34,15 +47,21 @@ pub enum FileError {
         /// Why.
         source: ParseNumberError,
     },
-    /// A float, which would not be exact.
-    #[error("matrix {0}: write decimals and fractions as strings, such as \"0.25\" or \"1/4\"")]
-    Float(usize),
+    /// An entry that is neither a number nor a string.
+    #[error("matrix {0}: entries are numbers, or strings such as \"1/4\"")]
+    Entry(usize),
     /// Rows of different lengths, or none.
     #[error("matrix {0} is not rectangular")]
     Ragged(usize),
     /// Sizes that do not fit.
     #[error(transparent)]
     System(#[from] SystemError),
+}
+
+impl FileProblem {
+    fn at(self, span: Range<usize>) -> FileError {
+        FileError { problem: self, span }
+    }
 }
 
 /// A named system.
@@ -59,85 +78,198 @@ pub struct File {
 /// ```toml
 /// name = "golden pair"                       # optional
 /// matrices = [
-///   [["1", "1"], ["0", "1"]],                # integers, or strings such as "3/4" and "0.25"
+///   [["1", "1"], ["0", "1"]],                # integers, decimals, or strings such as "3/4"; decimals are exact
 ///   [[1, 0], [1, 1]],
 /// ]
 /// states = [2, 2]                            # optional: the dimension of every state of an automaton
 /// arrows = [[0, 1, 0], [1, 0, 1]]            # optional: from, to, matrix
 /// ```
 ///
+/// or the same as JSON (an object, or the bare list of matrices), or plain text: matrices separated by empty lines, a row on
+/// each line, entries separated by blanks, commas or semicolons, `#` and `%` begin comments.
+///
 /// A matrix of an arrow maps the space of `to` into that of `from`; a word is read from left to right.
 ///
 /// # Errors
 /// [`FileError`].
 pub fn parse(text: &str) -> Result<File, FileError> {
-    let table: Table = text.parse().map_err(|e: toml::de::Error| FileError::Toml(e.message().to_owned()))?;
-    if let Some(key) = table.keys().find(|k| !["name", "matrices", "states", "arrows"].contains(&k.as_str())) {
-        return Err(FileError::Unknown(key.clone()));
+    let start = text.find(|c: char| !c.is_whitespace()).unwrap_or(text.len());
+    let (toml, shift) = match text[start..].chars().next() {
+        Some('{') => (Cow::Owned(json_object(text)), 0),
+        Some('[') => (Cow::Owned(format!("{LIST}{}{}", " ".repeat(start), &text[start..])), LIST.len()),
+        Some(_) if !text.lines().any(|l| uncommented(l).contains('=')) => return plain(text),
+        _ => (Cow::Borrowed(text), 0),
+    };
+    let unshifted = |span: Range<usize>| span.start.saturating_sub(shift)..span.end.saturating_sub(shift);
+    read(&toml).map_err(|e| FileError { span: unshifted(e.span), ..e })
+}
+
+/// What makes a bare list a file.
+const LIST: &str = "matrices = ";
+
+/// A JSON object as TOML, byte for byte: braces and commas between keys go, colons become equality signs.
+fn json_object(text: &str) -> String {
+    let (mut depth, mut quoted, mut escaped) = (0_usize, false, false);
+    let change = |c: char| {
+        if quoted {
+            quoted = escaped || c != '"';
+            escaped = c == '\\' && !escaped;
+            return c;
+        }
+        match c {
+            '"' => quoted = true,
+            '[' | '{' => depth += 1,
+            ']' | '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        match (c, depth) {
+            ('{', 1) | ('}', 0) => ' ',
+            (':', 1) => '=',
+            (',', 1) => '\n',
+            ('\n' | '\r', 1) => ' ',
+            _ => c,
+        }
+    };
+    text.chars().map(change).collect()
+}
+
+fn read(text: &str) -> Result<File, FileError> {
+    let wrong = |e: &toml::de::Error| FileProblem::Toml(e.message().to_owned()).at(e.span().unwrap_or(0..0));
+    let parsed = DeTable::parse(text).map_err(|e| wrong(&e))?;
+    let table = parsed.get_ref();
+    let known = ["name", "matrices", "states", "arrows"];
+    if let Some((key, _)) = table.iter().find(|(k, _)| !known.contains(&k.get_ref().as_ref())) {
+        return Err(FileProblem::Unknown(key.get_ref().to_string()).at(key.span()));
     }
-    let name = table.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
-    let list = array(table.get("matrices"), "matrices")?;
+    let name = match table.get("name") {
+        None => String::new(),
+        Some(value) => value.get_ref().as_str().ok_or_else(|| key("name", "must be a text", value.span()))?.to_owned(),
+    };
+    let whole = 0..text.len();
+    let list = array(table.get("matrices"), "matrices", &whole)?;
     let matrices = list.iter().enumerate().map(|(k, m)| matrix(k, m)).collect::<Result<Vec<_>, _>>()?;
+    let at = table.get("matrices").map_or(whole.clone(), Spanned::span);
     let system = match (table.get("states"), table.get("arrows")) {
-        (None, None) => System::plain(&matrices)?,
+        (None, None) => System::plain(&matrices).map_err(|e| FileProblem::from(e).at(at))?,
         (states, arrows) => {
-            let dims = numbers(array(states, "states")?, "states")?;
-            let arrows = array(arrows, "arrows")?;
-            let arrows = arrows.iter().enumerate().map(|(k, a)| arrow(k, a, &matrices)).collect::<Result<_, _>>()?;
-            System { dims, arrows }.checked()?
+            let dims = numbers(array(states, "states", &whole)?, "states")?;
+            let list = array(arrows, "arrows", &whole)?;
+            let place = arrows.map_or(whole.clone(), Spanned::span);
+            let arrows = list.iter().enumerate().map(|(k, a)| arrow(k, a, &matrices)).collect::<Result<_, _>>()?;
+            System { dims, arrows }.checked().map_err(|e| FileProblem::from(e).at(place))?
         }
     };
     Ok(File { name, system })
 }
 
-fn key(key: &str, problem: &'static str) -> FileError {
-    FileError::Key { key: key.to_owned(), problem }
+type Value<'a> = Spanned<DeValue<'a>>;
+
+fn key(key: &str, problem: &'static str, span: Range<usize>) -> FileError {
+    FileProblem::Key { key: key.to_owned(), problem }.at(span)
 }
 
-fn array<'a>(value: Option<&'a Value>, name: &str) -> Result<&'a [Value], FileError> {
-    let list = value.ok_or_else(|| key(name, "is missing"))?.as_array().ok_or_else(|| key(name, "must be a list"))?;
+fn array<'a, 'b>(value: Option<&'a Value<'b>>, name: &str, whole: &Range<usize>) -> Result<&'a [Value<'b>], FileError> {
+    let value = value.ok_or_else(|| key(name, "is missing", whole.clone()))?;
+    let DeValue::Array(list) = value.get_ref() else { return Err(key(name, "must be a list", value.span())) };
     if list.len() > MAX_SIZE {
-        return Err(key(name, "has more than 256 entries"));
+        return Err(key(name, "has more than 256 entries", value.span()));
     }
     Ok(list)
 }
 
 fn numbers(list: &[Value], name: &str) -> Result<Vec<usize>, FileError> {
-    let small = |v: &Value| v.as_integer().and_then(|x| usize::try_from(x).ok()).filter(|x| *x <= MAX_SIZE);
-    list.iter().map(|v| small(v).ok_or_else(|| key(name, "must hold whole numbers from 0 to 256"))).collect()
+    let small = |v: &Value| match v.get_ref() {
+        DeValue::Integer(digits) => {
+            usize::from_str_radix(digits.as_str(), digits.radix()).ok().filter(|x| *x <= MAX_SIZE)
+        }
+        _ => None,
+    };
+    let number = |v: &Value| small(v).ok_or_else(|| key(name, "must hold whole numbers from 0 to 256", v.span()));
+    list.iter().map(number).collect()
 }
 
 fn arrow(label: usize, value: &Value, matrices: &[Matrix]) -> Result<Arrow, FileError> {
-    let list = numbers(array(Some(value), "arrows")?, "arrows")?;
-    let [from, to, matrix] = list[..] else { return Err(key("arrows", "must hold lists [from, to, matrix]")) };
-    let matrix = matrices.get(matrix).ok_or_else(|| key("arrows", "names a matrix that does not exist"))?.clone();
-    Ok(Arrow { from, to, matrix, label })
+    let list = numbers(array(Some(value), "arrows", &value.span())?, "arrows")?;
+    let [from, to, matrix] = list[..] else {
+        return Err(key("arrows", "must hold lists [from, to, matrix]", value.span()));
+    };
+    let missing = || key("arrows", "names a matrix that does not exist", value.span());
+    Ok(Arrow { from, to, matrix: matrices.get(matrix).ok_or_else(missing)?.clone(), label })
 }
 
 fn matrix(index: usize, value: &Value) -> Result<Matrix, FileError> {
-    let rows = array(Some(value), "matrices")?;
-    let rows: Vec<Vec<Rational>> = rows
-        .iter()
-        .map(|row| array(Some(row), "matrices")?.iter().map(|x| entry(index, x)).collect())
-        .collect::<Result<_, FileError>>()?;
+    let rows = array(Some(value), "matrices", &value.span())?;
+    let row = |row: &Value| array(Some(row), "matrices", &row.span())?.iter().map(|x| entry(index, x)).collect();
+    rectangular(index, rows.iter().map(row).collect::<Result<_, FileError>>()?, value.span())
+}
+
+fn rectangular(index: usize, rows: Vec<Vec<Rational>>, span: Range<usize>) -> Result<Matrix, FileError> {
     let cols = rows.first().map_or(0, Vec::len);
     if cols == 0 || rows.iter().any(|r| r.len() != cols) {
-        return Err(FileError::Ragged(index));
+        return Err(FileProblem::Ragged(index).at(span));
     }
     Ok(Matrix::from_rows(cols, rows))
 }
 
 fn entry(matrix: usize, value: &Value) -> Result<Rational, FileError> {
-    match value {
-        Value::Integer(x) => Ok(Rational::from(*x)),
-        Value::String(s) => parse_rational(s).map_err(|source| FileError::Number { matrix, source }),
-        _ => Err(FileError::Float(matrix)),
+    let text = match value.get_ref() {
+        DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str(),
+        DeValue::Float(digits) => digits.as_str(),
+        DeValue::String(text) => text.as_ref(),
+        _ => return Err(FileProblem::Entry(matrix).at(value.span())),
+    };
+    parse_rational(text).map_err(|source| FileProblem::Number { matrix, source }.at(value.span()))
+}
+
+fn uncommented(line: &str) -> &str {
+    line.split(['#', '%']).next().map_or("", |l| l)
+}
+
+/// Matrices as plain text. A matrix may begin with its size on a line of its own.
+fn plain(text: &str) -> Result<File, FileError> {
+    let mut blocks: Vec<(Vec<Vec<Rational>>, Range<usize>)> = Vec::new();
+    let (mut offset, mut open) = (0, false);
+    for line in text.split_inclusive('\n') {
+        let body = uncommented(line);
+        let span = offset..offset + body.trim_end().len();
+        offset += line.len();
+        if body.trim().is_empty() {
+            open = open && !line.trim().is_empty();
+            continue;
+        }
+        if !open {
+            blocks.push((Vec::new(), span.clone()));
+        }
+        open = true;
+        let index = blocks.len() - 1;
+        let words = body.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|w| !w.is_empty());
+        let number = |w: &str| {
+            parse_rational(w).map_err(|source| FileProblem::Number { matrix: index, source }.at(span.clone()))
+        };
+        let row = words.map(number).collect::<Result<Vec<_>, _>>()?;
+        let (rows, whole) = &mut blocks[index];
+        rows.push(row);
+        whole.end = span.end;
+        if rows.len() > MAX_SIZE + 1 || index >= MAX_SIZE || rows.last().is_some_and(|r| r.len() > MAX_SIZE) {
+            return Err(key("matrices", "has more than 256 entries", span));
+        }
     }
+    let matrices = blocks.into_iter().enumerate().map(|(k, (mut rows, span))| {
+        let size = rows.len() - 1;
+        if size > 0 && rows[0].len() == 1 && rows[0][0] == size as u64 && rows[1].len() == size {
+            rows.remove(0);
+        }
+        rectangular(k, rows, span)
+    });
+    let matrices = matrices.collect::<Result<Vec<_>, _>>()?;
+    let system = System::plain(&matrices).map_err(|e| FileProblem::from(e).at(0..text.len()))?;
+    Ok(File { name: String::new(), system })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arith::ratio;
 
     #[test]
     fn reads_sets_and_automata() {
@@ -149,11 +281,30 @@ mod tests {
     }
 
     #[test]
+    fn all_formats_give_the_same_system() {
+        let own = parse("name = \"pair\"\nmatrices = [[[\"1/2\", 1], [0, \"1/8\"]], [[1, 0], [-3, 1]]]").unwrap();
+        for text in [
+            "matrices = [[[0.5, 1], [0, 0.125]], [[1, 0], [-3, 1.0]]]",
+            "{\n \"matrices\":\n [[[0.5, 1], [0, \"1/8\"]], [[1, 0], [-3, 1]]],\n \"name\": \"a, b: {c}\"\n}",
+            "[[[5e-1, 1], [0, 0.125]],\n [[1, 0], [-3, 1]]]",
+            "# two\n5.0e-01 1\n0, 1/8\n\n\n1; 0\n-3 1 % end\n",
+            "2\n1/2 1\n0 1/8\n\n2\n1 0\n-3 1\n",
+        ] {
+            assert_eq!(parse(text).unwrap().system, own.system, "{text}");
+        }
+        assert_eq!(parse("[[[0.1]]]").unwrap().system.arrows[0].matrix[(0, 0)], ratio(1, 10));
+    }
+
+    #[test]
     fn refuses_bad_files() {
-        assert_eq!(parse("matrices = [[[0.5]]]").unwrap_err(), FileError::Float(0));
-        assert_eq!(parse("matrices = [[[1, 2], [1]]]").unwrap_err(), FileError::Ragged(0));
-        assert!(matches!(parse("matrices = [[[1, 2]]]"), Err(FileError::System(SystemError::Size { .. }))));
-        assert!(matches!(parse("matrices = []"), Err(FileError::System(SystemError::Empty))));
-        assert!(matches!(parse("matrix = []"), Err(FileError::Unknown(_))));
+        let wrong = |text: &str| parse(text).unwrap_err();
+        assert_eq!(wrong("matrices = [[[true]]]"), FileProblem::Entry(0).at(14..18));
+        assert_eq!(wrong("[[[1, nan]]]").span, 6..9);
+        assert_eq!(wrong("matrices = [[[1, 2], [1]]]").problem, FileProblem::Ragged(0));
+        assert!(matches!(wrong("1 2\n3 4\n\n1 2\n3 x\n").problem, FileProblem::Number { matrix: 1, .. }));
+        assert!(matches!(wrong("matrices = [[[1, 2]]]").problem, FileProblem::System(SystemError::Size { .. })));
+        assert!(matches!(wrong("matrices = []").problem, FileProblem::System(SystemError::Empty)));
+        assert_eq!(wrong("matrix = []"), FileProblem::Unknown("matrix".to_owned()).at(0..6));
+        assert!(matches!(wrong("").problem, FileProblem::Key { .. }));
     }
 }

@@ -2,8 +2,10 @@
 #![allow(clippy::float_arithmetic, reason = "proposes a polytope, exact arithmetic checks it")]
 
 use super::System;
+use super::budget::Budget;
 use super::float::Floats;
-use super::simplex::{Body, Combination, gauge};
+use super::simplex::{Body, Combination, Hull, gauge};
+use crate::arith::Rational;
 
 /// Where a vertex comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -24,6 +26,8 @@ pub enum Origin {
         /// The exponent `k` of the length `2^-k`.
         exponent: u32,
     },
+    /// A point put in: about an eigenvector of a word that grows nearly as fast.
+    Free(Vec<Rational>),
 }
 
 #[derive(Debug, Clone)]
@@ -50,6 +54,8 @@ pub(super) struct Grown {
     pub excess: f64,
     /// A cyclic path that grows faster than the radius assumed.
     pub better: Option<Vec<usize>>,
+    /// Whether the budget ended before all images were looked at: nothing is proved.
+    pub cut: bool,
 }
 
 /// What is grown, and how far.
@@ -62,123 +68,211 @@ pub(super) struct Task<'a> {
     pub max_vertices: usize,
     /// Images with a gauge up to `1 + tolerance` count as inside.
     pub tolerance: f64,
+    /// Longest word that is looked at as a better one.
+    pub longest: usize,
+    pub budget: &'a Budget<'a>,
 }
 
-/// Applies all arrows to all vertices until nothing new comes out, or the limit is reached.
+/// An image of the last generation, with its gauge when it was looked at first.
+struct Image {
+    vertex: usize,
+    arrow: usize,
+    point: Vec<f64>,
+    combination: Combination,
+}
+
+/// Applies all arrows to all vertices until nothing new comes out, or a limit is reached. Of every generation the images that
+/// stick out farthest become vertices first; they often cover others.
 pub(super) fn grow(task: &Task) -> Grown {
-    let mut grown =
-        Grown { body: task.body, vertices: task.seeds.clone(), inside: Vec::new(), excess: 0.0, better: None };
-    let mut next = 0;
-    while next < grown.vertices.len() && grown.better.is_none() {
-        let state = grown.vertices[next].state;
-        for arrow in (0..task.scaled.len()).filter(|&a| task.system.arrows[a].to == state) {
-            follow(task, &mut grown, next, arrow);
-        }
-        next += 1;
+    let mut growing = Growing {
+        task,
+        points: task.system.dims.iter().map(|d| Points { hull: Hull::new(*d), vertices: Vec::new() }).collect(),
+        grown: Grown {
+            body: task.body,
+            vertices: Vec::new(),
+            inside: Vec::new(),
+            excess: 0.0,
+            better: None,
+            cut: false,
+        },
+    };
+    for seed in &task.seeds {
+        growing.push(seed.clone());
     }
-    grown
-}
-
-fn follow(task: &Task, grown: &mut Grown, vertex: usize, arrow: usize) {
-    if grown.vertices.iter().any(|v| v.origin == Origin::Image { parent: vertex, arrow }) {
-        return;
-    }
-    let state = task.system.arrows[arrow].from;
-    let point = task.scaled[arrow].apply(&grown.vertices[vertex].point);
-    let (indices, points): (Vec<usize>, Vec<&[f64]>) = grown
-        .vertices
-        .iter()
-        .enumerate()
-        .filter(|(_, v)| v.state == state)
-        .map(|(k, v)| (k, v.point.as_slice()))
-        .unzip();
-    let mut combination = gauge(task.body, &points, &point, 1.0 - 1e-4);
-    for term in &mut combination.terms {
-        term.0 = indices[term.0];
-    }
-    if combination.value <= 1.0 + task.tolerance {
-        grown.inside.push(Inside { vertex, arrow, combination });
-    } else if grown.vertices.len() < task.max_vertices {
-        let origin = Origin::Image { parent: vertex, arrow };
-        grown.vertices.push(Vertex { state, origin, point });
-        grown.better = faster(task, grown);
-    } else {
-        grown.excess = grown.excess.max(combination.value);
-        grown.inside.push(Inside { vertex, arrow, combination });
-    }
-}
-
-/// A closed part of the path to the newest vertex whose product has a spectral radius above 1.
-fn faster(task: &Task, grown: &Grown) -> Option<Vec<usize>> {
-    let mut current = grown.vertices.len() - 1;
-    let end = grown.vertices[current].state;
-    let mut path = Vec::new();
-    let mut product: Option<Floats> = None;
-    while let Origin::Image { parent, arrow } = grown.vertices[current].origin {
-        path.push(arrow);
-        product = Some(match product {
-            None => task.scaled[arrow].clone(),
-            Some(p) => p.times(&task.scaled[arrow]),
-        });
-        current = parent;
-        if path.len() > 40 {
+    let mut generation = 0..growing.grown.vertices.len();
+    while !generation.is_empty() {
+        let next = growing.grown.vertices.len();
+        if !growing.generation(generation) {
             break;
         }
-        if let Some(p) = &product
-            && grown.vertices[current].state == end
-            && p.norm() > 1.0
-            && p.radius() > 1.0 + 1e-9
-        {
-            return Some(path);
-        }
+        generation = next..growing.grown.vertices.len();
     }
-    None
+    growing.grown
 }
 
-/// For every state the axes along which the vertices do not reach (symmetric: a complement of their span).
-pub(super) fn missing_axes(system: &System, grown: &Grown) -> Vec<(usize, usize)> {
+/// The points of a state and the vertices they are.
+struct Points {
+    hull: Hull,
+    vertices: Vec<usize>,
+}
+
+struct Growing<'a> {
+    task: &'a Task<'a>,
+    points: Vec<Points>,
+    grown: Grown,
+}
+
+impl Growing<'_> {
+    fn push(&mut self, vertex: Vertex) {
+        let own = &mut self.points[vertex.state];
+        own.hull.push(&vertex.point);
+        own.vertices.push(self.grown.vertices.len());
+        self.grown.vertices.push(vertex);
+    }
+
+    /// Looks at the images of some vertices; false where the search ends.
+    fn generation(&mut self, vertices: std::ops::Range<usize>) -> bool {
+        let mut out: Vec<Image> = Vec::new();
+        for vertex in vertices {
+            let state = self.grown.vertices[vertex].state;
+            for arrow in (0..self.task.scaled.len()).filter(|&a| self.task.system.arrows[a].to == state) {
+                let point = self.task.scaled[arrow].apply(&self.grown.vertices[vertex].point);
+                let Some(combination) = self.gauge(arrow, &point) else { return false };
+                let image = Image { vertex, arrow, point, combination };
+                if image.combination.value <= 1.0 + self.task.tolerance {
+                    self.inside(image);
+                } else {
+                    out.push(image);
+                }
+            }
+        }
+        out.sort_by(|a, b| {
+            b.combination.value.total_cmp(&a.combination.value).then((a.vertex, a.arrow).cmp(&(b.vertex, b.arrow)))
+        });
+        for mut image in out {
+            let Some(again) = self.gauge(image.arrow, &image.point) else { return false };
+            image.combination = again;
+            if image.combination.value <= 1.0 + self.task.tolerance {
+                self.inside(image);
+            } else if self.grown.vertices.len() < self.task.max_vertices {
+                let state = self.task.system.arrows[image.arrow].from;
+                let origin = Origin::Image { parent: image.vertex, arrow: image.arrow };
+                self.push(Vertex { state, origin, point: image.point });
+                self.grown.better = self.faster();
+                if self.grown.better.is_some() {
+                    return false;
+                }
+            } else {
+                self.grown.excess = self.grown.excess.max(image.combination.value);
+                self.inside(image);
+            }
+        }
+        true
+    }
+
+    fn inside(&mut self, image: Image) {
+        self.grown.inside.push(Inside { vertex: image.vertex, arrow: image.arrow, combination: image.combination });
+    }
+
+    /// The gauge in the hull of the points of the arrow's state; `None` (and a cut) where the budget ends.
+    fn gauge(&mut self, arrow: usize, point: &[f64]) -> Option<Combination> {
+        let own = &self.points[self.task.system.arrows[arrow].from];
+        let full = self.grown.vertices.len() >= self.task.max_vertices;
+        let beyond = if full { f64::INFINITY } else { 1.0 + self.task.tolerance + 1e-12 };
+        let (mut combination, work) = gauge(self.task.body, &own.hull, point, 1.0 - 1e-4, beyond);
+        for term in &mut combination.terms {
+            term.0 = own.vertices[term.0];
+        }
+        if self.task.budget.spend(work) {
+            return Some(combination);
+        }
+        self.grown.cut = true;
+        None
+    }
+
+    /// A closed part of the path to the newest vertex whose product has a spectral radius above 1.
+    fn faster(&self) -> Option<Vec<usize>> {
+        let vertices = &self.grown.vertices;
+        let mut current = vertices.len() - 1;
+        let end = vertices[current].state;
+        let mut path = Vec::new();
+        let mut product: Option<Floats> = None;
+        while let Origin::Image { parent, arrow } = vertices[current].origin {
+            path.push(arrow);
+            let next = match product {
+                None => self.task.scaled[arrow].clone(),
+                Some(p) => p.times(&self.task.scaled[arrow]),
+            };
+            current = parent;
+            let closed = vertices[current].state == end;
+            if path.len() > self.task.longest || !self.task.budget.spend(next.cube()) {
+                break;
+            }
+            if closed && next.norm() > 1.0 && next.exceeds_one() {
+                return Some(path);
+            }
+            product = Some(next);
+        }
+        None
+    }
+}
+
+/// For every state the axes along which the vertices do not reach by `threshold` of their size (symmetric: a complement of
+/// what they span by that much).
+pub(super) fn missing_axes(system: &System, grown: &Grown, threshold: f64) -> Vec<(usize, usize)> {
     let mut missing = Vec::new();
     for (state, &dim) in system.dims.iter().enumerate() {
-        let points: Vec<&[f64]> =
-            grown.vertices.iter().filter(|v| v.state == state).map(|v| v.point.as_slice()).collect();
+        let points = || grown.vertices.iter().filter(|v| v.state == state).map(|v| v.point.as_slice());
         match grown.body {
             Body::Monotone => {
-                let reached = |axis: usize| points.iter().any(|p| p[axis] > 1e-9);
+                let reached = |axis: usize| points().any(|p| p[axis] > 1e-9);
                 missing.extend((0..dim).filter(|&a| !reached(a)).map(|a| (state, a)));
             }
-            Body::Symmetric => missing.extend(uncovered(&points, dim).into_iter().map(|a| (state, a))),
+            Body::Symmetric => {
+                missing
+                    .extend(uncovered(points().map(<[f64]>::to_vec), dim, threshold).into_iter().map(|a| (state, a)));
+            }
         }
     }
     missing
 }
 
-/// Axes that complete the points to a spanning set (Gram–Schmidt on the points, then on the axes).
-fn uncovered(points: &[&[f64]], dim: usize) -> Vec<usize> {
+/// Axes that complete the directions in which points are wide (Gram–Schmidt, the widest first, then the axes).
+fn uncovered(points: impl Iterator<Item = Vec<f64>>, dim: usize, threshold: f64) -> Vec<usize> {
+    let size = |v: &[f64]| super::float::dot(v, v).sqrt();
+    let mut rest: Vec<Vec<f64>> = points.collect();
+    let largest = rest.iter().map(|v| size(v)).fold(0.0, f64::max);
     let mut frame: Vec<Vec<f64>> = Vec::new();
-    let mut absorb = |v: &[f64], threshold: f64| {
-        let mut rest = v.to_vec();
-        for _ in 0..2 {
-            for f in &frame {
-                let c = super::float::dot(f, &rest);
-                rest.iter_mut().zip(f).for_each(|(r, x)| *r -= c * x);
-            }
-        }
-        let norm = super::float::dot(&rest, &rest).sqrt();
-        let grows = norm > threshold;
-        if grows {
-            frame.push(rest.iter().map(|x| x / norm).collect());
-        }
-        grows
+    let remove = |v: &mut [f64], f: &[f64]| {
+        let c = super::float::dot(f, v);
+        v.iter_mut().zip(f).for_each(|(x, y)| *x -= c * y);
     };
-    for p in points {
-        absorb(p, 1e-7 * super::float::dot(p, p).sqrt().max(1e-300));
+    while frame.len() < dim {
+        let Some(top) = rest.iter().max_by(|a, b| size(a).total_cmp(&size(b))).cloned() else { break };
+        let norm = size(&top);
+        if norm <= threshold * largest {
+            break;
+        }
+        let unit: Vec<f64> = top.iter().map(|x| x / norm).collect();
+        rest.iter_mut().for_each(|v| remove(v, &unit));
+        frame.push(unit);
     }
-    (0..dim)
-        .filter(|&axis| {
-            let unit: Vec<f64> = (0..dim).map(|k| if k == axis { 1.0 } else { 0.0 }).collect();
-            absorb(&unit, 1e-6)
-        })
-        .collect()
+    let mut missing = Vec::new();
+    // The axes farthest from what is covered, one after the other.
+    while frame.len() < dim {
+        let axis = |k: usize| {
+            let mut unit: Vec<f64> = (0..dim).map(|i| if i == k { 1.0 } else { 0.0 }).collect();
+            frame.iter().for_each(|f| remove(&mut unit, f));
+            unit
+        };
+        let open = (0..dim).filter(|k| !missing.contains(k)).map(|k| (k, axis(k)));
+        let Some((k, unit)) = open.max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)).then(b.0.cmp(&a.0))) else { break };
+        let norm = size(&unit);
+        missing.push(k);
+        frame.push(unit.iter().map(|x| x / norm).collect());
+    }
+    missing.sort_unstable();
+    missing
 }
 
 /// As many points of a state as it has dimensions, chosen to be as independent as possible.

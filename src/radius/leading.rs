@@ -1,50 +1,65 @@
 //! The leading eigenvalue of a product, exactly, and its eigenvector.
 
 use super::System;
+use super::disc::Disc;
 use crate::algebraic::Root;
 use crate::arith::{Integer, Interval, Natural, Rational, abs, sign};
-use crate::jordan::Spectrum;
+use crate::jordan::{Spectrum, modulus_classes};
 use crate::linalg::Matrix;
-use malachite_base::num::arithmetic::traits::{CeilingRoot, CheckedRoot, Floor, FloorRoot, Pow};
+use malachite_base::num::arithmetic::traits::{CeilingRoot, CheckedRoot, Floor, FloorRoot, Lcm, Pow, UnsignedAbs};
+use malachite_base::num::basic::traits::One;
+use malachite_base::num::logic::traits::SignificantBits;
 use std::cmp::Ordering;
 
-/// The growth `|root|^(1/length)` of a cyclic word: a lower bound of the joint spectral radius.
+/// The growth `|μ|^(1/length)` of a cyclic word, `μ` an eigenvalue of its product: a lower bound of the joint spectral radius.
 #[derive(Debug, Clone)]
 pub struct Lower {
     /// The positions of the arrows of the word.
     pub path: Vec<usize>,
     /// The labels of the arrows.
     pub word: Vec<usize>,
-    /// An eigenvalue of largest modulus of the product.
-    pub root: Root,
     /// The length of the word.
     pub length: usize,
-    /// The longest Jordan block of that modulus.
-    pub block: usize,
+    /// The eigenvalue.
+    pub eigenvalue: Leading,
 }
 
+/// What is known of the eigenvalue of a word.
+#[derive(Debug, Clone)]
+pub enum Leading {
+    /// It is this number, of largest modulus among the eigenvalues of the product.
+    Exact(Root),
+    /// It lies in a disc: of large matrices, for which the exact number costs too much.
+    Disc(Disc),
+}
+
+/// Most work, in nanoseconds, that the exact eigenvalues of one product may cost; beyond, a disc is found.
+const EXACT_WORK: u64 = 40_000_000;
+
 impl Lower {
-    /// The growth of a cyclic path; `None` where the product is nilpotent.
+    /// The growth of a cyclic path; `None` where the product is nilpotent, or where it is large and no eigenvalue other than 0 was
+    /// enclosed.
     #[must_use]
     pub fn of(system: &System, path: &[usize]) -> Option<Self> {
-        let spectrum = Spectrum::of(&system.product(path));
-        let members = &spectrum.classes.first()?.members;
-        let block = members.iter().filter_map(|e| spectrum.factors[e.factor].blocks.iter().max()).max().copied();
-        let rank = |root: &Root| (!root.is_real(), root.is_real() && root.sign() < 0);
-        let root = members.iter().map(|e| spectrum.root(*e)).min_by_key(|r| rank(r))?.clone();
-        if root.is_zero() {
-            return None;
-        }
-        Some(Self {
-            path: path.to_vec(),
-            word: system.labels(path),
-            root,
-            length: path.len(),
-            block: block.unwrap_or(1),
-        })
+        let product = system.product(path);
+        let eigenvalue = if exact_work(&product) > EXACT_WORK {
+            Leading::Disc(Disc::leading(&product)?)
+        } else {
+            Leading::Exact(largest(&product)?)
+        };
+        Some(Self { path: path.to_vec(), word: system.labels(path), length: path.len(), eigenvalue })
     }
 
-    /// The value as a rational, where it is one.
+    /// The eigenvalue as an exact number, where it was found.
+    #[must_use]
+    pub fn root(&self) -> Option<&Root> {
+        match &self.eigenvalue {
+            Leading::Exact(root) => Some(root),
+            Leading::Disc(_) => None,
+        }
+    }
+
+    /// The value as a rational, where it is one and known exactly.
     #[must_use]
     pub fn rational(&self) -> Option<Rational> {
         self.square()?.checked_root(2u64)
@@ -54,44 +69,93 @@ impl Lower {
     #[must_use]
     pub fn square(&self) -> Option<Rational> {
         let degree = u64::try_from(self.length).ok()?;
-        if let Some(r) = self.root.rational() {
+        let root = self.root()?;
+        if let Some(r) = root.rational() {
             return (&r * &r).checked_root(degree);
         }
-        let coeffs = self.root.minpoly().monic().coeffs().to_vec();
+        let coeffs = root.minpoly().monic().coeffs().to_vec();
         // The roots of x² + bx + c have modulus √c when they are conjugate or opposite.
-        if coeffs.len() != 3 || (self.root.is_real() && coeffs[1] != 0) {
+        if coeffs.len() != 3 || (root.is_real() && coeffs[1] != 0) {
             return None;
         }
         abs(&coeffs[0]).checked_root(degree)
     }
 
-    /// An enclosure of the value of width about `2^-bits` (relative to 1).
+    /// An enclosure of the value of width about `2^-bits` (relative to 1); of a disc, as narrow as the disc.
     #[must_use]
     pub fn enclosure(&self, bits: u64) -> Interval {
         if let Some(x) = self.rational() {
             return Interval::point(x);
         }
-        let modulus = modulus(&self.root, bits + 8);
+        let modulus = match &self.eigenvalue {
+            Leading::Exact(root) => modulus(root, bits + 8),
+            Leading::Disc(disc) => disc.modulus(bits + 8),
+        };
         root_of(&modulus, self.length, bits + 4)
     }
 
-    /// Compares the values of words of two systems exactly.
+    /// Whether the value is proved to be at least this nonnegative number.
     #[must_use]
-    pub fn compare(&self, system: &System, other: &Self, others: &System) -> Ordering {
-        let (a, b) = (self.enclosure(48), other.enclosure(48));
-        if a.disjoint(&b) {
-            return a.lo.cmp(&b.lo);
-        }
-        if self.length == other.length {
-            return self.root.cmp_modulus(&other.root);
-        }
-        let common = gcd(self.length, other.length);
-        let power = |s: &System, l: &Self, times: usize| Self::of(s, &l.path.repeat(times / common));
-        match (power(system, self, other.length), power(others, other, self.length)) {
-            (Some(x), Some(y)) => x.root.cmp_modulus(&y.root),
-            _ => Ordering::Equal,
+    pub fn is_at_least(&self, least: &Rational) -> bool {
+        let power = (0..self.length).fold(Rational::from(1), |p, _| p * least);
+        match &self.eigenvalue {
+            Leading::Exact(root) => root.cmp_modulus_rational(&power) != Ordering::Less,
+            Leading::Disc(disc) => disc.modulus(64).lo >= power,
         }
     }
+
+    /// Compares the values of words of two systems; `None` where it would cost too much to decide whether they are equal.
+    #[must_use]
+    pub fn compare(&self, system: &System, other: &Self, others: &System) -> Option<Ordering> {
+        let (a, b) = (self.enclosure(48), other.enclosure(48));
+        if a.disjoint(&b) {
+            return Some(a.lo.cmp(&b.lo));
+        }
+        let (x, y) = (self.root()?, other.root()?);
+        if self.length == other.length {
+            return Some(x.cmp_modulus(y));
+        }
+        let (a, b) = (self.enclosure(200), other.enclosure(200));
+        if a.disjoint(&b) {
+            return Some(a.lo.cmp(&b.lo));
+        }
+        let common = gcd(self.length, other.length);
+        let power = |s: &System, l: &Self, times: usize| {
+            let product = s.product(&l.path.repeat(times / common));
+            if exact_work(&product) > EXACT_WORK { None } else { largest(&product) }
+        };
+        Some(power(system, self, other.length)?.cmp_modulus(&power(others, other, self.length)?))
+    }
+}
+
+/// An eigenvalue of largest modulus, a positive one before others; `None` where it is 0.
+fn largest(product: &Matrix) -> Option<Root> {
+    let classes = modulus_classes(product);
+    let rank = |root: &&Root| (!root.is_real(), root.is_real() && root.sign() < 0);
+    classes.first()?.iter().min_by_key(rank).filter(|r| !r.is_zero()).cloned()
+}
+
+/// The longest Jordan block at the largest modulus of a product; `None` where it costs too much.
+pub(super) fn longest_block(product: &Matrix) -> Option<usize> {
+    if exact_work(product) > EXACT_WORK {
+        return None;
+    }
+    let spectrum = Spectrum::of(product);
+    let members = &spectrum.classes.first()?.members;
+    members
+        .iter()
+        .map(|e| spectrum.factors[e.factor].blocks.iter().max().copied())
+        .collect::<Option<Vec<_>>>()?
+        .into_iter()
+        .max()
+}
+
+/// About the work of isolating the eigenvalues of a product, in nanoseconds: polynomials of degree `n` with `n b` bits.
+fn exact_work(product: &Matrix) -> u64 {
+    let n = product.rows() as u64;
+    let size = |x: &Rational| x.numerator_ref().significant_bits() + x.denominator_ref().significant_bits();
+    let bits = (0..product.rows()).flat_map(|i| product.row(i)).map(size).max().map_or(8, |b| b + 8);
+    n.saturating_pow(4).saturating_mul(bits)
 }
 
 fn gcd(a: usize, b: usize) -> usize {
@@ -116,7 +180,7 @@ pub(super) fn root_of(x: &Interval, degree: usize, bits: u64) -> Interval {
     let degree = degree as u64;
     let scale = Integer::from(1) << bits;
     let power = Rational::from((&scale).pow(degree));
-    let floor = |v: &Rational| -> Natural { Natural::try_from((v * &power).floor()).unwrap_or_default() };
+    let floor = |v: &Rational| if *v <= 0 { Natural::from(0u32) } else { (v * &power).floor().unsigned_abs() };
     let lo = Rational::from(floor(&x.lo).floor_root(degree)) / Rational::from(&scale);
     let hi = Rational::from((floor(&x.hi) + Natural::from(1u32)).ceiling_root(degree)) / Rational::from(&scale);
     Interval::new(lo, hi)
@@ -148,13 +212,28 @@ impl Eigenvector {
         let coeffs = root.minpoly().monic().coeffs().to_vec();
         let degree = coeffs.len() - 1;
         let n = product.rows();
-        let kernel = polynomial_at(&coeffs, product).kernel();
-        if kernel.cols() == 0 {
-            return None;
-        }
-        let mut powers = vec![kernel.column(0)];
+        // Of an irreducible characteristic polynomial every vector is in the kernel.
+        let start = if degree == n {
+            (0..n).map(|i| Rational::from(u8::from(i == 0))).collect()
+        } else {
+            let kernel = polynomial_at(&coeffs, product).kernel();
+            if kernel.cols() == 0 {
+                return None;
+            }
+            kernel.column(0)
+        };
+        // Whole numbers until the end.
+        let entries = (0..n).flat_map(|i| product.row(i)).chain(&start);
+        let unit = Rational::from(entries.fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref())));
+        let whole = product.scale(&unit);
+        let mut powers: Vec<Vec<Rational>> = vec![start.iter().map(|x| x * &unit).collect()];
         for _ in 1..degree {
-            powers.push(product.apply(&powers[powers.len() - 1]));
+            powers.push(whole.apply(&powers[powers.len() - 1]));
+        }
+        let mut scale = unit.clone();
+        for power in &mut powers {
+            power.iter_mut().for_each(|x| *x /= &scale);
+            scale *= &unit;
         }
         // p(x)/(x − μ) = Σ_k b_k x^k with b_k = Σ_{j>k} p_j μ^{j−k−1}.
         let mut coordinates = vec![vec![Rational::from(0); degree]; n];

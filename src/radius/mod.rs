@@ -2,30 +2,44 @@
 //!
 //! Floats propose words, polytopes and coefficients; exact arithmetic decides every bound.
 
+mod answer;
 mod balanced;
 mod blocks;
+mod budget;
+mod closing;
 mod contracts;
+mod disc;
 mod driver;
 mod enclose;
 mod exact;
 pub mod file;
+mod fixed;
 mod float;
 mod grow;
+mod invariant;
 mod leading;
+mod norms;
 mod polytope;
 mod quadratic;
+mod radius_field;
 mod search;
 mod simplex;
+mod strategy;
 mod system;
 mod tree;
+mod turning;
+mod whole;
 
+pub use answer::{BlockProof, Ended, Growth, JointRadius, Proof};
 pub use balanced::{Balanced, Complex, ComplexInclusion, ComplexPoint};
 pub use blocks::{Block, Step, blocks, flag};
+pub use budget::Options;
 pub use contracts::{NormContraction, contraction_by_norms, linear_system, polytopes};
-pub use driver::{BlockProof, Growth, JointRadius, Options, Proof, joint_radius};
+pub use disc::Disc;
+pub use driver::joint_radius;
 pub use exact::LeadingVector;
 pub use grow::Origin;
-pub use leading::{Eigenvector, Lower, root_floor, square_root};
+pub use leading::{Eigenvector, Leading, Lower, root_floor, square_root};
 pub use polytope::{Inclusion, Point, Polytope};
 pub use quadratic::Quadratic;
 pub use simplex::Body;

@@ -2,7 +2,8 @@
 
 use super::System;
 use super::simplex::Body;
-use crate::arith::{Rational, abs};
+use super::whole::Whole;
+use crate::arith::{Integer, Rational, abs};
 
 /// A vertex.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,17 +55,20 @@ impl Polytope {
         let mut covered = 0;
         let mut bound = Rational::from(0);
         let mut seen = std::collections::BTreeSet::new();
+        let whole = Whole::of(self, system);
         for inclusion in &self.inclusions {
             let arrow = system.arrows.get(inclusion.arrow)?;
             let point = self.points.get(inclusion.point)?;
-            if point.state != arrow.to || !seen.insert((inclusion.point, inclusion.arrow)) {
+            let own = |t: &(usize, Rational)| self.points.get(t.0).is_some_and(|p| p.state == arrow.from);
+            let fits = point.state == arrow.to && inclusion.terms.iter().all(own);
+            if !fits || !seen.insert((inclusion.point, inclusion.arrow)) {
                 return None;
             }
-            let rest = self.rest(system, inclusion)?;
+            let (size, below) = self.rest_size(system, inclusion, whole.as_ref())?;
             let mut sum = inclusion.terms.iter().fold(Rational::from(0), |s, t| s + abs(&t.1));
             match self.body {
-                Body::Symmetric => sum += &scale[arrow.from] * norm1(&rest),
-                Body::Monotone if rest.iter().all(|x| *x <= 0) && inclusion.terms.iter().all(|t| t.1 >= 0) => {}
+                Body::Symmetric => sum += &scale[arrow.from] * size,
+                Body::Monotone if below && inclusion.terms.iter().all(|t| t.1 >= 0) => {}
                 Body::Monotone => return None,
             }
             bound = bound.max(sum);
@@ -72,6 +76,21 @@ impl Polytope {
         }
         let needed: usize = self.points.iter().map(|p| system.arrows.iter().filter(|a| a.to == p.state).count()).sum();
         (covered == needed).then_some(bound)
+    }
+
+    /// The 1-norm of `T p − Σ c q`, and whether all its coordinates are at most 0.
+    pub(super) fn rest_size(
+        &self,
+        system: &System,
+        inclusion: &Inclusion,
+        whole: Option<&Whole>,
+    ) -> Option<(Rational, bool)> {
+        if let Some((rest, unit)) = whole.and_then(|w| w.rest(inclusion)) {
+            let size = rest.iter().fold(Integer::from(0), |s, x| s + Integer::from(x.unsigned_abs()));
+            return Some((Rational::from(size) * unit, rest.iter().all(|x| *x <= 0)));
+        }
+        let rest = self.rest(system, inclusion)?;
+        Some((norm1(&rest), rest.iter().all(|x| *x <= 0)))
     }
 
     /// `T p − Σ c q`.

@@ -1,6 +1,9 @@
 //! Quadratic norms: `T^t P_from T <= r² P_to` proves that the radius is at most `r`.
 
 use super::System;
+use super::answer::Proof;
+use super::budget::Budget;
+use super::strategy::{Found, Outcome, Strategy, Target};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 
@@ -43,14 +46,33 @@ impl Quadratic {
     }
 }
 
+/// Quadratic norms at the radius itself, where its square is rational.
+pub(super) struct QuadraticNorm;
+
+impl Strategy for QuadraticNorm {
+    fn attempt(&self, target: &Target, _known: f64, budget: &Budget) -> Outcome {
+        let system = &target.block.system;
+        let Some(square) = target.best.lower.as_ref().and_then(super::Lower::square) else { return Outcome::Nothing };
+        let size: u64 = system.dims.iter().map(|d| (d * (d + 1) / 2) as u64).sum();
+        if size > MAX_UNKNOWNS || !budget.spend(500 * size.pow(3)) {
+            return Outcome::Nothing;
+        }
+        let letters: Vec<usize> = target.own.iter().filter(|l| l.length == 1).map(|l| l.path[0]).collect();
+        let Some(proof) = Quadratic::find(system, &square, &letters) else { return Outcome::Nothing };
+        let bound = super::square_root(&square, 64).hi;
+        let bound = target.best.lower.as_ref().and_then(super::Lower::rational).unwrap_or(bound);
+        Outcome::Found(Box::new(Found { bound, proof: Proof::Quadratic(proof), attains: true, roots: Vec::new() }))
+    }
+}
+
+/// Most entries of forms that are solved for.
+const MAX_UNKNOWNS: u64 = 60;
+
 /// Symmetric forms with `T^t P T = square P` for some arrows, if they are unique up to a factor.
 fn preserved(system: &System, square: &Rational, arrows: &[usize]) -> Option<Vec<Matrix>> {
     let mut unknowns: Vec<(usize, usize, usize)> = Vec::new();
     for (s, &d) in system.dims.iter().enumerate() {
         unknowns.extend((0..d).flat_map(|i| (0..=i).map(move |j| (s, i, j))));
-    }
-    if unknowns.len() > 60 {
-        return None;
     }
     let mut rows: Vec<Vec<Rational>> = Vec::new();
     for a in arrows.iter().map(|k| &system.arrows[*k]) {

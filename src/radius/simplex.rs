@@ -70,9 +70,8 @@ impl Tableau {
                 Column::Surplus(_) => continue,
                 Column::Artificial => ARTIFICIAL_COST,
             };
-            for (i, out) in y.iter_mut().enumerate() {
-                *out += cost * self.inverse[k * self.n + i];
-            }
+            let row = &self.inverse[k * self.n..(k + 1) * self.n];
+            y.iter_mut().zip(row).for_each(|(out, x)| *out += cost * x);
         }
         y
     }
@@ -80,27 +79,35 @@ impl Tableau {
     pub fn pivot(&mut self, column: Column, entries: &[f64]) -> bool {
         let n = self.n;
         let d: Vec<f64> = self.inverse.chunks(n).map(|row| dot(row, entries)).collect();
-        let mut leaving: Option<(usize, f64)> = None;
-        for (k, step) in d.iter().enumerate().filter(|(_, s)| **s > 1e-11) {
-            let ratio = self.values[k].max(0.0) / step;
-            let better = leaving.is_none_or(|(old, r)| ratio < r - 1e-13 || (ratio < r + 1e-13 && *step > d[old]));
-            if better {
-                leaving = Some((k, ratio));
-            }
-        }
+        // Among the columns that limit the step, up to a hair, the one with the largest entry (Harris).
+        let entering = |s: &f64| *s > 1e-9;
+        let ratio = |k: usize| self.values[k].max(0.0) / d[k];
+        let least = (0..n)
+            .filter(|k| entering(&d[*k]))
+            .map(|k| (self.values[k].max(0.0) + 1e-12) / d[k])
+            .fold(f64::INFINITY, f64::min);
+        let near = (0..n).filter(|k| entering(&d[*k]) && ratio(*k) <= least);
+        let leaving = near.max_by(|a, b| d[*a].total_cmp(&d[*b])).map(|k| (k, ratio(k)));
         let Some((k, ratio)) = leaving else { return false };
-        for j in 0..n {
-            self.inverse[k * n + j] /= d[k];
-        }
+        let pivot: Vec<f64> = self.inverse[k * n..(k + 1) * n].iter().map(|x| x / d[k]).collect();
         for (i, step) in d.iter().enumerate().filter(|(i, s)| *i != k && **s != 0.0) {
-            for j in 0..n {
-                self.inverse[i * n + j] -= step * self.inverse[k * n + j];
-            }
+            self.inverse[i * n..(i + 1) * n].iter_mut().zip(&pivot).for_each(|(x, p)| *x -= step * p);
             self.values[i] -= step * ratio;
         }
+        self.inverse[k * n..(k + 1) * n].copy_from_slice(&pivot);
         self.values[k] = ratio;
         self.basis[k] = column;
         true
+    }
+
+    /// The value of [`Tableau::combination`].
+    pub fn value(&self) -> f64 {
+        let part = |(column, c): (&Column, &f64)| match column {
+            Column::Point(..) if *c > 0.0 => *c,
+            Column::Artificial if *c > 1e-10 => f64::INFINITY,
+            _ => 0.0,
+        };
+        self.basis.iter().zip(&self.values).map(part).sum()
     }
 
     pub fn combination(&self) -> Combination {
@@ -123,58 +130,163 @@ impl Tableau {
     }
 }
 
-/// A combination of `points` with small `Σ |c|` that reaches (or dominates) `x`; stops early below `enough`.
+/// Points of one space, by coordinate: prices of all of them are sums of long vectors.
+#[derive(Debug, Clone)]
+pub(super) struct Hull {
+    rows: Vec<Vec<f64>>,
+    count: usize,
+}
+
+impl Hull {
+    pub fn new(dim: usize) -> Self {
+        Self { rows: vec![Vec::new(); dim], count: 0 }
+    }
+
+    pub fn of(dim: usize, points: &[&[f64]]) -> Self {
+        let mut hull = Self::new(dim);
+        points.iter().for_each(|p| hull.push(p));
+        hull
+    }
+
+    pub fn push(&mut self, point: &[f64]) {
+        self.rows.iter_mut().zip(point).for_each(|(row, x)| row.push(*x));
+        self.count += 1;
+    }
+
+    /// `y q` for all points `q`.
+    fn prices(&self, y: &[f64], out: &mut Vec<f64>) {
+        out.clear();
+        out.resize(self.count, 0.0);
+        for (row, c) in self.rows.iter().zip(y).filter(|(_, c)| **c != 0.0) {
+            out.iter_mut().zip(row).for_each(|(o, x)| *o += c * x);
+        }
+    }
+
+    fn price(&self, j: usize, y: &[f64]) -> f64 {
+        self.rows.iter().zip(y).map(|(row, c)| row[j] * c).sum()
+    }
+
+    fn point(&self, j: usize, sign: f64) -> Vec<f64> {
+        self.rows.iter().map(|row| sign * row[j]).collect()
+    }
+}
+
+/// A combination of points with small `Σ |c|` that reaches (or dominates) `x`; stops early below `enough`, and where the gauge is
+/// seen to be above `beyond`: then the value is a number between `beyond` and the gauge, and the terms mean nothing.
 ///
 /// # Cost
-/// `O(n |points| + n²)` a pivot, usually a few times `n` pivots.
-pub(super) fn gauge(body: Body, points: &[&[f64]], x: &[f64], enough: f64) -> Combination {
+/// `O(n |points|)` to price all points, then `O(n²)` a pivot among the best of them; usually a few times `n` pivots. The second
+/// answer is the work done.
+pub(super) fn gauge(body: Body, hull: &Hull, x: &[f64], enough: f64, beyond: f64) -> (Combination, u64) {
     let sign = match body {
         Body::Symmetric => Sign::Any,
         Body::Monotone => Sign::Dominating,
     };
-    minimise(sign, points, x, enough)
+    minimise(sign, hull, x, enough, beyond)
 }
 
 /// Nonnegative coefficients, of at most as many rays as there are coordinates, that combine `x`; `None` outside the cone.
 pub(crate) fn cone_combination(rays: &[&[f64]], x: &[f64]) -> Option<Vec<(usize, f64)>> {
-    let found = minimise(Sign::Nonnegative, rays, x, 0.0);
+    let found = minimise(Sign::Nonnegative, &Hull::of(x.len(), rays), x, 0.0, f64::INFINITY).0;
     found.value.is_finite().then_some(found.terms)
 }
 
-fn minimise(rule: Sign, points: &[&[f64]], x: &[f64], enough: f64) -> Combination {
+/// Gains below this do not enter.
+const GAIN: f64 = 1e-10;
+
+/// How a column gains with its price, and its sign.
+fn gain(rule: Sign, price: f64) -> (f64, f64) {
+    if rule == Sign::Any { (price.abs() - 1.0, price.signum()) } else { (price - 1.0, 1.0) }
+}
+
+fn minimise(rule: Sign, hull: &Hull, x: &[f64], enough: f64, beyond: f64) -> (Combination, u64) {
     let n = x.len();
     let mut tableau = Tableau::start(x);
-    for _ in 0..(60 * n + 100) {
+    let (mut work, mut prices, mut chosen) = (0, Vec::new(), Vec::new());
+    let most = n + 8;
+    let mut pivots = 0;
+    let limit = 60 * n + 100;
+    'price: while pivots < limit {
         let y = tableau.dual();
-        let mut entering: Option<(Column, f64)> = None;
-        for (j, q) in points.iter().enumerate() {
-            let price = dot(q, &y);
-            let (gain, sign) = if rule == Sign::Any { (price.abs() - 1.0, price.signum()) } else { (price - 1.0, 1.0) };
-            if gain > entering.map_or(1e-10, |e| e.1) {
-                entering = Some((Column::Point(j, sign), gain));
+        hull.prices(&y, &mut prices);
+        work += (n * hull.count / 2 + n * n) as u64 + 50;
+        let best = prices.iter().map(|p| gain(rule, *p).0).fold(0.0, f64::max);
+        let surplus = if rule == Sign::Dominating { y.iter().map(|p| -p).fold(0.0, f64::max) } else { 0.0 };
+        // Scaled so that no column gains, the dual solution is a bound of the gauge.
+        let low = dot(&y, x) / (1.0 + best);
+        if surplus <= 0.0 && low > beyond && low < ARTIFICIAL_COST * 1e-3 {
+            return (Combination { terms: Vec::new(), value: low, loose: Vec::new() }, work);
+        }
+        if best.max(surplus) <= GAIN {
+            break;
+        }
+        // Several pivots among the columns that gain most.
+        let threshold = (0.5 * best).max(GAIN);
+        chosen.clear();
+        for (j, price) in prices.iter().enumerate() {
+            if gain(rule, *price).0 > threshold {
+                chosen.push(j);
             }
         }
-        if rule == Sign::Dominating {
-            for (i, price) in y.iter().enumerate() {
-                if -price > entering.map_or(1e-10, |e| e.1) {
-                    entering = Some((Column::Surplus(i), -price));
+        if chosen.len() > most {
+            let order =
+                |a: &usize, b: &usize| gain(rule, prices[*b]).0.total_cmp(&gain(rule, prices[*a]).0).then(a.cmp(b));
+            chosen.select_nth_unstable_by(most, order);
+            chosen.truncate(most);
+            chosen.sort_unstable();
+        }
+        let mut first = true;
+        loop {
+            let y = if first { y.clone() } else { tableau.dual() };
+            let mut entering: Option<(Column, f64)> = None;
+            let least = if first { GAIN } else { GAIN.max(0.3 * best.max(surplus)) };
+            for &j in &chosen {
+                let (g, sign) = gain(rule, hull.price(j, &y));
+                if g > entering.map_or(least, |e| e.1) {
+                    entering = Some((Column::Point(j, sign), g));
                 }
             }
-        }
-        let Some((column, _)) = entering else { break };
-        let entries: Vec<f64> = match column {
-            Column::Point(j, sign) => points[j].iter().map(|v| sign * v).collect(),
-            Column::Surplus(i) => (0..n).map(|k| if k == i { -1.0 } else { 0.0 }).collect(),
-            Column::Artificial => break,
-        };
-        if !tableau.pivot(column, &entries) {
-            break;
-        }
-        if tableau.combination().value <= enough {
-            break;
+            if rule == Sign::Dominating {
+                for (i, price) in y.iter().enumerate() {
+                    if -price > entering.map_or(least, |e| e.1) {
+                        entering = Some((Column::Surplus(i), -price));
+                    }
+                }
+            }
+            work += (chosen.len() * n + 3 * n * n) as u64 + 50;
+            let Some((column, _)) = entering else {
+                if first {
+                    break 'price;
+                }
+                break;
+            };
+            let entries: Vec<f64> = match column {
+                Column::Point(j, sign) => hull.point(j, sign),
+                Column::Surplus(i) => (0..n).map(|k| if k == i { -1.0 } else { 0.0 }).collect(),
+                Column::Artificial => break 'price,
+            };
+            pivots += 1;
+            if !tableau.pivot(column, &entries) || tableau.value() <= enough || pivots >= limit {
+                break 'price;
+            }
+            first = false;
         }
     }
-    tableau.combination()
+    let mut found = tableau.combination();
+    // Where rounding got out of hand, the point counts as one outside.
+    if rule == Sign::Any && found.value.is_finite() && !reaches(hull, x, &found) {
+        found.value = f64::INFINITY;
+    }
+    (found, work)
+}
+
+/// Whether a combination is the point, up to rounding.
+fn reaches(hull: &Hull, x: &[f64], found: &Combination) -> bool {
+    let size = x.iter().map(|v| v.abs()).fold(1e-3, f64::max);
+    x.iter().zip(&hull.rows).all(|(v, row)| {
+        let sum: f64 = found.terms.iter().map(|(k, c)| c * row[*k]).sum();
+        (v - sum).abs() <= 1e-9 * size
+    })
 }
 
 #[cfg(test)]
@@ -183,12 +295,12 @@ mod tests {
 
     #[test]
     fn gauges_of_simple_bodies() {
-        let square: [&[f64]; 2] = [&[1.0, 1.0], &[1.0, -1.0]];
-        let c = gauge(Body::Symmetric, &square, &[0.5, -2.0], 0.0);
+        let square = Hull::of(2, &[&[1.0, 1.0], &[1.0, -1.0]]);
+        let c = gauge(Body::Symmetric, &square, &[0.5, -2.0], 0.0, f64::INFINITY).0;
         assert!((c.value - 2.0).abs() < 1e-12);
-        let flat: [&[f64]; 1] = [&[1.0, 1.0]];
-        assert!(gauge(Body::Symmetric, &flat, &[1.0, 0.0], 0.0).value.is_infinite());
-        let c = gauge(Body::Monotone, &flat, &[1.0, 0.25], 0.0);
+        let flat = Hull::of(2, &[&[1.0, 1.0]]);
+        assert!(gauge(Body::Symmetric, &flat, &[1.0, 0.0], 0.0, f64::INFINITY).0.value.is_infinite());
+        let c = gauge(Body::Monotone, &flat, &[1.0, 0.25], 0.0, f64::INFINITY).0;
         assert!((c.value - 1.0).abs() < 1e-12);
     }
 }

@@ -99,6 +99,14 @@ impl System {
         product
     }
 
+    /// The transposed matrices with the arrows turned round. Its words are the reversed ones, their products the transposes:
+    /// the joint spectral radius is the same.
+    #[must_use]
+    pub fn transposed(&self) -> Self {
+        let turned = |a: &Arrow| Arrow { from: a.to, to: a.from, matrix: a.matrix.transpose(), label: a.label };
+        Self { dims: self.dims.clone(), arrows: self.arrows.iter().map(turned).collect() }
+    }
+
     /// Whether every entry of every matrix is nonnegative.
     #[must_use]
     pub fn is_nonnegative(&self) -> bool {

@@ -2,10 +2,16 @@
 #![allow(clippy::float_arithmetic, reason = "chooses the words, their norms are computed exactly")]
 
 use super::System;
+use super::answer::Proof;
+use super::budget::Budget;
 use super::float::Floats;
 use super::leading::root_of;
-use crate::arith::{Interval, Rational, abs};
+use super::strategy::{Found, Outcome, Strategy, Target};
+use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::Matrix;
+use malachite_base::num::arithmetic::traits::Lcm;
+use malachite_base::num::basic::traits::One;
+use malachite_nz::natural::Natural;
 use std::collections::BinaryHeap;
 
 /// For every state a complete prefix code of paths, and weights of a norm in which each word `w` has a norm of at most
@@ -46,13 +52,17 @@ impl Tree {
             if *error == 0 { Rational::from(0) } else { power(&(&largest + &change)) - power(&largest) }
         };
         let mut bound = Rational::from(0);
+        let mut products = Products::new(system);
         for (state, code) in self.codes.iter().enumerate() {
             if !complete(system, state, code) {
                 return None;
             }
-            for word in code {
-                let (from, to) = (system.arrows[word[0]].from, system.arrows[word[word.len() - 1]].to);
-                let norm = weighted_norm(&system.product(word), &self.weights[from], &self.weights[to]);
+            // In order, so that words share the products of their beginnings.
+            let mut sorted: Vec<&Vec<usize>> = code.iter().collect();
+            sorted.sort_unstable();
+            for word in sorted {
+                let to = system.arrows[word[word.len() - 1]].to;
+                let norm = products.norm(word, &self.weights[state], &self.weights[to]);
                 bound = bound.max(root_of(&Interval::point(norm + drift(word.len())), word.len(), 64).hi);
             }
         }
@@ -87,25 +97,104 @@ fn complete(system: &System, state: usize, code: &[Vec<usize>]) -> bool {
 /// The norm of a matrix for the norms `Σ w_i |x_i|` of its two spaces.
 fn weighted_norm(m: &Matrix, from: &[Rational], to: &[Rational]) -> Rational {
     let column = |j: usize| (0..m.rows()).fold(Rational::from(0), |s, i| s + abs(&m[(i, j)]) * &from[i]) / &to[j];
-    (0..m.cols()).map(column).max().unwrap_or_default()
+    (0..m.cols()).map(column).fold(Rational::from(0), Rational::max)
 }
 
-/// Lengthens the words with the largest norms until `goal` is reached or there are `most` words.
-pub(super) fn find(system: &System, goal: f64, most: usize) -> Tree {
+/// The products of the beginnings of the last word, as whole numbers, and the denominators.
+struct Products {
+    letters: Vec<(Vec<Vec<Integer>>, Integer)>,
+    word: Vec<usize>,
+    stack: Vec<(Vec<Vec<Integer>>, Integer)>,
+}
+
+impl Products {
+    fn new(system: &System) -> Self {
+        let letter = |a: &super::Arrow| {
+            let entries = (0..a.matrix.rows()).flat_map(|i| a.matrix.row(i));
+            let denominator = entries.fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref()));
+            let whole = |x: &Rational| {
+                let factor = Integer::from(&denominator) / Integer::from(x.denominator_ref());
+                let numerator = Integer::from(x.numerator_ref()) * factor;
+                if *x < 0 { -numerator } else { numerator }
+            };
+            let rows = (0..a.matrix.rows()).map(|i| a.matrix.row(i).iter().map(whole).collect()).collect();
+            (rows, Integer::from(denominator))
+        };
+        Self { letters: system.arrows.iter().map(letter).collect(), word: Vec::new(), stack: Vec::new() }
+    }
+
+    /// The weighted norm of the product of a word that is not empty.
+    fn norm(&mut self, word: &[usize], from: &[Rational], to: &[Rational]) -> Rational {
+        let common = self.word.iter().zip(word).take_while(|(a, b)| a == b).count();
+        self.stack.truncate(common);
+        for &a in &word[common..] {
+            let (letter, denominator) = &self.letters[a];
+            let next = match self.stack.last() {
+                None => (letter.clone(), denominator.clone()),
+                Some((product, old)) => (times(product, letter), old * denominator),
+            };
+            self.stack.push(next);
+        }
+        self.word = word.to_vec();
+        let Some((product, denominator)) = self.stack.last() else { return Rational::from(1) };
+        let size = |x: &Integer| Rational::from(if *x < 0 { -x } else { x.clone() });
+        let column =
+            |j: usize| product.iter().zip(from).fold(Rational::from(0), |s, (row, w)| s + size(&row[j]) * w) / &to[j];
+        (0..to.len()).map(column).fold(Rational::from(0), Rational::max) / Rational::from(denominator)
+    }
+}
+
+fn times(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Vec<Integer>> {
+    let row = |r: &Vec<Integer>| {
+        let mut out = vec![Integer::from(0); b.first().map_or(0, Vec::len)];
+        for (x, line) in r.iter().zip(b).filter(|(x, _)| **x != 0) {
+            out.iter_mut().zip(line).filter(|(_, y)| **y != 0).for_each(|(o, y)| *o += x * y);
+        }
+        out
+    };
+    a.iter().map(row).collect()
+}
+
+/// Bounds by the norms of many words.
+pub(super) struct Words {
+    /// Most words.
+    pub most: usize,
+    pub share: u64,
+}
+
+impl Strategy for Words {
+    fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome {
+        let system = &target.block.system;
+        let goal = target.best.float * (1.0 + target.options.width.max(1e-5));
+        if known <= goal && target.best.float > 0.0 {
+            return Outcome::Nothing;
+        }
+        let (tree, value) = find(system, goal, self.most, budget);
+        if value >= known {
+            return Outcome::Nothing;
+        }
+        let Some(bound) = tree.bound(system) else { return Outcome::Nothing };
+        let attains = target.best.lower.as_ref().and_then(|l| l.rational()).is_some_and(|r| bound <= r);
+        Outcome::Found(Box::new(Found { bound, proof: Proof::Tree(tree), attains, roots: Vec::new() }))
+    }
+
+    fn share(&self) -> u64 {
+        self.share
+    }
+}
+
+/// Lengthens the words with the largest norms until `goal` is reached, there are `most` words or the budget ends; with the bound
+/// in floats.
+fn find(system: &System, goal: f64, most: usize, budget: &Budget) -> (Tree, f64) {
     let weights = weights(system);
-    let scaled: Vec<Floats> = system
-        .arrows
-        .iter()
-        .map(|a| {
-            let mut m = Floats::of(&a.matrix);
-            for i in 0..m.rows {
-                for j in 0..m.cols {
-                    m.data[i * m.cols + j] *= weights[a.from][i] / weights[a.to][j];
-                }
+    let mut scaled = Floats::all(system);
+    for (m, a) in scaled.iter_mut().zip(&system.arrows) {
+        for i in 0..m.rows {
+            for j in 0..m.cols {
+                m.data[i * m.cols + j] *= weights[a.from][i] / weights[a.to][j];
             }
-            m
-        })
-        .collect();
+        }
+    }
     let norm = |m: &Floats| {
         let column = |j: usize| (0..m.rows).map(|i| m.data[i * m.cols + j].abs()).sum::<f64>();
         (0..m.cols).map(column).fold(0.0, f64::max)
@@ -117,7 +206,9 @@ pub(super) fn find(system: &System, goal: f64, most: usize) -> Tree {
         let Some(worst) = leaves.pop() else { break };
         let end = system.arrows[worst.path[worst.path.len() - 1]].to;
         let next: Vec<usize> = (0..system.arrows.len()).filter(|&a| system.arrows[a].from == end).collect();
-        if worst.value <= goal || worst.path.len() >= 60 || next.is_empty() {
+        // Products of floats, and later of whole numbers.
+        let work: u64 = next.iter().map(|a| 2000 + 40 * scaled[*a].cube()).sum();
+        if worst.value <= goal || worst.path.len() >= 60 || next.is_empty() || !budget.spend(work) {
             leaves.push(worst);
             break;
         }
@@ -128,16 +219,21 @@ pub(super) fn find(system: &System, goal: f64, most: usize) -> Tree {
             leaves.push(Leaf { value, path, product });
         }
     }
+    let value = leaves.peek().map_or(f64::INFINITY, |l| l.value);
     let mut codes = vec![Vec::new(); system.dims.len()];
     for leaf in leaves.into_sorted_vec() {
         codes[system.arrows[leaf.path[0]].from].push(leaf.path);
     }
-    let exact = |w: &f64| super::exact::grid(*w).max(super::exact::grid(1e-6));
-    Tree { codes, weights: weights.iter().map(|w| w.iter().map(exact).collect()).collect() }
+    (Tree { codes, weights: weights.iter().map(|w| w.iter().map(exact_weight).collect()).collect() }, value)
+}
+
+/// A weight as an exact number that is not 0.
+pub(super) fn exact_weight(w: &f64) -> Rational {
+    super::exact::grid(*w).max(super::exact::grid(1e-6))
 }
 
 /// Weights for which the sums of columns of absolute values are about equal: a few steps of the power method.
-fn weights(system: &System) -> Vec<Vec<f64>> {
+pub(super) fn weights(system: &System) -> Vec<Vec<f64>> {
     let mut weights: Vec<Vec<f64>> = system.dims.iter().map(|d| vec![1.0; *d]).collect();
     let floats = Floats::all(system);
     for _ in 0..60 {
@@ -197,7 +293,8 @@ mod tests {
             System::plain(&[matrix([2, 1, 0, 3]), matrix([1, 2, 2, 1])]).unwrap()
         };
         let own = system(&ratio(0, 1));
-        let tree = find(&own, 0.7, 40);
+        let budget = Budget::new(&super::super::Options::default(), 2);
+        let tree = find(&own, 0.7, 40, &budget).0;
         let plain = tree.bound(&own).unwrap();
         assert_eq!(tree.bound_near(&own, &ratio(0, 1)), Some(plain.clone()));
         for error in [ratio(1, 1000), ratio(1, 20)] {

@@ -1,8 +1,9 @@
 //! The words of claims and of the reasons why they are refuted or open: the only place where they are written.
 
 use crate::case::Case;
+use crate::shape::word_text;
 use crate::theorem::surface::Surface;
-use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, PointReport, Reason, Role, Seen, Verdict};
+use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, Limit, PointReport, Reason, Role, Seen, Verdict};
 use crate::vertex::AtValence;
 
 /// What is claimed, as a sentence without a capital and a full stop.
@@ -16,6 +17,14 @@ pub fn assertion(what: &Assertion) -> String {
         Assertion::ExaminedJoints => "the curve has a tangent line at each of the joints examined below",
         Assertion::ProjectedJoints => {
             "the projected curve has a tangent line at every joint whose tangent line before the projection is not killed by it; \
+             in every cell that is more than a point there are such joints"
+        }
+        Assertion::SeenJoints => {
+            "the curve has a tangent line at every joint of every level between pieces that are more than a point where it is \
+             looked at; these are dense in every cell that is more than a point"
+        }
+        Assertion::UnkilledJoints => {
+            "the curve has a tangent line at every joint whose tangent line is not killed on the way to where it is looked at; \
              in every cell that is more than a point there are such joints"
         }
         Assertion::TangentAt { address, about, .. } => {
@@ -89,6 +98,18 @@ pub fn judged(claim: &Claim) -> String {
 #[must_use]
 pub fn reason(case: &Case, found: &Certified, claim: &Claim) -> Option<String> {
     claim.reason().map(|reason| sentence(case, found, claim.verdict(), reason))
+}
+
+/// A limit that ended a search, and what goes on beyond it.
+#[must_use]
+pub fn limit(limit: &Limit) -> String {
+    let ended = match limit {
+        Limit::Words => "the search for contracting words ended at its limit".to_owned(),
+        Limit::Cells { branch, cell } => {
+            format!("the search in the ring of the branch {branch} ended at the cell {}", word_text(cell))
+        }
+    };
+    format!("{ended} (--{name}; --effort hard takes eight times as many {name})", name = limit.name())
 }
 
 /// The same of a claim about the vertices of a mesh.

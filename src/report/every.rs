@@ -8,7 +8,7 @@ use crate::case::Case;
 use crate::shape::word_text;
 use crate::statement::Statement;
 use crate::theorem::cone::{CommonCone, ConeObstacle};
-use crate::theorem::{Certified, Everywhere, Kind, PointReport, Verdict};
+use crate::theorem::{Certified, Everywhere, Hodograph, Kind, PointReport, Turn, Verdict};
 use serde_json::{Value, json};
 
 /// Places of an exponent.
@@ -43,6 +43,10 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
         verdict.extend(words(format!("; {reason}")));
     }
     let mut facts = vec![("smoothness".to_owned(), verdict)];
+    if every.derivative.is_some() {
+        let text = "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)";
+        facts.push(("derivative".to_owned(), words(text)));
+    }
     if let Some(cone) = &every.cone {
         facts.push(("cones".to_owned(), cones(case, cone)));
     }
@@ -55,6 +59,9 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
             decimal(&rate.shrink().hi, true, PLACES)
         );
         facts.push(("tangent".to_owned(), words(text)));
+    }
+    if let Some(h) = &every.hodograph {
+        facts.push(("derivative".to_owned(), words(h.summary())));
     }
     if let Some(point) = every.witness.and_then(|k| found.points.get(k)) {
         facts.push(("witness".to_owned(), witness(case, point)));
@@ -115,6 +122,23 @@ fn cones(case: &Case, cone: &CommonCone) -> Line {
     line(&text, [])
 }
 
+/// The arcs of a polynomial curve, and where its direction turns back.
+fn derivative(h: &Hodograph) -> Value {
+    let polynomial = |p: &crate::poly::Poly| p.coeffs().iter().map(ToString::to_string).collect::<Vec<_>>();
+    let turns = h.turns.iter().map(|turn| match turn {
+        Turn::Inside(k, root) => json!({"arc": k, "parameter": super::json::root_value(root)}),
+        Turn::Between(k) => json!({"between": [k, k + 1]}),
+    });
+    json!({
+        "arcs": h.spans.iter().map(|s| json!({
+            "cell": word_text(&s.path),
+            "coordinates": s.coordinates.iter().map(polynomial).collect::<Vec<_>>(),
+            "divisor": polynomial(&s.divisor),
+        })).collect::<Vec<_>>(),
+        "turns": turns.collect::<Vec<_>>(),
+    })
+}
+
 /// The same as data.
 #[must_use]
 pub fn value(found: &Certified) -> Value {
@@ -141,7 +165,7 @@ pub fn value(found: &Certified) -> Value {
     json!({
         "verdict": every.verdict.word(),
         "claim": claim(every),
-        "half_tangents": every.cone.is_some() && every.seen,
+        "half_tangents": every.seen && every.cone.is_some() || every.derivative.is_some(),
         "exponent": every.exponent.as_ref().map(|e| decimal(e, false, PLACES)),
         "cone": cone,
         "witness": every.witness.and_then(|k| found.points.get(k)).map(super::words::addresses),
@@ -152,6 +176,7 @@ pub fn value(found: &Certified) -> Value {
             "eigenvalues": o.leading.iter().map(super::json::root_value).collect::<Vec<_>>(),
             "reason": o.reason,
         })),
+        "derivative": every.hodograph.as_ref().map(derivative),
         "reason": every.reason,
     })
 }

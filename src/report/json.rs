@@ -11,7 +11,8 @@ use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Outcome, PointReport, Position, Rate, Role, Side, Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Role, Side, Verdict,
+    Witness,
 };
 use serde_json::{Value, json};
 
@@ -28,6 +29,7 @@ pub fn report(case: &Case, found: &Certified) -> Value {
         "verdict": found.verdict.word(),
         "claim": found.claims.first().map(|c| claims::assertion(&c.what)),
         "claims": found.claims.iter().map(|c| claim(case, found, c)).collect::<Vec<_>>(),
+        "limits": found.limits().iter().map(limit).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
         "every_point": super::every::value(found),
         "points": match &found.surface {
@@ -149,6 +151,15 @@ pub fn refusal(name: &str, problem: &Problem) -> Value {
             "help": problem.remedy(),
         },
     })
+}
+
+fn limit(limit: &Limit) -> Value {
+    match limit {
+        Limit::Cells { branch, cell } => {
+            json!({ "limit": limit.name(), "branch": branch.to_string(), "cell": word_text(cell) })
+        }
+        _ => json!({ "limit": limit.name() }),
+    }
 }
 
 fn claim(case: &Case, found: &Certified, c: &Claim) -> Value {

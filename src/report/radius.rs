@@ -1,9 +1,10 @@
 //! Joint spectral radii, regularity and cones as text for a terminal.
 
 use crate::arith::{Integer, Interval, Rational, abs};
-use crate::radius::{Growth, JointRadius, Proof};
+use crate::radius::{BlockProof, Ended, Growth, JointRadius, Leading, Lower, Proof};
 use crate::shape::word_text;
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor, Pow};
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// Places after the point.
@@ -38,16 +39,25 @@ pub fn interval(x: &Interval) -> String {
 pub fn joint_radius(radius: &JointRadius) -> String {
     let mut out = String::new();
     let Some(lower) = &radius.lower else {
-        return match radius.exact {
-            true => "joint spectral radius 0: all long products vanish\n".to_owned(),
-            false => "joint spectral radius: not decided\n".to_owned(),
+        let _ = match (radius.exact, &radius.upper) {
+            (true, _) => writeln!(out, "joint spectral radius 0: all long products vanish"),
+            (false, Some(upper)) => {
+                let upper = decimal(upper, true, PLACES);
+                writeln!(
+                    out,
+                    "radius      at most {upper}  (no cyclic word with a product that is not nilpotent was found)"
+                )
+            }
+            (false, None) => writeln!(out, "joint spectral radius: not decided"),
         };
+        blocks(&mut out, radius);
+        out.push_str(stopped(radius));
+        return out;
     };
     let value = lower.enclosure(64);
-    let root = lower.root.minpoly().primitive_display("x");
     let power = if lower.length == 1 { String::new() } else { format!(" to the power 1/{}", lower.length) };
     let _ = writeln!(out, "word        {} ({} letters)", word_text(&lower.word), lower.length);
-    let _ = writeln!(out, "eigenvalue  root of {root}, its modulus{power}");
+    let _ = writeln!(out, "eigenvalue  {}, its modulus{power}", eigenvalue(lower));
     match (&radius.upper, radius.exact) {
         (_, true) => _ = writeln!(out, "radius      = {}  (proved: the word attains it)", interval(&value)),
         (Some(upper), false) => {
@@ -71,21 +81,103 @@ pub fn joint_radius(radius: &JointRadius) -> String {
             Growth::Unknown => "not decided".to_owned(),
         }
     );
+    blocks(&mut out, radius);
+    out.push_str(stopped(radius));
+    out
+}
+
+/// The eigenvalue of a word: by its minimal polynomial, or by a disc.
+fn eigenvalue(lower: &Lower) -> String {
+    match &lower.eigenvalue {
+        Leading::Exact(root) => format!("root of {}", root.minpoly().primitive_display("x")),
+        Leading::Disc(disc) => {
+            let place = |x: &Rational| format!("[{}, {}]", decimal(x, false, PLACES), decimal(x, true, PLACES));
+            let (x, y) = &disc.centre;
+            let error = decimal(&disc.error, true, 2 * PLACES);
+            format!("within {error} of {} + {} i", place(x), place(y))
+        }
+    }
+}
+
+fn blocks(out: &mut String, radius: &JointRadius) {
     for (k, block) in radius.blocks.iter().enumerate() {
-        let proof = match &block.proof {
-            Some(Proof::Polytope(p)) => format!("polytope of {} points", p.points.len()),
-            Some(Proof::Quadratic(_)) => "quadratic norm".to_owned(),
-            Some(Proof::Balanced(p)) => format!("complex balanced polytope of {} points", p.points.len()),
-            Some(Proof::Tree(t)) => {
-                format!("norms of the {} words of a tree", t.codes.iter().map(Vec::len).sum::<usize>())
-            }
-            None => "no proof".to_owned(),
-        };
+        let proof = block.proof.as_ref().map_or_else(|| "no proof".to_owned(), proof_words);
         let bound = block.bound.as_ref().map_or_else(|| "-".to_owned(), |b| decimal(b, true, PLACES));
         let bound = if block.attains { "the radius".to_owned() } else { bound };
         let _ = writeln!(out, "block {k}     dimensions {:?}: {proof}, at most {bound}", block.block.system.dims);
     }
-    out
+}
+
+/// What a proof is.
+#[must_use]
+pub fn proof_words(proof: &Proof) -> String {
+    match proof {
+        Proof::Polytope(p) => format!("polytope of {} points", p.points.len()),
+        Proof::Quadratic(_) => "quadratic norm".to_owned(),
+        Proof::Balanced(p) => format!("complex balanced polytope of {} points", p.points.len()),
+        Proof::Tree(t) if t.codes.iter().flatten().all(|w| w.len() == 1) => "norms of the letters".to_owned(),
+        Proof::Tree(t) => format!("norms of the {} words of a tree", t.codes.iter().map(Vec::len).sum::<usize>()),
+        Proof::Transposed(inner) => format!("{}, of the transposed matrices", proof_words(inner)),
+    }
+}
+
+/// Why the search ended without the exact radius, and what more effort would try.
+fn stopped(radius: &JointRadius) -> &'static str {
+    match radius.ended {
+        Ended::Done => "",
+        Ended::Exhausted => {
+            "stopped     every method reached its limits; --time 60 tries larger polytopes and more words, --longest 32 longer words\n"
+        }
+        Ended::Work => "stopped     the work set aside is spent; --time 60 goes on\n",
+        Ended::Clock => {
+            "stopped     by the clock, so that another run may print other bounds; a larger --time goes on\n"
+        }
+    }
+}
+
+/// The same as data.
+#[must_use]
+pub fn radius_json(name: &str, radius: &JointRadius) -> Value {
+    let bounds = radius.enclosure(64);
+    let text = |x: &Rational, up: bool| decimal(x, up, 18);
+    let word = radius.lower.as_ref().map(|l| {
+        let polynomial = l.root().map(|r| r.minpoly().primitive_display("x"));
+        json!({"letters": l.word, "length": l.length, "polynomial": polynomial})
+    });
+    let (growth, block) = match radius.growth {
+        Growth::Bounded => ("bounded", None),
+        Growth::Unbounded(size) => ("marginal", Some(size)),
+        Growth::Unknown => ("undecided", None),
+    };
+    let own = |b: &BlockProof| {
+        json!({
+            "dimensions": b.block.system.dims,
+            "proof": b.proof.as_ref().map(proof_words),
+            "upper": b.bound.as_ref().map(|x| text(x, true)),
+            "attains": b.attains,
+        })
+    };
+    json!({
+        "name": name,
+        "exact": radius.exact,
+        "lower": bounds.as_ref().map(|b| text(&b.lo, false)).or_else(|| radius.lower.as_ref().map(|l| text(&l.enclosure(64).lo, false))),
+        "upper": bounds.as_ref().map(|b| text(&b.hi, true)),
+        "rational": match (radius.exact, &radius.lower) {
+            (true, Some(lower)) => lower.rational().map(|x| x.to_string()),
+            (true, None) => Some("0".to_owned()),
+            (false, _) => None,
+        },
+        "word": word,
+        "growth": growth,
+        "jordan_block": block,
+        "blocks": radius.blocks.iter().map(own).collect::<Vec<_>>(),
+        "ended": match radius.ended {
+            Ended::Done => "done",
+            Ended::Exhausted => "limits",
+            Ended::Work => "work",
+            Ended::Clock => "clock",
+        },
+    })
 }
 
 #[cfg(test)]

@@ -48,6 +48,10 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
         Verdict::Undetermined => ": some claim is neither proved nor refuted.",
     }));
     blocks.push(Block::Paragraph(verdict));
+    let limits: Vec<Line> = found.limits().iter().map(|limit| words(claims::limit(limit))).collect();
+    if !limits.is_empty() {
+        blocks.push(Block::List(limits));
+    }
     Document { title: case.name.clone(), blocks }
 }
 

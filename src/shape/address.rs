@@ -108,7 +108,7 @@ impl Address {
                             && states[loop_start + k] == states[loop_start + (k + p) % cycle.len()]
                     })
             })
-            .unwrap_or(cycle.len());
+            .map_or(cycle.len(), |p| p);
         let mut cycle = cycle[..period].to_vec();
         let mut prefix = letters[..loop_start].to_vec();
         // Fold trailing prefix letters into the cycle while both the letter and the state agree.
@@ -140,12 +140,43 @@ impl fmt::Display for Address {
     }
 }
 
+/// A word `u v^k`, `k ≥ 3`, as `u`, `v` and `k`: the `v` at the end for which the repetition is longest, and the shortest of
+/// these.
+#[must_use]
+pub fn repetition(word: &[usize]) -> Option<(&[usize], &[usize], usize)> {
+    let n = word.len();
+    let periodic = |period: usize| (0..n - period).rev().take_while(|&k| word[k] == word[k + period]).count() + period;
+    let best =
+        (1..=n / 3).map(|period| (periodic(period), period)).max_by_key(|&(length, p)| (length / p * p, n - p))?;
+    let (times, period) = (best.0 / best.1, best.1);
+    (times >= 3).then(|| (&word[..n - times * period], &word[n - period..], times))
+}
+
+/// Longest word that is always written letter by letter.
+const LONG: usize = 24;
+
+/// A cell in words: long words that end in a repetition are written with a power, as in `0 1^2000`.
+#[must_use]
+pub fn cell_text(word: &[usize]) -> String {
+    match repetition(word) {
+        Some((head, cycle, times)) if word.len() > LONG && head.len() + cycle.len() < word.len() / 2 => {
+            let cycle = if cycle.len() == 1 { word_text(cycle) } else { format!("({})", word_text(cycle)) };
+            let head = if head.is_empty() { String::new() } else { format!("{} ", cell_text(head)) };
+            format!("{head}{cycle}^{times}")
+        }
+        _ => word_text(word),
+    }
+}
+
 /// A word written as one digit a letter, or with commas where a letter needs two digits.
 #[must_use]
 pub fn word_text(word: &[usize]) -> String {
     let sep = if word.iter().any(|&i| i > 9) { "," } else { "" };
     word.iter().map(ToString::to_string).collect::<Vec<_>>().join(sep)
 }
+
+/// Most short cycles of a state whose fixed points are computed.
+const MAX_CYCLES: usize = 40;
 
 impl Shape {
     /// The states passed when `word` is read from `start`: `word.len() + 1` of them.
@@ -176,6 +207,26 @@ impl Shape {
             state = piece.target;
         }
         (product, state)
+    }
+
+    /// The fixed points of the words of one and two letters that lead back to a state; none of those that are not unique.
+    #[must_use]
+    pub fn short_cycles(&self, state: usize) -> Vec<(Address, Vec<crate::arith::Rational>)> {
+        let letters = |e: usize| 0..self.states[e].pieces.len();
+        let target = |e: usize, i: usize| self.states[e].pieces[i].target;
+        let one = letters(state).filter(|&i| target(state, i) == state).map(|i| vec![i]);
+        let two = letters(state)
+            .flat_map(|i| letters(target(state, i)).map(move |j| (i, j)))
+            .filter(|&(i, j)| i != j && target(target(state, i), j) == state)
+            .map(|(i, j)| vec![i, j]);
+        let mut found = Vec::new();
+        for word in one.chain(two).take(MAX_CYCLES) {
+            let address = Address::periodic(word);
+            if let Some(point) = self.point(state, &address) {
+                found.push((address, point));
+            }
+        }
+        found
     }
 
     /// The point with a normalised address: `T_prefix q` with `q` the fixed point of `T_cycle`.

@@ -128,7 +128,7 @@ pub fn contraction_within(
     let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> =
         shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim))).collect();
     let (mut length, mut count) = (0, 0);
-    let largest = shape.states.iter().map(|s| s.dim).max().unwrap_or(1);
+    let largest = shape.states.iter().map(|s| s.dim).fold(1, usize::max);
     let budget = words.min(work / largest.pow(3).max(1));
     while !open.is_empty() {
         length += 1;
@@ -178,7 +178,7 @@ impl Contracting {
             sharpen_code(shape, from, code);
         }
         let words = || self.codes.iter().flatten();
-        self.length = words().map(|c| c.word.len()).max().unwrap_or(0);
+        self.length = words().map(|c| c.word.len()).fold(0, usize::max);
         self.constant = words().map(|c| c.tau.clone()).max().unwrap_or_else(|| Rational::from(0));
     }
 }

@@ -48,6 +48,18 @@ pub enum CurveError {
         /// Where it begins.
         begins: Vec<Rational>,
     },
+    /// An end of a piece is not one point.
+    #[error(
+        "an end of piece {piece} of state `{state}` is not one point: a fixed point is not unique, or nothing leads to it"
+    )]
+    NoEnd {
+        /// Name of the state.
+        state: String,
+        /// Index of the state.
+        index: usize,
+        /// The piece.
+        piece: usize,
+    },
     /// A boundary identity fails.
     #[error(
         "state `{state}`: the identity {identity} fails; entry ({row}, {column}) of the left side minus the right side is {residual}"
@@ -140,11 +152,13 @@ impl Shape {
             }
             self.check_identities(e)?;
             let pieces = &self.states[e].pieces;
-            let outer = |p: &Piece, end: End| {
-                self.end_point(p.target, end.in_piece(p)).map(|x| p.op.apply(&x)).unwrap_or_default()
+            let outer = |piece: usize, end: End| {
+                let p = &pieces[piece];
+                let point = self.end_point(p.target, end.in_piece(p)).map(|x| p.op.apply(&x));
+                point.ok_or_else(|| CurveError::NoEnd { state: self.states[e].name.clone(), index: e, piece })
             };
-            for (k, pair) in pieces.windows(2).enumerate() {
-                let (ends, begins) = (outer(&pair[0], End::Finish), outer(&pair[1], End::Start));
+            for k in 0..pieces.len() - 1 {
+                let (ends, begins) = (outer(k, End::Finish)?, outer(k + 1, End::Start)?);
                 if ends != begins {
                     let state = self.states[e].name.clone();
                     return Err(CurveError::Apart { state, index: e, piece: k + 1, ends, begins });

@@ -2,7 +2,7 @@
 
 use super::contraction::{Contracting, norm1};
 use super::hull::{Hulls, hulls};
-use super::{Contraction, Shape, Spaces, difference};
+use super::{Contraction, OwnPoints, Polytopes, Shape, Spaces, Weights, difference};
 use crate::arith::{Interval, Rational};
 use crate::linalg::dot;
 
@@ -11,8 +11,13 @@ use crate::linalg::dot;
 pub struct Balls {
     radius: Vec<Rational>,
     hulls: Option<Hulls>,
+    /// How the images of the vertices of the hulls are combined, where that was found with them.
+    weights: Option<HullWeights>,
     simplex: bool,
 }
+
+/// By state, piece and vertex of the hull of its target: the image of the vertex as a convex combination of vertices.
+pub type HullWeights = Vec<Vec<Vec<Weights>>>;
 
 impl Balls {
     /// What encloses the attractors where contraction is proved: balls, or polytopes with balls around them.
@@ -25,14 +30,14 @@ impl Balls {
                 for e in shape.reachable() {
                     radius[e] = round_up(&proof.reach(e, &spaces.of(e).base));
                 }
-                Some(Self { radius, hulls: Some(proof.vertices.clone()), simplex: false })
+                Some(Self { radius, hulls: Some(proof.vertices.clone()), weights: None, simplex: false })
             }
             Contraction::Product(proof) => {
                 let mut radius = vec![Rational::from(0); shape.states.len()];
                 for e in shape.reachable() {
                     radius[e] = round_up(&(&proof.radius + norm1(&difference(&spaces.of(e).base, &proof.centre))));
                 }
-                Some(Self { radius, hulls: None, simplex: false })
+                Some(Self { radius, hulls: None, weights: None, simplex: false })
             }
             Contraction::Refuted { .. } | Contraction::Undetermined { .. } => None,
         }
@@ -66,13 +71,30 @@ impl Balls {
                 })
                 .collect();
         }
-        Self { radius, hulls: None, simplex: false }
+        Self { radius, hulls: None, weights: None, simplex: false }
     }
 
     /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
     #[must_use]
     pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
-        Some(Self { radius: self.radius.clone(), hulls: Some(hulls(shape, spaces)?), simplex: self.simplex })
+        if shape.reachable().iter().any(|e| spaces.of(*e).basis.cols() > 2) {
+            return None;
+        }
+        let found = own_hulls(shape, spaces).or_else(|| hulls(shape, spaces))?;
+        Some(Self { hulls: Some(found), weights: None, ..self.clone() })
+    }
+
+    /// The same balls with polytopes inside which the attractors lie as well.
+    #[must_use]
+    pub fn with_polytopes(&self, polytopes: &Polytopes) -> Self {
+        let (hulls, weights) = (Some(polytopes.vertices.clone()), Some(polytopes.weights.clone()));
+        Self { hulls, weights, ..self.clone() }
+    }
+
+    /// How the images of the vertices of the hulls are combined, where that is known.
+    #[must_use]
+    pub fn hull_weights(&self) -> Option<&HullWeights> {
+        self.weights.as_ref()
     }
 
     /// The same balls together with the simplex of the coordinates, which holds the attractors where all operators of the
@@ -127,6 +149,14 @@ impl Balls {
             _ => ball,
         }
     }
+}
+
+/// Polygons found in coordinates by own points, so that they do not depend on units.
+fn own_hulls(shape: &Shape, spaces: &Spaces) -> Option<Hulls> {
+    let own = OwnPoints::of(shape, spaces)?;
+    let inner = own.shape(shape)?;
+    let found = hulls(&inner, &Spaces::new(&inner)?)?;
+    Some(found.iter().enumerate().map(|(e, polygon)| own.outwards(e, polygon)).collect())
 }
 
 /// `max − min` of the entries.

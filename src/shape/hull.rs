@@ -142,7 +142,7 @@ fn float_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     while hull.len() > MAX_VERTICES {
         let n = hull.len();
         let area = |i: usize| cross(hull[(i + n - 1) % n], hull[i], hull[(i + 1) % n]).abs();
-        let least = (0..n).min_by(|&i, &j| area(i).total_cmp(&area(j))).unwrap_or(0);
+        let least = (0..n).min_by(|&i, &j| area(i).total_cmp(&area(j))).map_or(0, |k| k);
         hull.remove(least);
     }
     hull

@@ -239,7 +239,7 @@ impl Layout {
             Self::Quad { .. } => &["bottom", "right", "top", "left"],
             Self::Triangle => &["01", "12", "02"],
         };
-        names.get(side).copied().unwrap_or("?")
+        names.get(side).map_or("?", |name| *name)
     }
 
     fn division(self) -> Division {

@@ -1,4 +1,5 @@
 //! Shapes: automata of exact operators, their addresses, the space they span, and where they lie.
+#![deny(clippy::disallowed_methods)]
 
 mod address;
 mod contraction;
@@ -6,21 +7,24 @@ mod curve;
 mod enclosure;
 mod hull;
 mod identities;
+mod links;
 mod model;
+mod own;
 mod polytope;
 mod sample;
 mod space;
 mod unknown;
 
-pub use address::{Address, AddressError, fixed_point, word_text};
+pub use address::{Address, AddressError, cell_text, fixed_point, repetition, word_text};
 pub use contraction::{
     Contracting, ContractingWord, Contraction, MAX_WORDS, ProductContraction, contraction, contraction_within,
     dobrushin, linear_part, norm1,
 };
 pub use curve::{CurveError, End};
-pub use enclosure::{Balls, oscillation};
+pub use enclosure::{Balls, HullWeights, oscillation};
 pub use identities::{Complex, ComplexError, Face, Failure, Identity, IdentityKind, Layout, OpName, Reversal, Side};
 pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
+pub use own::OwnPoints;
 pub use polytope::{Polytopes, Weights};
 pub use sample::{MAX_SAMPLES, Sample, random_sample, sample};
 pub use space::{Spaces, StateSpace, difference};

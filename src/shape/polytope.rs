@@ -52,10 +52,17 @@ impl Polytopes {
         (constant < 1).then_some(Self { vertices, weights, constant })
     }
 
+    /// The same polytopes in the coordinates of a shape of which these are polytopes by its own points; the constant stays.
+    #[must_use]
+    pub fn outwards(self, own: &super::OwnPoints) -> Self {
+        let vertices = self.vertices.iter().enumerate().map(|(e, points)| own.outwards(e, points)).collect();
+        Self { vertices, ..self }
+    }
+
     /// The largest distance, in the 1-norm, of a vertex of a state from a point.
     #[must_use]
     pub fn reach(&self, state: usize, from: &[Rational]) -> Rational {
-        self.vertices[state].iter().map(|v| norm1(&difference(v, from))).max().unwrap_or_default()
+        self.vertices[state].iter().map(|v| norm1(&difference(v, from))).max().expect("a polytope has vertices")
     }
 
     /// How many vertices there are.
@@ -85,7 +92,7 @@ fn common(list: &[Weights], count: usize) -> Rational {
         all
     };
     let least = list.iter().map(column).reduce(|a, b| a.into_iter().zip(b).map(|(x, y)| x.min(y)).collect());
-    least.unwrap_or_default().into_iter().fold(Rational::from(0), |s, x| s + x)
+    least.into_iter().flatten().fold(Rational::from(0), |s, x| s + x)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::{Address, Shape, fixed_point};
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, closures};
 
 /// The span of the differences of the attractor of one state.
 #[derive(Debug, Clone)]
@@ -108,22 +108,9 @@ fn close_spans(shape: &Shape, reachable: &[usize], base: &BasePoints) -> Vec<Mat
         let rows = shape.states[e].pieces.iter().map(|p| difference(&p.op.apply(point(p.target)), point(e))).collect();
         spans[e] = Matrix::from_rows(shape.states[e].dim, rows).echelon().rows;
     }
-    loop {
-        let mut grown = false;
-        for &e in reachable {
-            for piece in &shape.states[e].pieces {
-                let images = &spans[piece.target] * &piece.op.transpose();
-                let joined = spans[e].stack(&images).echelon().rows;
-                if joined.rows() > spans[e].rows() {
-                    spans[e] = joined;
-                    grown = true;
-                }
-            }
-        }
-        if !grown {
-            return spans;
-        }
-    }
+    let pieces = reachable.iter().flat_map(|&e| shape.states[e].pieces.iter().map(move |p| (e, p)));
+    let arrows: Vec<_> = pieces.map(|(e, p)| (p.target, e, p.op.transpose())).collect();
+    closures(spans, &arrows)
 }
 
 /// The row spaces `Σ_u rows(P T_u)` over all paths `u` from the start.
@@ -131,21 +118,9 @@ fn close_rows(shape: &Shape, reachable: &[usize]) -> Vec<Matrix> {
     let mut rows: Vec<Matrix> = shape.states.iter().map(|s| Matrix::zero(0, s.dim)).collect();
     let start = shape.start;
     rows[start] = shape.view().echelon().rows;
-    loop {
-        let mut grown = false;
-        for &e in reachable {
-            for piece in &shape.states[e].pieces {
-                let joined = rows[piece.target].stack(&(&rows[e] * &piece.op)).echelon().rows;
-                if joined.rows() > rows[piece.target].rows() {
-                    rows[piece.target] = joined;
-                    grown = true;
-                }
-            }
-        }
-        if !grown {
-            return rows;
-        }
-    }
+    let pieces = reachable.iter().flat_map(|&e| shape.states[e].pieces.iter().map(move |p| (e, p)));
+    let arrows: Vec<_> = pieces.map(|(e, p)| (e, p.target, &p.op)).collect();
+    closures(rows, &arrows)
 }
 
 /// `a − b`, entry by entry.

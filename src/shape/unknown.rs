@@ -290,7 +290,7 @@ impl Problem {
                     (value.clone(), (0..free.len()).filter_map(|k| Some((k, slope(k)?))).collect())
                 }
                 None => {
-                    let k = free.iter().position(|f| f == unknown).unwrap_or_default();
+                    let k = free.iter().position(|f| f == unknown).expect("an unknown is a pivot or free");
                     (Rational::from(0), vec![(k, Rational::from(1))])
                 }
             };
@@ -322,7 +322,7 @@ fn eliminate(equations: &[Equation], used: &[bool]) -> Option<BTreeMap<usize, (R
         let (mut row, mut right) = (equation.row.clone(), equation.right.clone());
         let known: Vec<usize> = row.keys().copied().filter(|u| pivots.contains_key(u)).collect();
         for unknown in known {
-            let factor = row.remove(&unknown).unwrap_or_default();
+            let factor = row.remove(&unknown).expect("a key of the row");
             let (rest, value) = &pivots[&unknown];
             subtract(&mut row, &mut right, &factor, rest, value);
         }
@@ -438,14 +438,7 @@ impl Forced {
     /// Takes off the largest invariant subspace in the kernel of all derivatives.
     fn split(&mut self) {
         let n = self.free.rows();
-        let mut rows = self.derivatives.iter().fold(Matrix::zero(0, n), |all, d| all.stack(d)).echelon().rows;
-        loop {
-            let more = rows.stack(&(&rows * &self.free)).echelon().rows;
-            if more.rows() == rows.rows() {
-                break;
-            }
-            rows = more;
-        }
+        let rows = self.derivatives.iter().fold(Matrix::zero(0, n), |all, d| all.stack(d)).closure(&[&self.free]);
         let kernel = rows.kernel();
         let k = kernel.cols();
         if k == 0 {
@@ -468,5 +461,5 @@ impl Forced {
 
 /// The column of the leading one of a row of an echelon form.
 fn rows_pivot(rows: &Matrix, row: usize) -> usize {
-    rows.row(row).iter().position(|x| *x != 0).unwrap_or_default()
+    rows.row(row).iter().position(|x| *x != 0).expect("a row of an echelon form is not 0")
 }

@@ -2,6 +2,7 @@
 
 use super::direction::Direction;
 use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
+use super::sign::changes_sign;
 use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side};
 use super::viewpoint::Viewpoint;
 use crate::algebraic::{Elem, Root};
@@ -9,7 +10,7 @@ use crate::arith::Rational;
 use crate::budget::Budget;
 use crate::jordan::{Chain, Factor, Spectrum};
 use crate::linalg::Matrix;
-use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference};
+use crate::shape::{Address, Balls, CellKind, HullWeights, Shape, Spaces, difference};
 use crate::statement::Statement;
 use std::cell::OnceCell;
 
@@ -33,8 +34,12 @@ impl Context<'_> {
     /// The convex polygons by state, where they were made.
     pub(super) fn polygons(&self) -> Option<Vec<Vec<Vec<Rational>>>> {
         let balls = self.hulls.get()?.as_ref()?;
-        let polygon = |e: usize| balls.hull(e).map(<[_]>::to_vec).unwrap_or_default();
-        Some((0..self.shape.states.len()).map(polygon).collect())
+        (0..self.shape.states.len()).map(|e| balls.hull(e).map(<[_]>::to_vec)).collect()
+    }
+
+    /// How the images of their vertices are combined, where that was found with them.
+    pub(super) fn polygon_weights(&self) -> Option<HullWeights> {
+        self.hulls.get()?.as_ref()?.hull_weights().cloned()
     }
 }
 
@@ -48,14 +53,7 @@ struct Quotient {
 
 impl Quotient {
     pub fn new(view: &Matrix, linear: &Matrix) -> Self {
-        let mut rows = view.echelon();
-        loop {
-            let grown = rows.rows.stack(&(&rows.rows * linear)).echelon();
-            if grown.pivots.len() == rows.pivots.len() {
-                break;
-            }
-            rows = grown;
-        }
+        let rows = view.closure(&[linear]).echelon();
         let lift =
             Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| Rational::from(u8::from(rows.pivots[k] == i)));
         Self { chart: rows.rows, lift }
@@ -154,7 +152,7 @@ fn invertible_rows(m: &Matrix) -> Matrix {
     }
 }
 
-fn power(m: &Matrix, exponent: usize) -> Matrix {
+pub(super) fn power(m: &Matrix, exponent: usize) -> Matrix {
     (0..exponent).fold(Matrix::identity(m.rows()), |p, _| &p * m)
 }
 
@@ -209,15 +207,15 @@ impl Analysis<'_> {
     /// The ring condition with balls, then with polygons where there are any.
     fn decide(&self, functionals: &[Functional]) -> RingAnswer {
         let small = self.branch.relevant <= 2;
-        let answer =
-            self.ring().decide(functionals, if small { self.cx.budget.first_cells } else { self.cx.budget.cells });
-        if !small || !matches!(answer, RingAnswer::Open { .. }) {
+        let cx = self.cx;
+        let answer = self.ring().decide(functionals, if small { cx.budget.first_cells } else { cx.budget.cells });
+        if !matches!(answer, RingAnswer::Open { .. }) {
             return answer;
         }
-        let cx = self.cx;
-        match cx.hulls.get_or_init(|| cx.balls.with_hulls(cx.shape, cx.spaces)) {
+        match cx.hulls.get_or_init(|| super::own_enclosures(cx.shape, cx.spaces, cx.balls)) {
             Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, self.cx.budget.cells),
-            None => self.ring().decide(functionals, self.cx.budget.cells),
+            None if small => self.ring().decide(functionals, self.cx.budget.cells),
+            None => answer,
         }
     }
 
@@ -305,9 +303,9 @@ impl Analysis<'_> {
         let line = |statement, proof: Option<RingProof>| {
             let direction = self.direction(top).normalised();
             let flip = self.sense(top, &direction);
-            let rays = match &proof {
-                Some(proof) => self.rays(top, &direction, flip, proof),
-                None => Rays { left: Vec::new(), right: Vec::new() },
+            let rays = match (&proof, flip) {
+                (Some(proof), Some(flip)) => self.rays(top, &direction, flip, proof),
+                _ => Rays { left: Vec::new(), right: Vec::new() },
             };
             Outcome::Line {
                 statement,
@@ -360,32 +358,58 @@ impl Analysis<'_> {
             witness: Some(witness),
         };
         let (place, witness) = match answer {
-            RingAnswer::Open { place } => return open("the ring condition is not decided in this cell", Some(place)),
-            RingAnswer::Fails(witness @ Witness::Point { .. }) => (None, Some(witness)),
-            RingAnswer::Fails(witness) => (None, Some(witness)),
-            RingAnswer::Holds(_) => (None, None),
+            RingAnswer::Open { place } => (place, None),
+            RingAnswer::Fails(witness) => (Vec::new(), Some(witness)),
+            RingAnswer::Holds(_) => return open("the ring condition is not decided", None),
         };
-        let Some(witness) = witness else { return open("the ring condition is not decided", place) };
-        if top.block == 1 && injective {
-            return refuted(Statement::Theorem4, witness);
-        }
-        if let Witness::Point { offset, .. } = &witness
-            && self.leaves_line(top, offset)
-        {
-            return refuted(Statement::Theorem4, witness);
-        }
-        if top.block == 2 && injective && self.is_single_block(top) {
-            let c1 = Functional { row: second_functional(top.factor), ..functional.clone() };
-            if let Some(crossing) = self.ring().crossing(&c1, functional, self.cx.budget.cells) {
-                return refuted(Statement::Section6, crossing);
+        if let Some(witness) = &witness {
+            let leaves = matches!(witness, Witness::Point { offset, .. } if self.leaves_line(top, offset));
+            // On a set a change of sign is one on a piece that is connected: Theorem 4′.
+            let ordered = self.seen.iter().all(|p| p.position != Position::Unordered);
+            let zero = ordered || matches!(witness, Witness::Point { .. });
+            if leaves || top.block == 1 && injective && zero {
+                return refuted(Statement::Theorem4, witness.clone());
+            }
+            if top.block == 2 && injective && self.is_single_block(top) {
+                let c1 = Functional { row: second_functional(top.factor), ..functional.clone() };
+                if let Some(crossing) = self.ring().crossing(&c1, functional, self.cx.budget.cells) {
+                    return refuted(Statement::Section6, crossing);
+                }
             }
         }
+        // On the parts of a curve the search for a change of sign was part of the ring condition.
+        if (witness.is_some() || self.seen.iter().any(|p| p.position == Position::Unordered))
+            && let Some((proof, change)) = self.changes_sign(functional, &isolation, witness.as_ref())
+        {
+            return Outcome::AtLeast {
+                dimension: 2,
+                statement: Statement::Theorem4Sign,
+                eigenvalues: top.longest.clone(),
+                isolation: Some(proof),
+                witness: Some(change),
+            };
+        }
+        let Some(witness) = witness else {
+            return open("the ring condition is not decided in this cell", Some(place));
+        };
         let place = match witness {
             Witness::Point { address, .. } => address.prefix.into_iter().chain(address.cycle).collect(),
             Witness::SignChange { positive, .. } => positive.prefix.into_iter().chain(positive.cycle).collect(),
             Witness::Crossing { positive, .. } => positive.prefix,
         };
         open("the ring condition fails, but what follows for the tangent is not decided", Some(place))
+    }
+
+    /// Theorem 4′.
+    fn changes_sign(
+        &self,
+        functional: &Functional,
+        isolation: &RingProof,
+        known: Option<&Witness>,
+    ) -> Option<(RingProof, Witness)> {
+        let b = self.branch;
+        let decide = |functionals: &[Functional]| self.decide(functionals);
+        changes_sign(&self.ring(), &decide, (&b.spectrum, &b.linear, &b.view), functional, isolation, known)
     }
 
     /// Whether `E_1` is exactly one real block.
@@ -427,17 +451,17 @@ impl Analysis<'_> {
 
     /// The sign `s` such that points with a positive functional tend to `s` times the given ray: it compares the functional
     /// with the top of the longest chain, and the normalised direction with `G v`.
-    fn sense(&self, top: &Top, direction: &Direction) -> i32 {
+    fn sense(&self, top: &Top, direction: &Direction) -> Option<i32> {
         let f = &top.factor.poly;
         let chain = longest_chain(&top.factor.right, top.block);
         let row = leading_functional(top.factor, top.block);
         let last = &chain.vectors[top.block - 1];
         let zero = Elem::from_rational(&Rational::from(0));
         let pairing = row.iter().zip(last).fold(zero, |s, (a, b)| s.add(&a.mul(b, f)));
-        let orientation = self.direction(top).same_line(direction).unwrap_or(0);
+        let orientation = self.direction(top).same_line(direction)?;
         // λ^{-ℓ} in the leading coefficient u.
         let parity = if top.block.is_multiple_of(2) { top.root.sign() } else { 1 };
-        pairing.sign(top.root) * orientation * parity
+        Some(pairing.sign(top.root) * orientation * parity)
     }
 
     /// The limit rays per side of the point: the signs on the ring, closed under the map of one turn.
@@ -588,6 +612,6 @@ fn rate(spectrum: &Spectrum, top: &Top) -> Rate {
     if slower.is_zero() {
         return Rate::Exact;
     }
-    let longest = next.members.iter().map(|m| spectrum.factors[m.factor].blocks[0]).max().unwrap_or(1);
+    let longest = next.members.iter().map(|m| spectrum.factors[m.factor].blocks[0]).fold(1, usize::max);
     Rate::Geometric { slower: slower.clone(), dominant: top.root.clone(), power: longest - 1 }
 }

@@ -1,6 +1,6 @@
 //! What is claimed, and what the answers rest on, as data. The words are in [`crate::report::claims`].
 
-use super::verdict::About;
+use super::verdict::{About, BranchReport, Certified, Outcome};
 use crate::answer::{Answer, Verdict};
 use crate::arith::Rational;
 use crate::shape::Address;
@@ -85,6 +85,10 @@ pub enum Assertion {
     ExaminedJoints,
     /// The projected curve has a tangent line at every joint whose tangent line is not killed (Theorem 5′).
     ProjectedJoints,
+    /// The same at every joint between pieces that are more than a point where they are looked at (Theorem 11).
+    SeenJoints,
+    /// The curve has a tangent line at every joint whose tangent line is not killed where it is looked at (Theorem 11′).
+    UnkilledJoints,
     /// There is a tangent line at the address.
     TangentAt {
         /// The address, normalised.
@@ -147,6 +151,8 @@ impl Assertion {
             Self::DenseJoints => "dense-joints",
             Self::ExaminedJoints => "examined-joints",
             Self::ProjectedJoints => "projected-joints",
+            Self::SeenJoints => "seen-joints",
+            Self::UnkilledJoints => "unkilled-joints",
             Self::TangentAt { .. } => "tangent-at",
             Self::SomePoint => "some-point",
             Self::G1 => "g1",
@@ -163,13 +169,13 @@ impl Assertion {
     /// Whether it is about all joints of a curve, or those examined: the question `joints` of a certificate.
     #[must_use]
     pub fn is_of_joints(&self) -> bool {
-        matches!(self, Self::DenseJoints | Self::ExaminedJoints | Self::ProjectedJoints)
+        *self == Self::ExaminedJoints || self.is_of_dense_joints()
     }
 
-    /// Whether it is about a dense set of joints, by Theorem 5 or 5′.
+    /// Whether it is about a dense set of joints, by Theorem 5 or 5′, or by frames.
     #[must_use]
     pub fn is_of_dense_joints(&self) -> bool {
-        matches!(self, Self::DenseJoints | Self::ProjectedJoints)
+        matches!(self, Self::DenseJoints | Self::ProjectedJoints | Self::SeenJoints | Self::UnkilledJoints)
     }
 
     /// The address that it is about, and the index of its point in the list that belongs to it.
@@ -273,4 +279,66 @@ pub enum Reason {
     Conditions,
     /// What was found at the vertices inside a state, by the index in the `vertices` of [`super::surface::SurfaceDense`].
     VertexInside(usize),
+}
+
+/// A limit of the [`Budget`](crate::budget::Budget) that ended a search: with more, the question may be decided.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Limit {
+    /// `words` (or `work`): the products formed did not all shrink.
+    Words,
+    /// `cells`: the search in the ring of a branch ended (it may also be the places of its enclosures, which are fixed).
+    Cells {
+        /// The address of the branch.
+        branch: Address,
+        /// The cell that was left, from the state of its cycle.
+        cell: Vec<usize>,
+    },
+}
+
+impl Limit {
+    /// The field of the budget, and its option of `secant certify`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Words => "words",
+            Self::Cells { .. } => "cells",
+        }
+    }
+}
+
+impl Certified {
+    /// The limits that ended searches whose answer an undetermined claim waits for, each once.
+    #[must_use]
+    pub fn limits(&self) -> Vec<Limit> {
+        let mut all: Vec<Limit> = Vec::new();
+        for reason in self.claims.iter().filter(|c| c.verdict() == Verdict::Undetermined).filter_map(Claim::reason) {
+            for limit in self.limits_of(reason) {
+                if !all.contains(&limit) {
+                    all.push(limit);
+                }
+            }
+        }
+        all
+    }
+
+    fn limits_of(&self, reason: &Reason) -> Vec<Limit> {
+        let cells = |branch: &BranchReport| match &branch.outcome {
+            Outcome::Open { place: Some(cell), .. } => {
+                Some(Limit::Cells { branch: branch.address.clone(), cell: cell.clone() })
+            }
+            _ => None,
+        };
+        match reason {
+            Reason::Contraction { .. } | Reason::NotEnclosed { .. } => vec![Limit::Words],
+            Reason::End(k) | Reason::Point(k) | Reason::FirstJoint(k) | Reason::Joint(k) => {
+                self.points.get(*k).into_iter().flat_map(|p| &p.branches).filter_map(cells).collect()
+            }
+            Reason::BeforeProjection { joint } => {
+                let point = self.dense.as_ref().and_then(|d| d.upstairs.get(*joint));
+                point.into_iter().flat_map(|p| &p.branches).filter_map(cells).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
 }

@@ -124,6 +124,71 @@ fn closed_cone(shape: &Shape, spaces: &Spaces, frame: &Frame) -> Option<CommonCo
     proved_cone(shape, spaces, frame, &propose_closed(frame)?, MAX_WINDOW)
 }
 
+/// A complete prefix code, each word with a functional.
+pub type Code = Vec<(Vec<usize>, Vec<Rational>)>;
+
+/// Cones for Theorem 11″: of all states that can be reached from `start`, with a complete prefix code of at most `most` words of
+/// at most `longest` letters, each with a functional that is positive on its cone as it is seen through `view`, a map of `start`;
+/// the search takes at most `steps` steps of linear programs.
+pub fn cone_in_sight(
+    shape: &Shape,
+    spaces: &Spaces,
+    start: usize,
+    view: &Matrix,
+    (longest, most, steps): (usize, usize, usize),
+) -> Option<(CommonCone, Code)> {
+    let own = Shape { start, control: None, ..shape.clone() };
+    let frame = frame(&own, spaces, steps)?;
+    let proposals: [&dyn Fn() -> Option<Proposal>; 4] =
+        [&|| polygons(&own, spaces, &frame), &|| propose_closed(&frame), &|| propose(&frame, 0), &|| {
+            propose(&frame, 1)
+        }];
+    proposals.into_iter().find_map(|proposal| {
+        let cone = exact(&own, spaces, &frame, &proposal()?, true).filter(|c| c.invariant(&own, spaces))?;
+        let cone = CommonCone { window: 0, ..cone };
+        let code = code(&own, &cone, view, (longest, most))?;
+        Some((cone, code))
+    })
+}
+
+/// Rays by state, in coordinates of `V`.
+type Proposal = Vec<Vec<Vec<Rational>>>;
+
+/// The steps from each control point of a state to the next, where all of them are relevant.
+fn polygons(shape: &Shape, spaces: &Spaces, frame: &Frame) -> Option<Proposal> {
+    let of_state = |&e: &usize| {
+        let (n, space) = (shape.states[e].dim, spaces.of(e));
+        let step = |k: usize| {
+            let entry = |i: usize| Rational::from(i32::from(i == k + 1) - i32::from(i == k));
+            let v: Vec<Rational> = (0..n).map(entry).collect();
+            let local = space.coordinates.apply(&v);
+            (space.basis.apply(&local) == v).then_some(local)
+        };
+        (0..n - 1).map(step).collect::<Option<Vec<_>>>()
+    };
+    frame.states.iter().map(of_state).collect()
+}
+
+/// Words are made longer until a functional sees the cone behind each.
+fn code(shape: &Shape, cone: &CommonCone, view: &Matrix, (longest, most): (usize, usize)) -> Option<Code> {
+    let mut open: std::collections::VecDeque<Vec<usize>> = [Vec::new()].into();
+    let mut found = Vec::new();
+    while let Some(word) = open.pop_front() {
+        let (product, end) = shape.product(shape.start, &word);
+        let rays = &cone.cones.iter().find(|c| c.state == end)?.rays;
+        let images = &(view * &product) * rays;
+        let columns: Vec<Vec<Rational>> = (0..images.cols()).map(|j| images.column(j)).collect();
+        if let Some(functional) = super::cone_search::functional(&columns) {
+            found.push((word, functional));
+        } else if word.len() == longest || found.len() + open.len() >= most {
+            return None;
+        } else {
+            open.extend((0..shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
+        }
+    }
+    Some(found)
+}
+
 /// The rays with entries rounded to a few binary places.
 fn coarse(rays: &[Vec<Vec<Rational>>]) -> Vec<Vec<Vec<Rational>>> {
     let rounded = |x: &Rational| {
@@ -344,7 +409,7 @@ impl CommonCone {
     fn best_rate(&self, shape: &Shape) -> Option<ConeRate> {
         let pieces = most_pieces(shape);
         let states = shape.reachable().len();
-        let rays = self.cones.iter().map(|c| c.rays.cols()).max().unwrap_or(1);
+        let rays = self.cones.iter().map(|c| c.rays.cols()).fold(1, usize::max);
         let mut best: Option<(Rational, ConeRate)> = None;
         for length in 1..=MAX_RATE_LENGTH {
             let words = pieces.checked_pow(length).and_then(|w| w.checked_mul(states));
@@ -373,7 +438,7 @@ const MAX_RATE_LENGTH: u32 = 3;
 /// The largest number of pieces of a state.
 #[must_use]
 pub fn most_pieces(shape: &Shape) -> usize {
-    shape.reachable().iter().map(|e| shape.states[*e].pieces.len()).max().unwrap_or(1)
+    shape.reachable().iter().map(|e| shape.states[*e].pieces.len()).fold(1, usize::max)
 }
 
 /// A short number not below one that is at least 1.

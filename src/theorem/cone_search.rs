@@ -263,7 +263,7 @@ pub(super) fn share(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Rational> 
 }
 
 fn short(x: f64) -> Rational {
-    let scaled = Rational::try_from((x * 2f64.powi(20)).round()).unwrap_or_default();
+    let scaled = Rational::try_from((x * 2f64.powi(20)).round()).unwrap_or_else(|_| Rational::from(0));
     scaled / Rational::from(Integer::from(1) << 20u64)
 }
 

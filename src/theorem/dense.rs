@@ -1,12 +1,13 @@
-//! Theorem 5 and Theorem 5′: a dense set by finitely many checks.
+//! A dense set by finitely many checks: Theorems 5, 5′, and those on frames.
 
 use super::branch::Context;
 use super::claim::{Assertion, Claim, Reason};
+use super::frames::{self, FrameKind, FrameReport, Frames};
 use super::verdict::{Certified, DenseSet, PointReport, Role};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::answer::Verdict;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, closures};
 use crate::shape::CellKind;
 use crate::statement::Statement;
 
@@ -25,7 +26,7 @@ pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
     }
     let start = cx.spaces.of(cx.shape.start);
     let view_injective = (&cx.shape.view() * &start.basis).rank() == start.visible.rows();
-    DenseSet { injective, view_injective, joints, upstairs: Vec::new() }
+    DenseSet { injective, view_injective, joints, upstairs: Vec::new(), frames: None }
 }
 
 /// Adds the claims about the dense set; `count` is the number of first-level joints that there are.
@@ -40,14 +41,51 @@ pub fn claims(cx: &Context, mut dense: DenseSet, count: usize, found: &mut Certi
     } else if first == Verdict::Refuted || (folded.is_none() && dense.view_injective) {
         found.claims.push(plain(first, reason(first)));
     } else {
-        let examined = examine_deeper(cx, &dense, count, found);
-        found.claims.push(examined);
-        found.claims.push(match folded {
-            None => projected(cx, &mut dense),
-            Some((state, letter)) => Claim::open(Assertion::DenseJoints, Reason::NotInjective { state, letter }),
-        });
+        dense.frames = frames::frames(cx);
+        match dense.frames.as_ref().and_then(|frames| by_frames(cx, frames, found)) {
+            Some(claim) => found.claims.push(claim),
+            None => partly(cx, &mut dense, count, folded, found),
+        }
     }
     found.dense = Some(dense);
+}
+
+/// Theorems 11 and 11″: all joints, or one that has no tangent.
+fn by_frames(cx: &Context, frames: &Frames, found: &mut Certified) -> Option<Claim> {
+    let refuted = frames.frames.iter().find_map(|f| Some((f, f.refuted()?)));
+    if let Some((frame, joint)) = refuted {
+        let Role::Joint { path, state, left, right } = &joint.role else { return None };
+        let inner = frames::inner_path(cx.shape, frame.seen.state, *state)?;
+        // A joint of the component itself is seen from its own state, one above a code from the state of the frame.
+        let behind = if path.is_empty() { &inner } else { path };
+        let spec = point::joint_spec(cx, &[frame.path.as_slice(), behind].concat(), *left, *right);
+        let here = add_point(cx, spec, found)?;
+        let none = found.points[here].verdict == Verdict::Refuted;
+        return none.then(|| Claim::refuted(Assertion::DenseJoints, Some(Statement::Frames), Reason::Joint(here)));
+    }
+    if !frames.frames.iter().all(FrameReport::every_joint) {
+        return None;
+    }
+    let folded = frames.frames.iter().any(|f| f.kind == FrameKind::Folded);
+    let statement = if folded { Statement::FramesCones } else { Statement::Frames };
+    let what = if frames.constant { Assertion::SeenJoints } else { Assertion::DenseJoints };
+    Some(Claim::proved(what, Some(statement)))
+}
+
+/// What remains where not all joints are decided: those of the first levels, and a dense set.
+fn partly(cx: &Context, dense: &mut DenseSet, count: usize, folded: Option<(usize, usize)>, found: &mut Certified) {
+    let examined = examine_deeper(cx, dense, count, found);
+    found.claims.push(examined);
+    let by_frames = dense.frames.as_ref().is_some_and(|f| f.frames.iter().all(FrameReport::dense));
+    let by_frames = by_frames.then(|| Claim::proved(Assertion::UnkilledJoints, Some(Statement::FramesDense)));
+    let by_itself = match folded {
+        None => projected(cx, dense),
+        Some((state, letter)) => Claim::open(Assertion::DenseJoints, Reason::NotInjective { state, letter }),
+    };
+    found.claims.push(match by_frames {
+        Some(claim) if by_itself.verdict() != Verdict::Proved => claim,
+        _ => by_itself,
+    });
 }
 
 /// Examines joints of deeper levels one by one, and claims a tangent at all joints examined.
@@ -102,26 +140,19 @@ fn tangents_span(cx: &Context, upstairs: &[PointReport]) -> bool {
         let lines = upstairs.iter().filter(at_home).filter_map(|p| p.tangent.as_ref()?.rational());
         spans[e] = Matrix::from_rows(dimension(e), lines.collect()).echelon().rows;
     }
-    loop {
-        let mut grown = false;
-        for &e in &reachable {
-            for piece in &cx.shape.states[e].pieces {
-                let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
-                // `onto` factors through the quotient: solve A visible(target) = visible(e) T.
-                let Some(on_quotient) = cx.spaces.of(piece.target).visible.transpose().solve(&onto.transpose()) else {
-                    return false;
-                };
-                let joined = spans[e].stack(&(&spans[piece.target] * &on_quotient)).echelon().rows;
-                if joined.rows() > spans[e].rows() {
-                    spans[e] = joined;
-                    grown = true;
-                }
-            }
-        }
-        if !grown {
-            return reachable.iter().all(|&e| spans[e].rows() == dimension(e));
+    let mut arrows = Vec::new();
+    for &e in &reachable {
+        for piece in &cx.shape.states[e].pieces {
+            let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
+            // `onto` factors through the quotient: solve A visible(target) = visible(e) T.
+            let Some(on_quotient) = cx.spaces.of(piece.target).visible.transpose().solve(&onto.transpose()) else {
+                return false;
+            };
+            arrows.push((piece.target, e, on_quotient));
         }
     }
+    let spans = closures(spans, &arrows);
+    reachable.iter().all(|&e| spans[e].rows() == dimension(e))
 }
 
 /// Joints of the levels after the first, in breadth-first order.

@@ -6,7 +6,7 @@
 use super::regularity::{digits, minus_log};
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::Matrix;
-use crate::radius::{JointRadius, Lower, Options, Proof, System, joint_radius};
+use crate::radius::{JointRadius, Leading, Lower, Options, System, joint_radius};
 use malachite_base::num::arithmetic::traits::Square;
 
 /// The regularity of the mask `(1 + z + … + z^{N−1})^K b(z)`, with bounds that hold for every `b` in the enclosures.
@@ -48,8 +48,7 @@ fn grid(x: &Rational) -> Rational {
     Interval::point(x.clone()).outward(BITS).lo
 }
 
-/// The bound of the rational matrices, widened: a change of every entry by at most `error` adds at most
-/// `K n error max|q|` in the norm of a polytope with points `q` and `e_j ∈ K Q`.
+/// The bound of the rational matrices, widened for a change of every entry by at most `error`.
 fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rational> {
     let mut largest = Rational::from(0);
     for part in &radius.blocks {
@@ -61,25 +60,7 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
         if entries.any(|x| *x != 0 && abs(x) <= *error) {
             return None;
         }
-        // Of a complex number, |re| + |im|.
-        let (size, interior) = match part.proof.as_ref()? {
-            Proof::Polytope(p) => {
-                let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(abs)).max()?;
-                (size, p.interior(&part.block.system, 0)?)
-            }
-            Proof::Balanced(p) => {
-                let size = p.points.iter().flat_map(|q| q.coordinates.iter().map(|z| abs(&z.0) + abs(&z.1))).max()?;
-                (size, p.interior(&part.block.system, 0)?)
-            }
-            Proof::Tree(tree) => {
-                largest = largest.max(tree.bound_near(&part.block.system, error)?);
-                continue;
-            }
-            Proof::Quadratic(_) => return None,
-        };
-        let n = Rational::from(part.block.system.dims[0] as u64);
-        // ‖E q‖_1 <= n · n · error · max|q|.
-        largest = largest.max(part.bound.clone()? + interior * &n * &n * error * size);
+        largest = largest.max(part.proof.as_ref()?.bound_near(&part.block.system, error)?);
     }
     Some(largest)
 }
@@ -88,9 +69,7 @@ fn above(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
 /// difference of the matrices cannot undo.
 fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rational> {
     let lower = radius.lower.as_ref()?;
-    if !lower.root.is_real() {
-        return turning(system, lower, error);
-    }
+    let Some(root) = lower.root().filter(|r| r.is_real()) else { return turning(system, lower, error) };
     let product = system.product(&lower.path);
     let n = product.rows();
     let count = Rational::from((n * n) as u64);
@@ -100,7 +79,7 @@ fn below(system: &System, radius: &JointRadius, error: &Rational) -> Option<Rati
     for _ in 1..lower.length {
         change *= &size;
     }
-    let value = lower.root.enclosure(BITS).0.mid();
+    let value = root.enclosure(BITS).0.mid();
     let changes = |step: &Rational| sign_change(&product, &value, step, &change);
     // The nearer the two sides, the better the bound; the coefficients may allow none that is very near.
     let steps = (1..=12_u64).rev().map(|k| abs(&value) / Rational::from(Integer::from(1) << (5 * k)));
@@ -146,7 +125,10 @@ fn turning(system: &System, lower: &Lower, error: &Rational) -> Option<Rational>
     }
     let chi = characteristic(&product);
     let n = product.len();
-    let (re, im) = lower.root.enclosure(BITS);
+    let (re, im) = match &lower.eigenvalue {
+        Leading::Exact(root) => root.enclosure(BITS),
+        Leading::Disc(disc) => (Interval::point(disc.centre.0.clone()), Interval::point(disc.centre.1.clone())),
+    };
     let z = (Interval::point(re.mid()), Interval::point(im.mid()));
     let derivative: Vec<Interval> = (1..chi.len()).map(|k| &chi[k] * &Rational::from(k as u64)).collect();
     let square = |p: &[Interval]| {
@@ -197,9 +179,9 @@ fn value(p: &[Interval], z: &(Interval, Interval)) -> (Interval, Interval) {
     })
 }
 
-/// The largest 1-norm of a column.
+/// The largest 1-norm of a column; 0 of a matrix without columns.
 fn norm(m: &Matrix) -> Rational {
-    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).max().unwrap_or_default()
+    (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).fold(Rational::from(0), Rational::max)
 }
 
 fn determinant(m: &Matrix) -> Rational {

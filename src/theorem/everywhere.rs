@@ -3,9 +3,12 @@
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
+use super::hodograph::{Hodograph, hodograph};
+use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
+use crate::radius::Options;
 use crate::shape::{Address, CellKind};
 
 /// What is known of every point of a curve, not only of a dense set.
@@ -28,6 +31,10 @@ pub struct Everywhere {
     pub obstacle: Option<ConeObstacle>,
     /// The index in [`Certified::points`] of a point that refutes G¹.
     pub witness: Option<usize>,
+    /// The derivative of a polynomial curve, where it decides.
+    pub hodograph: Option<Hodograph>,
+    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
+    pub derivative: Option<Box<CurveOrder>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<String>,
 }
@@ -66,11 +73,46 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
     let hopeless = cx.shape.control.is_none() && found.points.iter().any(has_no_cone) || found.similarities.is_some();
     let answer =
         if hopeless { Some(ConeAnswer::Undetermined) } else { common_cone(cx.shape, cx.spaces, cx.budget.cone_steps) };
-    Some(match answer? {
+    let every = match answer? {
         ConeAnswer::Proved(cone) => with_cone(cx, found, cone),
         ConeAnswer::Refuted(obstacle) => without_cone(cx, found, Some(obstacle)),
         ConeAnswer::Undetermined => without_cone(cx, found, None),
-    })
+    };
+    let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
+    Some(if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every })
+}
+
+/// Decides G¹ of a polynomial curve by the zeros of its derivative.
+fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Everywhere {
+    let Some(hodograph) = hodograph(cx) else { return every };
+    let (verdict, reason) = match hodograph.turns.first() {
+        None => (Verdict::Proved, None),
+        Some(turn) => (Verdict::Refuted, Some(hodograph.reason(turn))),
+    };
+    let address = hodograph.turns.iter().find_map(|turn| hodograph.address(cx, turn));
+    let spec =
+        address.and_then(|a| a.normalise(cx.shape, cx.from.root()).ok()).and_then(|a| point::address_spec(cx, &a));
+    let known = spec.as_ref().and_then(|s| {
+        found.points.iter().position(|p| p.role == s.role && p.branches.iter().all(|b| b.address == s.branches[0].1))
+    });
+    let witness = known.or_else(|| add_point(cx, spec, found)).filter(|&k| breaks(&found.points[k]));
+    Everywhere { verdict, reason, witness, hodograph: Some(hodograph), ..every }
+}
+
+/// Largest number of coordinates of a state, and most states, for which this is tried.
+const MAX_GRAPH: (usize, usize) = (12, 6);
+
+/// Proves G¹ of a curve that is a graph over its uniform parameter.
+fn as_graph(cx: &Context, every: Everywhere) -> Everywhere {
+    let states = cx.shape.reachable();
+    let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
+    let order = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
+    match order {
+        Some(order) if every.witness.is_none() => {
+            Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(order)), ..every }
+        }
+        _ => every,
+    }
 }
 
 /// Whether a point contradicts invariant cones.
@@ -100,9 +142,11 @@ fn broken(p: &PointReport) -> String {
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
     let witness = found.points.iter().position(breaks);
-    let joints = if witness.is_none() { joints(cx, found) } else { Vec::new() };
+    let examined = if witness.is_none() { joints(cx, found) } else { Some(Vec::new()) };
+    let complete = examined.is_some();
+    let joints = examined.unwrap_or_else(Vec::new);
     let regular = |p: &PointReport| p.verdict == Verdict::Proved && p.kind == Kind::Regular;
-    let agree = joints.iter().all(|j| regular(j.report(found)));
+    let agree = complete && joints.iter().all(|j| regular(j.report(found)));
     let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
         Some(k) => (Verdict::Refuted, Some(broken(&found.points[k]))),
@@ -111,11 +155,22 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
         None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
-    Everywhere { verdict, cone: Some(cone), seen, joints, exponent, obstacle: None, witness, reason }
+    Everywhere {
+        verdict,
+        cone: Some(cone),
+        seen,
+        joints,
+        exponent,
+        obstacle: None,
+        witness,
+        hodograph: None,
+        derivative: None,
+        reason,
+    }
 }
 
 /// The first-level joints of all reachable states; what was examined already is used where nothing is lost in it.
-fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
+fn joints(cx: &Context, found: &Certified) -> Option<Vec<EveryJoint>> {
     let mut out = Vec::new();
     for state in cx.shape.reachable() {
         let space = cx.spaces.of(state);
@@ -132,11 +187,11 @@ fn joints(cx: &Context, found: &Certified) -> Vec<EveryJoint> {
             });
             match listed {
                 Some(k) => out.push(EveryJoint::Listed(k)),
-                None => out.extend(first_level_joint(cx, state, pair).map(|p| EveryJoint::Own(Box::new(p)))),
+                None => out.push(EveryJoint::Own(Box::new(first_level_joint(cx, state, pair)?))),
             }
         }
     }
-    out
+    Some(out)
 }
 
 const UNSEEN: &str =
@@ -156,7 +211,18 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         (None, None) => (Verdict::Undetermined, "no common cone was found within the budget".to_owned()),
     };
     let reason = Some(reason);
-    Everywhere { verdict, cone: None, seen: false, joints: Vec::new(), exponent: None, obstacle, witness, reason }
+    Everywhere {
+        verdict,
+        cone: None,
+        seen: false,
+        joints: Vec::new(),
+        exponent: None,
+        obstacle,
+        witness,
+        hodograph: None,
+        derivative: None,
+        reason,
+    }
 }
 
 /// Examines the point with the address of an obstacle.

@@ -352,7 +352,7 @@ fn projected(values: &[Rational], order: usize) -> Option<Vec<Rational>> {
             return Rational::from(1);
         }
         let power = (0..j).fold(Rational::from(1), |p, _| p * centred(k));
-        if k % 2 == 0 { power } else { -power }
+        if k.is_multiple_of(2) { power } else { -power }
     };
     let rows = Matrix::from_fn(order + 1, n, row);
     let miss: Vec<Rational> = rows

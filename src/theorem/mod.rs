@@ -1,4 +1,5 @@
 //! The theorem checker: from a shape to verdicts with evidence. Statements and proofs are in `docs/theory.md`.
+#![deny(clippy::disallowed_methods)]
 
 mod branch;
 pub mod claim;
@@ -9,9 +10,12 @@ mod direction;
 pub mod enclosed;
 mod everywhere;
 pub mod filter;
+mod frames;
+mod hodograph;
 mod point;
 pub mod regularity;
 mod ring;
+mod sign;
 mod similarity;
 mod slow;
 pub mod smoothness;
@@ -22,10 +26,13 @@ pub mod wavelet;
 
 pub use crate::statement::Statement;
 pub use branch::Context;
-pub use claim::{AboutPlane, Assertion, Claim, Reason, Seen};
+pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
+pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
+pub use hodograph::{Hodograph, Span, Turn};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
+pub use sign::{Depth, depths};
 pub use similarity::Similarities;
 pub use slow::SlowCycle;
 pub use verdict::{
@@ -41,8 +48,8 @@ use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::radius::{NormContraction, contraction_by_norms, polytopes};
 use crate::shape::{
-    Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, Shape, ShapeError, Spaces,
-    contraction_within,
+    Address, AddressError, Balls, CellKind, ComplexError, Contraction, CurveError, End, OwnPoints, Polytopes, Shape,
+    ShapeError, Spaces, contraction_within,
 };
 use thiserror::Error;
 
@@ -91,6 +98,7 @@ impl ModelError {
             Self::Shape(ShapeError::Control { .. }) => "secant::case::control",
             Self::Shape(ShapeError::Boundary { .. }) => "secant::case::boundary",
             Self::Curve(CurveError::Apart { .. }) => "secant::shape::adjacency",
+            Self::Curve(CurveError::NoEnd { .. }) => "secant::shape::contraction",
             Self::Curve(CurveError::Identity { .. }) | Self::Complex(_) => "secant::shape::identity",
             Self::Address(_) => "secant::case::address",
             Self::Expands { .. } | Self::FixedPoint => "secant::shape::contraction",
@@ -141,6 +149,7 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
         certify_set(&cx, &asked, &mut found);
     }
     found.polygons = cx.polygons();
+    found.polygon_weights = cx.polygon_weights();
     if found.similarities.is_some() {
         let by = Some(Statement::Similarities);
         found.claims.push(Claim::refuted(Assertion::SomePoint, by, Reason::Similarities));
@@ -180,7 +189,7 @@ fn decide_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Op
         Err(ModelError::Expands { state, index, word: word.to_vec() })
     };
     let found = contraction_within(shape, budget.words, budget.work, expands);
-    let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).max().unwrap_or(0);
+    let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).fold(0, usize::max);
     match &found {
         Contraction::Refuted { state, word } => return expanding(*state, word),
         // Words that hardly contract give balls far too large.
@@ -190,12 +199,41 @@ fn decide_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Op
         Contraction::Undetermined { .. } if largest <= MAX_NORM_DIMENSION => {}
         _ => return Ok((found, None)),
     }
-    match contraction_by_norms(shape, &budget.radius) {
+    let norms = contraction_by_norms(shape, &budget.radius);
+    // A proof in any coordinates is one, where own points span the whole space.
+    let own = || {
+        let found = own_polytopes(shape, &Spaces::new(shape)?)?;
+        Polytopes::checked(shape, found.vertices, found.weights)
+    };
+    let settled = matches!(norms, Some(NormContraction::Enclosed(_) | NormContraction::Refuted { .. }));
+    if let Some(found) = (!settled).then(own).flatten() {
+        return Ok((Contraction::Polytopes(found), None));
+    }
+    match norms {
         Some(NormContraction::Enclosed(polytopes)) => Ok((Contraction::Polytopes(polytopes), None)),
         Some(NormContraction::Refuted { state, word, .. }) => expanding(state, &word),
         Some(NormContraction::Proved(radius)) => Ok((found, radius.upper)),
         _ => Ok((found, None)),
     }
+}
+
+/// Polytopes found in coordinates by own points, which do not depend on units (theory §7, Own points), as polytopes of the shape.
+fn own_polytopes(shape: &Shape, spaces: &Spaces) -> Option<Polytopes> {
+    let own = OwnPoints::of(shape, spaces)?;
+    let inner = own.shape(shape)?;
+    let largest = inner.reachable().into_iter().map(|e| inner.states[e].dim).max()?;
+    if largest > MAX_SLOW_DIMENSION {
+        return None;
+    }
+    Some(polytopes(&inner)?.outwards(&own))
+}
+
+/// Polygons or polytopes that hold the attractors besides the balls.
+fn own_enclosures(shape: &Shape, spaces: &Spaces, balls: &Balls) -> Option<Balls> {
+    if shape.reachable().iter().all(|e| spaces.of(*e).basis.cols() <= 2) {
+        return balls.with_hulls(shape, spaces);
+    }
+    Some(balls.with_polytopes(&own_polytopes(shape, spaces)?))
 }
 
 fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Certified {

@@ -136,7 +136,7 @@ fn conclude(
     image: Option<Vec<Rational>>,
     branches: Vec<BranchReport>,
 ) -> PointReport {
-    let at_least = branches.iter().map(lower_bound).max().unwrap_or(0);
+    let at_least = branches.iter().map(lower_bound).fold(0, usize::max);
     let mut report = PointReport {
         role,
         position,

@@ -141,7 +141,7 @@ pub fn regularity(mask: &[Rational], arity: usize, options: &Options) -> Result<
 }
 
 fn trimmed(mask: &[Rational]) -> Vec<Rational> {
-    let first = mask.iter().position(|x| *x != 0).unwrap_or(mask.len());
+    let first = mask.iter().position(|x| *x != 0).map_or(mask.len(), |k| k);
     let last = mask.iter().rposition(|x| *x != 0).map_or(first, |k| k + 1);
     mask[first..last].to_vec()
 }
@@ -200,7 +200,7 @@ pub fn digits(mask: &[Rational], arity: usize) -> Vec<Matrix> {
     (0..arity)
         .map(|e| {
             Matrix::from_fn(size, size, |i, j| {
-                (arity * i + e).checked_sub(j).and_then(|k| mask.get(k)).cloned().unwrap_or_default()
+                (arity * i + e).checked_sub(j).and_then(|k| mask.get(k)).map_or_else(|| Rational::from(0), Clone::clone)
             })
         })
         .collect()
@@ -311,16 +311,9 @@ fn independent(mask: &[Rational], arity: usize) -> bool {
     let n = operators[0].rows();
     let Some(base) = fixed_point(&operators[0]) else { return false };
     let rows = operators.iter().map(|t| crate::shape::difference(&t.apply(&base), &base)).filter(|d| norm1(d) != 0);
-    let mut span = Matrix::from_rows(n, rows.collect()).echelon().rows;
-    loop {
-        let before = span.rows();
-        for t in &operators {
-            span = span.stack(&(&span * &t.transpose())).echelon().rows;
-        }
-        if span.rows() == before {
-            return before + 1 == n;
-        }
-    }
+    let maps: Vec<Matrix> = operators.iter().map(Matrix::transpose).collect();
+    let span = Matrix::from_rows(n, rows.collect()).closure(&maps.iter().collect::<Vec<_>>());
+    span.rows() + 1 == n
 }
 
 #[cfg(test)]

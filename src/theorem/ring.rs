@@ -3,8 +3,8 @@
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::{Matrix, dot};
-use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference, oscillation};
-use std::collections::VecDeque;
+use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference, oscillation, repetition};
+use std::collections::{BTreeMap, VecDeque};
 
 /// Where a piece lies with respect to the cycle's cell, in the order of its state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -197,6 +197,13 @@ pub(super) struct Node {
 const MAX_BITS: u64 = 1_024;
 /// How many cells have their ends evaluated in search of a sign change.
 const SIGN_NODES: usize = 1_000;
+/// After how many cells points with short cycles are tried as witnesses, and then the limit of the cell at hand each time that
+/// twice as many cells were looked at.
+const PERIODIC_AT: usize = 128;
+/// How many limits of cells are tried in the end.
+const MAX_LIMITS: usize = 32;
+/// How many cells have points with short cycles tried.
+const PERIODIC_CELLS: usize = 60;
 /// Levels of cells on which points are tried as witnesses although they are not the last ones.
 const WITNESS_NODES: usize = 400;
 
@@ -282,7 +289,7 @@ impl Ring<'_> {
         let mut queue = self.roots(&rows);
         let mut discharged: Vec<Discharged> = Vec::new();
         let mut signs = Signs::default();
-        let mut count = 0;
+        let mut count: usize = 0;
         while let Some(node) = queue.pop_front() {
             count += 1;
             let bounds: Vec<Interval> = node
@@ -298,10 +305,9 @@ impl Ring<'_> {
             {
                 return Attempt::Answer(RingAnswer::Fails(witness));
             }
-            let strict = bounds.iter().position(|b| matches!(b.sign(), Some(1 | -1)));
-            if let Some(functional) = strict {
+            let mut strict = bounds.iter().enumerate().filter_map(|(k, b)| Some((k, b.sign().filter(|s| *s != 0)?)));
+            if let Some((functional, sign)) = strict.next() {
                 let bound = bounds[functional].clone();
-                let sign = bound.sign().unwrap_or(0);
                 let Node { word, end, position, .. } = node;
                 discharged.push(Discharged { word, end, functional, sign, position, bound });
                 continue;
@@ -311,8 +317,23 @@ impl Ring<'_> {
             {
                 return Attempt::Answer(RingAnswer::Fails(witness));
             }
+            if count == PERIODIC_AT
+                && let Some(witness) = self.early_witness(functionals, &rows, &errors)
+            {
+                return Attempt::Answer(RingAnswer::Fails(witness));
+            }
+            if count >= PERIODIC_AT
+                && count.is_power_of_two()
+                && let Some(witness) = self.limit_witness(functionals, &node.word)
+            {
+                return Attempt::Answer(RingAnswer::Fails(witness));
+            }
             if count * functionals.len() > budget {
-                return Attempt::Answer(RingAnswer::Open { place: node.word });
+                let words = std::iter::once(&node).chain(&queue).map(|n| n.word.as_slice());
+                return Attempt::Answer(match self.limit_witnesses(functionals, words) {
+                    Some(witness) => RingAnswer::Fails(witness),
+                    None => RingAnswer::Open { place: node.word },
+                });
             }
             let hopeless = |(b, e): (&Interval, &Rational)| *e > 0 && b.width() < e * Rational::from(16);
             if bounds.iter().zip(&errors).all(hopeless) {
@@ -401,22 +422,115 @@ impl Ring<'_> {
         node: &Node,
         errors: &[Rational],
     ) -> Option<Witness> {
-        for (address, local) in &self.spaces.of(node.end).landmarks {
-            let near = node.rows.iter().zip(errors).all(|(row, e)| abs(&dot(row, local)) <= *e);
-            if !near {
+        let landmarks = self.spaces.of(node.end).landmarks.iter();
+        landmarks.into_iter().find_map(|(address, local)| self.zero(functionals, node, errors, address, local))
+    }
+
+    /// The point of a cell, if all functionals vanish there exactly.
+    fn zero(
+        &self,
+        functionals: &[Functional],
+        node: &Node,
+        errors: &[Rational],
+        address: &Address,
+        local: &[Rational],
+    ) -> Option<Witness> {
+        if node.rows.iter().zip(errors).any(|(row, e)| abs(&dot(row, local)) > *e) {
+            return None;
+        }
+        let prefix = [node.word.as_slice(), &address.prefix].concat();
+        self.zero_at(functionals, &Address { prefix, cycle: address.cycle.clone() })
+    }
+
+    fn zero_at(&self, functionals: &[Functional], address: &Address) -> Option<Witness> {
+        let address = address.normalise(self.shape, self.state).ok()?;
+        let offset = self.chart.apply(&difference(&self.shape.point(self.state, &address)?, self.fixed));
+        functionals.iter().all(|f| f.vanishes(&offset)).then_some(Witness::Point { address, offset })
+    }
+
+    /// What is tried once where the condition is not decided soon: points with short cycles, and a change of sign on a connected
+    /// piece of a set.
+    fn early_witness(
+        &self,
+        functionals: &[Functional],
+        rows: &[Vec<Rational>],
+        errors: &[Rational],
+    ) -> Option<Witness> {
+        let found = self.periodic_witness(functionals, rows, errors);
+        match functionals {
+            [only] if found.is_none() && self.pieces.iter().all(|p| p.position == Position::Unordered) => {
+                self.connected_sign_change(only)
+            }
+            _ => found,
+        }
+    }
+
+    /// The limits of the cells that are left, each once.
+    fn limit_witnesses<'w>(
+        &self,
+        functionals: &[Functional],
+        words: impl Iterator<Item = &'w [usize]>,
+    ) -> Option<Witness> {
+        let mut tried: Vec<(&[usize], &[usize])> = Vec::new();
+        for word in words {
+            let Some((head, cycle, _)) = repetition(word) else { continue };
+            if tried.contains(&(head, cycle)) {
                 continue;
             }
-            let (op, _) = self.shape.product(self.state, &node.word);
-            let offset = self.chart.apply(&difference(&op.apply(local), self.fixed));
-            if functionals.iter().all(|f| f.vanishes(&offset)) {
-                let mut prefix = node.word.clone();
-                prefix.extend(&address.prefix);
-                let address = Address { prefix, cycle: address.cycle.clone() };
-                let address = address.normalise(self.shape, self.state).ok()?;
-                return Some(Witness::Point { address, offset });
+            if tried.len() >= MAX_LIMITS {
+                return None;
+            }
+            tried.push((head, cycle));
+            let found = self.zero_at(functionals, &Address { prefix: head.to_vec(), cycle: cycle.to_vec() });
+            if found.is_some() {
+                return found;
             }
         }
         None
+    }
+
+    /// Points of the first cells whose cycles have at most two letters.
+    fn periodic_witness(
+        &self,
+        functionals: &[Functional],
+        rows: &[Vec<Rational>],
+        errors: &[Rational],
+    ) -> Option<Witness> {
+        let mut known: BTreeMap<usize, Vec<(Address, Vec<Rational>)>> = BTreeMap::new();
+        let mut queue = self.roots(rows);
+        for _ in 0..PERIODIC_CELLS {
+            let node = queue.pop_front()?;
+            let points = known.entry(node.end).or_insert_with(|| self.shape.short_cycles(node.end));
+            let found = points.iter().find_map(|(a, local)| self.zero(functionals, &node, errors, a, local));
+            if found.is_some() {
+                return found;
+            }
+            queue.extend(self.children(&node));
+        }
+        None
+    }
+
+    /// The point to which the cell shrinks if the letters at its end, repeated three times or more, go on for ever.
+    fn limit_witness(&self, functionals: &[Functional], word: &[usize]) -> Option<Witness> {
+        let (head, cycle, _) = repetition(word)?;
+        self.zero_at(functionals, &Address { prefix: head.to_vec(), cycle: cycle.to_vec() })
+    }
+
+    /// Two points of one connected part of the ring at which a functional has opposite signs: of a curve before or after the
+    /// cycle's cell, otherwise of one piece that is connected because its pieces share points.
+    pub(super) fn connected_sign_change(&self, functional: &Functional) -> Option<Witness> {
+        let ordered = |p: &&RingPiece| p.position != Position::Unordered;
+        let pieces: Vec<RingPiece> = self.pieces.iter().filter(ordered).cloned().collect();
+        if let Some(found) = (Ring { pieces: &pieces, ..*self }).find_sign_change(functional, SIGN_NODES) {
+            return Some(found);
+        }
+        let mut connected: BTreeMap<usize, bool> = BTreeMap::new();
+        let mut joined = |p: &&RingPiece| {
+            p.position == Position::Unordered
+                && *connected.entry(p.end).or_insert_with(|| self.shape.links(p.end).is_some())
+        };
+        let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| joined(p)).cloned().collect();
+        Ring { pieces: &pieces, ..*self }.sign_change_on_piece(functional, PERIODIC_CELLS)
     }
 
     /// Looks for a connected part of the ring on which `c_2` takes both signs while `c_1` has one strict sign wherever `c_2`

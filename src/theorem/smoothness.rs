@@ -3,10 +3,9 @@
 
 use super::regularity::minus_log;
 use crate::arith::{Interval, Rational};
-use crate::linalg::Matrix;
-use crate::radius::{Arrow, Growth, JointRadius, Lower, Options, System, joint_radius};
+use crate::linalg::{Matrix, closures};
+use crate::radius::{Arrow, Growth, JointRadius, Options, System, joint_radius};
 use crate::shape::{CellKind, End, Piece, Shape, Spaces, difference};
-use std::cmp::Ordering;
 use std::collections::VecDeque;
 use thiserror::Error;
 
@@ -181,11 +180,7 @@ impl CurveOrder {
 
     /// Whether the leading word of the radius is a cycle with `ρ(N^(k|w|) T_w) >= 1`.
     fn has_slow_cycle(&self) -> bool {
-        let slow = |lower: &Lower| {
-            let power = (0..lower.length).fold(Rational::from(1), |p, _| p * &self.threshold);
-            lower.root.cmp_modulus_rational(&power) != Ordering::Less
-        };
-        self.radius.as_ref().and_then(|r| r.lower.as_ref()).is_some_and(slow)
+        self.radius.as_ref().and_then(|r| r.lower.as_ref()).is_some_and(|lower| lower.is_at_least(&self.threshold))
     }
 
     /// Enclosure of `−log_N` of the radius, cut with `[k, k+1]`, where it lies if this order holds and its differences are not 0.
@@ -196,6 +191,37 @@ impl CurveOrder {
         let (lo, hi) = (own.lo.max(least.clone()), own.hi.min(most.clone()));
         (lo <= hi).then(|| Interval::new(lo, hi))
     }
+}
+
+/// The order 1 of a curve that is a graph over its uniform parameter, as it is seen (Theorem 12); `None` where its hypotheses are
+/// not all proved.
+///
+/// # Cost
+/// One joint spectral radius where the chords allow it, otherwise some linear algebra.
+#[must_use]
+pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
+    let curve = Curve::new(shape, spaces).ok()?;
+    let (_, chords) = curve.first().ok()?;
+    let families = curve.differences(1, &chords);
+    let outside = |family: &Matrix, chord: &[Rational]| {
+        family.stack(&Matrix::from_rows(chord.len(), vec![chord.to_vec()])).rank() > family.rank()
+    };
+    // Any lift of a vector of the visible quotient is seen as the same vector.
+    let start = spaces.of(shape.start);
+    let pivots = start.visible.echelon().pivots;
+    let view = &shape.view() * &start.basis;
+    let view = Matrix::from_fn(view.rows(), pivots.len(), |i, j| view[(i, pivots[j])].clone());
+    let home = curve.position(shape.start);
+    let seen = outside(&(&families[home] * &view.transpose()), &view.apply(&chords[home]));
+    if !seen || !families.iter().zip(&chords).all(|(f, c)| outside(f, c)) {
+        return None;
+    }
+    let mut order = curve.order(1, &families, options);
+    if !order.is_below() || curve.joints(1, &curve.ends(1, &families, &chords)?).is_some() {
+        return None;
+    }
+    order.outcome = Outcome::Holds;
+    Some(order)
 }
 
 /// The joint spectral radius of these operators; 0 without them.
@@ -318,17 +344,10 @@ impl<'a> Curve<'a> {
             let offset = Matrix::from_rows(image.len(), vec![difference(&image, &chords[from])]);
             families[from] = families[from].stack(&offset).echelon().rows;
         }
-        let mut grown = true;
-        while std::mem::take(&mut grown) {
-            for (from, letter, _, to) in self.arrows() {
-                let images = &families[to] * &self.operators[from][letter].transpose();
-                let joined = families[from].stack(&images).echelon().rows;
-                if joined.rows() > families[from].rows() {
-                    (families[from], grown) = (joined, true);
-                }
-            }
-        }
-        families
+        let arrow =
+            |(from, letter, _, to): (usize, usize, &Piece, usize)| (to, from, self.operators[from][letter].transpose());
+        let arrows: Vec<_> = self.arrows().map(arrow).collect();
+        closures(families, &arrows)
     }
 
     /// The values of the derivative of order `k` at the two ends of every curve.

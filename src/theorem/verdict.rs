@@ -2,12 +2,13 @@
 
 use super::claim::Claim;
 use super::direction::Direction;
+use super::frames::Frames;
 use super::ring::{RingPiece, RingProof, Witness};
 pub use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
-use crate::shape::{Address, Contraction};
+use crate::shape::{Address, Contraction, HullWeights};
 use crate::statement::Statement;
 
 /// Kinds of points (theory §2).
@@ -331,6 +332,8 @@ pub struct DenseSet {
     pub joints: Vec<usize>,
     /// For Theorem 5′: the same joints in the visible quotients `W_e` of their own states, before the control points.
     pub upstairs: Vec<PointReport>,
+    /// The frames of Theorems 11, 11′ and 11″, where Theorem 5 does not apply.
+    pub frames: Option<Frames>,
 }
 
 /// What is known of the relevant space of one reachable state.
@@ -365,6 +368,8 @@ pub struct Certified {
     pub dense: Option<DenseSet>,
     /// Convex polygons by state (vertices in its barycentric space) that hold the attractors, where some ring proof uses them.
     pub polygons: Option<Vec<Vec<Vec<Rational>>>>,
+    /// How the images of their vertices are combined, where that was found with them.
+    pub polygon_weights: Option<HullWeights>,
     /// The scalar product for which all maps are similarities, where there is one.
     pub similarities: Option<super::similarity::Similarities>,
     /// What is known of every point of a curve (Theorem 6). Its verdict is its own: the claims are about what was asked.
@@ -396,6 +401,7 @@ impl Certified {
             points: Vec::new(),
             dense: None,
             polygons: None,
+            polygon_weights: None,
             similarities: None,
             everywhere: None,
             surface: None,

@@ -25,8 +25,13 @@ impl Viewpoint {
     /// A state in its visible quotient.
     #[must_use]
     pub fn quotient(spaces: &Spaces, state: usize) -> Self {
-        let space = spaces.of(state);
-        Self { root: state, map: &space.visible * &space.coordinates, places: false }
+        Self::rows(spaces, state, &spaces.of(state).visible)
+    }
+
+    /// A state seen through rows on its relevant space.
+    #[must_use]
+    pub fn rows(spaces: &Spaces, state: usize, rows: &Matrix) -> Self {
+        Self { root: state, map: rows * &spaces.of(state).coordinates, places: false }
     }
 
     /// The state from which addresses are read.

@@ -13,6 +13,7 @@ use crate::answer::Verdict;
 use crate::arith::{Interval, Rational, to_f64};
 use crate::budget::Budget;
 use crate::poly::{Poly, factor};
+use crate::ring::{Field as _, Ordered as _, Ring as _};
 use crate::scheme::{MeshRule, SchemeError};
 
 /// Polynomials up to this degree are factored for display.
@@ -481,7 +482,7 @@ fn minimal(vertex: &Vertex, top: &Top) -> Option<Poly> {
     let angle = if frequency == 0 { 1 } else { frequency };
     let modulus = minimal_polynomial(vertex.valence / gcd(angle, vertex.valence));
     let degree = modulus.degree()?;
-    if top.poly.iter().any(|c| c.degree().unwrap_or(0) > 1) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
+    if top.poly.iter().any(|c| c.degree().is_some_and(|d| d > 1)) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
         return None;
     }
     // P = A + t B vanishes with t a root of ψ where B^d ψ(−A/B) does.

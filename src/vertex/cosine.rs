@@ -21,7 +21,7 @@ pub fn minimal_polynomial(d: usize) -> Poly {
         return Poly::linear(&Rational::from(if d == 1 { 2 } else { -2 }));
     }
     let cyclotomic = cyclotomic(d);
-    let half = cyclotomic.degree().unwrap_or(0) / 2;
+    let half = cyclotomic.degree().expect("a cyclotomic polynomial is not 0") / 2;
     // x^j + x^{−j} = V_j(t), V_0 = 2, V_1 = t, V_{j+1} = t V_j − V_{j−1}.
     let t = Poly::new(vec![0.into(), 1.into()]);
     let (mut before, mut now) = (Poly::constant(Rational::from(2)), t.clone());

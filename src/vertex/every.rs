@@ -11,6 +11,7 @@ use super::solve::eigenvector;
 use super::turning::{Rotation, Turning};
 use crate::arith::{Rational, ratio};
 use crate::poly::{Poly, factor};
+use crate::ring::{Field as _, Ring as _};
 use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError};
 
 /// A valence at which no stencil meets itself around the vertex.
@@ -223,7 +224,7 @@ fn positive_on(field: &Functions, net: Net<Fraction>, interval: (Rational, Ratio
 /// A few seconds.
 pub fn every(rule: &MeshRule) -> Result<Option<Every>, SchemeError> {
     let Some(family) = family(rule) else { return Ok(None) };
-    let field = Functions { twice_cosine: family.twice_cosine.clone() };
+    let field = Functions::new(crate::ring::Functions::anywhere(), family.twice_cosine.clone());
     let vertex = Vertex::new(rule, LARGE, RINGS)?;
     let block = vertex.block(1)?;
     let mut conditions: Vec<Condition> = Vec::new();
@@ -273,7 +274,7 @@ fn constants(vertex: &Vertex, family: &Family, own: Option<usize>) -> Result<boo
     let mut bound = Rational::from(0);
     for part in others.chain(still.parts.iter().filter(|p| !centre(p))) {
         // In all families these eigenvalues are rational.
-        if part.poly.iter().any(|c| c.degree().unwrap_or(0) > 0) {
+        if part.poly.iter().any(|c| c.degree().is_some_and(|d| d > 0)) {
             return Ok(false);
         }
         for (linear, _) in factor(&Poly::new(part.poly.iter().map(|c| c.coeff(0)).collect())) {

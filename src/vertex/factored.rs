@@ -44,7 +44,7 @@ fn quotient(mask: &Mask, u: Place) -> Option<Mask> {
 fn norm(mask: &Mask, steps: u32) -> Rational {
     let denominator = mask.values().fold(Natural::from(1_u32), |d, w| d.lcm(w.denominator_ref()));
     let unit = Rational::from(denominator);
-    let whole = |w: &Rational| Integer::try_from(w * &unit).unwrap_or_default();
+    let whole = |w: &Rational| Integer::try_from(w * &unit).expect("a multiple of the common denominator");
     let mask: Vec<(Place, Integer)> = mask.iter().map(|(p, w)| (*p, whole(w))).collect();
     let mut all: BTreeMap<Place, Integer> = [((0, 0), Integer::from(1))].into();
     for step in 0..steps {
@@ -62,7 +62,7 @@ fn norm(mask: &Mask, steps: u32) -> Rational {
         *sums.entry((i.rem_euclid(size), j.rem_euclid(size))).or_default() += x.abs();
     }
     let scale = (0..steps).fold(Rational::from(1), |s, _| s * Rational::from(2) / &unit);
-    Rational::from(sums.into_values().max().unwrap_or_default()) * scale
+    Rational::from(sums.into_values().fold(Integer::from(0), Integer::max)) * scale
 }
 
 /// For a mask with `N = 2` that has the factors `(1 + z^u)(1 + z^v)` for all pairs of directions: bounds `R_0 = 1, R_1, …` of the

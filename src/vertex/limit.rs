@@ -5,12 +5,13 @@
 //! where the mesh is regular.
 
 use super::block::Vertex;
-use super::field::{Enclosures, Field, Fixed};
+use super::field::{Enclosures, Fixed};
 use super::net::{Net, Signs, Spot};
 use super::regular::{BOUND_PLACES, Cell, Place, Regular, place};
 use super::ring::{Control, Values};
 use super::turning::{Rotation, Turning};
 use crate::arith::{Integer, Rational, ratio};
+use crate::ring::Field as _;
 use crate::scheme::{MeshRule, Sector};
 use malachite_base::num::logic::traits::SignificantBits;
 use std::collections::VecDeque;
@@ -286,7 +287,7 @@ impl Ring {
         let corner = |piece: &Piece, k: usize| {
             let (i, j) = r.corners()[k];
             let own = ((i * (r.factor - 1), j * (r.factor - 1)), 1);
-            let next = r.parts.iter().position(|part| *part == own).unwrap_or(0);
+            let next = r.parts.iter().position(|part| *part == own).expect("the part at a corner");
             let last = (0..STEPS).fold(piece.clone(), |p, _| self.divided(&p).swap_remove(next));
             (r.fit(&last.x)[k] as f64 * unit, r.fit(&last.y)[k] as f64 * unit)
         };

@@ -1,5 +1,6 @@
 //! Extraordinary vertices: the subdominant eigenvalues by Fourier block, the characteristic map, and whether the surface
 //! is C¹ (docs/theory.md §10).
+#![deny(clippy::disallowed_methods)]
 
 pub mod block;
 mod certify;

@@ -229,6 +229,7 @@ impl Signs {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ring::Field as _;
     use crate::vertex::field::Enclosures;
 
     fn net(triangle: bool, rows: &[&[i64]], f: &Enclosures) -> Net<super::super::field::Fixed> {

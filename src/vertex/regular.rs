@@ -179,7 +179,7 @@ impl Regular {
     #[must_use]
     pub fn roughness(&self, values: &[i128]) -> i128 {
         let size = |[a, b, c, d]: &[usize; 4]| (values[*a] - values[*b] - values[*c] + values[*d]).abs();
-        self.differences.iter().map(size).max().unwrap_or(0)
+        self.differences.iter().map(size).fold(0, i128::max)
     }
 
     /// Whether every step takes the values of a linear function to those of the same function.

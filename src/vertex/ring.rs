@@ -252,6 +252,7 @@ const QUARTIC: [[i64; 12]; 15] = [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ring::{Field as _, Ordered as _};
     use crate::scheme::LoopWeights;
     use crate::vertex::field::Enclosures;
 

@@ -6,6 +6,7 @@ use super::ring::Values;
 use super::turning::{Rotation, Turning};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
+use crate::ring::{Field as _, Ring as _};
 
 type Rows<E> = Vec<Vec<Turning<E>>>;
 
@@ -94,7 +95,7 @@ pub fn eigenvector<F: Field>(f: &F, block: &Block, part: usize, value: &F::E) ->
 
 fn split<E>(block: &Block, mut v: Vec<Turning<E>>, zero: Turning<E>) -> Values<E> {
     let orbits = v.split_off(block.before);
-    Values { centre: v.pop().unwrap_or(zero), orbits }
+    Values { centre: v.pop().map_or(zero, |x| x), orbits }
 }
 
 fn product(f: &NumberField, a: &Rows<Elem>, b: &Rows<Elem>) -> Rows<Elem> {
@@ -170,7 +171,7 @@ pub fn longest_blocks(f: &NumberField, block: &Block, value: &Rational) -> Vec<u
     // dim ker^j − dim ker^{j−1} blocks have size at least j.
     let at_least: Vec<usize> = dims.iter().enumerate().map(|(j, d)| d - if j == 0 { 0 } else { dims[j - 1] }).collect();
     for (j, count) in at_least.iter().enumerate().rev() {
-        let longer = at_least.get(j + 1).copied().unwrap_or(0);
+        let longer = at_least.get(j + 1).map_or(0, |count| *count);
         sizes.extend(std::iter::repeat_n(j + 1, count - longer));
     }
     sizes

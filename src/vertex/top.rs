@@ -8,8 +8,10 @@ use super::ring::Values;
 use super::solve::{eigenvector, leading_vector, longest_blocks};
 use super::turning::Turning;
 use crate::algebraic::Elem;
+use crate::algebraic::field::NumberField as Numbers;
 use crate::arith::{Interval, Rational, abs, ratio, to_f64};
 use crate::poly::Poly;
+use crate::ring::{Field as _, Ordered as _, Ring as _};
 use crate::scheme::SchemeError;
 
 /// What the largest modulus consists of in one block.
@@ -74,7 +76,7 @@ impl Top {
     /// The size of the longest Jordan blocks, and the real dimension of the span of the eigenvectors that end their chains.
     #[must_use]
     pub fn longest(&self, valence: usize) -> (usize, usize) {
-        let length = self.members.iter().filter_map(|m| m.blocks.first()).max().copied().unwrap_or(0);
+        let length = self.members.iter().filter_map(|m| m.blocks.first()).max().map_or(0, |length| *length);
         let count = |m: &Member| {
             let twice = if m.frequency == 0 || 2 * m.frequency == valence { 1 } else { 2 };
             twice * m.blocks.iter().filter(|b| **b == length).count()
@@ -198,7 +200,7 @@ fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
 }
 
 fn from_float(x: f64) -> Rational {
-    Rational::try_from(x).unwrap_or_default()
+    Rational::try_from(x).unwrap_or_else(|_| Rational::from(0))
 }
 
 fn field_of(vertex: &Vertex, block: &Block, bits: u64) -> Enclosures {
@@ -341,7 +343,7 @@ fn simplest_near(x: &Rational, error: &Rational) -> Rational {
             Some(v) => t + Rational::from(1) / v,
         })
     });
-    let value = value.unwrap_or_default();
+    let value = value.expect("at least one term");
     if negative { -value } else { value }
 }
 
@@ -412,11 +414,11 @@ fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
 pub fn number_field(vertex: &Vertex, block: &Block) -> NumberField {
     let root = twice_cosine(block.angle, vertex.valence);
     let twice_cosine = Elem::generator(root.minpoly());
-    NumberField { root, twice_cosine }
+    NumberField::new(Numbers::generated(&root).expect("cosines are real"), twice_cosine)
 }
 
 fn enclose(field: &NumberField, enclosures: &Enclosures, x: &Elem) -> Fixed {
-    enclosures.interval(&x.enclosure(&field.root, enclosures.bits).0)
+    enclosures.interval(&field.enclosure(x, enclosures.bits))
 }
 
 /// The leading eigenvalue in a frequency; `None` where it is not the one of the block, or enclosures are too wide.

@@ -12,6 +12,11 @@ fn tree(value: &DeValue<'_>) -> Json {
     match value {
         DeValue::String(text) => Json::Text(text.to_string()),
         DeValue::Integer(digits) if digits.radix() == 10 => Json::Number(digits.as_str().to_owned()),
+        // Counts may be written in another system; numbers are not.
+        DeValue::Integer(digits) => match u64::from_str_radix(digits.as_str(), digits.radix()) {
+            Ok(k) => Json::Index(k),
+            Err(_) => Json::Null,
+        },
         DeValue::Float(digits) => Json::Number(digits.as_str().to_owned()),
         DeValue::Boolean(flag) => Json::Flag(*flag),
         DeValue::Array(items) => Json::List(items.iter().map(|v| tree(v.get_ref())).collect()),
@@ -35,7 +40,11 @@ pub fn file<T>(source: &str, keys: &str, read: impl FnOnce(&Node<'_>) -> Checked
 
 /// A whole number of a TOML file below a bound.
 pub fn index(node: &Node<'_>, bound: usize) -> Checked<usize> {
-    let digits = if let Json::Number(digits) = node.value { digits.parse::<usize>().ok() } else { None };
+    let digits = match node.value {
+        Json::Number(digits) => digits.parse().ok(),
+        Json::Index(k) => usize::try_from(*k).ok(),
+        _ => None,
+    };
     node.some(digits.filter(|k| *k < bound), "format", format_args!("a whole number below {bound} is needed here"))
 }
 

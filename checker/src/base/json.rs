@@ -6,7 +6,7 @@ use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor}
 use std::fmt::{Display, Formatter};
 
 /// A JSON value as certificates use it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum Json {
     /// `null`.
     Null,

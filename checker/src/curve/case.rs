@@ -1,6 +1,6 @@
 //! Reads the case file itself, so that a proof cannot be about another case.
 
-use super::{Address, End, Kind, Op, Piece, Shape, State};
+use super::{Address, End, Kind, Op, Piece, Shape, State, scheme};
 use crate::base::{
     Checked, Json, MAX_COORDINATES, MAX_PIECES, Matrix, Node, Q, file, flag, index, items, matrix, need, number, word,
 };
@@ -37,7 +37,7 @@ pub struct Hole {
 }
 
 /// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
-const CASE: &str = "name title source kind convention pieces reversed map start state control examine expect";
+const CASE: &str = "name title source kind convention pieces reversed map scheme start state control examine expect";
 const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
 
 /// What must be known of all states before their pieces are read.
@@ -151,6 +151,13 @@ impl Reader {
             Some("set" | "face") => Kind::Set,
             Some(_) => return table.reject("format", "unknown kind of a state"),
         };
+        if word(table, "kind")? == Some("face") {
+            let triangle = table.field("layout")?.text()? == "triangle";
+            let sides = if triangle { "side01 side12 side02" } else { "bottom right top left" };
+            let given = sides.split(' ').filter(|side| table.get(side).is_some()).count();
+            let whole = given == 0 || given == sides.split(' ').count();
+            table.need(whole, "case", "a face has all of its sides, or none")?;
+        }
         let dim = match (table.get("dimension"), pieces.first()) {
             (Some(n), _) => index(&n, MAX_COORDINATES + 1)?,
             (None, None) => 0,
@@ -246,7 +253,26 @@ enum Form {
 
 /// Reads more of the states of a case.
 pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> Checked<T> {
-    file(source, CASE, |case| read(&items(case, "state")?))
+    opened(source, |case| read(&items(case, "state")?))
+}
+
+/// Reads a case file by a function, which sees what a `[scheme]` stands for in its place.
+fn opened<T>(source: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
+    file(source, CASE, |case| {
+        let Some(table) = case.get("scheme") else { return read(case) };
+        let Json::Object(keys) = case.value else { return case.reject("format", "a table is needed here") };
+        let others = "pieces reversed map state start kind convention".split(' ').all(|key| case.get(key).is_none());
+        case.need(others, "format", "`scheme` stands in place of the operators")?;
+        // Control points of the case are those of the curve that is built.
+        let built = scheme::expanded(&table)?.into_iter().filter(|(key, _)| case.get(key).is_none());
+        let keys = keys.iter().filter(|(key, _)| key != "scheme").cloned().chain(built).collect();
+        read(&Node { value: &Json::Object(keys), place: case.place.clone() })
+    })
+}
+
+/// Reads the shape of a case that is written on columns.
+pub fn shape(case: &Node<'_>) -> Checked<Shape> {
+    Reader::default().shape(case)
 }
 
 /// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both
@@ -255,7 +281,7 @@ pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> 
 /// # Errors
 /// What is wrong, and where; `unreadable` is set.
 pub fn read(source: &str, open: bool) -> Checked<Case> {
-    file(source, CASE, |case| {
+    opened(source, |case| {
         let by_rows = match word(case, "convention")? {
             Some("rows") if case.get("map").is_none() => true,
             Some("columns") => false,

@@ -1,10 +1,13 @@
 //! The whole certificate: contraction, points, answers, and the verdict that follows from them.
 
 use super::{Address, Case, End, Germ, Kind, Model, Piece, Place, Point, Root, Way};
-use super::{close, complete, everywhere, positive_definite, read_address};
+use super::{close, complete, everywhere, frames, positive_definite, read_address};
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
 use crate::claim::{Claim, Decided, Joints, Subject};
 use num_traits::Signed;
+
+/// The question whether the curve is G¹, answered by Theorem 12.
+const DERIVATIVE: &str = "every point by its derivative";
 
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
 type Question = (&'static str, Option<Address>);
@@ -33,6 +36,7 @@ fn questions(case: &Case) -> Vec<Question> {
 fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
+        DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
         "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
@@ -66,7 +70,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((question.0 != "every point").then_some(verdict));
+        found.extend((!matches!(question.0, "every point" | DERIVATIVE)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -120,6 +124,11 @@ impl<'a> Claims<'a> {
                 more = found.claims.split_off(1);
                 let first = found.claims.swap_remove(0);
                 (node.field("verdict")?, first.verdict, first.claim)
+            }
+            (what, None) if *what == DERIVATIVE => {
+                let [_, stated, radius] = node.fields("question verdict radius")?;
+                radius.at(crate::regularity::graph(self.model, &radius))?;
+                (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
             }
             (_, None) => {
                 let [_, stated, products] = node.fields("question verdict products")?;
@@ -177,7 +186,8 @@ impl<'a> Claims<'a> {
     fn joints(&mut self, [theorem, points, upstairs]: [&Node<'_>; 3]) -> Checked<(Verdict, Joints)> {
         let (model, name, items) = (self.model, theorem.text()?, upstairs.list()?);
         let chosen = self.select(points)?;
-        upstairs.need(items.is_empty() || name == "5'", "joints", "only Theorem 5' uses joints upstairs")?;
+        let uses = matches!(name, "5'" | "11" | "11'");
+        upstairs.need(items.is_empty() || uses, "joints", "this theorem uses no joints upstairs")?;
         let listed: Option<Vec<_>> = chosen.iter().map(|p| p.place.joint(model, model.shape.start)).collect();
         let listed = points.some(listed, "joints", "a point that is no joint")?;
         let together = chosen.iter().map(|p| p.verdict).min();
@@ -186,8 +196,19 @@ impl<'a> Claims<'a> {
             let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };
             return Ok((verdict, Joints::All));
         }
-        let fits = matches!(name, "5" | "5'") && together == Some(Verdict::Proved);
+        let fits = matches!(name, "5" | "5'" | "11" | "11'") && together == Some(Verdict::Proved);
         theorem.need(fits, "joints", "a theorem proves that joints have tangents; \"none\" otherwise")?;
+        if matches!(name, "11" | "11'") {
+            let constant = frames::check(model, upstairs, name == "11")?;
+            return Ok((
+                Verdict::Proved,
+                match (name, constant) {
+                    ("11", false) => Joints::All,
+                    ("11", true) => Joints::Seen,
+                    _ => Joints::NotKilled,
+                },
+            ));
+        }
         complete(model, &listed, points, "joints")?;
         theorem.at(self.injective(name == "5"))?;
         if name == "5" {

@@ -22,10 +22,10 @@ pub struct Answer {
 }
 
 /// The cones of all reachable states, breadth first, and the matrices of the images of their rays.
-struct Cones<'a> {
+pub struct Cones<'a> {
     model: &'a Model<'a>,
     /// By state: the rays, one a row.
-    rays: Vec<Matrix>,
+    pub rays: Vec<Matrix>,
     /// By state and letter.
     maps: Vec<Vec<Matrix>>,
 }
@@ -48,7 +48,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<An
         node.need(nothing && witness.is_some(), "every-point", "without cones only a point can refute")?;
         return answer(Verdict::Refuted, None, None);
     }
-    let found = cones.at(Cones::read(model, &cones, &maps))?;
+    let found = cones.at(Cones::read(model, &model.shape.reachable, &cones, &maps))?;
     let seen = view.at(found.seen(&cones, &view))?;
     slow.at(found.shrink(window.index(MAX_WINDOW + 1)?, &slow))?;
     let rate = rate.at(found.rate(&rate))?;
@@ -109,10 +109,12 @@ fn injective(model: &Model<'_>, point: &Point, e: usize) -> Checked<bool> {
 }
 
 impl<'a> Cones<'a> {
-    /// The cones are pointed, span the relevant spaces, hold the chords, and are mapped into each other.
-    fn read(model: &'a Model<'a>, cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
+    /// The cones of some states, which no piece leaves, are pointed, span the relevant spaces, hold the chords, and are mapped
+    /// into each other.
+    pub fn read(model: &'a Model<'a>, states: &[usize], cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
         let shape = model.shape;
-        let (own, images) = (model.for_states(cones, "cone")?, model.for_states(maps, "format")?);
+        let own = states.iter().copied().zip(cones.exactly(states.len(), "cone")?);
+        let images = states.iter().copied().zip(maps.exactly(states.len(), "format")?);
         let mut rays = shape.no_rows();
         for (e, item) in own {
             rays[e] = item.at(Self::cone(model, e, &item))?;
@@ -292,7 +294,7 @@ impl<'a> Cones<'a> {
     }
 }
 
-fn all_positive(m: &Matrix) -> bool {
+pub fn all_positive(m: &Matrix) -> bool {
     m.data.iter().all(Signed::is_positive)
 }
 

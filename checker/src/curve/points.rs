@@ -80,7 +80,8 @@ impl Place {
             Self::Joint { path, left, right } => {
                 let why = "the path ends nowhere, or the pieces are no neighbours that are more than points";
                 let joint = some(self.joint(model, root.state), "joint", why)?;
-                need(model.joints_of(joint.0)?.contains(&joint), "joint", why)?;
+                let listed = model.joints_of(joint.0)?.contains(&joint);
+                need(listed || meet(model, root, path, joint)?, "joint", why)?;
                 let state = joint.0;
                 let branch = |letter: usize, end: End| {
                     let piece = &model.shape.states[state].pieces[letter];
@@ -163,6 +164,21 @@ pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node
             node.reject(rule, format_args!("the joint of the pieces {left} and {right} of state {e} is missing"))
         }
     }
+}
+
+/// Whether all pieces between two, which are more than points, are single points where they are looked at.
+fn meet(model: &Model<'_>, root: &Root, path: &[usize], (e, left, right): (usize, usize, usize)) -> Checked<bool> {
+    let pieces = &model.shape.states[e].pieces;
+    if left >= right || right >= pieces.len() || model.spaces.is_point(e, left)? || model.spaces.is_point(e, right)? {
+        return Ok(false);
+    }
+    let seen = root.view.times(&model.shape.product(root.state, path)?.0)?;
+    for piece in &pieces[left + 1..right] {
+        if !seen.times(&piece.op)?.times(&model.spaces.of(piece.target)?.basis)?.is_zero() {
+            return Ok(false);
+        }
+    }
+    Ok(true)
 }
 
 fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {

@@ -1,6 +1,6 @@
 //! The rules for one branch: what its certificate proves about the tangent subspace of its germ.
 
-use super::{Address, Chain, Germ, Model, Root, Top, residual, span_a_plane};
+use super::{Address, Chain, Germ, Model, Root, Top, outside, residual, span_a_plane};
 use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, need};
 use num_traits::Zero;
 
@@ -57,6 +57,7 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
         "sign-change" => branch.sign_change(node),
         "orbit" => branch.orbit(node),
         "crossing" => branch.crossing(node),
+        "leading-sign" => branch.leading_sign(node),
         "direction" => branch.direction(node),
         _ => node.reject("format", "unknown rule for a branch"),
     })
@@ -202,6 +203,41 @@ impl Branch<'_> {
         Ok(parts[0])
     }
 
+    /// Two points of one piece of the ring that is connected because its pieces share points.
+    fn changing_piece(&self, field: &Field, row: &Matrix, points: [&Node<'_>; 2], links: &Node<'_>) -> Checked<()> {
+        let mut ends = Vec::new();
+        for (node, wanted) in points.into_iter().zip([1, -1]) {
+            let (y, _) = self.ring_point(node)?;
+            let has = field.sign(&y.transpose().times(row)?)? == wanted;
+            node.need(has, "sign-change", "the functional does not have this sign at the point")?;
+            let address = read_address(node)?;
+            let piece = self.germ.ring.iter().find(|p| (0..p.word.len()).all(|k| address.letter(k) == p.word[k]));
+            ends.push(node.some(piece, "ring", "the address begins with no piece of the ring that is seen")?);
+        }
+        need(ends[0].word == ends[1].word, "sign-change", "the points do not lie in one piece of the ring")?;
+        links.at(connected(self.model, ends[0].end, links))
+    }
+
+    /// Theorem 4′: the leading coefficient takes both signs on a connected part of the ring.
+    fn leading_sign(&self, node: &Node<'_>) -> Checked<Found> {
+        let [_, top, functional, radius, rows, cover, positive, negative, links] =
+            node.fields("rule top functional radius rows cover positive negative links")?;
+        let top = self.leading(&top)?;
+        let (row, _) = top.row(&self.germ.linear, &functional)?;
+        if links.is_null() {
+            self.changing_part(&top.field, &row, [&positive, &negative])?;
+        } else {
+            self.changing_piece(&top.field, &row, [&positive, &negative], &links)?;
+        }
+        let (dimension, list) = outer(&self.germ, &radius, &rows)?;
+        let functionals = self.model.rows(&self.germ, &list, vec![Q::zero(); list.rows])?;
+        self.model.cover(&self.germ, &functionals, None, &cover)?;
+        let space = complement(&self.germ.linear, &list)?;
+        let injective = dimension > 0 && self.germ.view.times(&space)?.rank()? == dimension;
+        rows.need(injective, "leading-sign", "directions are lost where the shape is looked at")?;
+        Ok(Found::Plane)
+    }
+
     /// What both forms of Theorem 4 need: a simple eigenvalue, and `G` injective on `Y`.
     fn theorem_4(&self, top: &Leading, rule: &str) -> Checked<Found> {
         need(top.vectors.len() == 1, rule, "a simple eigenvalue is needed")?;
@@ -276,6 +312,74 @@ impl Branch<'_> {
         let vectors = top.vectors.iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
         Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }
+}
+
+/// Reads rational rows that span an invariant space of rows on which all eigenvalues lie outside the disc, of as many dimensions
+/// as there are outside, and returns that number: their common kernel is the sum of the generalised eigenspaces inside.
+pub fn outer(germ: &Germ, radius: &Node<'_>, rows: &Node<'_>) -> Checked<(usize, Matrix)> {
+    let list = rows.matrix(germ.dim())?;
+    let (space, pivots) = list.echelon()?;
+    let images = space.times(&germ.linear)?;
+    let inner = images.columns(&pivots);
+    rows.need(inner.times(&space)? == images, "group", "the space of the rows is not invariant")?;
+    let (_, all) = outside(&germ.linear.characteristic()?, radius)?;
+    let (_, own) = outside(&inner.characteristic()?, radius)?;
+    let fits = all > 0 && space.rows == all && own == all;
+    rows.need(fits, "group", "as many independent rows as eigenvalues outside the disc, and with these, are needed")?;
+    Ok((all, list))
+}
+
+/// Columns that span the sum of the other generalised eigenspaces: the image of `χ(L)`, `χ` the characteristic polynomial of `L`
+/// on the common kernel of the rows.
+fn complement(linear: &Matrix, rows: &Matrix) -> Checked<Matrix> {
+    let n = linear.rows;
+    let (space, pivots) = rows.echelon()?;
+    let free: Vec<usize> = (0..n).filter(|k| !pivots.contains(k)).collect();
+    if free.is_empty() {
+        return Ok(Matrix::identity(n));
+    }
+    // The vector of the kernel that has 1 at one free column and 0 at the others.
+    let unit = Matrix::ones(n, free.len(), |i, j| free[j] == i);
+    let at_pivots = Matrix::ones(n, pivots.len(), |i, j| pivots[j] == i);
+    let kernel = unit.minus(&at_pivots.times(&space.columns(&free))?);
+    let images = linear.times(&kernel)?;
+    let own = images.transpose().columns(&free).transpose();
+    let chi = own.characteristic()?;
+    let mut sum = Matrix::zeros(n, n);
+    for k in (0..chi.cols).rev() {
+        sum = sum.times(linear)?.plus(&chi.at(0, k), &Matrix::identity(n));
+    }
+    Ok(sum)
+}
+
+/// Whether the attractor of a state is connected: for it and all states reached from it, breadth first, pairs of addresses of
+/// one point join all pieces.
+fn connected(model: &Model<'_>, from: usize, node: &Node<'_>) -> Checked<()> {
+    let mut order = vec![from];
+    let lists = node.list()?;
+    let mut next = 0;
+    while next < order.len() {
+        let e = order[next];
+        let list = node.some(lists.get(next), "links", "each state that is reached has a list of pairs")?;
+        let pieces = &model.shape.states[e].pieces;
+        let mut part: Vec<usize> = (0..pieces.len()).collect();
+        for pair in list.list()? {
+            let both = pair.exactly(2, "links")?;
+            let (a, b) = (read_address(&both[0])?, read_address(&both[1])?);
+            let same = model.shape.point(e, &a)? == model.shape.point(e, &b)?;
+            pair.need(same, "links", "the addresses are those of different points")?;
+            let (a, b) = (part[a.letter(0)], part[b.letter(0)]);
+            part.iter_mut().filter(|p| **p == b).for_each(|p| *p = a);
+        }
+        list.need(part.iter().all(|p| *p == part[0]), "links", "the pieces are not all joined")?;
+        for piece in pieces {
+            if !order.contains(&piece.target) {
+                order.push(piece.target);
+            }
+        }
+        next += 1;
+    }
+    node.need(lists.len() == order.len(), "links", "one list for each state that is reached is needed")
 }
 
 impl Line {

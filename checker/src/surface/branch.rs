@@ -1,7 +1,7 @@
 //! What the certificate of one branch of a surface proves about the tangent subspace of its germ (docs/certificate.md, section 8.1).
 
 use crate::base::{Checked, Enclosed, Field, Matrix, Node, need, products, spend, values};
-use crate::curve::{Address, Branch, Germ, Model, Root, Top, outside, residual};
+use crate::curve::{Address, Branch, Germ, Model, Root, Top, outer, residual};
 use num_bigint::BigInt;
 use num_traits::Zero;
 
@@ -77,17 +77,10 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
 /// Rational rows whose common kernel is the sum of the generalised eigenspaces inside a disc.
 fn group<'n>(germ: &Germ, bound: &Node<'n>) -> Checked<(usize, Vec<Enclosed>, Node<'n>)> {
     let [_, radius, rows, cover] = bound.fields("by radius rows cover")?;
-    let list = rows.matrix(germ.dim())?;
-    let (space, pivots) = list.echelon()?;
-    let images = space.times(&germ.linear)?;
-    let inner = images.columns(&pivots);
-    rows.need(inner.times(&space)? == images, "group", "the space of the rows is not invariant")?;
-    let (_, all) = outside(&germ.linear.characteristic()?, &radius)?;
-    let (_, own) = outside(&inner.characteristic()?, &radius)?;
-    let fits = all > 0 && space.rows == all && own == all && bound.tag("by")? == "group";
-    rows.need(fits, "group", "as many independent rows as eigenvalues outside the disc, and with these, are needed")?;
+    bound.need(bound.tag("by")? == "group", "format", "unknown bound")?;
+    let (dimension, list) = outer(germ, &radius, &rows)?;
     let exact = |i: usize| Enclosed::exact(list.row(i).transpose());
-    Ok((all, (0..list.rows).map(exact).collect(), cover))
+    Ok((dimension, (0..list.rows).map(exact).collect(), cover))
 }
 
 /// The sets of `k` numbers below `n`.

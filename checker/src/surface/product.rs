@@ -1,9 +1,8 @@
 //! Tensor products of two curves: `p(s, t) = a(s) ⊗ b(t)` (docs/certificate.md, section 8.1).
 
 use super::chart::Chart;
-use crate::base::{Checked, Matrix, Node, Verdict, need, spend};
-use crate::curve::{Address, Kind, Model, Piece, Place, Point, Root, Shape, State};
-use num_bigint::BigInt;
+use crate::base::{Checked, Matrix, Node, Verdict, need};
+use crate::curve::{Address, Kind, Model, Piece, Place, Point, Root, Shape, State, kronecker};
 
 /// The operators of a curve of one state, whose columns sum to 1.
 pub fn curve(node: &Node<'_>) -> Checked<Shape> {
@@ -19,17 +18,6 @@ pub fn curve(node: &Node<'_>) -> Checked<Shape> {
     operators.need(pieces.iter().all(|p| p.op.rows == dim), "product", "operators of one size are needed")?;
     let states = vec![State { kind: Kind::Edge, dim, pieces, ends: [None, None] }];
     Ok(Shape::new(states, 0, Matrix::identity(dim)))
-}
-
-/// `A ⊗ B`.
-fn kronecker(a: &Matrix, b: &Matrix) -> Checked<Matrix> {
-    let (rows, cols) = (a.rows * b.rows, a.cols * b.cols);
-    spend(rows * cols, a.bits().max(b.bits()))?;
-    let entry = |k: usize| -> BigInt {
-        let (i, j) = (k / cols, k % cols);
-        &a.integers(i / b.rows)[j / b.cols] * &b.integers(i % b.rows)[j % b.cols]
-    };
-    Ok(Matrix { rows, cols, data: (0..rows * cols).map(entry).collect(), den: &a.den * &b.den })
 }
 
 /// Two curves, neither of them constant, with points of them.

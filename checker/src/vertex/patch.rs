@@ -3,6 +3,7 @@
 use super::ball::Ball;
 use super::mesh::{Mesh, Net, Place, Spline};
 use crate::base::{Checked, whole};
+use std::collections::BTreeMap;
 
 /// Control points: `rows[j][i]`. A quadrangle has rows of one length; in a triangle they get shorter by one, and `i`, `j` are the
 /// exponents of the second and the third barycentric coordinate.
@@ -17,28 +18,68 @@ const CELLS: [Place; 3] = [(1, 0), (1, 1), (0, 1)];
 /// The triangles of the ring: a corner, and the sign of the lattice vectors to the second and the third.
 const TRIANGLES: [(Place, i64); 3] = [((1, 0), 1), ((1, 1), -1), ((0, 1), 1)];
 
-/// The points that Loop's box spline on the triangle `(0,0), (1,0), (0,1)` depends on.
-const QUARTIC_POINTS: [Place; 12] =
-    [(-1, 0), (-1, 1), (-1, 2), (0, -1), (0, 0), (0, 1), (0, 2), (1, -1), (1, 0), (1, 1), (2, -1), (2, 0)];
+/// The function whose Bernstein coefficients of degree `n` on all triangles `V, V ± (1, 0), V ± (0, 1)`, `V` a lattice point, are
+/// these at the places `Σ β_i V_i`, and 0 elsewhere; neighbours share the coefficients of their common side.
+type Lattice = BTreeMap<Place, i64>;
 
-/// 24 times the weights of these points in its Bernstein coefficients, by rows.
-const QUARTIC: [[i64; 12]; 15] = [
-    [2, 2, 0, 2, 12, 2, 0, 2, 2, 0, 0, 0],
-    [0, 1, 0, 1, 12, 3, 0, 3, 4, 0, 0, 0],
-    [0, 0, 0, 0, 8, 4, 0, 4, 8, 0, 0, 0],
-    [0, 0, 0, 0, 4, 3, 0, 3, 12, 1, 1, 0],
-    [0, 0, 0, 0, 2, 2, 0, 2, 12, 2, 2, 2],
-    [1, 3, 0, 0, 12, 4, 0, 1, 3, 0, 0, 0],
-    [0, 1, 0, 0, 10, 6, 0, 1, 6, 0, 0, 0],
-    [0, 0, 0, 0, 6, 6, 0, 1, 10, 1, 0, 0],
-    [0, 0, 0, 0, 3, 4, 0, 1, 12, 3, 0, 1],
-    [0, 4, 0, 0, 8, 8, 0, 0, 4, 0, 0, 0],
-    [0, 1, 0, 0, 6, 10, 0, 0, 6, 1, 0, 0],
-    [0, 0, 0, 0, 4, 8, 0, 0, 8, 4, 0, 0],
-    [0, 3, 1, 0, 4, 12, 0, 0, 3, 1, 0, 0],
-    [0, 1, 0, 0, 3, 12, 1, 0, 4, 3, 0, 0],
-    [0, 2, 2, 0, 2, 12, 2, 0, 2, 2, 0, 0],
-];
+/// The coefficient at a place.
+fn coefficient(net: &Lattice, place: Place) -> i64 {
+    match net.get(&place) {
+        Some(c) => *c,
+        None => 0,
+    }
+}
+
+/// Loop's quartic box spline around the lattice point 0, times 24: the hat function, which is the box spline of the directions
+/// `(1, 0)`, `(−1, 1)`, `(0, −1)`, averaged along each of them once more. They add up to 0, so that nothing is moved.
+fn box_spline() -> Lattice {
+    let hat = Lattice::from([((0, 0), 1)]);
+    [(1, (1, 0)), (2, (-1, 1)), (3, (0, -1))]
+        .into_iter()
+        .fold(hat, |net, (degree, along)| averaged(&net, degree, along))
+}
+
+/// `∫ f(x − tξ) dt` over `0 ≤ t ≤ 1` times the new degree, for a function of degree `n` with small support: its derivative along
+/// `ξ`, `n + 1` times the difference of coefficients that are neighbours along it, is `f(x) − f(x − ξ)`.
+fn averaged(net: &Lattice, n: i64, along: Place) -> Lattice {
+    let (m, (u, v)) = (n + 1, along);
+    let step = |(x, y): Place| {
+        // The triangle that holds this step, and its corner from which ξ leads to another one.
+        let (left, low) = (x.min(x + u).div_euclid(m), y.min(y + v).div_euclid(m));
+        let upright = (x + y).max(x + y + u + v) - m * (left + low) <= m;
+        let (a, b) = match (upright, along) {
+            (true, (1, 0)) => (left, low),
+            (true, (-1, 1)) | (false, (0, -1)) => (left + 1, low + i64::from(!upright)),
+            (true, _) | (false, (1, 0)) => (left, low + 1),
+            (false, _) => (left + 1, low),
+        };
+        let (x, y) = (x - a, y - b);
+        coefficient(net, (x, y)) - coefficient(net, (x - n * u, y - n * v))
+    };
+    let mut found = Lattice::new();
+    let reach = 4 * m;
+    let mut places: Vec<Place> = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y))).collect();
+    // Along ξ, from where everything is 0.
+    places.sort_by_key(|(x, y)| x * u + y * v);
+    for (x, y) in places {
+        let next = coefficient(&found, (x, y)) + step((x, y));
+        if next != 0 {
+            found.insert((x + u, y + v), next);
+        }
+    }
+    found
+}
+
+/// For the control points of the triangle `(0, 0), (1, 0), (0, 1)`, by rows, the lattice points and 24 times their weights.
+fn quartic() -> Vec<Vec<(Place, i64)>> {
+    let spline = box_spline();
+    let around = || (-2..=3).flat_map(|a| (-2..=3).map(move |b| (a, b)));
+    let control = |(i, j): Place| {
+        let weight = |(a, b): Place| ((a, b), coefficient(&spline, (i - 4 * a, j - 4 * b)));
+        around().map(weight).filter(|(_, weight)| *weight != 0).collect()
+    };
+    (0..5).flat_map(|j| (0..5 - j).map(move |i| (i, j))).map(control).collect()
+}
 
 /// The patches of the ring of sector 0.
 pub fn patches(mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
@@ -66,14 +107,12 @@ pub fn patches(mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
             CELLS.iter().map(|cell| tensor(*cell, &weights, 2)).collect()
         }
         Spline::Quartic => {
+            let masks = quartic();
             let triangle = |&((i, j), sign): &(Place, i64)| {
-                let place = |(a, b): &Place| (i + sign * a, j + sign * b);
-                let mut masks = QUARTIC.iter().map(|mask| {
-                    let terms = QUARTIC_POINTS.iter().map(place).zip(mask.iter().copied()).filter(|(_, w)| *w != 0);
-                    point(&terms.collect::<Vec<_>>(), 24)
-                });
+                let placed = |&((a, b), weight): &(Place, i64)| ((i + sign * a, j + sign * b), weight);
+                let mut points = masks.iter().map(|mask| point(&mask.iter().map(placed).collect::<Vec<_>>(), 24));
                 let rows =
-                    (0..5).map(|r| masks.by_ref().take(5 - r).collect::<Checked<_>>()).collect::<Checked<_>>()?;
+                    (0..5).map(|r| points.by_ref().take(5 - r).collect::<Checked<_>>()).collect::<Checked<_>>()?;
                 Ok(Patch { rows, triangle: true })
             };
             TRIANGLES.iter().map(triangle).collect()
@@ -172,4 +211,69 @@ pub fn boundary(mesh: &Mesh, patches: &[Patch]) -> Vec<Ball> {
 
 fn choose(n: usize, k: usize) -> i64 {
     (0..k).fold(1, |c, i| c * (n - i) as i64 / (i as i64 + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The weights of a net in the new point at a place: Loop's rule away from extraordinary vertices.
+    fn weight((i, j): Place) -> i64 {
+        match (i.abs().max(j.abs()).max((i + j).abs()), i * j * (i + j)) {
+            (0, _) => 10,
+            (1, _) => 6,
+            (2, 0) => 1,
+            (2, _) => 2,
+            _ => 0,
+        }
+    }
+
+    /// 24 times the control points of a net of one point, by rows.
+    fn patch(net: &dyn Fn(Place) -> i64) -> Vec<Vec<i64>> {
+        let mut points = quartic().into_iter().map(|mask| mask.iter().map(|(p, w)| net(*p) * w).sum());
+        (0..5).map(|r| points.by_ref().take(5 - r).collect()).collect()
+    }
+
+    /// The part of a triangle next to its first corner, of half its size, times 16: point `(i, j)` is the corner after `i` steps of
+    /// de Casteljau's algorithm along the first side and `j` along the second.
+    fn half(rows: &[Vec<i64>]) -> Vec<Vec<i64>> {
+        let mean = |net: &[Vec<i64>], (down, right): (usize, usize)| -> Vec<Vec<i64>> {
+            let row = |r: usize| (0..net[r].len() - 1).map(|i| (net[r][i] + net[r + down][i + right]) / 2).collect();
+            (0..net.len() - 1).map(row).collect()
+        };
+        let mut net: Vec<Vec<i64>> = rows.iter().map(|row| row.iter().map(|c| c * 16).collect()).collect();
+        let mut found = Vec::new();
+        while !net.is_empty() {
+            let (mut row, mut rest) = (Vec::new(), net.clone());
+            while !rest.is_empty() {
+                row.push(rest[0][0]);
+                rest = mean(&rest, (0, 1));
+            }
+            found.push(row);
+            net = mean(&net, (1, 0));
+        }
+        found
+    }
+
+    /// The patch of a net, cut in half towards a corner, is the patch of the refined net: the refinement equation of the box
+    /// spline, for every point of the net that the patch depends on.
+    #[test]
+    fn quartic_patches_refine() {
+        let mut seen = 0;
+        for at in (-3..=4).flat_map(|a| (-3..=4).map(move |b| (a, b))) {
+            let own = patch(&|p| i64::from(p == at));
+            let refined = patch(&|(i, j)| weight((i - 2 * at.0, j - 2 * at.1)));
+            assert_eq!(half(&own), refined, "{at:?}");
+            seen += usize::from(own.iter().flatten().any(|c| *c != 0));
+        }
+        assert_eq!(seen, 12);
+        for mask in quartic() {
+            assert_eq!(mask.iter().map(|(_, w)| w).sum::<i64>(), 24);
+        }
+        // A corner has 12 of itself and 2 of each neighbour.
+        assert_eq!(
+            quartic()[0],
+            [((-1, 0), 2), ((-1, 1), 2), ((0, -1), 2), ((0, 0), 12), ((0, 1), 2), ((1, -1), 2), ((1, 0), 2)]
+        );
+    }
 }

@@ -1,6 +1,6 @@
 //! Curves: cones, points, answers, contraction, addresses.
 
-use super::{all, stored};
+use super::{all, rule, stored};
 use serde_json::{Value, json};
 
 #[test]
@@ -96,6 +96,42 @@ fn points_answers_and_contraction() {
             ),
         ],
     );
+}
+
+#[test]
+fn a_change_of_sign_on_a_connected_piece() {
+    const BRANCH: &str = "/points/0/branches/0";
+    let at = |rest: &str| format!("{BRANCH}{rest}");
+    let address = |prefix: &[usize], cycle: &[usize]| json!({"prefix": prefix, "cycle": cycle});
+    let [positive, negative, links, rows] = ["/positive", "/negative", "/links", "/rows"].map(at);
+    let [radius, cover, functional] = ["/radius", "/cover", "/functional"].map(at);
+    all(
+        "sign-block-3",
+        &[
+            ("sign-change", &[(positive.as_str(), address(&[1], &[1]))]),
+            ("sign-change", &[(negative.as_str(), address(&[1], &[0]))]),
+            ("ring", &[(negative.as_str(), address(&[], &[0]))]),
+            // The pieces of the segment, not joined: pairs are left out, or no points in common.
+            ("sign-change", &[(links.as_str(), Value::Null)]),
+            ("links", &[(links.as_str(), json!([]))]),
+            ("links", &[(links.as_str(), json!([[]]))]),
+            ("links", &[(links.as_str(), json!([[[address(&[0], &[1]), address(&[1], &[1])]]]))]),
+            ("links", &[(links.as_str(), json!([[[address(&[0], &[1]), address(&[0], &[1])]]]))]),
+            ("links", &[(links.as_str(), json!([[[address(&[0], &[1]), address(&[1], &[0])]], []]))]),
+            // No eigenvalue outside, no rows.
+            ("group", &[(radius.as_str(), json!("1"))]),
+            ("group", &[(rows.as_str(), json!([]))]),
+            ("group", &[(rows.as_str(), json!([["1", "0", "0"], ["0", "1", "0"], ["1", "1", "0"]]))]),
+            ("disc", &[(radius.as_str(), json!("0"))]),
+            ("cover", &[(cover.as_str(), json!([]))]),
+            ("cover", &[(cover.as_str(), json!([{"piece": [1], "cells": "-1"}]))]),
+            ("leading", &[(functional.as_str(), json!([["1"], ["1"], []]))]),
+        ],
+    );
+    // All eigenvalues, whose eigenspaces the control points do not tell apart, instead of the first two.
+    let all_rows = json!([["1", "0", "0"], ["0", "0", "1"], ["0", "1", "0"]]);
+    assert_eq!(rule("sign-projected", &[(rows.as_str(), all_rows), (radius.as_str(), json!("1/16"))]), "leading-sign");
+    assert_eq!(rule("sign-projected", &[(rows.as_str(), json!([["0", "0", "1"], ["0", "1", "0"]]))]), "group");
 }
 
 #[test]

@@ -162,3 +162,36 @@ fn little_texts_that_ask_for_much() {
     let proof = "{\"spectra\":[{\"operator\":null,\"factors\":[],\"modulus\":7,\"classes\":[]}]}".to_owned();
     assert!(secant_check::check(&format!("100\n{long}"), &envelope("spectrum", "matrix", proof)).is_err());
 }
+
+/// Of a mesh in `[scheme]` the message says what to check instead; a `[scheme]` beside operators is no case.
+#[test]
+fn schemes_that_are_not_built() {
+    let (_, text) = stored("scheme-chaikin");
+    let refused = |table: &str| {
+        let refused = secant_check::check(&format!("name = \"scheme-chaikin\"\n{table}"), &text).unwrap_err();
+        assert!(refused.unreadable, "{refused}");
+        refused.why
+    };
+    assert!(refused("[scheme]\nmesh = \"loop\"\nvalence = 6").contains("secant expand"));
+    assert!(refused("[scheme]\nname = \"no-such-scheme\"").contains("no-such-scheme"));
+    assert!(refused("[scheme]\nmask = [\"1/4\", \"3/4\"]\nname = \"bspline\"").contains("exactly one"));
+    assert!(refused("pieces = []\n[scheme]\nname = \"bspline\"").contains("in place of the operators"));
+    assert!(refused("[scheme]\nmask = []").contains("not 0"));
+    assert!(refused("[scheme]\nmask = [0, 0]").contains("not 0"));
+    assert!(refused("[scheme]\ntensor = []").contains("2 items"));
+}
+
+/// A certificate of one mask is none of another one.
+#[test]
+fn the_mask_is_that_of_the_case() {
+    let (case, text) = stored("scheme-chaikin");
+    secant_check::check(&case, &text).unwrap();
+    for (from, to) in
+        [("\"1/4\", \"3/4\"", "\"1/3\", \"2/3\""), ("[\"1/4\"", "[0, \"1/4\""), ("\"3/4\", \"1/4\"]", "1, 0]")]
+    {
+        let other = case.replacen(from, to, 1);
+        assert_ne!(case, other);
+        // Zeros in front only move the parameter.
+        assert_eq!(secant_check::check(&other, &text).is_ok(), to.starts_with("[0"), "{to}");
+    }
+}

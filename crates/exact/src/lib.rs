@@ -15,8 +15,13 @@
 //! assert_eq!(spectrum.factors[0].roots.len(), 2);
 //! ```
 //!
-//! The modules in the order of the argument: [`arith`], [`poly`], [`linalg`], [`algebraic`], [`jordan`].
+//! The modules in the order of the argument: [`arith`], [`poly`], [`ring`], [`linalg`], [`algebraic`], [`jordan`].
 #![warn(clippy::float_arithmetic)]
+
+/// The examples of the README are run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 pub mod algebraic;
 pub mod arith;
@@ -24,3 +29,4 @@ pub mod jordan;
 pub mod linalg;
 mod parallel;
 pub mod poly;
+pub mod ring;

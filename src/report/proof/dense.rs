@@ -13,7 +13,8 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     let Some(claim) = found.dense_claim() else { return Vec::new() };
     let projected = claim.what == Assertion::ProjectedJoints;
     let mut blocks = vec![Block::heading(2, "A dense set of points")];
-    let theorem = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
+    let other = if projected { Statement::Theorem5Projected } else { Statement::Theorem5 };
+    let theorem = claim.statement().unwrap_or(other);
     match claim.verdict() {
         Verdict::Proved => blocks.push(seen.once(theorem)),
         Verdict::Undetermined => {
@@ -26,7 +27,10 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
             blocks.push(Block::text(text, []));
         }
     }
-    blocks.push(Block::Checks(checks(case, found, dense, projected, claim.verdict() == Verdict::Proved)));
+    blocks.push(Block::Checks(match &dense.frames {
+        Some(frames) if theorem.uses_frames() => super::frames::checks(case, frames),
+        _ => checks(case, found, dense, projected, claim.verdict() == Verdict::Proved),
+    }));
     let mut conclusion: Line = line("**Conclusion.** ", []);
     conclusion.push(mark(claim.verdict()));
     conclusion.extend(words(format!(": {}", claims::judged(claim))));

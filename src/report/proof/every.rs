@@ -27,6 +27,10 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
         blocks.extend(seen.once_id(every::theorem(cone)));
         blocks.extend(cones(case, found, cone));
     }
+    if let Some(order) = &result.derivative {
+        blocks.extend(seen.once_id(Statement::Graph));
+        blocks.push(Block::Checks(derivative(order)));
+    }
     let checks = result.joints.iter().map(|joint| {
         let point = joint.report(found);
         let mut text = words(format!("{}: ", point_name(&case.shape, point)));
@@ -49,6 +53,23 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     blocks.push(Block::Facts(every::facts(case, found, result)));
     blocks.extend(figures::cones(case, found));
     blocks
+}
+
+/// The hypotheses of Theorem 12 as they were verified.
+fn derivative(order: &crate::theorem::smoothness::CurveOrder) -> Vec<Check> {
+    let dims: Vec<String> = order.dims.iter().map(ToString::to_string).collect();
+    let mut texts = vec![format!(
+        "the spaces $F$ of the differences of the derivative have the dimensions {}, state by state; no chord lies in \
+         them, nor the chord of the start, as it is seen, among what is seen of them",
+        dims.join(", ")
+    )];
+    if let Some(bound) = &order.enclosure {
+        let hi = decimal(&bound.hi, true, 6);
+        texts.push(format!("the joint spectral radius of the $T_i$ on $F$ is at most {hi}, which is below $1/N=@$"));
+    }
+    texts.push("the derivatives of the two sides are equal at every first-level joint".to_owned());
+    let threshold = || std::iter::once(Math::number(&order.threshold));
+    texts.into_iter().map(|text| Check { tone: Tone::Good, text: line(&text, threshold()) }).collect()
 }
 
 /// Most rays that are printed.

@@ -4,6 +4,7 @@
 mod cycles;
 mod dense;
 mod every;
+mod frames;
 mod points;
 mod scheme;
 mod statements;

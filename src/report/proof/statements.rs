@@ -324,6 +324,10 @@ fn why(dimension: usize, statement: Statement, found: Option<&Witness>) -> Line 
             "going along that part one meets zeros of $c_2$ from both sides, and from one of them the criterion gives limit directions off the line \
              $U$, so that"
         }
+        (Statement::Theorem4Sign, _) => {
+            "on that connected part the coefficient of $v_1$ in $L^m x$ has a zero for every large $m$; the directions of these points accumulate off the line \
+             $U$, where the map to the point loses none of them, so that"
+        }
         (_, Some(Witness::SignChange { .. })) => {
             "$g$ has a zero on that connected part; the orbit of such a point stays in $F_1$ and is never 0, so that its limit directions lie in $F_1$, \
              outside the line $U⊂D^*$, and"

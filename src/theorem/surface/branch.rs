@@ -10,7 +10,7 @@ use crate::arith::Rational;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex};
-use crate::theorem::branch::{Context, Local, isolation_functionals, krylov, restrict};
+use crate::theorem::branch::{Context, Local, isolation_functionals, krylov, power, restrict};
 use crate::theorem::ring::{Functional, Part, Ring, RingAnswer, RingPiece, RingProof, Witness};
 use crate::theorem::{Dimension, Statement};
 
@@ -142,7 +142,7 @@ fn functionals_at(spectrum: &Spectrum, factor: usize, roots: &[usize], vector: &
 /// None where the spectrum is empty.
 #[must_use]
 pub fn leading_functionals(spectrum: &Spectrum) -> Vec<Functional> {
-    top(spectrum).map(|top| functionals_of(spectrum, &top)).unwrap_or_default()
+    top(spectrum).map_or_else(Vec::new, |top| functionals_of(spectrum, &top))
 }
 
 fn functionals_of(spectrum: &Spectrum, top: &Top) -> Vec<Functional> {
@@ -309,12 +309,31 @@ impl Analysis<'_> {
         }
         found.dimension.at_least = found.contains.rank().at_least;
         self.bound(top, &mut found, &witness);
+        self.turned(top, &mut found, &witness);
         found.witness = Some(witness);
         if !found.dimension.exact && found.dimension.at_least < 3 && found.open.is_none() {
             let reason = "the ring condition fails, but what follows for the tangent plane is not decided";
             found.open = Some((reason.to_owned(), None));
         }
         found
+    }
+
+    /// Theorems 4′ and 4″: a change of sign, or a path that winds around 0, gives a direction outside `U`, for blocks of any length. The
+    /// branch is isolated, so that it is enough that `G` loses nothing of the eigenspaces of eigenvalues that are not 0.
+    fn turned(&self, top: &Top, found: &mut SurfaceOutcome, witness: &SurfaceWitness) {
+        let least = match witness {
+            SurfaceWitness::SignChange(_) if top.dimension == 1 => 2,
+            SurfaceWitness::Winding(_) if top.dimension == 2 => 3,
+            _ => return,
+        };
+        let image = power(&self.branch.linear, self.branch.linear.rows());
+        if found.dimension.at_least < least && (&self.branch.view * &image).rank() == image.rank() {
+            found.dimension.at_least = least;
+            found.statement = Some(if least == 3 { Statement::Theorem4Winding } else { Statement::Theorem4Sign });
+            if least == 3 {
+                found.open = None;
+            }
+        }
     }
 
     /// Upper bounds by Theorem 1, and directions that exist without a known point.
@@ -440,7 +459,11 @@ impl Analysis<'_> {
     }
 
     fn path(&self, functionals: &[Functional]) -> Option<SurfaceWitness> {
-        let chart = self.setting.chart?;
+        let Some(chart) = self.setting.chart else {
+            // Without parameters only pieces that share points are known to be connected.
+            let [only] = functionals else { return None };
+            return self.ring().connected_sign_change(only).map(SurfaceWitness::SignChange);
+        };
         match functionals {
             [only] => {
                 // Faces are connected.

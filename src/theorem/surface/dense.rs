@@ -6,7 +6,7 @@ use super::tensor::Product;
 use super::verdict::{Surface, SurfaceDense, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, closures};
 use crate::theorem::{Assertion, Claim, Context, Reason, Seen, Statement, Verdict, Viewpoint};
 
 /// Largest dimension of the space of bivectors in which density is decided.
@@ -75,7 +75,7 @@ fn vertex_inside(setting: &Setting, chart: &Chart, product: Option<&Product>, st
 /// Whether every cell contains a vertex whose plane survives the projection: the planes' bivectors span an invariant family
 /// `(B_e)` of equal dimensions on which the maps are injective, and the control points do not kill it.
 fn bivectors_reach(setting: &Setting, dense: &SurfaceDense) -> bool {
-    family(setting, dense).unwrap_or(false)
+    family(setting, dense) == Some(true)
 }
 
 fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
@@ -97,20 +97,10 @@ fn family(setting: &Setting, dense: &SurfaceDense) -> Option<bool> {
         for piece in &cx.shape.states[e].pieces {
             let onto = &cx.spaces.of(e).visible * &cx.spaces.linear(&piece.op, e, piece.target);
             let on_quotient = cx.spaces.of(piece.target).visible.transpose().solve(&onto.transpose())?;
-            maps.push((e, piece.target, second_power(&on_quotient.transpose())));
+            maps.push((piece.target, e, second_power(&on_quotient.transpose()).transpose()));
         }
     }
-    loop {
-        let mut grown = false;
-        for (e, target, map) in &maps {
-            let joined = spans[*e].stack(&(&spans[*target] * &map.transpose())).echelon().rows;
-            grown |= joined.rows() > spans[*e].rows();
-            spans[*e] = joined;
-        }
-        if !grown {
-            break;
-        }
-    }
+    let spans = closures(spans, &maps);
     // T_i is injective on W, hence on bivectors; equal dimensions make it onto.
     let equal = states.iter().all(|&e| spans[e].rows() == spans[cx.from.root()].rows());
     let start = cx.spaces.of(cx.from.root());
@@ -136,7 +126,7 @@ fn bivectors(plane: &super::Subspace) -> Option<Vec<Vec<Rational>>> {
             entries.push(a.coords[i].mul(&b.coords[j], f).sub(&a.coords[j].mul(&b.coords[i], f)));
         }
     }
-    let degree = f.degree().unwrap_or(1);
+    let degree = f.degree().expect("a minimal polynomial is not 0");
     Some((0..degree).map(|k| entries.iter().map(|e: &Elem| e.0.coeff(k)).collect()).collect())
 }
 

@@ -199,7 +199,7 @@ fn conclude(setting: &Setting, spot: Spot, parameter: Option<Param>, addresses: 
     let image = setting.cx.from.image(&position);
     let sum = branches.iter().fold(Subspace::default(), |s, b| s.join(&b.outcome.contains));
     let rank = sum.rank();
-    let single = branches.iter().map(|b| b.outcome.dimension.at_least).max().unwrap_or(0);
+    let single = branches.iter().map(|b| b.outcome.dimension.at_least).fold(0, usize::max);
     let mut point = SurfacePoint {
         spot,
         parameter,

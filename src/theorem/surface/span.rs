@@ -179,7 +179,7 @@ impl Subspace {
 
 /// The rational vector as coprime integers.
 fn integral(v: Vec<Elem>) -> Direction {
-    let numbers: Vec<Rational> = v.iter().map(|e| e.is_rational().unwrap_or_default()).collect();
+    let numbers: Vec<Rational> = v.iter().map(|e| e.is_rational().expect("a rational vector")).collect();
     Direction {
         root: Root::from_rational(&Rational::from(0)),
         coords: primitive(&numbers).iter().map(Elem::from_rational).collect(),

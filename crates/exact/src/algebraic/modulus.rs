@@ -170,6 +170,13 @@ pub(super) fn compare(x: &Root, y: &Root) -> Ordering {
     if x.set.poly == y.set.poly && (x.index == y.index || x.conjugate().index == y.index) {
         return Ordering::Equal;
     }
+    if std::sync::Arc::ptr_eq(&x.set, &y.set) {
+        // Roots of g(x^k) over one root of g.
+        let ((a, k), (b, l)) = (base(x), base(y));
+        if k == l && k > 1 && (a.same(&b) || a.conjugate().same(&b)) {
+            return Ordering::Equal;
+        }
+    }
     let numeric = |bits: u64| order(&enclosure(x, bits), &enclosure(y, bits));
     let start = 64 + bits_above(x).max(bits_above(y));
     if let Some(found) = [start, 2 * start].into_iter().find_map(numeric) {

@@ -118,3 +118,80 @@ fn quotients_that_are_roots_of_unity() {
     assert!(!g[0].ratio_is_root_of_unity(&g[1]));
     assert!(roots(&p(&[1, 1, 1]))[0].ratio_is_root_of_unity(&Root::from_rational(&ratio(-1, 1))));
 }
+
+#[test]
+fn real_roots_alone_are_the_real_ones_of_all() {
+    let mut seed = 5;
+    for n in 2..14usize {
+        let mut random = || (crate::poly::modp::next_random(&mut seed) % 41) as i64 - 20;
+        let f = Poly::new((0..=n).map(|_| ratio(random(), 1)).collect());
+        for (g, _) in factor(&f).into_iter().filter(|(g, _)| g.degree() > Some(0)) {
+            let (all, real) = (roots(&g), real_roots(&g));
+            assert_eq!(all.iter().filter(|r| r.is_real()).count(), real.len());
+            for (a, b) in all.iter().zip(&real) {
+                assert_eq!(a, b);
+                let (x, y) = (a.enclosure(300).0, b.enclosure(300).0);
+                assert!(!x.disjoint(&y) && y.width() <= Rational::from(1) >> 300i64);
+                assert_eq!(a.sign(), b.sign());
+                // The set of the real ones finds the others when they are asked for.
+                assert_eq!(b.cmp_modulus(&all[all.len() - 1]), a.cmp_modulus(&all[all.len() - 1]));
+            }
+        }
+    }
+    let mignotte = &Poly::new((0..=20).map(|k| ratio(i64::from(k == 20), 1)).collect())
+        - &p(&[-1, 1000]).pow(2).scale(&ratio(2, 1));
+    let close = real_roots(&mignotte);
+    assert_eq!(close.len(), 4);
+    assert!(close.windows(2).all(|w| cmp_real(&w[0], &w[1]) == Ordering::Less));
+    assert_eq!(positive_roots(&(&p(&[-2, 0, 1]) * &p(&[6, -5, 1]).pow(2))).len(), 3);
+}
+
+/// The polynomial whose roots are the sums, or the products, of a root of each.
+fn combined(f: &Poly, g: &Poly, sums: bool) -> Poly {
+    let (n, m) = (f.degree().unwrap(), g.degree().unwrap());
+    let companion = |f: &Poly, i: usize, j: usize| {
+        let n = f.degree().unwrap();
+        if j + 1 == n { -f.coeff(i) } else { ratio(i64::from(i == j + 1), 1) }
+    };
+    let delta = |i: usize, j: usize| ratio(i64::from(i == j), 1);
+    let entry = |i: usize, j: usize| {
+        let (a, b) = (companion(f, i / m, j / m), companion(g, i % m, j % m));
+        if sums { a * delta(i % m, j % m) + b * delta(i / m, j / m) } else { a * b }
+    };
+    crate::linalg::char_poly(&crate::linalg::Matrix::from_fn(n * m, n * m, entry))
+}
+
+#[test]
+fn ties_that_have_no_simple_reason() {
+    // x³ - x - 1 and x³ + 2x - 5 have one real root and one pair each: the sums a + b, a + conj b have equal real parts,
+    // the products a b and a conj b equal moduli.
+    let (f, g) = (p(&[-1, -1, 0, 1]), p(&[-5, 2, 0, 1]));
+    let sums = roots(&combined(&f, &g, true));
+    assert_eq!((sums.len(), sums.iter().filter(|r| r.is_real()).count()), (9, 1));
+    let parts: Vec<(f64, f64)> = sums[1..].iter().step_by(2).map(Root::to_f64).collect();
+    let order = |a: &(f64, f64), b: &(f64, f64)| {
+        if (a.0 - b.0).abs() < 1e-12 { a.1.partial_cmp(&b.1).unwrap() } else { a.0.partial_cmp(&b.0).unwrap() }
+    };
+    assert!(parts.windows(2).all(|w| order(&w[0], &w[1]) == Ordering::Less), "{parts:?}");
+    assert_eq!(parts.windows(2).filter(|w| (w[0].0 - w[1].0).abs() < 1e-12).count(), 1);
+    let products = roots(&combined(&f, &g, false));
+    let pairs: Vec<&Root> = products.iter().filter(|r| !r.is_real()).step_by(2).collect();
+    let ties = |i: usize| pairs.iter().filter(|r| r.cmp_modulus(pairs[i]) == Ordering::Equal).count();
+    assert_eq!((0..4).map(ties).collect::<Vec<_>>().iter().sum::<usize>(), 6);
+}
+
+#[test]
+fn roots_far_from_zero_have_short_enclosures() {
+    let far = parse_rational("1e100").unwrap();
+    let near = p(&[7, -3, 4, 1, 5]);
+    let f = near.shifted(&-&far);
+    let (all, local) = (roots(&f), roots(&near));
+    for (r, s) in all.iter().zip(&local) {
+        let ((re, im), (x, y)) = (r.enclosure(200), s.enclosure(200));
+        assert!(!im.disjoint(&y) && !(&re - &Interval::point(far.clone())).disjoint(&x));
+        assert_eq!(r.is_real(), s.is_real());
+    }
+    assert_eq!(factor(&f), vec![(f.monic(), 1)]);
+    let product = &f * &Poly::linear(&(&far + ratio(1, 1)));
+    assert_eq!(factor(&product), vec![(Poly::linear(&(far + ratio(1, 1))), 1), (f.monic(), 1)]);
+}

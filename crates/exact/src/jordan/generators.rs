@@ -5,7 +5,7 @@ use super::operator::{ModOperator, Operator, make_primitive};
 use crate::arith::Integer;
 use crate::arith::modular::{PrimeField, large_primes};
 use crate::linalg::echelon::ModEchelon;
-use crate::linalg::lifting::{self, Lifting};
+use crate::linalg::lifting::Lifting;
 use crate::linalg::reconstruct::Residues;
 use crate::poly::{IntPoly, Poly, ints};
 
@@ -83,13 +83,11 @@ fn from_prime(operator: &Operator, part: &Part, p: u64) -> Option<Vec<Generator>
     for size in (1..=levels.len()).rev() {
         let columns: Vec<usize> = picks.iter().filter(|p| p.size == size).map(|p| p.column).collect();
         if !columns.is_empty() {
-            if size == 1
-                && levels.len() == 1
-                && let Some(answer) = lifted(operator, part, &image.field, &levels[0], &columns)
-            {
-                return answer.map(|v| v.into_iter().map(|vector| Generator { vector, size }).collect());
-            }
-            let vectors = reconstruct(operator, part, size, &columns, (&image.field, &levels[size - 1]))?;
+            let first = (&image.field, &levels[size - 1]);
+            let vectors = match lifted(operator, part, size, &columns, first) {
+                Some(answer) => answer?,
+                None => reconstruct(operator, part, size, &columns, first)?,
+            };
             found.extend(vectors.into_iter().map(|vector| Generator { vector, size }));
         }
     }
@@ -148,17 +146,16 @@ fn picks(image: &ModOperator, poly: &[u64], part: &Part, levels: &[ModEchelon]) 
     Some(picks)
 }
 
-/// The eigenvectors of a rational eigenvalue at the given free columns, by lifting; `None` where that cannot be done in
-/// words, `Some(None)` where the prime was unlucky.
+/// The exact kernel vectors of `F(N)^size` at the given free columns, by lifting; `None` where that cannot be done in words,
+/// `Some(None)` where the prime was unlucky.
 fn lifted(
     operator: &Operator,
     part: &Part,
-    field: &PrimeField,
-    echelon: &ModEchelon,
+    size: usize,
     columns: &[usize],
+    (field, echelon): (&PrimeField, &ModEchelon),
 ) -> Option<Option<Vec<Vec<Integer>>>> {
-    let [minus_root, _] = &part.poly[..] else { return None };
-    let rows = lifting::words(&operator.minus(&-minus_root))?;
+    let rows = operator.power_in_words(&part.poly, size)?;
     let Some(lifting) = Lifting::new(&rows, *field, &echelon.pivots) else { return Some(None) };
     let mut vectors: Vec<_> = columns.iter().map(|c| lifting.start(*c)).collect();
     let (p, mut power) = (Integer::from(field.modulus()), Integer::from(1));
@@ -168,7 +165,7 @@ fn lifted(
         power *= &p;
         if count >= next_try || count == lifting.enough() {
             let known: Vec<Residues> = vectors.iter().map(|v| lifting.residues(v, &power)).collect();
-            if let Some(found) = verified(operator, part, 1, &known) {
+            if let Some(found) = verified(operator, part, size, &known) {
                 return Some(Some(found));
             }
             next_try = count + count / 4 + 1;
@@ -250,4 +247,52 @@ fn verified(operator: &Operator, part: &Part, size: usize, known: &[Residues]) -
     }
     debug_assert!(vectors.iter().all(|v| ints::content(v) == 1));
     Some(vectors)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arith::ratio;
+    use crate::linalg::Matrix;
+    use crate::poly::factor;
+
+    #[test]
+    fn lifting_and_remainders_give_the_same_vectors() {
+        // Blocks 3, 1 for 2; 2 for the golden ratio; 1 for 1/3 scaled by the operator.
+        let blocks = [(0, 2), (1, 2), (2, 2), (3, 2)];
+        let mut a = Matrix::zero(9, 9);
+        for (i, x) in blocks {
+            a[(i, i)] = ratio(x, 1);
+        }
+        a[(0, 1)] = ratio(1, 1);
+        a[(1, 2)] = ratio(1, 1);
+        for k in [4, 6] {
+            (a[(k, k + 1)], a[(k + 1, k)], a[(k + 1, k + 1)]) = (ratio(1, 1), ratio(1, 1), ratio(1, 1));
+        }
+        (a[(4, 6)], a[(5, 7)], a[(8, 8)]) = (ratio(1, 1), ratio(1, 1), ratio(1, 3));
+        let mut seed = 3;
+        let mut p = Matrix::identity(9);
+        for i in 0..9 {
+            for j in 0..i {
+                p[(i, j)] = ratio((crate::poly::modp::next_random(&mut seed) % 5) as i64 - 2, 1);
+            }
+        }
+        let a = &(&p * &a) * &p.inverse().unwrap();
+        let operator = Operator::new(&a);
+        let mut compared = 0;
+        for (f, multiplicity) in factor(&crate::linalg::char_poly(&a)) {
+            let part = Part { poly: operator.scaled(&f), monic: f, multiplicity };
+            let image = operator.modulo(&PrimeField::new(large_primes().next().unwrap()));
+            let poly = residues(&part, &image.field);
+            let levels = levels(&image, &poly, &part).unwrap();
+            for (k, level) in levels.iter().enumerate() {
+                let columns: Vec<usize> = level.free_columns().collect();
+                let first = (&image.field, level);
+                let one = lifted(&operator, &part, k + 1, &columns, first).expect("short").expect("lucky");
+                assert_eq!(one, reconstruct(&operator, &part, k + 1, &columns, first).unwrap());
+                compared += one.len();
+            }
+        }
+        assert_eq!(compared, 1 + (2 + 3 + 4) + (2 + 4));
+    }
 }

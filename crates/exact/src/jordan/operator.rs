@@ -2,7 +2,7 @@
 
 use crate::arith::modular::PrimeField;
 use crate::arith::{Integer, Natural};
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, lifting};
 use crate::poly::{IntPoly, Poly, ints};
 use malachite_base::num::arithmetic::traits::{AddMulAssign, DivExact, DivExactAssign, Gcd, Pow};
 
@@ -26,14 +26,27 @@ impl Operator {
         self.rows.len()
     }
 
-    /// The sparse rows of `N - c`.
-    pub fn minus(&self, c: &Integer) -> Vec<Vec<(usize, Integer)>> {
-        let row = |(i, row): (usize, &Vec<(usize, Integer)>)| {
-            let diagonal = row.iter().find(|(j, _)| *j == i).map_or_else(|| -c, |(_, x)| x - c);
-            let others = row.iter().filter(|(j, _)| *j != i).cloned();
-            others.chain((diagonal != 0).then_some((i, diagonal))).collect()
-        };
-        self.rows.iter().enumerate().map(row).collect()
+    /// The sparse rows of `F(N)^power` for a monic `F`, where all numbers on the way are words that can be lifted.
+    pub fn power_in_words(&self, f: &[Integer], power: usize) -> Option<Vec<Vec<(usize, i64)>>> {
+        let rows = lifting::words(&self.rows)?;
+        let coefficients = f.iter().map(|c| i64::try_from(c).ok()).collect::<Option<Vec<i64>>>()?;
+        let n = rows.len();
+        let unit = |i: usize| (0..n).map(|j| i64::from(i == j)).collect();
+        let mut value: Vec<Vec<i64>> = (0..n).map(unit).collect();
+        for _ in 0..power {
+            let start = value.clone();
+            for c in coefficients.iter().rev().skip(1) {
+                let entry = |i: usize, j: usize| {
+                    let product = |(k, x): &(usize, i64)| i128::from(*x) * i128::from(value[*k][j]);
+                    let sum = rows[i].iter().map(product).sum::<i128>() + i128::from(*c) * i128::from(start[i][j]);
+                    i64::try_from(sum).ok()
+                };
+                value = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect::<Option<Vec<Vec<i64>>>>()?;
+            }
+        }
+        let sparse = |row: Vec<i64>| row.into_iter().enumerate().filter(|(_, x)| *x != 0).collect::<Vec<_>>();
+        let sparse: Vec<Vec<(usize, i64)>> = value.into_iter().map(sparse).collect();
+        sparse.iter().all(|row| lifting::is_short(row)).then_some(sparse)
     }
 
     /// `N v`.

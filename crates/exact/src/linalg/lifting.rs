@@ -31,13 +31,17 @@ pub(crate) struct Lifted {
 /// Rows whose absolute values add up to less than this can be lifted in 128 bits.
 const SHORT: u64 = 1 << 60;
 
-/// The entries as words, where the sums of each row are short enough.
+/// Whether a row can be lifted in 128 bits.
+pub(crate) fn is_short(row: &[(usize, i64)]) -> bool {
+    row.iter().map(|(_, x)| u128::from(x.unsigned_abs())).sum::<u128>() < u128::from(SHORT)
+}
+
+/// The entries as words, where all rows are short.
 pub(crate) fn words(rows: &[Vec<(usize, Integer)>]) -> Option<Vec<Vec<(usize, i64)>>> {
     let word = |(j, x): &(usize, Integer)| i64::try_from(x).ok().map(|x| (*j, x));
-    let short = |row: &Vec<(usize, i64)>| {
-        row.iter().map(|(_, x)| u128::from(x.unsigned_abs())).sum::<u128>() < u128::from(SHORT)
-    };
-    rows.iter().map(|row| row.iter().map(word).collect::<Option<Vec<_>>>().filter(short)).collect()
+    let row =
+        |row: &Vec<(usize, Integer)>| row.iter().map(word).collect::<Option<Vec<_>>>().filter(|row| is_short(row));
+    rows.iter().map(row).collect()
 }
 
 impl<'a> Lifting<'a> {

@@ -1,38 +1,33 @@
+use super::elimination;
 use crate::arith::Rational;
+use crate::ring::{Field, Rationals, Ring};
+use std::borrow::Borrow;
 use std::ops::{Add, Index, IndexMut, Mul, Sub};
 
 /// A dense exact matrix, stored by rows. Zero rows or columns are allowed.
+///
+/// The entries are rationals unless another type is named; what is done over another field takes its context, as in
+/// [`Matrix::echelon_over`].
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub struct Matrix {
+pub struct Matrix<E = Rational> {
     rows: usize,
     cols: usize,
-    data: Vec<Rational>,
+    data: Vec<E>,
 }
 
 /// The reduced row echelon form of a matrix.
 #[derive(Debug, Clone)]
-pub struct Echelon {
+pub struct Echelon<E = Rational> {
     /// The nonzero rows, with leading ones.
-    pub rows: Matrix,
+    pub rows: Matrix<E>,
     /// The column of each row's leading one, ascending.
     pub pivots: Vec<usize>,
 }
 
-impl Matrix {
-    /// The `rows x cols` matrix of zeros.
-    #[must_use]
-    pub fn zero(rows: usize, cols: usize) -> Self {
-        Self { rows, cols, data: vec![Rational::from(0); rows * cols] }
-    }
-
-    /// The identity of size `n`.
-    #[must_use]
-    pub fn identity(n: usize) -> Self {
-        Self::from_fn(n, n, |i, j| Rational::from(u8::from(i == j)))
-    }
-
+/// Entries of any kind.
+impl<E: Clone> Matrix<E> {
     /// The matrix with entries `f(row, column)`.
-    pub fn from_fn(rows: usize, cols: usize, mut f: impl FnMut(usize, usize) -> Rational) -> Self {
+    pub fn from_fn(rows: usize, cols: usize, mut f: impl FnMut(usize, usize) -> E) -> Self {
         let mut data = Vec::with_capacity(rows * cols);
         for i in 0..rows {
             for j in 0..cols {
@@ -47,7 +42,7 @@ impl Matrix {
     /// # Panics
     /// If a row has another length.
     #[must_use]
-    pub fn from_rows(cols: usize, rows: Vec<Vec<Rational>>) -> Self {
+    pub fn from_rows(cols: usize, rows: Vec<Vec<E>>) -> Self {
         let count = rows.len();
         let mut data = Vec::with_capacity(count * cols);
         for row in rows {
@@ -62,7 +57,7 @@ impl Matrix {
     /// # Panics
     /// If a column has another length.
     #[must_use]
-    pub fn from_columns(rows: usize, columns: &[Vec<Rational>]) -> Self {
+    pub fn from_columns(rows: usize, columns: &[Vec<E>]) -> Self {
         assert!(columns.iter().all(|c| c.len() == rows), "column length");
         Self::from_fn(rows, columns.len(), |i, j| columns[j][i].clone())
     }
@@ -81,20 +76,165 @@ impl Matrix {
 
     /// Row `i`.
     #[must_use]
-    pub fn row(&self, i: usize) -> &[Rational] {
+    pub fn row(&self, i: usize) -> &[E] {
         &self.data[i * self.cols..(i + 1) * self.cols]
     }
 
     /// Column `j`, copied.
     #[must_use]
-    pub fn column(&self, j: usize) -> Vec<Rational> {
+    pub fn column(&self, j: usize) -> Vec<E> {
         (0..self.rows).map(|i| self[(i, j)].clone()).collect()
+    }
+
+    /// All entries, row by row.
+    #[must_use]
+    pub fn entries(&self) -> &[E] {
+        &self.data
+    }
+
+    /// The matrix with the entries `f(entry)`.
+    #[must_use]
+    pub fn map<T: Clone>(&self, f: impl FnMut(&E) -> T) -> Matrix<T> {
+        Matrix { rows: self.rows, cols: self.cols, data: self.data.iter().map(f).collect() }
     }
 
     /// The transpose.
     #[must_use]
     pub fn transpose(&self) -> Self {
         Self::from_fn(self.cols, self.rows, |i, j| self[(j, i)].clone())
+    }
+
+    /// The rows of `self` followed by the rows of `below`.
+    ///
+    /// # Panics
+    /// If the widths differ.
+    #[must_use]
+    pub fn stack(&self, below: &Self) -> Self {
+        assert_eq!(self.cols, below.cols, "matrix width");
+        let mut data = self.data.clone();
+        data.extend_from_slice(&below.data);
+        Self { rows: self.rows + below.rows, cols: self.cols, data }
+    }
+
+    /// `self * other` over a ring.
+    ///
+    /// # Panics
+    /// If the inner dimensions differ.
+    #[must_use]
+    pub fn mul_over<K: Ring<E = E>>(&self, k: &K, other: &Self) -> Self {
+        assert_eq!(self.cols, other.rows, "inner dimension");
+        let entry = |i: usize, j: usize| {
+            (0..self.cols).fold(k.zero(), |sum, l| k.add(&sum, &k.mul(&self[(i, l)], &other[(l, j)])))
+        };
+        Self::from_fn(self.rows, other.cols, entry)
+    }
+
+    /// The reduced row echelon form over a field; `None` where the field cannot tell whether a pivot is 0.
+    ///
+    /// # Cost
+    /// `O(rows * cols * rank)` operations in the field; entries may grow.
+    #[must_use]
+    pub fn echelon_over<K: Field<E = E>>(&self, k: &K) -> Option<Echelon<E>> {
+        let rows = (0..self.rows).map(|i| self.row(i).to_vec()).collect();
+        let (rows, pivots) = elimination::reduced(k, rows, self.cols)?;
+        Some(Echelon { rows: Self::from_rows(self.cols, rows), pivots })
+    }
+
+    /// A basis of `{x : self x = 0}` over a field, as the columns of the result; `None` as for
+    /// [`Matrix::echelon_over`].
+    #[must_use]
+    pub fn kernel_over<K: Field<E = E>>(&self, k: &K) -> Option<Self> {
+        Some(self.echelon_over(k)?.kernel(k))
+    }
+
+    /// One solution `X` of `self X = right` over a field (free unknowns are 0): `Some(None)` where there is none, `None` as
+    /// for [`Matrix::echelon_over`].
+    ///
+    /// # Panics
+    /// If the heights differ.
+    #[must_use]
+    pub fn solve_over<K: Field<E = E>>(&self, k: &K, right: &Self) -> Option<Option<Self>> {
+        assert_eq!(self.rows, right.rows, "matrix height");
+        let joined = Self::from_fn(self.rows, self.cols + right.cols, |i, j| {
+            if j < self.cols { self[(i, j)].clone() } else { right[(i, j - self.cols)].clone() }
+        });
+        let Echelon { rows, pivots } = joined.echelon_over(k)?;
+        if pivots.iter().any(|&p| p >= self.cols) {
+            return Some(None);
+        }
+        let mut x = Self::from_fn(self.cols, right.cols, |_, _| k.zero());
+        for (r, &p) in pivots.iter().enumerate() {
+            for j in 0..right.cols {
+                x[(p, j)] = rows[(r, self.cols + j)].clone();
+            }
+        }
+        Some(Some(x))
+    }
+
+    /// The characteristic polynomial `det(x - A)` over a ring, the constant coefficient first.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    ///
+    /// # Cost
+    /// `O(n^4)` operations in the ring, no division.
+    ///
+    /// Source: S. Berkowitz, *On computing the determinant in small parallel time using a small number of processors*,
+    /// Inf. Process. Lett. 18 (1984).
+    #[must_use]
+    pub fn char_poly_over<K: Ring<E = E>>(&self, k: &K) -> Vec<E> {
+        assert_eq!(self.rows, self.cols, "square matrix");
+        let sum = |a: &[E], b: &[E]| a.iter().zip(b).fold(k.zero(), |s, (x, y)| k.add(&s, &k.mul(x, y)));
+        // High degree first, for the leading submatrices.
+        let mut high = vec![k.one()];
+        for r in 0..self.rows {
+            // 1, -a_rr, -R C, -R M C, … with the leading submatrix M of size r, the row R and the column C beside it.
+            let mut toeplitz = vec![k.one(), k.neg(&self[(r, r)])];
+            let mut column: Vec<E> = (0..r).map(|i| self[(i, r)].clone()).collect();
+            for _ in 0..r {
+                toeplitz.push(k.neg(&sum(&self.row(r)[..r], &column)));
+                column = (0..r).map(|i| sum(&self.row(i)[..r], &column)).collect();
+            }
+            let product = |m: usize| {
+                let terms = high.iter().enumerate().take(m + 1).map(|(j, c)| k.mul(&toeplitz[m - j], c));
+                terms.fold(k.zero(), |s, x| k.add(&s, &x))
+            };
+            high = (0..r + 2).map(product).collect();
+        }
+        high.reverse();
+        high
+    }
+}
+
+impl<E: Clone> Echelon<E> {
+    /// A basis of the vectors that the rows annihilate, as columns.
+    #[must_use]
+    pub fn kernel<K: Ring<E = E>>(&self, k: &K) -> Matrix<E> {
+        let cols = self.rows.cols;
+        let free: Vec<usize> = (0..cols).filter(|c| !self.pivots.contains(c)).collect();
+        let mut basis = Matrix::from_fn(cols, free.len(), |_, _| k.zero());
+        for (j, &f) in free.iter().enumerate() {
+            basis[(f, j)] = k.one();
+            for (r, &p) in self.pivots.iter().enumerate() {
+                basis[(p, j)] = k.neg(&self.rows[(r, f)]);
+            }
+        }
+        basis
+    }
+}
+
+/// Rational entries.
+impl Matrix {
+    /// The `rows x cols` matrix of zeros.
+    #[must_use]
+    pub fn zero(rows: usize, cols: usize) -> Self {
+        Self { rows, cols, data: vec![Rational::from(0); rows * cols] }
+    }
+
+    /// The identity of size `n`.
+    #[must_use]
+    pub fn identity(n: usize) -> Self {
+        Self::from_fn(n, n, |i, j| Rational::from(u8::from(i == j)))
     }
 
     /// Whether every entry is 0.
@@ -134,54 +274,23 @@ impl Matrix {
     /// `factor * self`.
     #[must_use]
     pub fn scale(&self, factor: &Rational) -> Self {
-        Self { rows: self.rows, cols: self.cols, data: self.data.iter().map(|x| x * factor).collect() }
-    }
-
-    /// The rows of `self` followed by the rows of `below`.
-    ///
-    /// # Panics
-    /// If the widths differ.
-    #[must_use]
-    pub fn stack(&self, below: &Self) -> Self {
-        assert_eq!(self.cols, below.cols, "matrix width");
-        let mut data = self.data.clone();
-        data.extend_from_slice(&below.data);
-        Self { rows: self.rows + below.rows, cols: self.cols, data }
+        self.map(|x| x * factor)
     }
 
     /// The reduced row echelon form (Gauss–Jordan).
     ///
     /// # Cost
     /// `O(rows * cols * rank)` rational operations; entries may grow.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    ///
+    /// let a = Matrix::from_fn(2, 3, |i, j| ratio((i + 1) as i64 * (j as i64 + 1), 1));
+    /// assert_eq!(a.echelon().pivots, [0]);
+    /// ```
     #[must_use]
     pub fn echelon(&self) -> Echelon {
-        let mut m = self.clone();
-        let mut pivots = Vec::new();
-        for col in 0..m.cols {
-            let top = pivots.len();
-            let Some(found) = (top..m.rows).find(|&r| m[(r, col)] != 0) else { continue };
-            m.swap_rows(top, found);
-            let inverse = Rational::from(1) / &m[(top, col)];
-            for j in col..m.cols {
-                m[(top, j)] *= &inverse;
-            }
-            let pivot_row = m.row(top).to_vec();
-            for r in (0..m.rows).filter(|&r| r != top) {
-                let factor = m[(r, col)].clone();
-                if factor != 0 {
-                    for j in col..m.cols {
-                        if pivot_row[j] != 0 {
-                            let change = &factor * &pivot_row[j];
-                            m[(r, j)] -= change;
-                        }
-                    }
-                }
-            }
-            pivots.push(col);
-        }
-        m.data.truncate(pivots.len() * m.cols);
-        m.rows = pivots.len();
-        Echelon { rows: m, pivots }
+        self.echelon_over(&Rationals).expect("rationals are told from 0")
     }
 
     /// The rank.
@@ -191,18 +300,16 @@ impl Matrix {
     }
 
     /// A basis of `{x : self x = 0}`, as the columns of the result.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    ///
+    /// let a = Matrix::from_rows(2, vec![vec![ratio(1, 1), ratio(-2, 1)]]);
+    /// assert_eq!(a.kernel().column(0), [ratio(2, 1), ratio(1, 1)]);
+    /// ```
     #[must_use]
     pub fn kernel(&self) -> Self {
-        let Echelon { rows, pivots } = self.echelon();
-        let free: Vec<usize> = (0..self.cols).filter(|c| !pivots.contains(c)).collect();
-        let mut basis = Self::zero(self.cols, free.len());
-        for (k, &f) in free.iter().enumerate() {
-            basis[(f, k)] = Rational::from(1);
-            for (r, &p) in pivots.iter().enumerate() {
-                basis[(p, k)] = -&rows[(r, f)];
-            }
-        }
-        basis
+        self.echelon().kernel(&Rationals)
     }
 
     /// One solution `X` of `self X = right`, or `None` where there is none (free unknowns are set to 0).
@@ -211,24 +318,17 @@ impl Matrix {
     /// If the heights differ.
     #[must_use]
     pub fn solve(&self, right: &Self) -> Option<Self> {
-        assert_eq!(self.rows, right.rows, "matrix height");
-        let joined = Self::from_fn(self.rows, self.cols + right.cols, |i, j| {
-            if j < self.cols { self[(i, j)].clone() } else { right[(i, j - self.cols)].clone() }
-        });
-        let Echelon { rows, pivots } = joined.echelon();
-        if pivots.iter().any(|&p| p >= self.cols) {
-            return None;
-        }
-        let mut x = Self::zero(self.cols, right.cols);
-        for (r, &p) in pivots.iter().enumerate() {
-            for j in 0..right.cols {
-                x[(p, j)] = rows[(r, self.cols + j)].clone();
-            }
-        }
-        Some(x)
+        self.solve_over(&Rationals, right).expect("rationals are told from 0")
     }
 
     /// The inverse, or `None` for a singular or non-square matrix.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    ///
+    /// let a = Matrix::from_fn(2, 2, |i, j| ratio([[2, 1], [7, 4]][i][j], 1));
+    /// assert_eq!(&a * &a.inverse().expect("determinant 1"), Matrix::identity(2));
+    /// ```
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
         if self.rows != self.cols || self.rank() < self.rows {
@@ -237,11 +337,54 @@ impl Matrix {
         self.solve(&Self::identity(self.rows))
     }
 
-    fn swap_rows(&mut self, a: usize, b: usize) {
-        if a != b {
-            for j in 0..self.cols {
-                self.data.swap(a * self.cols + j, b * self.cols + j);
+    /// The row echelon form of the smallest space of rows that contains those of `self` and with a row `v` every `v m` for
+    /// the given matrices.
+    ///
+    /// # Panics
+    /// If a matrix has not as many rows and columns as `self` has columns.
+    ///
+    /// # Cost
+    /// At most as many eliminations as the dimension of the result.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    ///
+    /// let step = Matrix::from_fn(3, 3, |i, j| ratio(i64::from(j == i + 1), 1));
+    /// let first = Matrix::from_fn(1, 3, |_, j| ratio(i64::from(j == 1), 1));
+    /// assert_eq!(first.closure(&[&step]).rows(), 2);
+    /// ```
+    #[must_use]
+    pub fn closure(&self, maps: &[&Self]) -> Self {
+        let arrows: Vec<(usize, usize, &Self)> = maps.iter().map(|m| (0, 0, *m)).collect();
+        closures(vec![self.clone()], &arrows).pop().expect("one space")
+    }
+}
+
+/// The smallest family of spaces of rows that contains the given one and with a row `v` at `from` every `v m` at `to`, for
+/// the arrows `(from, to, m)`; as row echelon forms.
+///
+/// # Panics
+/// If the sizes do not fit, or an arrow has no end.
+///
+/// # Cost
+/// At most as many eliminations for each arrow as the sum of the dimensions of the result.
+#[must_use]
+pub fn closures<M: Borrow<Matrix>>(spaces: Vec<Matrix>, arrows: &[(usize, usize, M)]) -> Vec<Matrix> {
+    let mut spaces: Vec<Matrix> = spaces.into_iter().map(|s| s.echelon().rows).collect();
+    loop {
+        let mut grown = false;
+        for (from, to, map) in arrows {
+            if spaces[*from].rows() == 0 || spaces[*to].rows() == spaces[*to].cols() {
+                continue;
             }
+            let joined = spaces[*to].stack(&(&spaces[*from] * map.borrow())).echelon().rows;
+            if joined.rows() > spaces[*to].rows() {
+                spaces[*to] = joined;
+                grown = true;
+            }
+        }
+        if !grown {
+            return spaces;
         }
     }
 }
@@ -258,15 +401,15 @@ pub fn dot(a: &[Rational], b: &[Rational]) -> Rational {
     sum
 }
 
-impl Index<(usize, usize)> for Matrix {
-    type Output = Rational;
-    fn index(&self, (i, j): (usize, usize)) -> &Rational {
+impl<E> Index<(usize, usize)> for Matrix<E> {
+    type Output = E;
+    fn index(&self, (i, j): (usize, usize)) -> &E {
         &self.data[i * self.cols + j]
     }
 }
 
-impl IndexMut<(usize, usize)> for Matrix {
-    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut Rational {
+impl<E> IndexMut<(usize, usize)> for Matrix<E> {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut E {
         &mut self.data[i * self.cols + j]
     }
 }

@@ -1,13 +1,15 @@
-//! Exact matrices over the rationals: products, echelon form, kernels, solving, characteristic polynomials.
+//! Exact matrices, over the rationals and over any field of [`crate::ring`]: products, echelon form, kernels, solving,
+//! characteristic polynomials.
 
 mod char_poly;
 pub(crate) mod dependency;
 pub(crate) mod echelon;
+mod elimination;
 pub(crate) mod lifting;
 mod matrix;
 pub(crate) mod reconstruct;
 mod strong;
 pub use char_poly::char_poly;
 pub(crate) use char_poly::char_poly_blocks;
-pub use matrix::{Echelon, Matrix, dot};
+pub use matrix::{Echelon, Matrix, closures, dot};
 pub use strong::strong_components;

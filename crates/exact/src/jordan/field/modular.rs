@@ -64,3 +64,25 @@ fn add(field: &PrimeField, sum: &mut Vec<u64>, term: &[u64]) {
     sum.resize(sum.len().max(term.len()), 0);
     sum.iter_mut().zip(term).for_each(|(s, t)| *s = field.add(*s, *t));
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::jordan::FieldSpectrum;
+
+    #[test]
+    fn a_wrong_chain_is_seen() {
+        let texts = ["sqrt(5)", "1", "0", "sqrt(5)"];
+        let (field, entries) = crate::algebraic::field::NumberField::read(&texts).unwrap();
+        let a = FieldMatrix::new(&field, 2, 2, entries);
+        let factor = FieldSpectrum::of(&a).factors.remove(0);
+        assert_eq!(factor.blocks, [2]);
+        assert!(holds(&factor, &a, &factor.right));
+        let mut chains = factor.right.clone();
+        chains[0].vectors.swap(0, 1);
+        assert!(!holds(&factor, &a, &chains));
+        assert!(!holds(&factor, &a, &factor.left));
+        chains[0].vectors.clear();
+        assert!(!holds(&factor, &a, &chains));
+    }
+}

@@ -15,7 +15,9 @@ fn check(a: &FieldMatrix) -> FieldSpectrum {
     let shrunk = a.shrunk();
     assert_eq!(s.char_poly(), shrunk.char_poly());
     assert!(shrunk.evaluate(&s.min_poly()).is_zero());
+    let transpose = shrunk.transpose();
     for f in &s.factors {
+        assert!(f.holds(&shrunk, &f.right) && f.holds(&transpose, &f.left));
         assert_eq!(f.blocks, f.left.iter().map(|c| c.vectors.len()).collect::<Vec<_>>());
         for (root, theta) in f.roots.iter().zip(&f.generators) {
             // The factor vanishes at λ.
