@@ -516,7 +516,11 @@ fn regularity_of_several_cases() {
     let field = |k: usize, key: &str| lines[k][key].clone();
     assert_eq!(lines.len(), 4);
     assert_eq!((field(0, "input"), field(0, "smoothness")), ("four-point".into(), 1.into()));
-    assert_eq!(field(1, "exponent"), serde_json::json!(["0.550015686523504", "0.550015686523505"]));
+    let exponent = field(1, "exponent");
+    assert!(
+        exponent.as_array().unwrap().iter().all(|x| x.as_str().unwrap().starts_with("0.55001568652")),
+        "{exponent}"
+    );
     assert!(field(2, "error").as_str().unwrap().contains("add up to 2"));
     assert_eq!(lines[3]["orders"][1]["joint"]["left"], serde_json::json!(["1", "-1"]));
     let (out, _) = output(&["regularity", "--json", "db2", "haar"], 0);
