@@ -156,3 +156,27 @@ fn a_scheme_a_mask_and_a_symbol_are_asked_like_files() {
     assert_eq!(certify(&["no-such-file"]).1, Some(2));
     assert_eq!(certify(&["1/4,3/4,3/4"]).1, Some(2));
 }
+
+/// A budget decides which questions stay open, never what an answer is; what is left open says which limit ended it.
+#[test]
+fn a_small_budget_leaves_questions_open_and_says_why() {
+    let small = Budget { cells: 1, first_cells: 1, ..Budget::default() };
+    let mut left = 0;
+    for name in [
+        "counterexamples/own-periodic-point",
+        "classical/ternary-parabola",
+        "two-parameter/long-cycle",
+        "classical/levy",
+    ] {
+        let question = Question::read(&root().join(format!("cases/{name}.toml"))).unwrap();
+        let (normal, quick) = (prove(&question, &Budget::default()).unwrap(), prove(&question, &small).unwrap());
+        let Findings::Tangents { found, .. } = &quick else { panic!("a curve") };
+        if quick.verdict() == Verdict::Undetermined && normal.verdict() != Verdict::Undetermined {
+            assert!(found.limits().iter().any(|limit| limit.name() == "cells"), "{name}: {:?}", found.limits());
+            left += 1;
+        } else {
+            assert_eq!(quick.verdict(), normal.verdict(), "{name}");
+        }
+    }
+    assert!(left > 0, "one cell is enough for everything");
+}
