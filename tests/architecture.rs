@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The modules of the crate `secant-exact`, which the library shows as its own.
-const EXACT: [&str; 5] = ["algebraic", "arith", "jordan", "linalg", "poly"];
+const EXACT: [&str; 6] = ["algebraic", "arith", "jordan", "linalg", "poly", "ring"];
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
