@@ -35,7 +35,11 @@ pub fn claims(cx: &Context, mut dense: DenseSet, count: usize, found: &mut Certi
     let first = Verdict::all(count, dense.joints.iter().map(|&i| found.points[i].verdict));
     let with = |verdict| dense.joints.iter().copied().find(|&i| found.points[i].verdict == verdict);
     let reason = |verdict| with(verdict).map_or(Reason::Unexamined, Reason::FirstJoint);
-    let plain = |verdict, reason| Claim::as_found(Assertion::DenseJoints, verdict, Some(Statement::Theorem5), reason);
+    // A joint without a tangent refutes by itself; no theorem on all of them is used.
+    let plain = |verdict, reason| {
+        let by = (verdict == Verdict::Proved).then_some(Statement::Theorem5);
+        Claim::as_found(Assertion::DenseJoints, verdict, by, reason)
+    };
     if count == 0 {
         found.claims.push(Claim::open(Assertion::DenseJoints, Reason::NoJoint));
     } else if first == Verdict::Refuted || (folded.is_none() && dense.view_injective) {
@@ -99,7 +103,8 @@ fn examine_deeper(cx: &Context, dense: &DenseSet, count: usize, found: &mut Cert
     let verdict = Verdict::all(count, examined.iter().map(|&i| found.points[i].verdict));
     let with = examined.iter().copied().find(|&i| found.points[i].verdict == verdict);
     let reason = with.map_or(Reason::Unexamined, Reason::Joint);
-    Claim::as_found(Assertion::ExaminedJoints, verdict, Some(Statement::Joint), reason)
+    let by = (verdict == Verdict::Proved).then_some(Statement::Joint);
+    Claim::as_found(Assertion::ExaminedJoints, verdict, by, reason)
 }
 
 /// Theorem 5′, its operators being injective.
