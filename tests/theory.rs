@@ -8,8 +8,16 @@ use std::path::Path;
 const BEFORE: &str = "<!-- statement: ";
 const AFTER: &str = "<!-- end -->\n";
 
-/// Pages, besides the statements, whose lines of prose are short.
-const SHORT: [&str; 3] = ["docs/theory.md", "docs/glossary.md", "docs/reports.md"];
+/// Pages that still have long lines of prose. A page that has none any more is to be taken from this list.
+const LONG: [&str; 7] = [
+    "ARCHITECTURE.md",
+    "CHANGELOG.md",
+    "README.md",
+    "benches/README.md",
+    "docs/certificate.md",
+    "docs/json.md",
+    "docs/radius.md",
+];
 
 /// Lines of prose are at most this long.
 const WIDTH: usize = 120;
@@ -144,8 +152,13 @@ fn long_lines(text: &str) -> Vec<usize> {
 
 #[test]
 fn lines_of_prose_are_short() {
-    let statements = std::fs::read_dir(root().join("docs/statements")).unwrap().map(|f| f.unwrap().path());
-    let files = statements.chain(SHORT.iter().map(|name| root().join(name)));
+    let mut files = Vec::new();
+    for dir in ["", "docs", "docs/statements", "cases", "tests/certs/fail", "tests/certs/run", "tests/oracle/curves"] {
+        let entries = std::fs::read_dir(root().join(dir)).unwrap().map(|f| f.unwrap().path());
+        files.extend(entries.filter(|f| f.extension().is_some_and(|e| e == "md")));
+    }
+    files.retain(|f| LONG.iter().all(|name| *f != root().join(name)));
+    assert!(files.len() > 50);
     let mut wrong = Vec::new();
     for file in files {
         let long = long_lines(&std::fs::read_to_string(&file).unwrap());
