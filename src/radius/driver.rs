@@ -7,7 +7,7 @@ use super::budget::{Budget, Options};
 use super::invariant::growth as growth_of;
 use super::leading::{Lower, longest_block};
 use super::search::{Candidate, candidates, canonical, insertions};
-use super::strategy::{Best, Found, Outcome, Target, leading, smaller};
+use super::strategy::{Best, Found, Outcome, QUICK, Target, leading, smaller};
 use super::system::{System, SystemError};
 use crate::arith::{Rational, to_f64};
 use std::cmp::Ordering;
@@ -139,7 +139,9 @@ impl Search<'_> {
                     continue;
                 }
                 let known = self.found[block].as_ref();
-                if known.is_some_and(|f| enough(f, best, self.options)) || self.budget.left() == 0 {
+                let quick = strategy.share() <= QUICK;
+                let done = known.is_some_and(|f| enough(f, best, self.options, top, quick));
+                if done || (k > 0 && self.budget.left() == 0) {
                     break;
                 }
                 let known = known.map_or(f64::INFINITY, |f| to_f64(&f.bound));
@@ -208,10 +210,17 @@ impl Search<'_> {
     }
 }
 
-fn enough(found: &Found, best: &Best, options: &Options) -> bool {
-    found.attains
-        || found.bound <= best.floor
-        || (best.float > 0.0 && to_f64(&found.bound) <= best.float * (1.0 + options.width))
+/// Whether a bound of a block needs no better one. Quick strategies still look for the exact value where the bound is only close,
+/// and for a strictly smaller bound of a block that does not attain the radius, which decides the growth.
+fn enough(found: &Found, best: &Best, options: &Options, top: bool, quick: bool) -> bool {
+    match (top, quick) {
+        (false, true) => found.bound < best.floor,
+        (true, true) => found.attains || found.bound <= best.floor,
+        (_, false) => {
+            let close = best.float > 0.0 && to_f64(&found.bound) <= best.float * (1.0 + options.width);
+            found.attains || found.bound <= best.floor || close
+        }
+    }
 }
 
 /// Decides [`Growth`]: `floor` is at most the radius.

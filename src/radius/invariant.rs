@@ -265,12 +265,17 @@ pub(super) fn real_power(system: &System, lower: &Lower) -> Option<Lower> {
     if root.is_real() {
         return Some(lower.clone());
     }
-    if !root.ratio_is_root_of_unity(&root.conjugate()) {
-        return None;
+    // The powers that may be real, by an enclosure; the exact eigenvalue decides.
+    let (re, im) = root.enclosure(200);
+    let mut power = (re.clone(), im.clone());
+    let mut open = Vec::new();
+    for k in 2..=12 {
+        power = (&(&power.0 * &re) - &(&power.1 * &im), &(&power.0 * &im) + &(&power.1 * &re));
+        if power.1.contains_zero() && k * lower.length <= 48 {
+            open.push(k);
+        }
     }
-    [2, 3, 4, 5, 6, 8, 10, 12]
-        .into_iter()
-        .filter(|k| k * lower.length <= 48)
+    open.into_iter()
         .filter_map(|k| Lower::of(system, &lower.path.repeat(k)))
         .find(|l| l.root().is_some_and(|r| r.is_real()))
 }

@@ -35,7 +35,7 @@ pub(super) fn candidates(system: &System, longest: usize, tolerance: f64, budget
         (budget.left() / 4 / (longest.max(1) as u64 * arrows.max(1) as u64 * cube)).clamp(4, BEAM as u64) as usize;
     for length in 1..=longest {
         for partial in &mut layer {
-            if !budget.spend(cube) {
+            if !budget.spend(cube) && length > 1 {
                 break;
             }
             let power = 1.0 / f64::from(u32::try_from(length).unwrap_or(u32::MAX));

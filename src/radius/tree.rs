@@ -9,7 +9,7 @@ use super::leading::root_of;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::linalg::Matrix;
-use malachite_base::num::arithmetic::traits::Lcm;
+use malachite_base::num::arithmetic::traits::{CheckedRoot, Lcm};
 use malachite_base::num::basic::traits::One;
 use malachite_nz::natural::Natural;
 use std::collections::BinaryHeap;
@@ -63,7 +63,12 @@ impl Tree {
             for word in sorted {
                 let to = system.arrows[word[word.len() - 1]].to;
                 let norm = products.norm(word, &self.weights[state], &self.weights[to]);
-                bound = bound.max(root_of(&Interval::point(norm + drift(word.len())), word.len(), 64).hi);
+                let size = norm + drift(word.len());
+                let root = (&size).checked_root(word.len() as u64);
+                bound = bound.max(match root {
+                    Some(exact) => exact,
+                    None => root_of(&Interval::point(size), word.len(), 64).hi,
+                });
             }
         }
         Some(bound)
