@@ -197,6 +197,18 @@ fn weaker(found: &Decided, original: &Decided) -> bool {
     }
 }
 
+/// Whether an exponent is known no better: fewer orders say less, and so do wider bounds.
+fn exponent(found: &Decided, original: &Decided) -> bool {
+    let verdicts = found.verdict == original.verdict;
+    match (&found.claim, &original.claim) {
+        (Claim::Exponent { order: k, low: a, high: b, .. }, Claim::Exponent { order: l, low: c, high: d, .. }) => {
+            verdicts && (k < l || k == l && wider((a, b), (c, d)))
+        }
+        (Claim::Exponent { .. }, Claim::Polynomial) => verdicts,
+        _ => found == original,
+    }
+}
+
 fn all_weaker(found: &[Decided], original: &[Decided]) -> bool {
     found.len() == original.len() && found.iter().zip(original).all(|(a, b)| weaker(a, b))
 }
@@ -209,12 +221,16 @@ fn same(found: &Accepted, original: &Accepted) -> bool {
     }
     let verdicts = found.verdict == original.verdict;
     match original.claims[0].claim {
-        // Fewer orders, with weaker bounds of the radii.
+        // Fewer orders, with weaker bounds of the radii, and what they say of the exponent.
         Claim::Smooth { .. } => {
-            let orders = found.points.len();
-            original.claims.starts_with(&found.claims)
-                && orders == found.claims.len()
-                && all_weaker(&found.points, &original.points[..orders])
+            let (Some((last, smooth)), Some((end, all))) = (found.claims.split_last(), original.claims.split_last())
+            else {
+                return false;
+            };
+            all.starts_with(smooth)
+                && smooth.len() == found.points.len()
+                && all_weaker(&found.points, &original.points[..smooth.len()])
+                && exponent(last, end)
         }
         // Fewer valences, or no plane without a half-plane.
         Claim::SmoothAtVertex(_) => {

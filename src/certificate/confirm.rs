@@ -44,7 +44,11 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
 
 /// Whether the checker's claims about curves and sets say of what secant's claims are said: the verdicts are those of the
 /// certificate, which it has compared.
+///
+/// A certificate has one answer about joints. Where the joints that were examined are not all proved it is about these, and a
+/// dense set of others that is claimed besides has no certificate.
 fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
+    let examined = found.claims.iter().any(|c| c.what == Assertion::ExaminedJoints);
     for claim in found.claims.iter().filter(|c| c.verdict() != Verdict::Undetermined) {
         let expected = match &claim.what {
             Assertion::TangentAt { address, about, .. } => {
@@ -57,10 +61,15 @@ fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
                 secant_check::Claim::TangentAt { address, of }
             }
             Assertion::TangentAtEnds => secant_check::Claim::TangentAtEnds,
+            Assertion::ExaminedJoints if claim.verdict() == Verdict::Refuted => {
+                secant_check::Claim::TangentAtJoints(Joints::All)
+            }
+            what if what.is_of_joints() && examined => continue,
             Assertion::DenseJoints => secant_check::Claim::TangentAtJoints(Joints::All),
             Assertion::SeenJoints => secant_check::Claim::TangentAtJoints(Joints::Seen),
-            Assertion::UnkilledJoints => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
-            Assertion::ProjectedJoints => secant_check::Claim::TangentAtJoints(Joints::NotKilled),
+            Assertion::UnkilledJoints | Assertion::ProjectedJoints => {
+                secant_check::Claim::TangentAtJoints(Joints::NotKilled)
+            }
             // The certificate's answers about single points and about all of them carry these.
             _ => continue,
         };

@@ -177,13 +177,19 @@ impl Reader {
         let key = if end == End::Start { "left" } else { "right" };
         let kind = heads[e].kind;
         let Some(b) = table.get(key).filter(|b| kind != Kind::Set || b.get("edge").is_none()) else { return Ok(None) };
-        b.known("vertex matrix points")?;
-        let vertex = state_named(&b.field("vertex")?, heads)?;
+        let (vertex, op) = self.part(e, heads, &b, "vertex", Op::End(e, end))?;
         let joins = kind == Kind::Edge && heads[vertex].kind == Kind::Vertex;
         b.need(joins, "case", "a boundary joins a vertex to an edge")?;
-        let (rows, cols) = (heads[e].dim, heads[vertex].dim);
+        Ok(Some((vertex, op)))
+    }
+
+    /// What a state has of another one: the state named under a key, and the operator from its coordinates.
+    fn part(&self, e: usize, heads: &[Head<'_>], b: &Node<'_>, key: &str, op: Op) -> Checked<(usize, Matrix)> {
+        b.known(&format!("{key} matrix points"))?;
+        let from = state_named(&b.field(key)?, heads)?;
+        let (rows, cols) = (heads[e].dim, heads[from].dim);
         let op = match b.get("points").filter(|_| b.get("matrix").is_none()) {
-            None => self.operator(&b.field("matrix")?, (rows, cols), Op::End(e, end))?,
+            None => self.operator(&b.field("matrix")?, (rows, cols), op)?,
             Some(points) => {
                 // Coordinate j is put at points[j].
                 let at = points.each(|p| index(p, rows))?;
@@ -191,7 +197,21 @@ impl Reader {
                 Matrix::ones(rows, cols, |i, j| at[j] == i)
             }
         };
-        Ok(Some((vertex, op)))
+        Ok((from, op))
+    }
+
+    /// The sides of a face are read, so that both readers refuse the same; no rule uses them.
+    fn sides(&self, e: usize, heads: &[Head<'_>], table: &Node<'_>) -> Checked<()> {
+        if word(table, "kind")? != Some("face") {
+            return Ok(());
+        }
+        for (k, key) in "side01 side12 side02 bottom right top left".split(' ').enumerate() {
+            if let Some(side) = table.get(key) {
+                let (edge, _) = self.part(e, heads, &side, "edge", Op::Side(e, k))?;
+                side.need(heads[edge].kind == Kind::Edge, "case", "a side of a face comes from an edge")?;
+            }
+        }
+        Ok(())
     }
 
     fn shape(&self, case: &Node<'_>) -> Checked<Shape> {
@@ -222,6 +242,9 @@ impl Reader {
         let mut states = Vec::new();
         for (e, head) in heads.iter().enumerate() {
             let pieces = self.pieces(e, &heads, form)?;
+            if form == Form::States {
+                self.sides(e, &heads, &list[e])?;
+            }
             let boundary = |end| if form == Form::States { self.boundary(e, &heads, &list[e], end) } else { Ok(None) };
             let ends = [boundary(End::Start)?, boundary(End::Finish)?];
             states.push(State { kind: head.kind, dim: head.dim, pieces, ends });

@@ -196,7 +196,9 @@ impl<'a> Claims<'a> {
             let verdict = if refuted { Verdict::Refuted } else { Verdict::Undetermined };
             return Ok((verdict, Joints::All));
         }
-        let fits = matches!(name, "5" | "5'" | "11" | "11'") && together == Some(Verdict::Proved);
+        // Frames list the joints of their own states; where those of the start are points as they are seen, none is listed here.
+        let by_frames = matches!(name, "11" | "11'") && (chosen.is_empty() || together == Some(Verdict::Proved));
+        let fits = by_frames || matches!(name, "5" | "5'") && together == Some(Verdict::Proved);
         theorem.need(fits, "joints", "a theorem proves that joints have tangents; \"none\" otherwise")?;
         if matches!(name, "11" | "11'") {
             let constant = frames::check(model, upstairs, name == "11")?;

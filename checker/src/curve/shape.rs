@@ -44,6 +44,8 @@ pub enum Op {
     Piece(usize, usize),
     /// The boundary operator at an end of a state.
     End(usize, End),
+    /// Of a side of a face.
+    Side(usize, usize),
 }
 
 /// An automaton of operators with a start state and a map into the space where the shape is looked at.
@@ -280,6 +282,7 @@ impl Shape {
         let found = match op {
             Op::Piece(state, letter) => self.states[state].pieces.get(letter).map(|p| &p.op),
             Op::End(state, end) => self.states[state].ends[end as usize].as_ref().map(|b| &b.1),
+            Op::Side(..) => None,
         };
         some(found, "curve", "an operator that does not exist")
     }

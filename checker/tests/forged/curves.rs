@@ -119,8 +119,8 @@ fn a_change_of_sign_on_a_connected_piece() {
             ("links", &[(links.as_str(), json!([[[address(&[0], &[1]), address(&[0], &[1])]]]))]),
             ("links", &[(links.as_str(), json!([[[address(&[0], &[1]), address(&[1], &[0])]], []]))]),
             // No eigenvalue outside, no rows.
-            ("group", &[(radius.as_str(), json!("1"))]),
-            ("group", &[(rows.as_str(), json!([]))]),
+            ("disc", &[(radius.as_str(), json!("1"))]),
+            ("disc", &[(rows.as_str(), json!([]))]),
             ("group", &[(rows.as_str(), json!([["1", "0", "0"], ["0", "1", "0"], ["1", "1", "0"]]))]),
             ("disc", &[(radius.as_str(), json!("0"))]),
             ("cover", &[(cover.as_str(), json!([]))]),
@@ -131,7 +131,7 @@ fn a_change_of_sign_on_a_connected_piece() {
     // All eigenvalues, whose eigenspaces the control points do not tell apart, instead of the first two.
     let all_rows = json!([["1", "0", "0"], ["0", "0", "1"], ["0", "1", "0"]]);
     assert_eq!(rule("sign-projected", &[(rows.as_str(), all_rows), (radius.as_str(), json!("1/16"))]), "leading-sign");
-    assert_eq!(rule("sign-projected", &[(rows.as_str(), json!([["0", "0", "1"], ["0", "1", "0"]]))]), "group");
+    assert_eq!(rule("sign-projected", &[(rows.as_str(), json!([["0", "0", "1"], ["0", "1", "0"]]))]), "cover");
 }
 
 #[test]

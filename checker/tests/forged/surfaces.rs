@@ -219,8 +219,8 @@ fn how_the_faces_of_a_surface_are_divided() {
         secant_check::check(&case.replace(from, to), &text).map_err(|r| r.rule)
     };
     let rule = |from: &str, to: &str| after(from, to).unwrap_err();
-    // Without sides there are no parameters, and the questions are about single branches.
-    assert_eq!(rule("bottom =", "# bottom ="), "points");
+    // A face has all of its sides or none.
+    assert_eq!(rule("bottom =", "# bottom ="), "case");
     assert_eq!(rule("layout = \"2x2\"", "layout = \"4x1\""), "points");
     assert_eq!(rule("layout = \"2x2\"", "layout = \"triangle\""), "case");
     assert_eq!(rule("layout = \"2x2\"", "layout = \"2x3\""), "case");
