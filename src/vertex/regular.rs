@@ -504,9 +504,10 @@ impl<'a> Bounds<'a> {
             length += 1;
             let by_factors = factors.as_ref().and_then(|f| f.get(length)).cloned();
             let by_words = part(&shrink, 1);
-            let factor = by_factors.filter(|f| *f < by_words);
-            let by_factors = factor.is_some();
-            let shrink = factor.unwrap_or(by_words);
+            let (shrink, by_factors) = match by_factors.filter(|f| *f < by_words) {
+                Some(factor) => (factor, true),
+                None => (by_words, false),
+            };
             if shrink < 1 {
                 let rest = |s: Rational| ratio(1, 1) - s;
                 let slope = part(&slope, slope_scale) / rest(shrink.clone());
