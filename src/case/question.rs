@@ -8,7 +8,7 @@ use crate::shape::{Address, CellKind, Complex};
 use std::path::Path;
 use std::sync::Arc;
 
-/// A question that [`crate::prove`] answers.
+/// A question that [`crate::prove()`] answers.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Question {

@@ -133,7 +133,7 @@ struct CertifyArgs {
     /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
     #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
-    /// For a case with a [vertex] table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
+    /// For a case with a `[vertex]` table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
     /// Write a proof to a file: .html, .md or .tex.

@@ -17,7 +17,7 @@ pub struct Options {
     /// Work that may be spent, in units of about a nanosecond (a multiplication and an addition of floats is one unit); `None`
     /// for an amount that suits the dimension ([`Options::work_for`]).
     pub work: Option<u64>,
-    /// A guard by the clock, for those who cannot wait; an answer that it cut short says so ([`super::Effort::clock`]).
+    /// A guard by the clock, for those who cannot wait; an answer that it cut short says so (`--time`).
     pub time: Option<Duration>,
 }
 

@@ -1,7 +1,7 @@
 //! Rings and fields as values: a context, which knows the operations, beside its elements.
 //!
 //! One computation then runs over the rationals ([`Rationals`]), a number field
-//! ([`NumberField`](crate::algebraic::field::NumberField)), enclosures ([`Enclosures`]), or functions of a parameter on an
+//! ([`NumberField`]), enclosures ([`Enclosures`]), or functions of a parameter on an
 //! interval ([`Functions`]). Exact contexts answer every question; enclosures, and functions that change their sign, may
 //! answer *unknown*, which is `None` and never a decision.
 //!
