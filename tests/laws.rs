@@ -1,4 +1,5 @@
 //! Algebraic laws of the exact spectrum, on random and on planted matrices.
+#![cfg(feature = "strategies")]
 
 mod chains;
 
@@ -7,6 +8,7 @@ use secant::arith::{Rational, ratio};
 use secant::jordan::{Spectrum, char_poly};
 use secant::linalg::Matrix;
 use secant::poly::Poly;
+use secant::strategies::column_stochastic;
 
 fn check(a: &Matrix) -> Spectrum {
     chains::check(a, Spectrum::of(a))
@@ -20,18 +22,6 @@ fn square(max: usize) -> impl Strategy<Value = Matrix> {
     (1..=max).prop_flat_map(|n| {
         prop::collection::vec(prop_oneof![Just(ratio(0, 1)), small()], n * n)
             .prop_map(move |v| Matrix::from_fn(n, n, |i, j| v[i * n + j].clone()))
-    })
-}
-
-fn stochastic(max: usize) -> impl Strategy<Value = Matrix> {
-    (1..=max).prop_flat_map(|n| {
-        prop::collection::vec(0u8..5, n * n).prop_map(move |v| {
-            let total = |j: usize| (0..n).map(|i| i64::from(v[i * n + j])).sum::<i64>();
-            Matrix::from_fn(n, n, |i, j| match total(j) {
-                0 => ratio(i64::from(i == j), 1),
-                t => ratio(i64::from(v[i * n + j]), t),
-            })
-        })
     })
 }
 
@@ -83,7 +73,7 @@ proptest! {
     }
 
     #[test]
-    fn stochastic_matrices_have_the_eigenvalue_one_on_top(a in stochastic(7)) {
+    fn stochastic_matrices_have_the_eigenvalue_one_on_top(a in column_stochastic(1..=7)) {
         let s = check(&a);
         let one = s.factors.iter().find(|f| f.poly == Poly::linear(&ratio(1, 1)));
         prop_assert!(one.is_some());
