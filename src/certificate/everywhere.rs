@@ -14,15 +14,22 @@ use serde_json::{Value, json};
 pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) -> Option<usize>) -> Option<Value> {
     let every = found.everywhere.as_ref()?;
     let witness: Vec<usize> = every.witness.and_then(|k| position(&found.points[k])).into_iter().collect();
-    // The format has no rule for derivatives of polynomial curves.
-    let left_out = every.witness.is_some() || every.hodograph.is_some();
+    // The format has no rule for derivatives of polynomial curves, nor for components.
+    let left_out = every.witness.is_some() || every.hodograph.is_some() || every.components.is_some();
     if left_out && witness.is_empty() {
         return None;
     }
     if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
         // What has no certificate is left out: it is no claim of the case.
         let radius = super::regularity::order(order).ok()?["radius"].take();
-        return Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}));
+        return Some(match &order.shares {
+            None => json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}),
+            Some(shares) => {
+                let shares: Value = shares.iter().map(|s| numbers(s)).collect();
+                json!({"question": "every point by its derivative in shares", "verdict": "proved", "shares": shares,
+                       "radius": radius})
+            }
+        });
     }
     match &every.cone {
         // What the format cannot express is left out: it is no claim of the case.

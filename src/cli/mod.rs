@@ -13,9 +13,11 @@ mod import;
 mod init;
 mod irrational;
 mod jsr;
+mod junction;
 mod many;
 mod output;
 mod progress;
+mod refine;
 mod regularity;
 mod render;
 mod resume;
@@ -94,6 +96,10 @@ enum Command {
     Render(RenderArgs),
     /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
     Solve(SolveArgs),
+    /// Join two curve schemes by an intermediate curve, and write the joined shape as a case. Exit code 1: no member passes.
+    Junction(junction::JunctionArgs),
+    /// Refine a curve: its cells on points of their own, glued where they meet, as a case with the control points carried over.
+    Refine(refine::RefineArgs),
     /// Print a statement with its proof and reference.
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
@@ -400,6 +406,8 @@ fn run(command: Command) -> u8 {
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
         Command::Render(args) => render::run(&args),
         Command::Solve(args) => solve::run(&args),
+        Command::Junction(args) => junction::run(&args),
+        Command::Refine(args) => refine::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),

@@ -2,9 +2,11 @@
 
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
+use super::components::{Components, components};
 use super::dense::first_level_joint;
 use super::hodograph::{Hodograph, hodograph};
-use super::smoothness::{CurveOrder, graph_over_parameter};
+use super::graph::graph_over_parameter;
+use super::smoothness::CurveOrder;
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
@@ -33,8 +35,10 @@ pub struct Everywhere {
     pub witness: Option<usize>,
     /// The derivative of a polynomial curve, where it decides.
     pub hodograph: Option<Hodograph>,
-    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
+    /// Order 1 of a curve that is a graph over a parameter (Theorem 12), where nothing else decides.
     pub derivative: Option<Box<CurveOrder>>,
+    /// A proof by components (Theorem 13), where nothing else decides.
+    pub components: Option<Box<Components>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<String>,
 }
@@ -79,7 +83,18 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
         ConeAnswer::Undetermined => without_cone(cx, found, None),
     };
     let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
-    Some(if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every })
+    let every = if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every };
+    Some(if every.verdict == Verdict::Undetermined { by_components(cx, every) } else { every })
+}
+
+/// Proves G¹ of a curve state by state.
+fn by_components(cx: &Context, every: Everywhere) -> Everywhere {
+    match components(cx) {
+        Some(parts) if every.witness.is_none() => {
+            Everywhere { verdict: Verdict::Proved, reason: None, components: Some(Box::new(parts)), ..every }
+        }
+        _ => every,
+    }
 }
 
 /// Decides G¹ of a polynomial curve by the zeros of its derivative.
@@ -102,7 +117,7 @@ fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Ever
 /// Largest number of coordinates of a state, and most states, for which this is tried.
 const MAX_GRAPH: (usize, usize) = (12, 6);
 
-/// Proves G¹ of a curve that is a graph over its uniform parameter.
+/// Proves G¹ of a curve that is a graph over a parameter.
 fn as_graph(cx: &Context, every: Everywhere) -> Everywhere {
     let states = cx.shape.reachable();
     let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
@@ -165,6 +180,7 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
         witness,
         hodograph: None,
         derivative: None,
+        components: None,
         reason,
     }
 }
@@ -221,6 +237,7 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         witness,
         hodograph: None,
         derivative: None,
+        components: None,
         reason,
     }
 }

@@ -8,6 +8,8 @@ use num_traits::Signed;
 
 /// The question whether the curve is G¹, answered by Theorem 12.
 const DERIVATIVE: &str = "every point by its derivative";
+/// The same in a parameter of which the pieces take given shares.
+const SHARES: &str = "every point by its derivative in shares";
 
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
 type Question = (&'static str, Option<Address>);
@@ -37,6 +39,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
         DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
+        SHARES if asked.iter().all(|(what, _)| *what != SHARES) => return Ok((SHARES, None)),
         "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
@@ -70,7 +73,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, "every point" | DERIVATIVE)).then_some(verdict));
+        found.extend((!matches!(question.0, "every point" | DERIVATIVE | SHARES)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -127,7 +130,12 @@ impl<'a> Claims<'a> {
             }
             (what, None) if *what == DERIVATIVE => {
                 let [_, stated, radius] = node.fields("question verdict radius")?;
-                radius.at(crate::regularity::graph(self.model, &radius))?;
+                radius.at(crate::regularity::graph(self.model, None, &radius))?;
+                (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
+            }
+            (what, None) if *what == SHARES => {
+                let [_, stated, shares, radius] = node.fields("question verdict shares radius")?;
+                radius.at(crate::regularity::graph(self.model, Some(&shares), &radius))?;
                 (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
             }
             (_, None) => {
