@@ -241,7 +241,8 @@ fn measured_spectra_of_canonical_members() {
     assert_eq!(first(&four, &four, "a,a,I,b,b,b"), [0.5, 0.25, 0.247, 0.223]);
     assert_eq!(first(&ternary("2"), &ternary("3"), "a,a,I,b,b"), [0.333, 0.111, 0.032, 0.009]);
     // These are also the patterns that are found.
-    let pattern = |a: &Side, b: &Side| search(a, b, &Wish::default()).unwrap().member.unwrap().junction.pattern.to_string();
+    let pattern =
+        |a: &Side, b: &Side| search(a, b, &Wish::default()).unwrap().member.unwrap().junction.pattern.to_string();
     assert_eq!(pattern(&spline("2"), &four), "a,I,b,b");
     assert_eq!(pattern(&four, &four), "a,a,I,b,b,b");
     assert_eq!(pattern(&ternary("2"), &ternary("3")), "a,a,I,b,b");

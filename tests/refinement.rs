@@ -148,7 +148,8 @@ fn a_chain_with_an_intermediate_curve_is_the_joined_curve() {
         };
         (found.verdict, found.everywhere.unwrap().verdict)
     };
-    let operators = |case: &Case| case.shape.states[case.shape.start].pieces.iter().map(|p| p.op.clone()).collect::<Vec<_>>();
+    let operators =
+        |case: &Case| case.shape.states[case.shape.start].pieces.iter().map(|p| p.op.clone()).collect::<Vec<_>>();
     assert_eq!(operators(&joined), operators(&chained));
     assert_eq!(verdict(joined), (Verdict::Proved, Verdict::Proved));
     assert_eq!(verdict(chained), (Verdict::Proved, Verdict::Proved));

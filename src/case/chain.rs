@@ -41,11 +41,17 @@ pub(super) fn read(table: &Table<'_>, kind: CellKind) -> Result<Option<Built>, P
             .problem("two-forms", format!("{} has a `{key}` but is no edge", table.what), "only curves have one")
             .with_help("leave `kind` out, or give the pieces of the state"));
     }
-    let other = ["scheme", "chain", "piece", "dimension", "reversal"].into_iter().find(|k| *k != key && table.get(k).is_some());
+    let other =
+        ["scheme", "chain", "piece", "dimension", "reversal"].into_iter().find(|k| *k != key && table.get(k).is_some());
     if let Some(span) = other.and_then(|k| table.key_span(k)) {
         return Err(table
             .file
-            .problem("two-forms", format!("`{key}` of {} and this exclude each other", table.what), span, "given besides")
+            .problem(
+                "two-forms",
+                format!("`{key}` of {} and this exclude each other", table.what),
+                span,
+                "given besides",
+            )
             .with_help("a state has pieces, or names a scheme, or is a chain of states"));
     }
     if key == "chain" {
@@ -98,7 +104,11 @@ pub(super) fn measure(drafts: &mut [Draft<'_>]) -> Result<(), Problem> {
         }
         if dim > MAX_COORDINATES {
             return Err(node
-                .problem("limit", format!("the chain has {dim} points, over the limit of {MAX_COORDINATES}"), "too long")
+                .problem(
+                    "limit",
+                    format!("the chain has {dim} points, over the limit of {MAX_COORDINATES}"),
+                    "too long",
+                )
                 .with_help("take fewer states"));
         }
         measured.push((k, places, dim));
@@ -152,9 +162,8 @@ pub(super) fn pieces(drafts: &[Draft<'_>], index: usize) -> Vec<Piece> {
             curve.operators.iter().map(piece).collect()
         }
         Built::Chain(places, dim) => {
-            let select = |len: usize, first: usize| {
-                Matrix::from_fn(*dim, len, |i, j| Rational::from(u8::from(i == first + j)))
-            };
+            let select =
+                |len: usize, first: usize| Matrix::from_fn(*dim, len, |i, j| Rational::from(u8::from(i == first + j)));
             let piece = |(state, first): &(usize, usize)| Piece {
                 target: *state,
                 op: select(drafts[*state].dim, *first),

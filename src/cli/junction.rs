@@ -76,8 +76,9 @@ fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
     let names = schemes(&args.schemes);
     let [a, b] = names.as_slice() else {
         let message = format!("{} schemes are given, but a junction has two", names.len());
-        return Err(Problem::new("secant::usage::junction", message)
-            .with_help("as in  secant junction bspline degree=2 four-point  or with quotation marks around each scheme"));
+        return Err(Problem::new("secant::usage::junction", message).with_help(
+            "as in  secant junction bspline degree=2 four-point  or with quotation marks around each scheme",
+        ));
     };
     let sides = [side(a)?, side(b)?];
     let found = search(&sides[0], &sides[1], &wish(args)?).map_err(|e| refused(&e))?;
@@ -213,15 +214,22 @@ fn eigenvalue(root: &Root) -> String {
         return x.to_string();
     }
     let (re, im) = root.to_f64();
-    if root.is_real() { format!("≈ {re:.4}") } else { format!("≈ {re:.4} {} {:.4}i", if im < 0.0 { '−' } else { '+' }, im.abs()) }
+    if root.is_real() {
+        format!("≈ {re:.4}")
+    } else {
+        format!("≈ {re:.4} {} {:.4}i", if im < 0.0 { '−' } else { '+' }, im.abs())
+    }
 }
 
 fn spectrum(classes: &[Vec<Root>]) -> Vec<String> {
     classes.iter().flatten().map(eigenvalue).collect()
 }
 
-fn text(found: &Found, [a, b]: &[Side; 2]) -> String {
-    let mut out = format!("a = {}: {}\nb = {}: {}\n", a.name, points(a), b.name, points(b));
+fn text(found: &Found, sides: &[Side; 2]) -> String {
+    // A member may take several steps of a scheme at once.
+    let own = |m: &Member| [m.junction.left.clone(), m.junction.right.clone()];
+    let [a, b] = found.member.as_ref().map_or_else(|| sides.clone(), own);
+    let mut out = format!("a = {}: {}\nb = {}: {}\n", a.name, points(&a), b.name, points(&b));
     for attempt in &found.tried {
         let _ = writeln!(out, "  not {}", failed(attempt));
     }
@@ -262,16 +270,18 @@ fn checked(member: &Member) -> String {
     let check = &member.check;
     let largest = check.rest.first().and_then(|c| c.first()).map_or_else(|| "0".to_owned(), eigenvalue);
     let what = match (&member.placed, check.passes) {
-        (Some(_), true) => format!(
-            "beside positions the largest eigenvalue is {largest}, below {}: the curve has a tangent at the point where it holds \
-             itself",
-            check.threshold
-        ),
-        (Some(_), false) => format!("beside positions the largest eigenvalue is {largest}, not below {}", check.threshold),
+        (Some(_), true) => {
+            format!("passes: beside positions the largest eigenvalue is {largest}, below {}", check.threshold)
+        }
+        (Some(_), false) => {
+            format!("beside positions the largest eigenvalue is {largest}, not below {}", check.threshold)
+        }
         (None, _) => format!("it contracts: the largest eigenvalue but 1 is {largest}"),
     };
-    let injective = if check.injective { "" } else { "\nsome operator of I is singular" };
-    format!("check  {what}{injective}\n")
+    let injective = if check.injective { "" } else { "; some operator of I is singular" };
+    format!(
+        "check  {what}{injective}\nwhat it means for tangents, `secant certify` proves of the case that --output writes\n"
+    )
 }
 
 fn points(side: &Side) -> String {

@@ -52,7 +52,8 @@ fn refined(args: &RefineArgs) -> Result<String, Problem> {
         source: case.source.clone().unwrap_or_default(),
         examine: Vec::new(),
     };
-    let rows: Vec<String> = (0..embedding.cols()).map(|j| format!("#   {}", crate::junction::row_text(&embedding.column(j)))).collect();
+    let rows: Vec<String> =
+        (0..embedding.cols()).map(|j| format!("#   {}", crate::junction::row_text(&embedding.column(j)))).collect();
     Ok(format!(
         "# Refined {} times, from {} to {} points. E T' = T E was verified for every cell; the new points by the old ones:\n{}\n{}",
         args.steps,
@@ -66,7 +67,8 @@ fn refined(args: &RefineArgs) -> Result<String, Problem> {
 /// Multiplies both sides of `E T'_{ij} = T_i T_j` out once more, and checks the identities of the refined shape.
 fn verified(before: &Complex, after: &Complex, embedding: &Matrix) -> Result<(), Problem> {
     let mistake = |what: String| {
-        Problem::new("secant::refine::mistake", what).with_help("this is a mistake in secant: please report it with the case")
+        Problem::new("secant::refine::mistake", what)
+            .with_help("this is a mistake in secant: please report it with the case")
     };
     let states = &before.shape.states;
     let mut cells = Vec::new();

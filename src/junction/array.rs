@@ -133,7 +133,8 @@ impl Junction {
             let sum = row.iter().fold(Rational::from(0), |s, x| s + x);
             if row.len() != self.points || sum != 1 {
                 let (found, wanted) = (row.len(), self.points);
-                let text = format!("free row {k} has {found} entries of sum {sum}; {wanted} entries of sum 1 are needed");
+                let text =
+                    format!("free row {k} has {found} entries of sum {sum}; {wanted} entries of sum 1 are needed");
                 return Err(JunctionError::Rows(text));
             }
         }
@@ -156,7 +157,8 @@ impl Junction {
     /// The operators of the intermediate curve: the transposed windows of an array.
     #[must_use]
     pub fn operators(&self, array: &Matrix) -> Vec<Matrix> {
-        let window = |(start, len): (usize, usize)| Matrix::from_fn(self.points, len, |i, j| array[(start + j, i)].clone());
+        let window =
+            |(start, len): (usize, usize)| Matrix::from_fn(self.points, len, |i, j| array[(start + j, i)].clone());
         self.windows().into_iter().map(window).collect()
     }
 
@@ -196,7 +198,8 @@ impl Junction {
             left: Some(Boundary { vertex: 4, op: inclusion(self.points, 0, a.shared) }),
             right: Some(Boundary { vertex: 5, op: inclusion(self.points, self.points - b.shared, b.shared) }),
         };
-        let states = vec![whole, between, curve("a", a, 2, 4), curve("b", b, 3, 5), vertex("u", a, 4), vertex("v", b, 5)];
+        let states =
+            vec![whole, between, curve("a", a, 2, 4), curve("b", b, 3, 5), vertex("u", a, 4), vertex("v", b, 5)];
         Complex::of_curves(Shape { states, start: 0, control: None, frame: Frame::Barycentric })
     }
 }

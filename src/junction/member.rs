@@ -54,7 +54,11 @@ pub struct Member {
 
 impl Member {
     /// The member with the least weighted norms; `None` where a row cannot take its values.
-    pub(super) fn canonical(junction: &Junction, placed: &Placed, settings: &[(String, Rational)]) -> Result<Option<Self>, JunctionError> {
+    pub(super) fn canonical(
+        junction: &Junction,
+        placed: &Placed,
+        settings: &[(String, Rational)],
+    ) -> Result<Option<Self>, JunctionError> {
         let forced = junction.forced()?;
         let open: Vec<usize> = (0..forced.len()).filter(|r| forced[*r].is_none()).collect();
         let rows: Option<Vec<Vec<Rational>>> = open.iter().map(|r| least(placed, *r)).collect();
@@ -64,7 +68,11 @@ impl Member {
             let moved: Vec<&Slider> = sliders.iter().filter(|s| s.name == *name || name == "tau").collect();
             if moved.is_empty() {
                 let names: Vec<&str> = sliders.iter().map(|s| s.name.as_str()).collect();
-                let known = if names.is_empty() { "there is none".to_owned() } else { format!("there are {}", names.join(", ")) };
+                let known = if names.is_empty() {
+                    "there is none".to_owned()
+                } else {
+                    format!("there are {}", names.join(", "))
+                };
                 return Err(JunctionError::Slider { name: name.clone(), known });
             }
             for slider in moved {
@@ -75,7 +83,11 @@ impl Member {
     }
 
     /// A member with given rows.
-    pub(super) fn given(junction: &Junction, placed: Option<Placed>, free: Vec<Vec<Rational>>) -> Result<Self, JunctionError> {
+    pub(super) fn given(
+        junction: &Junction,
+        placed: Option<Placed>,
+        free: Vec<Vec<Rational>>,
+    ) -> Result<Self, JunctionError> {
         Self::checked(junction, placed, free, Vec::new())
     }
 

@@ -14,12 +14,12 @@ mod refine;
 mod search;
 mod side;
 
+pub use crate::scheme::PointOrder;
 pub use array::{Junction, Pattern};
 pub use member::{Check, Member, Slider};
 pub use place::Placed;
 pub use refine::{Refined, refine};
 pub use search::{Attempt, Found, Wish, search};
-pub use crate::scheme::PointOrder;
 pub use side::Side;
 
 use crate::arith::Rational;

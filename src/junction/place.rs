@@ -58,8 +58,7 @@ pub(super) fn room(junction: &Junction, powers: [&[Vec<Rational>]; 2]) -> (Ratio
     let pieces = junction.pattern.left + junction.pattern.right;
     let length = Rational::from(pieces) / Rational::from(junction.left.arity() - 1);
     let [a, b] = powers;
-    let needed =
-        reach(&a[1][..junction.left.shared], true) + reach(&b[1][..junction.right.shared], false);
+    let needed = reach(&a[1][..junction.left.shared], true) + reach(&b[1][..junction.right.shared], false);
     let fits = length > needed;
     (length, fits)
 }
@@ -123,7 +122,8 @@ pub(super) fn increasing(junction: &Junction, shrinks: &Rational) -> Option<Plac
     // Unknowns: the least gap, the shift (as a difference of two), the gaps of the positions, then one slack for each inequality.
     let own = 3 + n - 1;
     let zero = || Rational::from(0);
-    let position = |i: usize| -> Vec<Rational> { (0..own).map(|u| Rational::from(u8::from(u >= 3 && u < 3 + i))).collect() };
+    let position =
+        |i: usize| -> Vec<Rational> { (0..own).map(|u| Rational::from(u8::from(u >= 3 && u < 3 + i))).collect() };
     let weighted = |row: &[Rational]| {
         let mut sum = vec![zero(); own];
         for (i, x) in row.iter().enumerate().filter(|(_, x)| **x != 0) {
@@ -180,12 +180,7 @@ fn minus(a: &[Rational], b: &[Rational]) -> Vec<Rational> {
 }
 
 /// The positions of a solution; new points between those that are known lie evenly.
-fn laid_out(
-    junction: &Junction,
-    found: &[Rational],
-    known: &[(usize, Vec<Rational>)],
-    shrinks: &Rational,
-) -> Placed {
+fn laid_out(junction: &Junction, found: &[Rational], known: &[(usize, Vec<Rational>)], shrinks: &Rational) -> Placed {
     let n = junction.points;
     let mut positions = vec![Rational::from(0)];
     for gap in &found[3..] {

@@ -51,7 +51,8 @@ pub fn refine(complex: &Complex) -> Result<Refined, JunctionError> {
         let mut own: Vec<Option<usize>> = vec![None; cell.op.cols()];
         if k > 0 {
             let meet = meet(complex, &cells[k - 1], cell);
-            let pairs = meet.ok_or_else(|| wrong("neighbouring cells share no points; give `left` and `right` of the states"))?;
+            let pairs =
+                meet.ok_or_else(|| wrong("neighbouring cells share no points; give `left` and `right` of the states"))?;
             pairs.into_iter().for_each(|(before, after)| own[after] = Some(places[k - 1][before]));
         }
         let mut order: Vec<usize> = (0..own.len()).collect();
@@ -109,7 +110,8 @@ fn meet(complex: &Complex, before: &Cell, after: &Cell) -> Option<Vec<(usize, us
     let holds = |pairs: &Vec<(usize, usize)>| {
         let outside = |x: &[Rational], used: &dyn Fn(usize) -> bool| (0..x.len()).any(|i| x[i] != 0 && !used(i));
         let agree = pairs.iter().all(|(i, j)| end[*i] == begin[*j]);
-        let inside = !outside(&end, &|i| pairs.iter().any(|p| p.0 == i)) && !outside(&begin, &|j| pairs.iter().any(|p| p.1 == j));
+        let inside = !outside(&end, &|i| pairs.iter().any(|p| p.0 == i))
+            && !outside(&begin, &|j| pairs.iter().any(|p| p.1 == j));
         same(pairs) && agree && inside
     };
     (1..n.min(m)).rev().flat_map(|p| [onward(p), backwards(p)]).find(holds)
@@ -142,8 +144,9 @@ fn glued(complex: &Complex, cells: &[Cell], places: &[Vec<usize>], embedding: &M
         .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed })
         .collect();
     let (start, old) = (complex.shape.start, &complex.shape.states[complex.shape.start]);
-    let again = complex.shape.states.iter().enumerate().any(|(k, s)| k != start && s.pieces.iter().any(|p| p.target == start))
-        || pieces.iter().any(|p| p.target == start);
+    let again =
+        complex.shape.states.iter().enumerate().any(|(k, s)| k != start && s.pieces.iter().any(|p| p.target == start))
+            || pieces.iter().any(|p| p.target == start);
     let base = old.name.split('\'').next().unwrap_or("W");
     let mut name = format!("{}'", old.name);
     while complex.shape.states.iter().any(|s| s.name == name) {

@@ -66,7 +66,10 @@ const LONGER: usize = 4;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn search(a: &Side, b: &Side, wish: &Wish) -> Result<Found, JunctionError> {
-    let (left, right) = same_arity(a, b).unwrap_or_else(|| (a.clone(), b.clone()));
+    // Rows of the designer are about the schemes as they are.
+    let several = if wish.rows.is_empty() { same_arity(a, b) } else { None };
+    let useful = several.filter(|(left, right)| left.powers().len().min(right.powers().len()) > 1);
+    let (left, right) = useful.unwrap_or_else(|| (a.clone(), b.clone()));
     let powers = [left.powers(), right.powers()];
     let common = powers[0].len().min(powers[1].len()) - 1;
     let both = [powers[0].as_slice(), powers[1].as_slice()];

@@ -2,7 +2,7 @@
 //! their fixed point along one eigenvector, and states that are passed once.
 
 use super::branch::Context;
-use super::cone::{CommonCone, ConeAnswer, cone_in_sight, common_cone};
+use super::cone::{CommonCone, ConeAnswer, common_cone, cone_in_sight};
 use super::frames::{MAX_CODE, MAX_CODE_LENGTH};
 use super::point;
 use super::slow::SlowCycle;

@@ -1,11 +1,11 @@
 //! Theorem 6 for a whole curve: a tangent that turns continuously, half-tangents at every point, or a point without a tangent.
 
 use super::branch::Context;
-use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::components::{Components, components};
+use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
-use super::hodograph::{Hodograph, hodograph};
 use super::graph::graph_over_parameter;
+use super::hodograph::{Hodograph, hodograph};
 use super::smoothness::CurveOrder;
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};

@@ -90,7 +90,9 @@ impl Search<'_> {
         let operators: Vec<Matrix> =
             state.pieces.iter().map(|p| self.spaces.on_visible(&p.op, e, p.target)).collect::<Option<_>>()?;
         let own: Vec<usize> = (0..operators.len()).filter(|i| state.pieces[*i].target == e).collect();
-        self.choices(&own, &operators, operators.len()).iter().find_map(|factors| self.with_factors(e, &own, factors, &operators))
+        self.choices(&own, &operators, operators.len())
+            .iter()
+            .find_map(|factors| self.with_factors(e, &own, factors, &operators))
     }
 
     /// The factors of the pieces from a state to itself that are tried: equal ones, then all of their rational eigenvalues.

@@ -3,9 +3,9 @@
 
 mod branch;
 pub mod claim;
+mod components;
 pub mod cone;
 mod cone_search;
-mod components;
 mod dense;
 mod direction;
 pub mod enclosed;
@@ -28,8 +28,8 @@ pub mod wavelet;
 
 pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
-pub use components::{Component, Components};
 pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
+pub use components::{Component, Components};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};

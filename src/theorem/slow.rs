@@ -173,7 +173,8 @@ impl SlowCycle {
         let linear = signed_product(shape, spaces, state, &word)?;
         let spectrum = Spectrum::of(&linear);
         let lead = leading(&spectrum)?;
-        let functional = longest_chain(&spectrum.factor(lead).left, spectrum.factor(lead).blocks[0])?.vectors[0].clone();
+        let functional =
+            longest_chain(&spectrum.factor(lead).left, spectrum.factor(lead).blocks[0])?.vectors[0].clone();
         let root = spectrum.root(lead).clone();
         let zero = || Elem::from_rational(&Rational::from(0));
         let value = |j: usize| {

@@ -48,9 +48,12 @@ pub(super) fn evidence(case: &Case, found: &Components) -> Evidence {
                 );
                 let mut text = line(&text, [lambda_math(root), Math::count(factor.blocks[0])]);
                 text.extend(root_of(root));
-                text.extend(words("; its coefficient has one strict sign on the images of all rays of the other pieces."));
+                text.extend(words(
+                    "; its coefficient has one strict sign on the images of all rays of the other pieces.",
+                ));
                 evidence.push("loops", Tone::Good, text);
-                let text = format!("{}: {}, the last one being the fixed point.", name(*state), count(points.len(), "point"));
+                let text =
+                    format!("{}: {}, the last one being the fixed point.", name(*state), count(points.len(), "point"));
                 evidence.push("points", Tone::Good, words(text));
             }
             Component::Transient { state, points } => {
