@@ -173,7 +173,7 @@ impl AtValence {
     /// The place of a witness in the lattice of sector 0.
     #[must_use]
     pub fn lattice(&self, rule: &MeshRule, at: &(usize, (Rational, Rational))) -> Option<(Rational, Rational)> {
-        if ring::spline(rule).is_none() {
+        if rule.info().spline.is_none() {
             return limit::lattice_point(rule, at.0, &at.1);
         }
         ring::lattice_point(rule, at.0, &at.1)
@@ -187,8 +187,8 @@ impl AtValence {
 ///
 /// # Examples
 /// ```
-/// use secant::{scheme::MeshRule, theorem::Verdict, vertex::at_valence};
-/// let found = at_valence(&MeshRule::CatmullClark(None), 5)?;
+/// use secant::{scheme::mesh_rule, theorem::Verdict, vertex::at_valence};
+/// let found = at_valence(&mesh_rule("catmull-clark", &[].into())?, 5)?;
 /// assert_eq!((found.smooth, found.winding), (Verdict::Proved, Some(1)));
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
@@ -205,7 +205,7 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
 /// As [`at_valence`].
 pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
-    found.polynomial = ring::spline(rule).is_some();
+    found.polynomial = rule.info().spline.is_some();
     let vertex = Vertex::new(rule, valence, ring::RINGS)?;
     let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
         Ok(blocks) => blocks,

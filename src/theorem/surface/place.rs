@@ -277,11 +277,11 @@ fn cross(a: &Param, b: &Param, p: &Param) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scheme::{MeshRule, bspline, patch, tensor};
+    use crate::scheme::{bspline, mesh_rule, patch, tensor};
 
     #[test]
     fn a_vertex_of_a_quadrangle_has_a_branch_in_each_patch() {
-        let complex = patch(&MeshRule::CatmullClark(None), 4).unwrap();
+        let complex = patch(&mesh_rule("catmull-clark", &[].into()).unwrap(), 4).unwrap();
         let chart = Chart::new(&complex).unwrap();
         let start = complex.shape.start;
         let half = Rational::from(1) / Rational::from(2);
@@ -300,7 +300,7 @@ mod tests {
 
     #[test]
     fn a_vertex_of_triangles_has_six_branches() {
-        let complex = patch(&MeshRule::Loop(crate::scheme::LoopWeights::Original), 6).unwrap();
+        let complex = patch(&mesh_rule("loop", &[].into()).unwrap(), 6).unwrap();
         let chart = Chart::new(&complex).unwrap();
         let start = complex.shape.start;
         let inner = chart.inner_nodes(start);
