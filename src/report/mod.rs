@@ -14,6 +14,7 @@ pub mod math;
 pub mod mathml;
 pub mod proof;
 pub mod radius;
+pub mod reasons;
 pub mod regularity;
 pub mod spectrum;
 pub mod summary;

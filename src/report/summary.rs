@@ -1,5 +1,6 @@
 //! The short report that `secant certify` prints.
 
+use super::reasons;
 use super::claims;
 use super::document::{Block, Document, Inline, Line, Tone, line, words};
 use super::math::Math;
@@ -155,7 +156,7 @@ fn verdict_line(point: &PointReport) -> Line {
         out.extend(words(", "));
         out.extend(dimension(point.dimension));
     }
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::point(point) {
         out.extend(words(format!("; {reason}")));
     }
     out

@@ -1,5 +1,6 @@
 //! The words and formulas shared by all reports: points, branches, spectra, rates.
 
+use super::reasons;
 use super::document::{Inline, Line, Tone, line, words};
 use super::math::Math;
 use super::values::{
@@ -348,10 +349,10 @@ pub fn outcome(branch: &BranchReport) -> Line {
             }
             out
         }
-        Outcome::NoGerm { reason } => words(reason.clone()),
+        Outcome::NoGerm { reason } => words(reasons::no_germ(*reason)),
         Outcome::Open { reason, place, .. } => match place {
-            Some(place) => line(&format!("not decided: {reason} (cell {})", cell(place)), []),
-            None => words(format!("not decided: {reason}")),
+            Some(place) => line(&format!("not decided: {} (cell {})", reasons::branch(*reason), cell(place)), []),
+            None => words(format!("not decided: {}", reasons::branch(*reason))),
         },
     }
 }

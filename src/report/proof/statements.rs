@@ -7,6 +7,7 @@ use super::super::words::{cell, holder, listed, rate, root_of};
 use super::evidence::Evidence;
 use super::functionals::{cell_table, chain_of, elems, functional_block, on_cells};
 use super::{Quoted, many};
+use crate::report::reasons;
 use crate::algebraic::{Elem, Root};
 use crate::case::Case;
 use crate::jordan::Factor;
@@ -31,13 +32,14 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
             } else {
                 ""
             };
+            let reason = reasons::no_germ(*reason);
             vec![Block::text(&format!("There is no germ here: {reason}.{why}"), [])]
         }
         Outcome::Open { reason, place, at_least, .. } => {
             let mut blocks = Vec::new();
             let place =
                 place.as_ref().map_or_else(String::new, |p| format!(" The cell in which it failed is {}.", cell(p)));
-            let mut text = format!("**Not decided**: {reason}.{place}");
+            let mut text = format!("**Not decided**: {}.{place}", reasons::branch(*reason));
             if *at_least > 0 {
                 blocks.push(seen.once(Statement::Corollary));
                 blocks.push(nilpotent_check(Statement::Corollary, branch).block());
