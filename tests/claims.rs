@@ -2,8 +2,8 @@
 
 use secant::case::Case;
 use secant::certificate::confirm;
-use secant::report::reasons;
 use secant::report::claims::{assertion, judged, reason};
+use secant::report::reasons;
 use secant::shape::cell_text;
 use secant::theorem::surface::certify_complex;
 use secant::theorem::{About, Assertion, Certified, Kind, Outcome, PointReport, Reason, Statement, Verdict, Witness};

@@ -1,6 +1,7 @@
 //! The words of claims and of the reasons why they are refuted or open: the only place where they are written.
 
 use super::reasons::{self, UNKNOWN};
+use super::vertex_reasons;
 use crate::case::Case;
 use crate::shape::word_text;
 use crate::theorem::surface::{Surface, SurfacePoint};
@@ -116,7 +117,8 @@ pub fn limit(limit: &Limit) -> String {
 /// The same of a claim about the vertices of a mesh.
 #[must_use]
 pub fn reason_at_vertices(found: &[AtValence], claim: &Claim) -> Option<String> {
-    let said = |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| f.reason.clone());
+    let said =
+        |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| vertex_reasons::reason(&f.reason));
     claim.reason().map(|reason| match reason {
         Reason::Valence(n) => said(*n),
         Reason::Conditions => "a condition of the proof for all valences is not shown to hold".to_owned(),

@@ -1,8 +1,8 @@
 //! What is known of every point of a curve, in words and as data.
 
-use super::reasons;
 use super::document::{Inline, Line, line, words};
 use super::radius::decimal;
+use super::reasons;
 use super::values::root_math;
 use super::words::{count, listed, mark, point_name};
 use crate::case::Case;
@@ -76,9 +76,7 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
 
 fn witness(case: &Case, point: &PointReport) -> Line {
     let kind = match point.kind {
-        Kind::Line | Kind::NoTangent | Kind::Undetermined => {
-            reasons::point(point).unwrap_or("no tangent").to_owned()
-        }
+        Kind::Line | Kind::NoTangent | Kind::Undetermined => reasons::point(point).unwrap_or("no tangent").to_owned(),
         kind => kind.word().to_owned(),
     };
     let mut out = words(format!("{}, address ", point_name(&case.shape, point)));

@@ -1,7 +1,7 @@
 //! The JSON report, version 1; documented in `docs/json.md`.
 
-use super::reasons;
 use super::claims;
+use super::reasons;
 use super::text::math_line;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
 use super::words::ratio;

@@ -24,4 +24,5 @@ pub mod tex;
 pub mod text;
 pub mod values;
 pub mod vertex;
+pub mod vertex_reasons;
 pub mod words;

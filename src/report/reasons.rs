@@ -22,7 +22,9 @@ pub fn no_germ(reason: NoGerm) -> &'static str {
 #[must_use]
 pub fn branch(gap: BranchGap) -> &'static str {
     match gap {
-        BranchGap::Folded => "several directions of the largest modulus, which the control points may fold into one line",
+        BranchGap::Folded => {
+            "several directions of the largest modulus, which the control points may fold into one line"
+        }
         BranchGap::RingFails => "the ring condition fails, but what follows for the tangent is not decided",
         other => either(other),
     }
@@ -135,7 +137,7 @@ pub fn everywhere(found: &Certified, every: &Everywhere) -> Option<String> {
         EveryGap::Unseen => {
             "no functional was found that is positive on the projected cones, so that this holds before the projection \
              only"
-            .to_owned()
+                .to_owned()
         }
         EveryGap::Joint => "a first-level joint is not decided".to_owned(),
         EveryGap::Obstacle => every.obstacle.as_ref().map_or_else(

@@ -1,9 +1,9 @@
 //! The short report that `secant certify` prints.
 
-use super::reasons;
 use super::claims;
 use super::document::{Block, Document, Inline, Line, Tone, line, words};
 use super::math::Math;
+use super::reasons;
 use super::words::{
     addresses, contraction, count, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
     spectrum_line, statement,

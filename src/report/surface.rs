@@ -1,8 +1,8 @@
 //! The words and formulas for surfaces: planes, points, branches.
 
-use super::reasons;
 use super::document::{Block, Inline, Line, line, words};
 use super::math::Math;
+use super::reasons;
 use super::values::{decimals_math, direction_math, is_rational, root_math};
 use super::words::{cell, count, dimension, mark, ring_proof, spectrum_line, statement};
 use crate::arith::Rational;

@@ -1,8 +1,8 @@
 //! The words and formulas shared by all reports: points, branches, spectra, rates.
 
-use super::reasons;
 use super::document::{Inline, Line, Tone, line, words};
 use super::math::Math;
+use super::reasons;
 use super::values::{
     decimal_math, decimals_math, direction_decimals, direction_math, enclosed, exponent, is_rational, lambda_math,
     polynomial, root_math,

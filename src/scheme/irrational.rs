@@ -108,16 +108,10 @@ fn combined(field: &NumberField, matrices: &[&Matrix], factors: &[Elem]) -> Fiel
 }
 
 /// The matrix of a dual scheme with given weights in the central face: a mean, with sum 1, of those for unit vectors.
-fn dual(
-    rule: &MeshRule,
-    field: &NumberField,
-    weights: &[Elem],
-    rings: usize,
-) -> Result<FieldLocalMatrix, SchemeError> {
+fn dual(rule: &MeshRule, field: &NumberField, weights: &[Elem], rings: usize) -> Result<FieldLocalMatrix, SchemeError> {
     let n = weights.len();
     let unit = |k: usize| (0..n).map(|j| Rational::from(u8::from(j == k))).collect::<Vec<_>>();
-    let samples: Result<Vec<_>, _> =
-        (0..n).map(|k| local_matrix(&rule.with_corners(unit(k)), n, rings)).collect();
+    let samples: Result<Vec<_>, _> = (0..n).map(|k| local_matrix(&rule.with_corners(unit(k)), n, rings)).collect();
     let samples = samples?;
     let Some(first) = samples.first() else {
         return Err(SchemeError::value("valence", &n, "a vertex inside a mesh has at least 3 neighbours"));

@@ -247,6 +247,14 @@ pub struct RuleInfo {
     pub(super) every: Option<fn() -> AllValences>,
 }
 
+impl RuleInfo {
+    /// Whether its characteristic map is known at all valences at once.
+    #[must_use]
+    pub fn has_all_valences(&self) -> bool {
+        self.every.is_some()
+    }
+}
+
 /// What stands in for the weights of the row at the centre.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Centre {
@@ -423,6 +431,18 @@ impl MeshRule {
             (Centre::Row, true) => Corners::Wheel(centre.unwrap_or(wheel)(&self.given, n)),
             _ => Corners::Wheel(wheel(&self.given, n)),
         })
+    }
+
+    /// Whether the weights of the corners of the central face add up to 1 at a valence.
+    pub(crate) fn check_at(&self, n: usize) -> Result<(), SchemeError> {
+        match self.corners(n, true) {
+            Some(Corners::Wheel(wheel)) if wheel.total() != 1 => {
+                let expected = "weights of a frequency that is a multiple of the valence do not add up to 1";
+                let (name, value) = self.weights().into_iter().next().unwrap_or(("weights", wheel.total().to_string()));
+                Err(SchemeError::value(name, &value, expected))
+            }
+            _ => Ok(()),
+        }
     }
 
     pub(super) fn error(&self, message: &str) -> SchemeError {

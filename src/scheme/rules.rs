@@ -3,7 +3,7 @@
 
 use super::SchemeError;
 use super::registry::{Values, p, resolve, unknown};
-use super::rule::{AllValences, Edge, MeshRule, Points, RuleInfo, Split, Spline, Star, Wheel};
+use super::rule::{AllValences, Edge, MeshRule, Points, RuleInfo, Spline, Split, Star, Wheel};
 use crate::arith::{Rational, ratio};
 use crate::poly::Poly;
 use std::collections::BTreeMap;
@@ -120,9 +120,7 @@ const RULES: &[RuleInfo] = &[
         summary: "dual, Doo and Sabin's weights with another frequency; rational for valences 3, 4, 6",
         check: |v| match frequency(v) {
             Some(_) => Ok(()),
-            None => {
-                Err(SchemeError::value("frequency", v.number("frequency"), "a whole number from 1 to 1024"))
-            }
+            None => Err(SchemeError::value("frequency", v.number("frequency"), "a whole number from 1 to 1024")),
         },
         points: Points::Corners {
             wheel: |_, n| doo_sabin(1, n),
@@ -236,8 +234,7 @@ const DOO_SABIN: RuleInfo = RuleInfo {
     ..BLANK
 };
 
-const LOOP: RuleInfo =
-    RuleInfo { family: "Loop", split: Split::Triangles, spline: Some(Spline::Quartic), ..BLANK };
+const LOOP: RuleInfo = RuleInfo { family: "Loop", split: Split::Triangles, spline: Some(Spline::Quartic), ..BLANK };
 
 const SQRT3: RuleInfo = RuleInfo {
     source: "L. Kobbelt, SIGGRAPH 2000",

@@ -54,13 +54,7 @@ impl Vertex {
     /// # Errors
     /// As for [`crate::scheme::local_matrix`], but for the weights that may be irrational.
     pub fn new(rule: &MeshRule, valence: usize, rings: usize) -> Result<Self, SchemeError> {
-        if let Some(Corners::Wheel(wheel)) = rule.corners(valence, true)
-            && wheel.total() != 1
-        {
-            let expected = "weights of a frequency that is a multiple of the valence do not add up to 1";
-            let (name, value) = rule.weights().into_iter().next().unwrap_or(("weights", wheel.total().to_string()));
-            return Err(SchemeError::value(name, &value, expected));
-        }
+        rule.check_at(valence)?;
         let stencils = sector_stencils(&stand_in(rule, valence, 0), valence, rings)?;
         let vertex = Self { rule: rule.clone(), valence, rings, stencils };
         vertex.check()?;
@@ -73,8 +67,7 @@ impl Vertex {
         for (row, own) in s.rows.iter().zip(&s.from_centre) {
             let sum = row.iter().fold(own.clone(), |sum, (_, _, w)| sum + w);
             if sum != 1 {
-                let message = format!("the weights of a new point add up to {sum}, not to 1");
-                return Err(SchemeError::Mesh { rule: self.rule.name().to_owned(), message });
+                return Err(SchemeError::Weights { rule: self.rule.name(), sum });
             }
         }
         Ok(())
@@ -95,7 +88,7 @@ impl Vertex {
     /// The block of a frequency.
     ///
     /// # Errors
-    /// [`SchemeError`] of the stencils; [`SchemeError::Mesh`] where a characteristic polynomial is not real (a scheme
+    /// [`SchemeError`] of the stencils; [`SchemeError::Asymmetric`] where a characteristic polynomial is not real (a scheme
     /// without mirror symmetry).
     pub fn block(&self, frequency: usize) -> Result<Block, SchemeError> {
         let (entries, before, angle) =
@@ -109,8 +102,7 @@ impl Vertex {
                 indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
             let coefficients = characteristic(&inner);
             if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
-                let message = "the weights have no mirror symmetry, and the eigenvalues are not real".to_owned();
-                return Err(SchemeError::Mesh { rule: self.rule.name().to_owned(), message });
+                return Err(SchemeError::Asymmetric { rule: self.rule.name() });
             }
             parts.push(Part { indices, poly: coefficients.into_iter().map(|c| c.x).collect() });
         }

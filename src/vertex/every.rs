@@ -6,6 +6,7 @@
 use super::block::Vertex;
 use super::field::{Field, Fraction, Functions};
 use super::net::Net;
+use super::reason::Requirement;
 use super::ring::{RINGS, jacobian, patches};
 use super::solve::eigenvector;
 use super::turning::{Rotation, Turning};
@@ -25,7 +26,7 @@ const HALVINGS: usize = 8;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Condition {
     /// What is claimed.
-    pub claim: String,
+    pub claim: Requirement,
     /// Whether it was proved.
     pub holds: bool,
 }
@@ -36,7 +37,7 @@ pub struct Every {
     /// The first valence covered.
     pub from: usize,
     /// The parameter, the eigenvalue and `t` in it, and the interval, in words.
-    pub setting: String,
+    pub setting: &'static str,
     /// The conditions of Theorem 9.
     pub conditions: Vec<Condition>,
     /// Pieces of patch and interval on which all Bernstein coefficients of the Jacobian determinant are positive.
@@ -158,7 +159,7 @@ pub fn every(rule: &MeshRule) -> Result<Option<Every>, SchemeError> {
     let vertex = Vertex::new(rule, LARGE, RINGS)?;
     let block = vertex.block(1)?;
     let mut conditions: Vec<Condition> = Vec::new();
-    let mut check = |claim: &str, holds: bool| conditions.push(Condition { claim: claim.to_owned(), holds });
+    let mut check = |claim, holds: bool| conditions.push(Condition { claim, holds });
     let root = |part: &super::block::Part| {
         let value = part.poly.iter().rev().fold(field.zero(), |v, c| {
             field.add(&field.mul(&v, &family.eigenvalue), &field.eval(c, &family.twice_cosine))
@@ -166,29 +167,26 @@ pub fn every(rule: &MeshRule) -> Result<Option<Every>, SchemeError> {
         value.num.is_zero()
     };
     let part = block.parts.iter().position(root);
-    check("λ is an eigenvalue of block 1", part.is_some());
+    check(Requirement::Eigenvalue, part.is_some());
     for (claim, p) in &family.row.claims {
-        check(claim, strict_sign(p, &family.row.interval) == Some(1));
+        check(Requirement::Row(claim), strict_sign(p, &family.row.interval) == Some(1));
     }
-    check("all eigenvalues that do not depend on the frequency are smaller than λ", constants(&vertex, &family, part)?);
+    check(Requirement::Constants, constants(&vertex, &family, part)?);
     let values = part.and_then(|p| eigenvector(&field, &block, p, &family.eigenvalue));
     let nets = values.and_then(|v| patches(&vertex, &field, &v));
     let Some(nets) = nets else {
-        check("the characteristic map is known as a rational function of the parameter", false);
-        return Ok(Some(Every { from: family.row.from, setting: family.row.setting.to_owned(), conditions, pieces: 0 }));
+        check(Requirement::Known, false);
+        return Ok(Some(Every { from: family.row.from, setting: family.row.setting, conditions, pieces: 0 }));
     };
     let finite =
         |p: &Turning<Fraction>| [&p.x, &p.y].into_iter().all(|e| strict_sign(&e.den, &family.row.interval).is_some());
-    check(
-        "no denominator of the Bézier points vanishes",
-        nets.iter().flat_map(|n| n.rows.iter().flatten()).all(finite),
-    );
+    check(Requirement::Denominators, nets.iter().flat_map(|n| n.rows.iter().flatten()).all(finite));
     let mut pieces = 0;
     let regular =
         nets.iter().all(|net| positive_on(&field, jacobian(&field, net), family.row.interval.clone(), &mut pieces));
-    check("the Bernstein coefficients of the Jacobian determinant are positive", regular);
-    check("the ring of a sector lies in an open half-plane through 0", half_plane(&field, &nets, &family));
-    Ok(Some(Every { from: family.row.from, setting: family.row.setting.to_owned(), conditions, pieces }))
+    check(Requirement::Jacobian, regular);
+    check(Requirement::HalfPlane, half_plane(&field, &nets, &family));
+    Ok(Some(Every { from: family.row.from, setting: family.row.setting, conditions, pieces }))
 }
 
 /// The parts of the blocks that are the same for all frequencies, against a bound below λ.
@@ -262,13 +260,8 @@ mod tests {
     /// The entries of block 1 at small valences are those at a large one, modulo the equation of `t`.
     #[test]
     fn the_blocks_are_the_same_at_every_valence() {
-        let rules = [
-            rule("catmull-clark"),
-            rule("loop"),
-            rule("doo-sabin"),
-            rule("doo-sabin-catmull-clark"),
-            rule("midedge"),
-        ];
+        let rules =
+            [rule("catmull-clark"), rule("loop"), rule("doo-sabin"), rule("doo-sabin-catmull-clark"), rule("midedge")];
         for rule in rules {
             let large = Vertex::new(&rule, LARGE, RINGS).unwrap().block(1).unwrap();
             for n in [3, 4, 5, 7] {

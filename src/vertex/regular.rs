@@ -646,7 +646,9 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             i128::from((state >> 44) as u32) << 24
         };
-        for rule in [butterfly(ratio(1, 16)), butterfly(ratio(1, 100)), butterfly(ratio(1, 10)), rule("four-eight", &[])] {
+        for rule in
+            [butterfly(ratio(1, 16)), butterfly(ratio(1, 100)), butterfly(ratio(1, 10)), rule("four-eight", &[])]
+        {
             let (bounds, r) = of(&rule);
             let bounds = bounds.unwrap();
             for _ in 0..10 {

@@ -242,7 +242,8 @@ mod tests {
             ("midedge", 4, 1),
             ("loop-warren", 6, 0),
         ];
-        for (rule, n, dual) in rules {
+        for (name, n, dual) in rules {
+            let rule = mesh_rule(name, &[].into()).unwrap();
             let vertex = Vertex::new(&rule, n, RINGS).unwrap();
             let field = Enclosures::of_angle(1, n, 96);
             let rotation = Rotation(&field);

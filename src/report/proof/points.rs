@@ -5,9 +5,9 @@ use super::super::math::Math;
 use super::super::words::{addresses, dimension, direction, kind_meaning, mark, point_name, ray_line};
 use super::evidence::Evidence;
 use super::{Quoted, cycles, matrix};
-use crate::report::reasons;
 use crate::case::Case;
 use crate::report::figures;
+use crate::report::reasons;
 use crate::shape::{CellKind, word_text};
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
@@ -153,7 +153,10 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
             blocks.push(Block::text("On this branch $\\dim D^*≥@$.", [Math::count(*dimension)]))
         }
         Outcome::NoGerm { reason } => {
-            blocks.push(Block::Paragraph(words(format!("There are no secants to look at: {}.", reasons::no_germ(*reason)))));
+            blocks.push(Block::Paragraph(words(format!(
+                "There are no secants to look at: {}.",
+                reasons::no_germ(*reason)
+            ))));
         }
         Outcome::Open { reason, at_least, direction: known, .. } => {
             let mut text = words(format!("Not decided: {}.", reasons::branch(*reason)));

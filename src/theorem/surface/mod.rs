@@ -18,8 +18,8 @@ pub use verdict::{
 };
 
 use super::{
-    PlaneGap,     AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, Reason, Statement, Verdict, Viewpoint,
-    decide_contraction, state_report, without_contraction,
+    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Statement, Verdict,
+    Viewpoint, decide_contraction, state_report, without_contraction,
 };
 use crate::budget::Budget;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};

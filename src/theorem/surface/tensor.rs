@@ -9,7 +9,7 @@ use crate::budget::Budget;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
-    PlaneGap,     Context, Dimension, Direction, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
+    Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
 };
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;

@@ -7,7 +7,8 @@ use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
 use crate::theorem::{
-    BranchGap, Dimension, Discharged, NoChart, PlaneGap, PointReport, RingPiece, RingProof, Statement, TopRow, Verdict, Witness,
+    BranchGap, Dimension, Discharged, NoChart, PlaneGap, PointReport, RingPiece, RingProof, Statement, TopRow, Verdict,
+    Witness,
 };
 
 /// A proof that a pair of functionals has a common zero on a cell of the ring: the image of its boundary winds around 0.
