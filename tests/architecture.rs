@@ -113,7 +113,7 @@ const READERS: [&str; 1] = ["radius/file.rs"];
 
 /// What may stand before a sentence in a proving room: messages of errors and of mistakes of the program.
 const MESSAGES: [&str; 7] =
-    ["#[error(", "expect(", "reason = ", "panic!(", "unreachable!(", "assert!(", "debug_assert!("];
+    ["#[error(", "expect(", "reason =", "panic!(", "unreachable!(", "assert!(", "debug_assert!("];
 
 /// The string literals of a text, each with what stands before it.
 fn literals(text: &str) -> Vec<(&str, &str)> {

@@ -175,7 +175,6 @@ fn the_range_of_the_weight_of_loop() {
 fn weights_at_the_vertex_of_catmull_and_clark() {
     let verdict = |n: usize, a: (i64, i64), b: (i64, i64)| {
         let (alpha, beta) = (ratio(a.0, a.1), ratio(b.0, b.1));
-        let gamma = ratio(1, 1) - &alpha - &beta;
         at(&rule("catmull-clark-variant", &[("alpha", alpha), ("beta", beta)]), n).smooth
     };
     for n in [3, 4, 6] {
