@@ -263,6 +263,9 @@ struct RenderArgs {
     /// Letters of the words whose cells are drawn; by default as many as give about 20 000 points.
     #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
     depth: Option<usize>,
+    /// Draw so many letters that no point of the shape is farther than this from a drawn one; the bound is proved and printed.
+    #[arg(long, value_name = "DISTANCE", conflicts_with_all = ["chaos", "depth"])]
+    error: Option<String>,
     /// Draw this many points with random addresses instead (the chaos game).
     #[arg(long, value_name = "POINTS")]
     chaos: Option<usize>,

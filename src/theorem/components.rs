@@ -62,14 +62,14 @@ pub struct Components {
     pub code: Option<usize>,
 }
 
-/// Looks for a proof; `None` where some hypothesis is not proved.
+/// Looks for a proof; `None` where some hypothesis is not proved. `cones_tried` says that there are no cones of all states together.
 ///
 /// # Cost
 /// A search of cones for some states, spectra of the loops, and the points.
 #[must_use]
-pub fn components(cx: &Context) -> Option<Components> {
+pub fn components(cx: &Context, cones_tried: bool) -> Option<Components> {
     let mut found = Components { parts: Vec::new(), code: None };
-    part(cx, cx.shape.start, &mut found.parts)?;
+    part(cx, (cx.shape.start, cones_tried), &mut found.parts)?;
     if let Some(control) = &cx.shape.control {
         let limits = (MAX_CODE_LENGTH, MAX_CODE, cx.budget.cone_steps);
         let (_, code) = cone_in_sight(cx.shape, cx.spaces, cx.shape.start, control, limits)?;
@@ -79,7 +79,7 @@ pub fn components(cx: &Context) -> Option<Components> {
 }
 
 /// Proves a state after those that it leads to.
-fn part(cx: &Context, state: usize, parts: &mut Vec<Component>) -> Option<()> {
+fn part(cx: &Context, (state, cones_tried): (usize, bool), parts: &mut Vec<Component>) -> Option<()> {
     if parts.iter().any(|p| p.state() == state) {
         return Some(());
     }
@@ -89,13 +89,14 @@ fn part(cx: &Context, state: usize, parts: &mut Vec<Component>) -> Option<()> {
     let others = || pieces.iter().map(|p| p.target).filter(|t| *t != state);
     let component = match back.as_slice() {
         [] => {
-            others().try_for_each(|t| part(cx, t, parts))?;
+            others().try_for_each(|t| part(cx, (t, false), parts))?;
             transient(cx, state)?
         }
         [letter] if own(letter) && pieces.len() > 1 => {
-            others().try_for_each(|t| part(cx, t, parts))?;
+            others().try_for_each(|t| part(cx, (t, false), parts))?;
             turning(cx, state, *letter, parts)?
         }
+        _ if cones_tried => return None,
         _ => with_cones(cx, state)?,
     };
     parts.push(component);

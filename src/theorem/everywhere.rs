@@ -90,7 +90,7 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
 
 /// Proves G¹ of a curve state by state.
 fn by_components(cx: &Context, every: Everywhere) -> Everywhere {
-    match components(cx) {
+    match components(cx, every.cone.is_none()) {
         Some(parts) if every.witness.is_none() => {
             Everywhere { verdict: Verdict::Proved, reason: None, components: Some(Box::new(parts)), ..every }
         }

@@ -17,9 +17,15 @@ use crate::shape::{CellKind, End, Shape, Spaces, difference};
 pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
     let uniform = Curve::new(shape, spaces).ok().and_then(|curve| graph(&curve, shape, spaces, options));
     uniform.or_else(|| {
-        let shares = shares(shape, spaces)?;
+        let shares = shares(shape, spaces).filter(|shares| !are_equal(shares))?;
         graph(&Curve::of(shape, spaces, Some(shares)).ok()?, shape, spaces, options)
     })
+}
+
+/// Whether all pieces of all states take the same share, which was tried before.
+fn are_equal(shares: &Shares) -> bool {
+    let mut all = shares.iter().flatten();
+    all.next().is_some_and(|first| all.all(|s| s == first))
 }
 
 fn graph(curve: &Curve<'_>, shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
