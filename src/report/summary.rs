@@ -4,6 +4,7 @@ use super::claims;
 use super::document::{Block, Document, Inline, Line, Table, Tone, code, formula, line, words};
 use super::math::Math;
 use super::proof::parameter;
+use super::reasons;
 use super::values::{decimals_math, direction_decimals};
 use super::words::{
     addresses, contraction, count, dimension, direction, holder, listed, mark, outcome, point_name, rate, ray_line,
@@ -227,7 +228,7 @@ fn verdict_line(point: &PointReport) -> Line {
         out.extend(words(", "));
         out.extend(dimension(point.dimension));
     }
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::point(point) {
         out.extend(words(format!("; {reason}")));
     }
     out

@@ -3,6 +3,7 @@
 use super::claim::{Assertion, Claim};
 use crate::answer::Verdict;
 use std::fmt;
+use thiserror::Error;
 
 /// What a claim is about, as it is named in `--require`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -94,6 +95,11 @@ impl Assertion {
     }
 }
 
+/// A word that names no claim.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("`{0}` is no claim: name ends, joints, dense, points, g1, c1, c2, …, or tangents")]
+pub struct UnknownTopic(String);
+
 /// The claims that decide about a case, and with it about the exit code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Required {
@@ -127,9 +133,9 @@ impl Required {
     /// use secant::theorem::Required;
     /// assert_eq!(Required::parse("ends,g1?")?.to_string(), "ends,g1?");
     /// assert!(Required::parse("smooth").is_err() && Required::parse("").is_err());
-    /// # Ok::<(), String>(())
+    /// # Ok::<(), secant::theorem::UnknownTopic>(())
     /// ```
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, UnknownTopic> {
         if text.trim() == Self::default().to_string() {
             return Ok(Self::default());
         }
@@ -141,9 +147,7 @@ impl Required {
         let mut topics = Vec::new();
         for word in text.split(',').map(str::trim) {
             let (name, strict) = word.strip_suffix('?').map_or((word, true), |name| (name, false));
-            let topic = Topic::parse(&name.to_lowercase()).ok_or_else(|| {
-                format!("`{word}` is no claim: name ends, joints, dense, points, g1, c1, c2, …, or tangents")
-            })?;
+            let topic = Topic::parse(&name.to_lowercase()).ok_or_else(|| UnknownTopic(word.to_owned()))?;
             topics.push((topic, strict));
         }
         Ok(Self { topics, named: true })
