@@ -14,7 +14,7 @@ const MAX_ORDERS: usize = 32;
 struct Level<'a> {
     shape: &'a Shape,
     spaces: &'a Spaces,
-    /// `N`, the number of pieces of every state.
+    /// `N`, the number of pieces of every state that comes back to itself.
     pieces: usize,
     /// By state and letter, what pieces take of the parameter, where that is not `1/N`.
     shares: Option<Vec<Vec<Q>>>,
@@ -34,7 +34,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut level = node.at(Level::uniform(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
-    let mut exponent = None;
+    let (mut exponent, mut least) = (None, Q::zero());
     for (k, item) in items.iter().enumerate() {
         let [order, dims, radius, outcome] = item.fields("order dims radius outcome")?;
         order.need(order.index(MAX_ORDERS)? == k, "orders", "the orders come one after the other")?;
@@ -65,6 +65,11 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
                 radius.need(slow, "orders", "no cycle with a radius of N to the power -k or more")?;
                 (false, true)
             }
+            "exponent" if k > 0 => {
+                let slow = &least * &level.power(k) > Q::one();
+                outcome.need(slow, "orders", "the radius of the order before is not above N to the power -k")?;
+                (false, true)
+            }
             "chord" if k > 0 => {
                 outcome.need(level.turns_back(&before)?, "orders", "no chord among the differences")?;
                 (false, true)
@@ -74,6 +79,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
         let verdict = if smooth { Verdict::Proved } else { Verdict::Refuted };
         claims.push(Claim::Smooth { order: k }.is(verdict));
+        least.clone_from(&low);
         if smooth {
             exponent = (!found.iter().all(|d| *d == 0)).then_some((k, low, high));
         }
@@ -91,7 +97,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
 pub fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
     let first = match shares {
         None => Level::uniform(model)?,
-        Some(node) => Level::first(model, Some(node.at(read_shares(model, node))?))?,
+        Some(node) => Level::first(model, 1, Some(node.at(read_shares(model, node))?))?,
     };
     let level = first.next()?;
     let (_, high) = level.radius(radius)?;
@@ -124,20 +130,36 @@ fn read_shares(model: &Model<'_>, node: &Node<'_>) -> Checked<Vec<Vec<Q>>> {
     Ok(all)
 }
 
+/// The states that can be reached from one, itself among them.
+fn reached(shape: &Shape, from: usize) -> Vec<usize> {
+    let (mut list, mut next) = (vec![from], 0);
+    while next < list.len() {
+        for piece in &shape.states[list[next]].pieces {
+            if !list.contains(&piece.target) {
+                list.push(piece.target);
+            }
+        }
+        next += 1;
+    }
+    list
+}
+
 impl<'a> Level<'a> {
-    /// The curve itself, where every reachable state has the same number of pieces.
+    /// The curve itself, where the states that come back to themselves have the same number of pieces.
     fn uniform(model: &'a Model<'a>) -> Checked<Self> {
         let shape = model.shape;
-        let pieces = shape.states[shape.start].pieces.len();
-        let uniform = shape.reachable.iter().all(|&e| shape.states[e].pieces.len() == pieces);
+        let returning = |e: &&usize| shape.states[**e].pieces.iter().any(|p| reached(shape, p.target).contains(*e));
+        let counts: Vec<usize> =
+            shape.reachable.iter().filter(returning).map(|&e| shape.states[e].pieces.len()).collect();
+        let pieces = *some(counts.first(), "orders", "no state comes back to itself")?;
+        let uniform = counts.iter().all(|n| *n == pieces);
         need(uniform && pieces >= 2, "orders", "a curve of one number of pieces is needed")?;
-        Self::first(model, None)
+        Self::first(model, pieces, None)
     }
 
     /// The curve itself: every reachable state is an edge, and more than a point is seen.
-    fn first(model: &'a Model<'a>, shares: Option<Vec<Vec<Q>>>) -> Checked<Self> {
+    fn first(model: &'a Model<'a>, pieces: usize, shares: Option<Vec<Vec<Q>>>) -> Checked<Self> {
         let (shape, spaces) = (model.shape, &model.spaces);
-        let pieces = shape.states[shape.start].pieces.len();
         let edges = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
         need(edges, "orders", "a curve is needed")?;
         let mut families = shape.no_rows();
@@ -157,15 +179,15 @@ impl<'a> Level<'a> {
         num_traits::pow(whole(self.pieces as i64), k)
     }
 
-    /// `N^k`, or `s^-k` for a piece with the share `s`.
+    /// `N_e^k`, or `s^-k` for a piece with the share `s`.
     fn stretch(&self, e: usize, piece: &Piece) -> Checked<Q> {
-        let Some(shares) = &self.shares else { return Ok(self.power(self.order)) };
-        let letter = self.shape.states[e].pieces.iter().position(|p| std::ptr::eq(p, piece));
-        let letter = some(letter, "graph", "a piece of another state")?;
+        let pieces = &self.shape.states[e].pieces;
+        let Some(shares) = &self.shares else { return Ok(num_traits::pow(whole(pieces.len() as i64), self.order)) };
+        let letter = some(pieces.iter().position(|p| std::ptr::eq(p, piece)), "graph", "a piece of another state")?;
         Ok(num_traits::pow(shares[e][letter].recip(), self.order))
     }
 
-    /// `(ε N)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece.
+    /// `(ε N_e)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece of a state.
     fn scaled(&self, e: usize, piece: &Piece) -> Checked<Matrix> {
         let one = if piece.reversed && self.order % 2 == 1 { -Q::one() } else { Q::one() };
         Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.stretch(e, piece)?)))
@@ -216,18 +238,7 @@ impl<'a> Level<'a> {
     /// Whether, in a strongly connected part that no arrow leaves, a chord lies among the differences of its derivative, although
     /// the curve of the order before, whose differences are given, is more than a point.
     fn turns_back(&self, before: &[Matrix]) -> Checked<bool> {
-        let reached = |from: usize| {
-            let (mut list, mut next) = (vec![from], 0);
-            while next < list.len() {
-                for piece in &self.shape.states[list[next]].pieces {
-                    if !list.contains(&piece.target) {
-                        list.push(piece.target);
-                    }
-                }
-                next += 1;
-            }
-            list
-        };
+        let reached = |from: usize| reached(self.shape, from);
         for &e in &self.shape.reachable {
             let inside = self.families[e].stack(&self.chords[e].transpose()).rank()? == self.families[e].rows;
             if before[e].rows > 0 && inside && reached(e).iter().all(|&d| reached(d).contains(&e)) {

@@ -260,7 +260,7 @@ fn exact_exponent(h: &Holder) -> Option<Rational> {
 #[must_use]
 pub fn kind_meaning(kind: Kind) -> &'static str {
     match kind {
-        Kind::HalfTangent => "one limit ray",
+        Kind::SmoothEnd | Kind::HalfTangent => "one limit ray",
         Kind::Regular => "one ray on each side, opposite to one another",
         Kind::Cusp => "one ray on each side, the same",
         Kind::Oscillating => "the tangent line exists, and both of its rays are limit rays on a side",

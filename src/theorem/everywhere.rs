@@ -5,14 +5,16 @@ use super::components::{Components, components};
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
 use super::gap::EveryGap;
-use super::graph::graph_over_parameter;
+use super::graph::{graph_over_parameter, graph_over_shares};
 use super::hodograph::{Hodograph, hodograph};
+use super::parameter::Parameter;
 use super::smoothness::CurveOrder;
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
 use crate::radius::Options;
-use crate::shape::{Address, CellKind};
+use crate::shape::{Address, CellKind, Shape, Spaces};
+use crate::statement::Statement;
 
 /// What is known of every point of a curve, not only of a dense set.
 ///
@@ -42,6 +44,21 @@ pub struct Everywhere {
     pub components: Option<Box<Components>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<EveryGap>,
+}
+
+impl Everywhere {
+    /// The statement that proves G¹; `None` where a point refutes it, or where it is open.
+    #[must_use]
+    pub fn statement(&self) -> Option<Statement> {
+        match (self.verdict, &self.hodograph, &self.derivative, &self.cone) {
+            (Verdict::Undetermined, ..) => None,
+            (_, Some(_), ..) => Some(Statement::Theorem6Polynomial),
+            (Verdict::Refuted, ..) => None,
+            (_, _, Some(_), _) => Some(Statement::Graph),
+            _ if self.components.is_some() => Some(Statement::Components),
+            (_, _, _, cone) => cone.as_ref().map(CommonCone::statement),
+        }
+    }
 }
 
 /// A first-level joint of a state, seen so that no direction of the visible quotient is lost.
@@ -84,8 +101,11 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
         ConeAnswer::Undetermined => without_cone(cx, found, None),
     };
     let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
-    let every = if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every };
-    Some(if every.verdict == Verdict::Undetermined { by_components(cx, every) } else { every })
+    let open = |every: &Everywhere| every.verdict == Verdict::Undetermined;
+    let rough = found.parameter.as_ref().is_some_and(Parameter::is_not_c1);
+    let every = if open(&every) && !rough { as_graph(cx, every, graph_over_parameter) } else { every };
+    let every = if open(&every) { as_graph(cx, every, graph_over_shares) } else { every };
+    Some(if open(&every) { by_components(cx, every) } else { every })
 }
 
 /// Proves G¹ of a curve state by state.
@@ -118,11 +138,14 @@ fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Ever
 /// Largest number of coordinates of a state, and most states, for which this is tried.
 const MAX_GRAPH: (usize, usize) = (12, 6);
 
+/// A way of looking for a parameter.
+type Graph = fn(&Shape, &Spaces, &Options) -> Option<CurveOrder>;
+
 /// Proves G¹ of a curve that is a graph over a parameter.
-fn as_graph(cx: &Context, every: Everywhere) -> Everywhere {
+fn as_graph(cx: &Context, every: Everywhere, graph: Graph) -> Everywhere {
     let states = cx.shape.reachable();
     let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
-    let order = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
+    let order = if small { graph(cx.shape, cx.spaces, &Options::default()) } else { None };
     match order {
         Some(order) if every.witness.is_none() => {
             Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(order)), ..every }

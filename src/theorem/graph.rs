@@ -8,21 +8,27 @@ use crate::linalg::{Matrix, dot};
 use crate::radius::Options;
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 
-/// The order 1 of a curve that is a graph over its parameter, as it is seen (Theorem 12); `None` where its hypotheses are not all
-/// proved.
+/// The order 1 of a curve that is a graph over its uniform parameter, as it is seen (Theorem 12); `None` where its hypotheses are
+/// not all proved.
 ///
 /// # Cost
-/// One joint spectral radius for each way of dividing the parameter that the chords allow, otherwise some linear algebra.
+/// One joint spectral radius where the chords allow it, otherwise some linear algebra.
 #[must_use]
 pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
-    let uniform = Curve::new(shape, spaces).ok().and_then(|curve| graph(&curve, shape, spaces, options));
-    uniform.or_else(|| {
-        let shares = shares(shape, spaces).filter(|shares| !are_equal(shares))?;
-        graph(&Curve::of(shape, spaces, Some(shares)).ok()?, shape, spaces, options)
-    })
+    graph(&Curve::new(shape, spaces).ok()?, shape, spaces, options)
 }
 
-/// Whether all pieces of all states take the same share, which was tried before.
+/// The same over a parameter of which the pieces take other shares, those that positions give.
+///
+/// # Cost
+/// Linear systems and spectra of single pieces, then as above.
+#[must_use]
+pub fn graph_over_shares(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
+    let shares = shares(shape, spaces).filter(|shares| !are_equal(shares))?;
+    graph(&Curve::of(shape, spaces, 1, Some(shares)).ok()?, shape, spaces, options)
+}
+
+/// Whether the pieces of each state take the same share, and all states that many, which was tried before.
 fn are_equal(shares: &Shares) -> bool {
     let mut all = shares.iter().flatten();
     all.next().is_some_and(|first| all.all(|s| s == first))

@@ -15,8 +15,10 @@ mod frames;
 pub mod gap;
 pub mod graph;
 mod hodograph;
+pub mod parameter;
 mod point;
 pub mod regularity;
+mod require;
 mod ring;
 mod sign;
 mod similarity;
@@ -36,6 +38,8 @@ pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
 pub use gap::{BranchGap, Defect, EveryGap, NoChart, NoGerm, PlaneGap, PointGap, TopRow};
 pub use hodograph::{Hodograph, Span, Turn};
+pub use parameter::Parameter;
+pub use require::{Required, Topic, UnknownTopic};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use sign::{Depth, depths};
 pub use similarity::Similarities;
@@ -149,7 +153,9 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
+        found.parameter = parameter::parameter(&cx);
         found.everywhere = everywhere::everywhere(&cx, &mut found);
+        parameter::adopt_derivative(&mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
@@ -159,6 +165,7 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
         let by = Some(Statement::Similarities);
         found.claims.push(Claim::refuted(Assertion::SomePoint, by, Reason::Similarities));
     }
+    parameter::add_claims(&mut found);
     found.verdict = found.overall();
     Ok(found)
 }

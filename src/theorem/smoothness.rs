@@ -1,6 +1,7 @@
 //! Orders of smoothness of a curve in the uniform parameter (theory §11, Theorem E): radii on a descending chain of invariant
 //! spaces, and the joint equations of every order, all in the visible quotients `W_e` of §9.
 
+use super::frames::component;
 use super::regularity::minus_log;
 use crate::arith::{Interval, Rational, abs};
 use crate::linalg::{Matrix, closures};
@@ -12,8 +13,11 @@ use thiserror::Error;
 /// Why a curve has no table of orders.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CurveRegularityError {
-    /// The uniform parameter needs curves with the same number of pieces everywhere.
-    #[error("the uniform parameter needs a curve all of whose states have the same number of pieces, at least 2")]
+    /// The uniform parameter needs the same number of pieces in all states that come back to themselves.
+    #[error(
+        "the uniform parameter needs a curve all of whose states that come back to themselves have the same number of pieces, \
+         at least 2"
+    )]
     Pieces,
     /// The curve that is seen is a point.
     #[error("the curve is a single point")]
@@ -37,6 +41,8 @@ pub enum Outcome {
     /// In this state, which belongs to a strongly connected part that no arrow leaves, the chord of order `k−1` lies in `F_e`,
     /// and the curve of order `k−1` is more than a point: not `C^k`.
     Chord(usize),
+    /// The supremum of the exponents of the order before is below `k`: not `C^k`.
+    Exponent,
     /// Not decided by this statement.
     Open,
 }
@@ -91,7 +97,7 @@ impl CurveOrder {
     pub fn smooth(&self) -> Option<bool> {
         match self.outcome {
             Outcome::Curve | Outcome::Holds => Some(true),
-            Outcome::Joint(_) | Outcome::Cycle | Outcome::Chord(_) => Some(false),
+            Outcome::Joint(_) | Outcome::Cycle | Outcome::Chord(_) | Outcome::Exponent => Some(false),
             Outcome::Open => None,
         }
     }
@@ -100,7 +106,7 @@ impl CurveOrder {
 /// The orders of smoothness of the curve of the start state, as it is seen.
 #[derive(Debug, Clone)]
 pub struct CurveRegularity {
-    /// `N`, the number of pieces.
+    /// `N`, the number of pieces of the states that come back to themselves.
     pub pieces: usize,
     /// The orders `0, 1, …` up to the first that fails or is open, at most [`MAX_ORDER`].
     pub orders: Vec<CurveOrder>,
@@ -118,6 +124,15 @@ impl CurveRegularity {
     #[must_use]
     pub fn smoothness(&self) -> usize {
         self.orders.iter().filter(|o| o.smooth() == Some(true)).count() - 1
+    }
+
+    /// Whether the curve is `C^k`; `None` where that is not decided.
+    #[must_use]
+    pub fn is_smooth(&self, order: usize) -> Option<bool> {
+        if self.polynomial || order <= self.smoothness() {
+            return Some(true);
+        }
+        self.orders.iter().any(|o| o.order <= order && o.smooth() == Some(false)).then_some(false)
     }
 }
 
@@ -152,7 +167,10 @@ pub fn curve_regularity(
         let values = if order.is_below() { curve.ends(k, &smaller, &chords) } else { None };
         order.outcome = match &values {
             Some(values) => curve.joints(k, values).map_or(Outcome::Holds, Outcome::Joint),
-            None => curve.refuted(&order, &families, &smaller, &chords),
+            None => match curve.refuted(&order, &families, &smaller, &chords) {
+                Outcome::Open if found.orders[k - 1].is_above(&order.threshold) => Outcome::Exponent,
+                outcome => outcome,
+            },
         };
         let holds = order.smooth() == Some(true);
         found.polynomial &= holds;
@@ -180,19 +198,28 @@ impl CurveOrder {
         self.enclosure.as_ref().is_some_and(|e| e.hi < self.threshold)
     }
 
+    /// Whether the radius is proved to be greater than a number.
+    fn is_above(&self, bound: &Rational) -> bool {
+        self.enclosure.as_ref().is_some_and(|e| e.lo > *bound)
+    }
+
     /// Whether the leading word of the radius is a cycle with `ρ(N^(k|w|) T_w) >= 1`.
     fn has_slow_cycle(&self) -> bool {
         self.radius.as_ref().and_then(|r| r.lower.as_ref()).is_some_and(|lower| lower.is_at_least(&self.threshold))
     }
 
     /// Enclosure of `−log_N` of the radius, cut with `[k, k+1]`, where it lies if this order holds and its differences are not 0.
-    fn exponent(&self, pieces: usize) -> Option<Interval> {
+    pub(super) fn exponent(&self, pieces: usize) -> Option<Interval> {
         let radius = self.enclosure.as_ref()?;
         let (least, most) = (Rational::from(self.order as u64), Rational::from(self.order as u64 + 1));
         let own = minus_log(radius, pieces)?;
         let (lo, hi) = (own.lo.max(least.clone()), own.hi.min(most.clone()));
         (lo <= hi).then(|| Interval::new(lo, hi))
     }
+}
+
+fn power(base: &Rational, exponent: usize) -> Rational {
+    (0..exponent).fold(Rational::from(1), |p, _| p * base)
 }
 
 /// The joint spectral radius of these operators; 0 without them.
@@ -217,6 +244,7 @@ pub(super) struct Curve<'a> {
     states: Vec<usize>,
     /// By state of the shape, its position.
     positions: Vec<Option<usize>>,
+    /// `N`, the number of pieces of the states that come back to themselves.
     pieces: usize,
     /// Where the pieces of a state do not take equal shares of the parameter, what they take.
     shares: Option<Shares>,
@@ -230,22 +258,24 @@ pub(super) type Ends = Vec<[Vec<Rational>; 2]>;
 
 impl<'a> Curve<'a> {
     pub(super) fn new(shape: &'a Shape, spaces: &'a Spaces) -> Result<Self, CurveRegularityError> {
-        let pieces = shape.states[shape.start].pieces.len();
-        if pieces < 2 || shape.reachable().iter().any(|e| shape.states[*e].pieces.len() != pieces) {
-            return Err(CurveRegularityError::Pieces);
+        let count = |e: &usize| shape.states[*e].pieces.len();
+        let states = shape.reachable();
+        let returning: Vec<usize> = states.iter().filter(|e| !component(shape, **e).is_empty()).map(count).collect();
+        match returning.first() {
+            Some(&first) if first >= 2 && returning.iter().all(|n| *n == first) => Self::of(shape, spaces, first, None),
+            _ => Err(CurveRegularityError::Pieces),
         }
-        Self::of(shape, spaces, None)
     }
 
-    /// The curve with equal shares of the parameter, or with given ones.
+    /// The curve with equal shares of the parameter, or with given ones, of which `pieces` says nothing.
     pub(super) fn of(
         shape: &'a Shape,
         spaces: &'a Spaces,
+        pieces: usize,
         shares: Option<Shares>,
     ) -> Result<Self, CurveRegularityError> {
         let states = shape.reachable();
-        let pieces = shape.states[shape.start].pieces.len();
-        if states.iter().any(|e| shape.states[*e].kind != CellKind::Edge) {
+        if states.iter().any(|e| shape.states[*e].kind != CellKind::Edge || shape.states[*e].pieces.is_empty()) {
             return Err(CurveRegularityError::Pieces);
         }
         if spaces.of(shape.start).visible.rows() == 0 {
@@ -291,24 +321,23 @@ impl<'a> Curve<'a> {
         })
     }
 
-    /// `(ε N)^k`, or `(ε/s)^k` for a piece with the share `s`: what derivatives of order `k` are multiplied with on it.
+    /// `(ε N_e)^k`, or `(ε/s)^k` for a piece with the share `s`: what derivatives of order `k` are multiplied with on it.
     fn factor(&self, k: usize, from: usize, letter: usize) -> Rational {
+        let pieces = &self.shape.states[self.states[from]].pieces;
         let one = match &self.shares {
             Some(shares) => Rational::from(1) / &shares[from][letter],
-            None => Rational::from(self.pieces as u64),
+            None => Rational::from(pieces.len()),
         };
-        let one = if self.shape.states[self.states[from]].pieces[letter].reversed { -one } else { one };
-        (0..k).fold(Rational::from(1), |p, _| p * &one)
+        power(&if pieces[letter].reversed { -one } else { one }, k)
     }
 
     pub(super) fn order(&self, k: usize, families: &[Matrix], options: &Options) -> CurveOrder {
         let system = self.system(k, families);
         let (radius, enclosure) = radius_of(system.as_ref(), options);
         let dims = families.iter().map(Matrix::rows).collect();
-        let one = Rational::from(1);
         let threshold = match self.shares {
-            Some(_) => one,
-            None => (0..k).fold(one, |p, _| p / Rational::from(self.pieces as u64)),
+            Some(_) => Rational::from(1),
+            None => Rational::from(1) / power(&Rational::from(self.pieces), k),
         };
         let outcome = if k == 0 { Outcome::Curve } else { Outcome::Open };
         CurveOrder { order: k, threshold, shares: self.shares.clone(), dims, system, radius, enclosure, outcome }
