@@ -175,7 +175,7 @@ fn turning(cx: &Context, state: usize, letter: usize, parts: &[Component]) -> Op
         point::address_spec(&own, &Address::periodic(vec![letter]))?
     };
     let report = point::examine_point(&own, &fixed)?;
-    let smooth = matches!(report.kind, Kind::Regular | Kind::HalfTangent) && report.verdict == Verdict::Proved;
+    let smooth = matches!(report.kind, Kind::Regular | Kind::SmoothEnd) && report.verdict == Verdict::Proved;
     points.push(report);
     smooth.then_some(Component::Loop { state, letter, pull, points })
 }
