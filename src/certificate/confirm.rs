@@ -70,7 +70,8 @@ fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
             Assertion::UnkilledJoints | Assertion::ProjectedJoints => {
                 secant_check::Claim::TangentAtJoints(Joints::NotKilled)
             }
-            // The certificate's answers about single points and about all of them carry these.
+            Assertion::SomePoint => secant_check::Claim::TangentSomewhere,
+            // The certificate's answers about single points carry these.
             _ => continue,
         };
         let known = |d: &Decided| d.claim == expected && same_verdict(claim.verdict(), d.verdict);

@@ -38,6 +38,7 @@ pub use spectrum::{Operator, spectra};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Certificate {
     json: Value,
+    left_out: Vec<Unsupported>,
 }
 
 /// Why there is no certificate: something in the verdict has no rule in the format.
@@ -66,7 +67,20 @@ impl Certificate {
             "verdict": verdict,
             "proof": proof,
         });
-        Self { json }
+        Self { json, left_out: Vec::new() }
+    }
+
+    /// The same certificate, of which is said that something that was found is not in it.
+    #[must_use]
+    pub fn without(mut self, left_out: impl IntoIterator<Item = Unsupported>) -> Self {
+        self.left_out.extend(left_out);
+        self
+    }
+
+    /// What was found besides and could not be written: it is proved once only.
+    #[must_use]
+    pub fn left_out(&self) -> &[Unsupported] {
+        &self.left_out
     }
 
     /// The certificate as JSON.
@@ -118,9 +132,10 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     for point in &found.points {
         points.add(point)?;
     }
-    let answers = answers(case, found, &points)?;
+    let mut left_out = Vec::new();
+    let answers = answers(case, found, &points, &mut left_out)?;
     let proof = json!({"contraction": states, "points": points.json, "answers": answers});
-    Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
+    Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof).without(left_out))
 }
 
 /// Why a system contracts, and what encloses its attractors, by reachable state.
@@ -193,30 +208,44 @@ impl Points<'_> {
         Ok(())
     }
 
+    /// The index of a decided point.
+    fn index(&self, point: &PointReport) -> Result<usize, Unsupported> {
+        let place = place_json(point);
+        match self.places.iter().position(|p| *p == place) {
+            Some(index) => Ok(index),
+            None => unsupported("a point that is not decided", point.place()),
+        }
+    }
+
     /// The indices of the decided points among those for which `wanted` holds.
-    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Vec<usize> {
-        let places = found.points.iter().filter(|p| wanted(p)).map(place_json);
-        let mut indices: Vec<usize> = places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
+    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Result<Vec<usize>, Unsupported> {
+        let decided = found.points.iter().filter(|p| wanted(p) && p.verdict != Verdict::Undetermined);
+        let mut indices = decided.map(|p| self.index(p)).collect::<Result<Vec<_>, _>>()?;
         indices.sort_unstable();
         indices.dedup();
-        indices
+        Ok(indices)
     }
 }
 
-/// The answers to the questions of the case, in their order.
-fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Value>, Unsupported> {
+/// The answers to the questions of the case, in their order; what is no question of the case and has no rule is left out, and
+/// named.
+fn answers(
+    case: &Case,
+    found: &Certified,
+    points: &Points<'_>,
+    left_out: &mut Vec<Unsupported>,
+) -> Result<Vec<Value>, Unsupported> {
     let shape = &case.shape;
     let curve = shape.states[shape.start].kind == CellKind::Edge;
     let mut answers = Vec::new();
     if curve {
-        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd));
-        let verdict = found
-            .claims
-            .iter()
-            .find(|c| c.what == Assertion::TangentAtEnds)
-            .map_or(Verdict::Undetermined, Claim::verdict);
+        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd))?;
+        let verdict = match found.claims.iter().find(|c| c.what == Assertion::TangentAtEnds) {
+            Some(claim) => claim.verdict(),
+            None => Verdict::Undetermined,
+        };
         answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
-        answers.push(joints(case, found, points)?);
+        answers.push(joints(case, found, points, left_out)?);
     }
     let mut asked: Vec<Address> = Vec::new();
     if !curve {
@@ -238,17 +267,22 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         }
     }
     for address in &asked {
-        let claim = claims.iter().find(|(_, (a, _))| *a == address);
-        let (verdict, place) = match claim {
-            Some((verdict, (_, k))) => (*verdict, k.and_then(|k| found.points.get(k)).map(place_json)),
+        let (verdict, point) = match claims.iter().find(|(_, (a, _))| *a == address) {
+            Some((verdict, (_, k))) => (*verdict, k.map(|k| &found.points[k])),
             None => (Verdict::Undetermined, None),
         };
-        let index: Vec<usize> = points.places.iter().position(|p| Some(p) == place.as_ref()).into_iter().collect();
+        let index = match point.filter(|p| p.verdict != Verdict::Undetermined) {
+            Some(point) => vec![points.index(point)?],
+            None if verdict == Verdict::Undetermined => Vec::new(),
+            None => return unsupported("an answer without a decided point", address.to_string()),
+        };
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
-    let place_of = |point: &PointReport| points.places.iter().position(|p| *p == place_json(point));
-    answers.extend(everywhere::answer(shape, found, place_of));
+    match everywhere::answer(shape, found, |point| points.index(point)) {
+        Ok(answer) => answers.extend(answer),
+        Err(why) => left_out.push(why),
+    }
     if let Some(similarities) = &found.similarities {
         let gram = &similarities.gram;
         let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();
@@ -257,10 +291,15 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
     Ok(answers)
 }
 
-fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
+fn joints(
+    case: &Case,
+    found: &Certified,
+    points: &Points<'_>,
+    left_out: &mut Vec<Unsupported>,
+) -> Result<Value, Unsupported> {
     let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
     let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
-    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
+    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }))?;
     let mut upstairs = json!([]);
     let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
     let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
@@ -275,7 +314,9 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
         (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
             let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
-                let Role::Joint { state, left, right, .. } = &point.role else { continue };
+                let Role::Joint { state, left, right, .. } = &point.role else {
+                    return unsupported("a point that is no joint", "joints");
+                };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
                 joints.push(json!({"state": state, "point": point}));
@@ -284,6 +325,11 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
             "5'"
         }
         (Verdict::Proved, _) => return unsupported("this theorem", "joints"),
+        (_, Some(_)) if found.dense_claim().is_some_and(|c| c.verdict() == Verdict::Proved) => {
+            let what = "a dense set of joints beside joints that are not all proved".to_owned();
+            left_out.push(Unsupported { what, place: "joints".to_owned() });
+            "none"
+        }
         _ => "none",
     };
     if found.points.iter().any(|p| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted) {

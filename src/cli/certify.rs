@@ -82,8 +82,10 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 /// Says so where the verdict was not proved again, or a state plays no part.
 fn note(answered: &Answered) {
     let Findings::Tangents { case, .. } = &answered.findings else { return };
-    if let Some(Err(unsupported)) = &answered.evidence {
-        note_unconfirmed(unsupported);
+    match &answered.evidence {
+        Some(Err(unsupported)) => note_unconfirmed(unsupported),
+        Some(Ok(certificate)) => certificate.left_out().iter().for_each(note_left_out),
+        None => {}
     }
     note_dangling(case);
 }
@@ -102,6 +104,14 @@ fn note_unconfirmed(unsupported: &Unsupported) {
     let message = format!("the verdict was not proved again: {unsupported}");
     complain(
         &Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, “What is not covered”"),
+    );
+}
+
+/// Says so where something that was found besides the verdict is not in the certificate.
+fn note_left_out(why: &Unsupported) {
+    complain(
+        &Problem::new("secant::certificate::part", format!("a part was not proved again: {why}"))
+            .with_help("see docs/certificate.md, “What is not covered”"),
     );
 }
 
