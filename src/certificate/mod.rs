@@ -245,7 +245,7 @@ fn answers(
             None => Verdict::Undetermined,
         };
         answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
-        answers.push(joints(case, found, points, left_out)?);
+        answers.push(joints(case, found, points)?);
     }
     let mut asked: Vec<Address> = Vec::new();
     if !curve {
@@ -279,9 +279,11 @@ fn answers(
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
-    match everywhere::answer(shape, found, |point| points.index(point)) {
-        Ok(answer) => answers.extend(answer),
-        Err(why) => left_out.push(why),
+    for further in [not_killed(case, found), everywhere::answer(shape, found, |point| points.index(point))] {
+        match further {
+            Ok(answer) => answers.extend(answer),
+            Err(why) => left_out.push(why),
+        }
     }
     if let Some(similarities) = &found.similarities {
         let gram = &similarities.gram;
@@ -291,27 +293,45 @@ fn answers(
     Ok(answers)
 }
 
-fn joints(
-    case: &Case,
-    found: &Certified,
-    points: &Points<'_>,
-    left_out: &mut Vec<Unsupported>,
-) -> Result<Value, Unsupported> {
-    let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
-    let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
+/// The verdict on the joints: of those examined, and of a dense set where that is claimed.
+fn joints_verdict(found: &Certified) -> Verdict {
+    let refuted = |p: &PointReport| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted;
+    if found.points.iter().any(refuted) {
+        return Verdict::Refuted;
+    }
+    let claims: Vec<Verdict> = found.claims.iter().filter(|c| c.what.is_of_joints()).map(Claim::verdict).collect();
+    Verdict::all(claims.len(), claims)
+}
+
+fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
+    let verdict = joints_verdict(found);
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }))?;
-    let mut upstairs = json!([]);
-    let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
-    let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
-        (Verdict::Proved, Some(what)) if by_frames.is_some() => {
-            let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
-                return unsupported("frames that are not there", "joints");
-            };
-            upstairs = frames::frames(&case.shape, frames)?;
-            if *what == Assertion::UnkilledJoints { "11'" } else { "11" }
-        }
-        (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
-        (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
+    let (theorem, upstairs) = match verdict {
+        Verdict::Proved => dense(case, found)?,
+        _ => ("none", json!([])),
+    };
+    Ok(json!({
+        "question": "joints",
+        "verdict": verdict.word(),
+        "theorem": theorem,
+        "points": listed,
+        "upstairs": upstairs,
+    }))
+}
+
+/// The theorem on a dense set of joints, with what it needs of joints seen from their own states.
+fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupported> {
+    let Some(claim) = found.dense_claim() else { return unsupported("this theorem", "joints") };
+    if claim.statement().is_some_and(|s| s.uses_frames()) {
+        let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
+            return unsupported("frames that are not there", "joints");
+        };
+        let theorem = if claim.what == Assertion::UnkilledJoints { "11'" } else { "11" };
+        return Ok((theorem, frames::frames(&case.shape, frames)?));
+    }
+    match claim.what {
+        Assertion::DenseJoints => Ok(("5", json!([]))),
+        Assertion::ProjectedJoints => {
             let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
                 let Role::Joint { state, left, right, .. } = &point.role else {
@@ -321,25 +341,25 @@ fn joints(
                 let point = branch::point(&case.shape, point, &place)?;
                 joints.push(json!({"state": state, "point": point}));
             }
-            upstairs = Value::Array(joints);
-            "5'"
+            Ok(("5'", Value::Array(joints)))
         }
-        (Verdict::Proved, _) => return unsupported("this theorem", "joints"),
-        (_, Some(_)) if found.dense_claim().is_some_and(|c| c.verdict() == Verdict::Proved) => {
-            let what = "a dense set of joints beside joints that are not all proved".to_owned();
-            left_out.push(Unsupported { what, place: "joints".to_owned() });
-            "none"
-        }
-        _ => "none",
-    };
-    if found.points.iter().any(|p| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted) {
-        verdict = Verdict::Refuted;
+        _ => unsupported("this theorem", "joints"),
     }
-    Ok(json!({
-        "question": "joints",
-        "verdict": verdict.word(),
-        "theorem": theorem,
-        "points": listed,
-        "upstairs": upstairs,
-    }))
+}
+
+/// Theorem 5′ or 11′ beside joints that are not all proved.
+fn not_killed(case: &Case, found: &Certified) -> Result<Option<Value>, Unsupported> {
+    let proved = found.dense_claim().is_some_and(|c| c.verdict() == Verdict::Proved);
+    if !proved || joints_verdict(found) == Verdict::Proved {
+        return Ok(None);
+    }
+    match dense(case, found)? {
+        (theorem @ ("5'" | "11'"), upstairs) => Ok(Some(json!({
+            "question": "joints not killed",
+            "verdict": "proved",
+            "theorem": theorem,
+            "upstairs": upstairs,
+        }))),
+        _ => unsupported("this theorem beside joints that are not all proved", "joints"),
+    }
 }
