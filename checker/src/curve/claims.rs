@@ -40,7 +40,9 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
         DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
-        NOT_KILLED if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) => {
+        NOT_KILLED
+            if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) =>
+        {
             return Ok((NOT_KILLED, None));
         }
         "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
@@ -234,7 +236,11 @@ impl<'a> Claims<'a> {
     /// Theorem 5′ or 11′ by itself: what is needed of the joints is upstairs, in the states where they are.
     fn not_killed(&self, theorem: &Node<'_>, upstairs: &Node<'_>) -> Checked<()> {
         let (name, items) = (theorem.text()?, upstairs.list()?);
-        theorem.need(matches!(name, "5'" | "11'") && !items.is_empty(), "joints", "Theorem 5' or 11', with its joints")?;
+        theorem.need(
+            matches!(name, "5'" | "11'") && !items.is_empty(),
+            "joints",
+            "Theorem 5' or 11', with its joints",
+        )?;
         if name == "11'" {
             return frames::check(self.model, upstairs, false).map(drop);
         }
