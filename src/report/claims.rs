@@ -200,7 +200,7 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
         Reason::Similarities => {
             "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
         }
-        Reason::EveryPoint => {
+        Reason::EveryPoint | Reason::InsidePoint => {
             let every = found.everywhere.as_ref();
             every.and_then(|e| reasons::everywhere(found, e)).unwrap_or_else(unknown)
         }
