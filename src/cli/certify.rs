@@ -82,10 +82,16 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 /// Says so where the verdict was not proved again, or a state plays no part.
 fn note(answered: &Answered) {
     let Findings::Tangents { case, .. } = &answered.findings else { return };
-    if let Some(Err(unsupported)) = &answered.evidence {
-        note_unconfirmed(&unsupported.to_string());
-    } else if !answered.once.is_empty() {
-        note_unconfirmed(&format!("{ONCE} {}", listed(&answered.once)));
+    let mut why = match &answered.evidence {
+        Some(Err(unsupported)) => vec![unsupported.to_string()],
+        Some(Ok(certificate)) => certificate.left_out().iter().map(ToString::to_string).collect(),
+        None => Vec::new(),
+    };
+    if !answered.once.is_empty() {
+        why.insert(0, format!("{ONCE} {}", listed(&answered.once)));
+    }
+    if !why.is_empty() {
+        note_unconfirmed(&why.join("; "));
     }
     note_dangling(case);
 }

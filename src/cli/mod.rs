@@ -170,7 +170,7 @@ struct CertifyArgs {
     resume: Option<PathBuf>,
     /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
     /// first four; with `?` behind it a claim decides only where it is refuted.
-    #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,g1?", hide_default_value = false)]
+    #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,inside?", hide_default_value = false)]
     require: Required,
     /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
     #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]

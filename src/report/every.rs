@@ -50,10 +50,6 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
     if let Some(parts) = &every.components {
         facts.push(("components".to_owned(), components(case, parts)));
     }
-    if every.components.is_some() || every.hodograph.is_some() && every.witness.is_none() {
-        let text = "no rule of the certificate format covers this; it is proved once, not twice";
-        facts.push(("certificate".to_owned(), words(text)));
-    }
     if let Some(cone) = &every.cone {
         facts.push(("cones".to_owned(), cones(case, cone)));
     }

@@ -248,6 +248,8 @@ fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
                     [],
                 ),
             ));
+            let once = certificate.left_out().iter().map(|why| words(format!("{why}.")));
+            facts.extend(once.map(|why| ("proved once only".to_owned(), why)));
         }
         Err(unsupported) => facts.push(("certificate".to_owned(), words(format!("none: {unsupported}.")))),
     }
