@@ -1,6 +1,5 @@
 //! The command line: arguments, one file for each command, exit codes.
 
-mod answered;
 mod approximate;
 mod cards;
 mod certify;
@@ -16,6 +15,7 @@ mod jsr;
 mod many;
 mod output;
 mod progress;
+mod question;
 mod regularity;
 mod render;
 mod resume;
@@ -118,7 +118,7 @@ enum Command {
     Man,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 struct CertifyArgs {
     /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
     /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4").
@@ -161,6 +161,9 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// Take only the I-th of N parts of the cases: tasks 1 … N of a job array do all of them, each once.
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with = "approx")]
+    shard: Option<(usize, usize)>,
     /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
     #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
     effort: Effort,
@@ -207,6 +210,13 @@ impl CertifyArgs {
         budget.words = self.words.unwrap_or(budget.words);
         budget
     }
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let (part, parts) = text.split_once('/').ok_or("write I/N, as in 3/16")?;
+    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("`{s}` is no whole number"));
+    let (part, parts) = (number(part)?, number(parts)?);
+    if part == 0 || part > parts { Err(format!("{part} is not from 1 to {parts}")) } else { Ok((part, parts)) }
 }
 
 fn effort(word: &str) -> Result<Effort, String> {

@@ -134,6 +134,7 @@ pub fn contraction_within(
         length += 1;
         let mut next = Vec::new();
         for (from, word, state, product) in open {
+            crate::stop::check();
             if count > budget {
                 return Contraction::Undetermined { length, open: next.len().max(1) };
             }

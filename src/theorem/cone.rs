@@ -174,6 +174,7 @@ fn code(shape: &Shape, cone: &CommonCone, view: &Matrix, (longest, most): (usize
     let mut open: std::collections::VecDeque<Vec<usize>> = [Vec::new()].into();
     let mut found = Vec::new();
     while let Some(word) = open.pop_front() {
+        crate::stop::check();
         let (product, end) = shape.product(shape.start, &word);
         let rays = &cone.cones.iter().find(|c| c.state == end)?.rays;
         let images = &(view * &product) * rays;
