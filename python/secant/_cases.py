@@ -37,11 +37,12 @@ def source(
         return x
     if isinstance(x, str):
         if "\n" in x:
+            _unicode(x)
             return Source(name, text=x)
-        return Source(x, path=x) if os.path.isfile(x) else Source(x)
+        return Source(_shown(x), path=x) if os.path.isfile(x) else Source(_unicode(x))
     if isinstance(x, os.PathLike):
-        path = os.fspath(x)
-        return Source(os.fsdecode(path), path=os.fsdecode(path))
+        path = os.fsdecode(os.fspath(x))
+        return Source(_shown(path), path=path)
     if isinstance(x, Mapping):
         case = dict(x)
         case.setdefault("name", name)
@@ -49,6 +50,19 @@ def source(
     if is_wavelet(x):
         return Source(str(x.name), text=toml(_wavelet_case(x, exact)))
     return Source(name, text=toml(_case(x, exact, convention, arity, name)))
+
+
+def _shown(path: str) -> str:
+    """A path as it is shown: names of files need not be Unicode."""
+    return path.encode("utf-8", "replace").decode()
+
+
+def _unicode(text: str) -> str:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise InputError("the text is not Unicode", code="secant::case::encoding", help="a case is UTF-8") from None
+    return text
 
 
 def _case(x: Any, exact: Exact | None, convention: Convention | None, arity: int, name: str) -> dict[str, Any]:

@@ -39,6 +39,8 @@ def _of_float(x: Any, exact: Exact | None, where: str) -> Fraction:
 
 
 def _of_sympy(x: Any, exact: Exact | None, where: str) -> Fraction | str:
+    if not hasattr(x, "is_number"):
+        raise _refuse(f"{where} is of type {type(x).__name__}, which is no number", "entries are exact numbers")
     if x.is_Rational:
         return Fraction(int(x.p), int(x.q))
     if x.is_Float:
@@ -267,11 +269,12 @@ class Algebraic:
     def is_real(self) -> bool:
         """Whether it is real."""
         low, high = self.enclosure()[1]
-        return low == high == 0 or self._real_by_index()
+        return (low == 0 and high == 0) or self._real_by_index()
 
     def _real_by_index(self) -> bool:
         polynomial, index = self._located()
-        return Algebraic([str(c) for c in polynomial], index, ("0", "1")).enclosure()[1] == (0, 0)
+        low, high = Algebraic([str(c) for c in polynomial], index, ("0", "1")).enclosure()[1]
+        return low == 0 and high == 0
 
     def _rounded(self, part: int) -> float:
         for bits in (64, 128, 256, 1024, 4096):

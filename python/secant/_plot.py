@@ -13,7 +13,8 @@ _COLOURS = {"tangent": "#1a8a4a", "cusp": "#b06a00", "corner": "#c4332b", "open"
 def _lines(path: str) -> list[list[tuple[float, float]]]:
     """The stretches of a path of straight lines, with the second axis upwards."""
     lines: list[list[tuple[float, float]]] = []
-    command, numbers = "M", []
+    command = "M"
+    numbers: list[float] = []
     for letter, digits in _COMMAND.findall(path):
         if letter:
             command, numbers = letter, []

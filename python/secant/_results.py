@@ -388,6 +388,11 @@ class Certified:
         return self._native().svg(False)
 
     @property
+    def png(self) -> bytes:
+        """The picture of :attr:`svg` as PNG, of shapes."""
+        return self._native().png()
+
+    @property
     def cones(self) -> str:
         """The picture of the cones of Theorem 6 along a curve."""
         return self._native().svg(True)

@@ -9,7 +9,7 @@ import os
 import time
 import uuid
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Generator, Iterable, Iterator, Mapping
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
@@ -278,7 +278,7 @@ def _workers(executor: Any) -> int:
             return count
     client = getattr(executor, "_client", None)
     if client is not None:
-        return max(1, sum(client.ncores().values()))
+        return max(1, sum(int(n) for n in client.ncores().values()))
     return os.cpu_count() or 1
 
 
@@ -403,7 +403,7 @@ def _rows(
     most: int,
     chunks: _Chunks,
     recheck: bool,
-) -> Iterator[Row]:
+) -> Generator[Row, None, None]:
     waiting: deque[Chunk] = deque()
     batch: list[tuple[int, dict[str, Any], dict[str, Any]]] = []
     folder = None if kept is None else os.fspath(kept.path.resolve())

@@ -110,6 +110,7 @@ def test_reports(tmp_path, cases):
     assert "<math" in result.report() and len(result.report(level="summary")) < len(result.report())
     with pytest.raises(secant.InputError, match="format"):
         result.report(tmp_path / "a.doc")
+    assert result.png.startswith(b"\x89PNG")
     assert "<svg" in result._repr_html_() and "proved" in result._repr_html_()
     assert "Claims" in str(result) and "proved" in repr(result)
 

@@ -125,6 +125,23 @@ impl Answered {
         }
     }
 
+    /// The picture of the shape with its tangents, as PNG.
+    ///
+    /// # Errors
+    /// A [`Problem`] where nothing can be drawn, and of vertices.
+    #[cfg(feature = "png")]
+    pub fn bitmap(&self) -> Result<Vec<u8>, Problem> {
+        match &self.findings {
+            Findings::Tangents { case, found } => {
+                figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name))
+            }
+            Findings::Vertices { .. } => {
+                Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
+                    .with_help("--svg draws their characteristic maps"))
+            }
+        }
+    }
+
     /// The JSON report, with what the checker said.
     pub fn json(&self) -> Value {
         let mut report = findings::json(&self.findings);
@@ -152,8 +169,7 @@ impl Answered {
 }
 
 /// Why a shape has no picture.
-#[must_use]
-pub fn undrawn(name: &str) -> Problem {
+fn undrawn(name: &str) -> Problem {
     Problem::new("secant::picture", format!("{name} cannot be drawn"))
         .with_help("no point of the shape can be computed, because contraction is not decided")
 }

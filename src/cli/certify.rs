@@ -5,14 +5,14 @@ use super::progress::{Progress, Waiting};
 use super::question::question;
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many};
 use crate::answer::Verdict;
-use crate::ask::{Answered, answered, undrawn};
+use crate::ask::{Answered, answered};
 use crate::case::{Case, Question, Valences};
 use crate::certificate::Unsupported;
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::prove::Findings;
 use crate::report::proof::Level;
-use crate::report::{figures, findings, html, json, latex, markdown, text, words};
+use crate::report::{findings, html, json, latex, markdown, text, words};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -156,7 +156,7 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         (path, written)
     });
     let svg = args.svg.as_deref().map(|path| Ok((path, answered.picture(args.draw == Drawn::Cones)?))).transpose()?;
-    let png = args.png.as_deref().map(|path| Ok((path, png(answered)?))).transpose()?;
+    let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap()?))).transpose()?;
     let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
     for (path, content) in report.into_iter().chain(svg) {
         write_file(path, &content)?;
@@ -172,16 +172,6 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         write_file(path, &image)?;
     }
     Ok(())
-}
-
-fn png(answered: &Answered) -> Result<Vec<u8>, Problem> {
-    match &answered.findings {
-        Findings::Tangents { case, found } => figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name)),
-        Findings::Vertices { .. } => {
-            Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
-                .with_help("--svg draws their characteristic maps"))
-        }
-    }
 }
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {
