@@ -109,12 +109,6 @@ impl Findings {
         outside(py, move || Ok(text::render(&findings::summary(&answered.findings, verbose), false)))
     }
 
-    /// The picture as PNG.
-    fn png(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
-        let answered = Arc::clone(&self.answered);
-        outside(py, move || answered.bitmap())
-    }
-
     /// The picture.
     fn svg(&self, py: Python<'_>, cones: bool) -> PyResult<String> {
         let answered = Arc::clone(&self.answered);

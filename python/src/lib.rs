@@ -10,8 +10,7 @@ mod work;
 use pyo3::prelude::*;
 
 #[pymodule]
-#[pyo3(name = "_secant")]
-fn module(m: &Bound<'_, PyModule>) -> PyResult<()> {
+fn _secant(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("version", env!("CARGO_PKG_VERSION"))?;
     m.add_class::<doors::Findings>()?;
     m.add_function(wrap_pyfunction!(doors::certify, m)?)?;

@@ -25,7 +25,7 @@ pub fn outside<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
 ) -> PyResult<T> {
     let stop = Arc::new(AtomicBool::new(false));
-    let (send, receive) = channel();
+    let (send, mut receive) = channel();
     let flag = Arc::clone(&stop);
     let started = Builder::new().name("secant".to_owned()).stack_size(STACK).spawn(move || {
         // Nobody listens where the work was stopped.
@@ -33,7 +33,9 @@ pub fn outside<T: Send + 'static>(
     });
     started.map_err(|e| PyRuntimeError::new_err(format!("no thread for the work: {e}")))?;
     loop {
-        match py.detach(|| receive.recv_timeout(TICK)) {
+        let (got, back) = py.detach(move || (receive.recv_timeout(TICK), receive));
+        receive = back;
+        match got {
             Ok(done) => return done.map_err(|problem| exception(py, &problem)),
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(interrupt) = py.check_signals() {
