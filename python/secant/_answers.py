@@ -45,6 +45,7 @@ def asked(given: Source, options: Mapping[str, Any]) -> dict[str, Any]:
         "effort": options.get("effort", "normal"),
         "cells": options.get("cells"),
         "words": options.get("words"),
+        "require": options.get("require"),
     }
 
 
@@ -67,6 +68,7 @@ def certify(
     effort: Effort = "normal",
     cells: int | None = None,
     words: int | None = None,
+    require: str | None = None,
     name: str = "case",
 ) -> Certified:
     """Proves or refutes tangents of a shape at its end points, its joints and a dense set, or C¹ at vertices of a mesh.
@@ -93,6 +95,8 @@ def certify(
         How long the search goes on: what is undetermined may be decided with more, no answer changes.
     cells, words : int, optional
         Two limits of the search by themselves.
+    require : str, optional
+        What decides the verdict, as ``secant certify --require`` says it: ``"g1"``, ``"ends,joints,c2"``, …
     name : str
         The name of a case that has none.
 
@@ -117,7 +121,8 @@ def certify(
     (Fraction(1, 1), Fraction(-1, 1))
     """
     given = source(x, exact=exact, convention=convention, arity=arity, name=name)
-    options = {"at": at, "valences": valences, "check": check, "effort": effort, "cells": cells, "words": words}
+    options: dict[str, Any] = {"at": at, "valences": valences, "check": check, "effort": effort, "cells": cells, "words": words}
+    options["require"] = require
     return answer(asked(given, options))
 
 
@@ -299,8 +304,7 @@ def _regular(
         return x, None, []
     if is_wavelet(x):
         if is_named(x) and (_secant.wavelet_mask(x.name) or x.name.startswith("db")):
-            return x.name, None, []
-        return ", ".join(wavelet_filter(x, exact)), None, []
+    XX
     if not isinstance(x, (Mapping, str, os.PathLike)) and _flat(x):
         mask = [written(number(c, exact, f"coefficient {k} of the mask")) for k, c in enumerate(x)]
         return ", ".join(mask), None, []

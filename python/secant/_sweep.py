@@ -380,7 +380,7 @@ def _questions(
 ) -> Iterator[Question]:
     """The questions of a sweep; a case that cannot even be written down has its error instead."""
     naming = {k: options.pop(k) for k in ("exact", "convention", "arity") if k in options}
-    unknown = set(options) - {"at", "valences", "check", "effort", "cells", "words"}
+    unknown = set(options) - {"at", "valences", "check", "effort", "cells", "words", "require"}
     if unknown:
         raise TypeError(f"unknown option {sorted(unknown)[0]!r}")
     for index, (values, one) in enumerate(_instances(case, parameters)):

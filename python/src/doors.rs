@@ -12,6 +12,7 @@ use secant::prove;
 use secant::radius::Options;
 use secant::report::proof::Level;
 use secant::report::{findings, html, latex, markdown, text};
+use secant::theorem::Required;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -37,6 +38,8 @@ pub struct Asked {
     cells: Option<usize>,
     #[pyo3(item)]
     words: Option<usize>,
+    #[pyo3(item)]
+    require: Option<String>,
 }
 
 impl Asked {
@@ -50,6 +53,14 @@ impl Asked {
         budget.cells = self.cells.unwrap_or(budget.cells);
         budget.words = self.words.unwrap_or(budget.words);
         Ok(budget)
+    }
+
+    fn required(&self) -> Result<Required, Problem> {
+        let Some(text) = &self.require else { return Ok(Required::default()) };
+        Required::parse(text).map_err(|e| {
+            Problem::new("secant::usage::require", e.to_string())
+                .with_help("a list of ends, joints, dense, points, inside, g1, c1, c2, …, as in \"ends,g1\"")
+        })
     }
 
     /// The text of a case and its name; what is no file and no case is what somebody writes: a scheme, a mask, a symbol.
@@ -80,6 +91,7 @@ impl Asked {
 #[pyclass(frozen, module = "secant._secant")]
 pub struct Findings {
     answered: Arc<Answered>,
+    required: Required,
 }
 
 #[pymethods]
@@ -105,8 +117,14 @@ impl Findings {
 
     /// What the program prints.
     fn summary(&self, py: Python<'_>, verbose: bool) -> PyResult<String> {
+        let (answered, required) = (Arc::clone(&self.answered), self.required.clone());
+        outside(py, move || Ok(text::render(&findings::summary(&answered.findings, &required, verbose), false)))
+    }
+
+    /// The picture as PNG.
+    fn png(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
         let answered = Arc::clone(&self.answered);
-        outside(py, move || Ok(text::render(&findings::summary(&answered.findings, verbose), false)))
+        outside(py, move || answered.bitmap())
     }
 
     /// The picture.
@@ -124,9 +142,10 @@ pub fn certify(py: Python<'_>, asked: Asked) -> PyResult<(Findings, String, Stri
     outside(py, move || {
         let question = asked.question()?;
         let answered = ask::answered(&question, asked.check, &asked.budget()?, &|| {})?;
-        let (json, certificate) = (answered.json().to_string(), certificate(&answered, asked.check));
+        let required = asked.required()?;
+        let (json, certificate) = (answered.json(&required).to_string(), certificate(&answered, asked.check));
         let text = question.text().text.to_string();
-        Ok((Findings { answered: Arc::new(answered) }, json, text, certificate))
+        Ok((Findings { answered: Arc::new(answered), required }, json, text, certificate))
     })
 }
 

@@ -8,7 +8,7 @@ mod regularity;
 mod solve;
 mod spectra;
 
-pub use answered::{Answered, Checked, Evidence, NOT_ASKED, answered};
+pub use answered::{Answered, Checked, Evidence, NOT_ASKED, ONCE, answered};
 pub use radius::{Radius, radius};
 pub use regularity::{Smooth, certified_regularity, regularity, regularity_of_case};
 pub use solve::{Solved, solve, unsolvable};

@@ -7,19 +7,12 @@ use super::values::root_math;
 use super::words::{count, listed, mark, point_name};
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::statement::Statement;
 use crate::theorem::cone::{CommonCone, ConeObstacle};
 use crate::theorem::{Certified, Everywhere, Hodograph, Kind, PointReport, Turn, Verdict};
 use serde_json::{Value, json};
 
 /// Places of an exponent.
 const PLACES: u64 = 6;
-
-/// The theorem that gives the cones: where single pieces have coefficients 0 it is Theorem 6′.
-#[must_use]
-pub fn theorem(cone: &CommonCone) -> Statement {
-    if cone.slow.is_empty() && cone.window == 1 { Statement::Theorem6 } else { Statement::Theorem6Slow }
-}
 
 /// What is claimed, in a few words.
 #[must_use]
@@ -152,7 +145,7 @@ pub fn value(found: &Certified) -> Value {
     let matrix = |m: &crate::linalg::Matrix| (0..m.rows()).map(|i| text(m.row(i))).collect::<Vec<_>>();
     let cone = every.cone.as_ref().map(|c| {
         json!({
-            "theorem": theorem(c).id(),
+            "theorem": c.statement().id(),
             "cones": c.cones.iter().map(|k| json!({
                 "state": k.state,
                 "rays": matrix(&k.rays.transpose()),

@@ -5,12 +5,14 @@ use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces
 use super::dense::first_level_joint;
 use super::gap::EveryGap;
 use super::hodograph::{Hodograph, hodograph};
+use super::parameter::Parameter;
 use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
 use crate::radius::Options;
 use crate::shape::{Address, CellKind};
+use crate::statement::Statement;
 
 /// What is known of every point of a curve, not only of a dense set.
 ///
@@ -38,6 +40,20 @@ pub struct Everywhere {
     pub derivative: Option<Box<CurveOrder>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<EveryGap>,
+}
+
+impl Everywhere {
+    /// The statement that proves G¹; `None` where a point refutes it, or where it is open.
+    #[must_use]
+    pub fn statement(&self) -> Option<Statement> {
+        match (self.verdict, &self.hodograph, &self.derivative, &self.cone) {
+            (Verdict::Undetermined, ..) => None,
+            (_, Some(_), ..) => Some(Statement::Theorem6Polynomial),
+            (Verdict::Refuted, ..) => None,
+            (_, _, Some(_), _) => Some(Statement::Graph),
+            (_, _, _, cone) => cone.as_ref().map(CommonCone::statement),
+        }
+    }
 }
 
 /// A first-level joint of a state, seen so that no direction of the visible quotient is lost.
@@ -80,7 +96,8 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
         ConeAnswer::Undetermined => without_cone(cx, found, None),
     };
     let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
-    Some(if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every })
+    let open = every.verdict == Verdict::Undetermined && !found.parameter.as_ref().is_some_and(Parameter::is_not_c1);
+    Some(if open { as_graph(cx, every) } else { every })
 }
 
 /// Decides G¹ of a polynomial curve by the zeros of its derivative.
