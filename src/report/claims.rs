@@ -1,8 +1,10 @@
 //! The words of claims and of the reasons why they are refuted or open: the only place where they are written.
 
+use super::reasons::{self, UNKNOWN};
+use super::vertex_reasons;
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::theorem::surface::Surface;
+use crate::theorem::surface::{Surface, SurfacePoint};
 use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, Limit, PointReport, Reason, Role, Seen, Verdict};
 use crate::vertex::AtValence;
 
@@ -115,7 +117,8 @@ pub fn limit(limit: &Limit) -> String {
 /// The same of a claim about the vertices of a mesh.
 #[must_use]
 pub fn reason_at_vertices(found: &[AtValence], claim: &Claim) -> Option<String> {
-    let said = |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| f.reason.clone());
+    let said =
+        |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| vertex_reasons::reason(&f.reason));
     claim.reason().map(|reason| match reason {
         Reason::Valence(n) => said(*n),
         Reason::Conditions => "a condition of the proof for all valences is not shown to hold".to_owned(),
@@ -172,17 +175,17 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
 }
 
 fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
-    let said = |reason: &Option<String>| reason.clone().unwrap_or_else(unknown);
+    let said = |point: &SurfacePoint| reasons::plane(point).unwrap_or_else(unknown);
     match reason {
-        Reason::SurfacePoint(index) => surface.points.get(*index).map_or_else(unknown, |p| said(&p.reason)),
+        Reason::SurfacePoint(index) => surface.points.get(*index).map_or_else(unknown, said),
         Reason::SurfaceVertex(index) => match surface.points.get(*index).map(|p| (p, p.branches.first())) {
-            Some((point, Some(branch))) => format!("at {}: {}", branch.address, said(&point.reason)),
+            Some((point, Some(branch))) => format!("at {}: {}", branch.address, said(point)),
             _ => unknown(),
         },
         Reason::VertexInside(index) => match surface.dense.as_ref().and_then(|d| d.vertices.get(*index)) {
             Some((state, point)) => {
                 let name = &case.shape.states[*state].name;
-                format!("at the vertices inside state `{name}`: {}", said(&point.reason))
+                format!("at the vertices inside state `{name}`: {}", said(point))
             }
             None => unknown(),
         },
@@ -191,10 +194,9 @@ fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
 }
 
 fn of_point(point: &PointReport) -> String {
-    point.reason.clone().unwrap_or_else(unknown)
+    reasons::point(point).unwrap_or(UNKNOWN).to_owned()
 }
 
-/// Evidence always says why it does not prove; this stands where it would not.
 fn unknown() -> String {
-    "no reason was given".to_owned()
+    UNKNOWN.to_owned()
 }

@@ -1,6 +1,7 @@
 //! The JSON report, version 1; documented in `docs/json.md`.
 
 use super::claims;
+use super::reasons;
 use super::text::math_line;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
 use super::words::ratio;
@@ -62,7 +63,7 @@ fn surface_point(p: &SurfacePoint) -> Value {
         },
         "plane": p.tangent.as_ref().map(subspace),
         "theorem": p.statement.map(|s| s.id()),
-        "reason": p.reason,
+        "reason": reasons::plane(p),
         "product": p.product.as_ref().map(|e| json!({
             "verdict": e.verdict.word(),
             "curves": [e.first.verdict.word(), e.second.verdict.word()],
@@ -112,14 +113,14 @@ fn surface_branch(b: &SurfaceBranch) -> Value {
         "relevant": b.relevant,
         "visible": b.linear.rows(),
         "spectrum": spectrum_value(&b.spectrum),
-        "top": o.row,
+        "top": reasons::top_row(o.row),
         "theorem": o.statement.map(|s| s.id()),
         "dimension": { "at_least": o.dimension.at_least, "exact": o.dimension.exact, "at_most": o.at_most },
         "contains": subspace(&o.contains),
         "cells": o.ring.as_ref().map(|r| r.discharged.len()),
         "depth": o.depth.as_ref().map(|(depth, proof)| json!({ "depth": depth, "cells": proof.discharged.len() })),
         "witness": witness,
-        "reason": o.open.as_ref().map(|(reason, _)| reason),
+        "reason": o.open.as_ref().map(|(reason, _)| reasons::surface_branch(*reason)),
         "cell": o.open.as_ref().and_then(|(_, place)| place.as_ref().map(|w| word_text(w))),
     })
 }
@@ -223,7 +224,7 @@ fn point(case: &Case, p: &PointReport) -> Value {
             map.insert(key.to_owned(), value);
         }
         if p.verdict != Verdict::Proved {
-            map.insert("reason".to_owned(), json!(p.reason));
+            map.insert("reason".to_owned(), json!(reasons::point(p)));
         }
         map.insert("branches".to_owned(), p.branches.iter().map(branch_value).collect());
     }
@@ -277,9 +278,9 @@ fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
             fields.push(("witness", witness.as_ref().map_or_else(|| spanning(b, eigenvalues), witness_value)));
             fields
         }
-        Outcome::NoGerm { reason } => vec![("reason", json!(reason))],
+        Outcome::NoGerm { reason } => vec![("reason", json!(reasons::no_germ(*reason)))],
         Outcome::Open { reason, place, .. } => {
-            vec![("reason", json!(reason)), ("cell", json!(place.as_ref().map(|w| word_text(w))))]
+            vec![("reason", json!(reasons::branch(*reason))), ("cell", json!(place.as_ref().map(|w| word_text(w))))]
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::claims;
 use super::document::{Block, Document, Inline, Line, Tone, line, words};
 use super::math::Math;
+use super::reasons;
 use super::words::{
     addresses, contraction, count, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
     spectrum_line, statement,
@@ -155,7 +156,7 @@ fn verdict_line(point: &PointReport) -> Line {
         out.extend(words(", "));
         out.extend(dimension(point.dimension));
     }
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::point(point) {
         out.extend(words(format!("; {reason}")));
     }
     out

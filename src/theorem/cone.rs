@@ -1,6 +1,7 @@
 //! Theorems 6 and 6′: invariant cones, and what they say about every point of a curve.
 
 use super::cone_search::{ExactRays, Frame, propose, propose_closed};
+use super::gap::Defect;
 use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
 use crate::arith::{Integer, Interval, Rational};
@@ -74,7 +75,7 @@ pub struct ConeObstacle {
     /// Its eigenvalues of largest modulus.
     pub leading: Vec<Root>,
     /// What is wrong with them.
-    pub reason: &'static str,
+    pub reason: Defect,
 }
 
 /// The answer to the search for a common cone.
@@ -507,19 +508,19 @@ fn obstacle(frame: &Frame) -> Option<ConeObstacle> {
     None
 }
 
-fn defect(product: &Matrix) -> Option<(Vec<Root>, &'static str)> {
+fn defect(product: &Matrix) -> Option<(Vec<Root>, Defect)> {
     let (leading, multiplicities): (Vec<Root>, Vec<usize>) = leading_roots(product).into_iter().unzip();
     let first = leading.first()?;
     let reason = if first.is_zero() {
-        "no eigenvalue but 0"
+        Defect::Nilpotent
     } else if leading.iter().any(|r| !r.is_real()) {
-        "complex eigenvalues of largest modulus"
+        Defect::Complex
     } else if leading.len() > 1 {
-        "eigenvalues of equal largest modulus"
+        Defect::Several
     } else if multiplicities[0] > 1 {
-        "a multiple eigenvalue of largest modulus"
+        Defect::Multiple
     } else if first.sign() < 0 {
-        "a negative leading eigenvalue"
+        Defect::Negative
     } else {
         return None;
     };

@@ -3,6 +3,7 @@
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
+use super::gap::EveryGap;
 use super::hodograph::{Hodograph, hodograph};
 use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
@@ -36,7 +37,7 @@ pub struct Everywhere {
     /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
     pub derivative: Option<Box<CurveOrder>>,
     /// Why the verdict is not `Proved`.
-    pub reason: Option<String>,
+    pub reason: Option<EveryGap>,
 }
 
 /// A first-level joint of a state, seen so that no direction of the visible quotient is lost.
@@ -87,7 +88,7 @@ fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Ever
     let Some(hodograph) = hodograph(cx) else { return every };
     let (verdict, reason) = match hodograph.turns.first() {
         None => (Verdict::Proved, None),
-        Some(turn) => (Verdict::Refuted, Some(hodograph.reason(turn))),
+        Some(_) => (Verdict::Refuted, Some(EveryGap::Turn)),
     };
     let address = hodograph.turns.iter().find_map(|turn| hodograph.address(cx, turn));
     let spec =
@@ -128,17 +129,6 @@ fn breaks(p: &PointReport) -> bool {
     p.verdict == Verdict::Refuted || has_no_cone(p)
 }
 
-/// What breaks at a point.
-fn broken(p: &PointReport) -> String {
-    let what = match p.kind {
-        Kind::Cusp => "the half-tangents of both sides are the same ray: a cusp",
-        Kind::Oscillating => "both rays of the line are limits of secants of one side",
-        Kind::Corner => "the half-tangents of the two sides lie on different lines: a corner",
-        _ => "there is no tangent line",
-    };
-    format!("at {} {what}", p.place())
-}
-
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
     let witness = found.points.iter().position(breaks);
@@ -149,10 +139,10 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let agree = complete && joints.iter().all(|j| regular(j.report(found)));
     let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
-        Some(k) => (Verdict::Refuted, Some(broken(&found.points[k]))),
-        None if !seen => (Verdict::Undetermined, Some(UNSEEN.to_owned())),
+        Some(k) => (Verdict::Refuted, Some(EveryGap::Broken(k))),
+        None if !seen => (Verdict::Undetermined, Some(EveryGap::Unseen)),
         None if agree => (Verdict::Proved, None),
-        None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
+        None => (Verdict::Undetermined, Some(EveryGap::Joint)),
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
     Everywhere {
@@ -194,21 +184,15 @@ fn joints(cx: &Context, found: &Certified) -> Option<Vec<EveryJoint>> {
     Some(out)
 }
 
-const UNSEEN: &str =
-    "no functional was found that is positive on the projected cones, so that this holds before the projection only";
-
 fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstacle>) -> Everywhere {
     let mut witness = found.points.iter().position(breaks);
     if let (None, Some(obstacle)) = (witness, &obstacle) {
         witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
     }
     let (verdict, reason) = match (witness, &obstacle) {
-        (Some(k), _) => (Verdict::Refuted, broken(&found.points[k])),
-        (None, Some(o)) => {
-            let word = crate::shape::word_text(&o.word);
-            (Verdict::Undetermined, format!("no strictly invariant cone exists: the cycle {word} has {}", o.reason))
-        }
-        (None, None) => (Verdict::Undetermined, "no common cone was found within the budget".to_owned()),
+        (Some(k), _) => (Verdict::Refuted, EveryGap::Broken(k)),
+        (None, Some(_)) => (Verdict::Undetermined, EveryGap::Obstacle),
+        (None, None) => (Verdict::Undetermined, EveryGap::NoCone),
     };
     let reason = Some(reason);
     Everywhere {

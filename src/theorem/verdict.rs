@@ -3,6 +3,7 @@
 use super::claim::Claim;
 use super::direction::Direction;
 use super::frames::Frames;
+use super::gap::{BranchGap, NoGerm, PointGap};
 use super::ring::{RingPiece, RingProof, Witness};
 pub use crate::answer::Verdict;
 use crate::arith::Rational;
@@ -200,12 +201,12 @@ pub enum Outcome {
     /// There are no points of the shape near the point on this branch.
     NoGerm {
         /// Why.
-        reason: String,
+        reason: NoGerm,
     },
     /// Not decided.
     Open {
         /// Why.
-        reason: String,
+        reason: BranchGap,
         /// The smallest unresolved cell or the obstacle found, as a word from the branch's state.
         place: Option<Vec<usize>>,
         /// A proved lower bound of `dim D*`.
@@ -274,24 +275,6 @@ impl PointReport {
             _ => About::Curve,
         }
     }
-
-    /// Where the point lies, in words.
-    #[must_use]
-    pub fn place(&self) -> String {
-        let after = |path: &[usize]| match path {
-            [] => String::new(),
-            path => format!(" in cell {}", crate::shape::word_text(path)),
-        };
-        match (&self.role, self.branches.first()) {
-            (Role::LeftEnd, _) => "the left end".to_owned(),
-            (Role::RightEnd, _) => "the right end".to_owned(),
-            (Role::Joint { path, left, right, .. }, _) => {
-                format!("the joint of pieces {left} and {right}{}", after(path))
-            }
-            (_, Some(branch)) => format!("the point with the address {}", branch.address),
-            (_, None) => "a point".to_owned(),
-        }
-    }
 }
 
 /// One examined point.
@@ -317,8 +300,8 @@ pub struct PointReport {
     pub left: Vec<Direction>,
     /// Rays on the right side.
     pub right: Vec<Direction>,
-    /// Why, in words, where the verdict is not `Proved`.
-    pub reason: Option<String>,
+    /// Why the verdict is not `Proved`.
+    pub reason: Option<PointGap>,
 }
 
 /// The hypotheses of Theorem 5 as found.
