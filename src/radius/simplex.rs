@@ -195,8 +195,8 @@ pub(crate) fn cone_combination(rays: &[&[f64]], x: &[f64]) -> Option<Vec<(usize,
 pub(crate) enum InCone {
     /// It is combined with these coefficients; `basis` is missing where the rays are none.
     Inside { terms: Vec<(usize, f64)>, basis: Option<ConeBasis> },
-    /// A functional that is at most 1 on the rays and large at the point, where one was found.
-    Outside(Option<Vec<f64>>),
+    /// A functional that is positive at the point, and hardly so on the rays.
+    Outside(Vec<f64>),
 }
 
 /// A basis of rays with the inverse of its matrix, by rows.
@@ -212,10 +212,9 @@ impl ConeBasis {
     }
 }
 
-/// Whether a functional of [`InCone::Outside`] still tells the point from the rays: combinations of unit rays of a cone that
-/// is not nearly flat have sums below this value.
+/// Whether a unit functional is clearly positive at a unit vector and on none of the rays: they do not combine the vector.
 pub(crate) fn tells_apart(functional: &[f64], rays: &[&[f64]], x: &[f64]) -> bool {
-    dot(functional, x) > 2e4 && rays.iter().all(|r| dot(functional, r) <= 1.0 + 1e-9)
+    dot(functional, x) > 1e-6 && rays.iter().all(|r| dot(functional, r) <= 0.0)
 }
 
 /// As [`cone_combination`], with the reason.
@@ -227,8 +226,7 @@ pub(crate) fn in_cone(rays: &[&[f64]], x: &[f64]) -> InCone {
         let rays = tableau.basis.iter().map(point).collect::<Option<Vec<_>>>();
         return InCone::Inside { terms, basis: rays.map(|rays| ConeBasis { rays, inverse: tableau.inverse }) };
     }
-    let dual = tableau.dual();
-    InCone::Outside(tells_apart(&dual, rays, x).then_some(dual))
+    InCone::Outside(tableau.dual())
 }
 
 /// Gains below this do not enter.

@@ -145,7 +145,7 @@ impl ExactRays {
         let point: Vec<f64> = unit(x.iter().map(to_f64).collect());
         let terms = match in_cone(&views, &point) {
             InCone::Inside { terms, .. } => terms,
-            InCone::Outside(functional) => return Err(functional),
+            InCone::Outside(functional) => return Err(Some(functional)),
         };
         let chosen: Vec<usize> = terms.into_iter().map(|t| used[t.0]).collect();
         if chosen.len() >= x.len() {
@@ -162,7 +162,7 @@ impl ExactRays {
 
     /// Removes the rays that the others combine; `None` where the rays lie in no half-space, or are too many.
     fn prune(&mut self) -> Option<()> {
-        functional(&self.rays)?;
+        let positive: Vec<f64> = functional(&self.rays)?.iter().map(to_f64).collect();
         let mut k = 0;
         while k < self.rays.len() && self.rays.len() > 1 {
             let others: Vec<usize> = (0..self.rays.len()).filter(|j| *j != k).collect();
@@ -176,7 +176,7 @@ impl ExactRays {
                     self.fan.remove(k);
                 }
                 Err(functional) => {
-                    self.fan.apart[k] = functional;
+                    self.fan.apart[k] = functional.map(|f| tilted(&f, &positive, &self.fan.rays[k]));
                     k += 1;
                 }
             }
@@ -224,11 +224,11 @@ impl Fan {
 
     /// Removes the rays that the others combine; `None` where the rays lie in no half-space, or are too many.
     fn prune(&mut self, frame: &Frame) -> Option<()> {
-        direction(&self.rays)?;
+        let positive = direction(&self.rays)?;
         let mut k = 0;
         while k < self.rays.len() && self.rays.len() > 1 {
             frame.spend(&self.rays)?;
-            if self.is_extreme(k) {
+            if self.is_extreme(k, &positive) {
                 k += 1;
             } else {
                 self.remove(k);
@@ -252,12 +252,12 @@ impl Fan {
         self.apart[k].as_ref().is_some_and(|f| tells_apart(f, &self.others(k), &self.rays[k]))
     }
 
-    fn is_extreme(&mut self, k: usize) -> bool {
+    fn is_extreme(&mut self, k: usize, positive: &[f64]) -> bool {
         if self.is_apart(k) {
             return true;
         }
         let InCone::Outside(functional) = in_cone(&self.others(k), &self.rays[k]) else { return false };
-        self.apart[k] = functional;
+        self.apart[k] = Some(tilted(&functional, positive, &self.rays[k]));
         true
     }
 
@@ -357,6 +357,13 @@ fn thickened(rays: &Rays, dim: usize, push: f64) -> Rays {
         }
     }
     out
+}
+
+/// A unit functional that is positive at a ray and, unlike the one given, clearly negative on the other rays: half of its value
+/// at the ray is taken off by a functional that is positive on all rays.
+fn tilted(functional: &[f64], positive: &[f64], ray: &[f64]) -> Vec<f64> {
+    let share = 0.5 * dot(functional, ray) / dot(positive, ray);
+    unit(functional.iter().zip(positive).map(|(f, p)| f - share * p).collect())
 }
 
 /// A functional that is positive on all rays, by the perceptron rule.
