@@ -1,11 +1,11 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, whole};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, total, whole};
 use crate::claim::Claim;
 use crate::curve::{Case, End, Kind, Model, Piece, Shape, Spaces, Way, close};
 use crate::jsr::{System, bounds};
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// Most orders of one certificate.
 const MAX_ORDERS: usize = 32;
@@ -14,8 +14,10 @@ const MAX_ORDERS: usize = 32;
 struct Level<'a> {
     shape: &'a Shape,
     spaces: &'a Spaces,
-    /// `N`, the number of pieces of every state.
+    /// `N`, the number of pieces of every state that comes back to itself.
     pieces: usize,
+    /// By state and letter, what pieces take of the parameter, where that is not `1/N`.
+    shares: Option<Vec<Vec<Q>>>,
     /// The order `k`.
     order: usize,
     /// By state: the differences of the derivatives of this order as rows in echelon form.
@@ -29,10 +31,10 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, orders] = node.fields("contraction orders")?;
     let model = Model::read(&case.shape, &contraction)?;
     contraction.at(case.shape.check_curves())?;
-    let mut level = node.at(Level::first(&model))?;
+    let mut level = node.at(Level::uniform(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
-    let mut exponent = None;
+    let (mut exponent, mut least) = (None, Q::zero());
     for (k, item) in items.iter().enumerate() {
         let [order, dims, radius, outcome] = item.fields("order dims radius outcome")?;
         order.need(order.index(MAX_ORDERS)? == k, "orders", "the orders come one after the other")?;
@@ -63,6 +65,11 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
                 radius.need(slow, "orders", "no cycle with a radius of N to the power -k or more")?;
                 (false, true)
             }
+            "exponent" if k > 0 => {
+                let slow = &least * &level.power(k) > Q::one();
+                outcome.need(slow, "orders", "the radius of the order before is not above N to the power -k")?;
+                (false, true)
+            }
             "chord" if k > 0 => {
                 outcome.need(level.turns_back(&before)?, "orders", "no chord among the differences")?;
                 (false, true)
@@ -72,6 +79,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
         let verdict = if smooth { Verdict::Proved } else { Verdict::Refuted };
         claims.push(Claim::Smooth { order: k }.is(verdict));
+        least.clone_from(&low);
         if smooth {
             exponent = (!found.iter().all(|d| *d == 0)).then_some((k, low, high));
         }
@@ -84,11 +92,17 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
 }
 
-/// Theorem 12: the curve is C¹ in the uniform parameter, and a graph over it in its visible quotients and as it is seen.
-pub fn graph(model: &Model<'_>, radius: &Node<'_>) -> Checked<()> {
-    let level = Level::first(model)?.next()?;
+/// Theorem 12: the curve is C¹ in the uniform parameter, or in the one with the given shares, and a graph over it in its visible
+/// quotients and as it is seen.
+pub fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
+    let first = match shares {
+        None => Level::uniform(model)?,
+        Some(node) => Level::first(model, 1, Some(node.at(read_shares(model, node))?))?,
+    };
+    let level = first.next()?;
     let (_, high) = level.radius(radius)?;
-    radius.need(&high * &level.power(1) < Q::one(), "graph", "the radius is not below 1/N")?;
+    let bound = if shares.is_some() { high } else { &high * &level.power(1) };
+    radius.need(bound < Q::one(), "graph", "the radius is not below 1/N, or below 1 where shares are given")?;
     need(level.joined(&level.ends()?)?, "graph", "the derivatives at a joint are not equal")?;
     let outside = |rows: &Matrix, chord: &Matrix| Ok(rows.stack(&chord.transpose()).rank()? > rows.rank()?);
     for &e in &level.shape.reachable {
@@ -103,16 +117,51 @@ pub fn graph(model: &Model<'_>, radius: &Node<'_>) -> Checked<()> {
     need(seen, "graph", "the projection of the chord lies among those of the differences of the derivative")
 }
 
+/// Positive shares of the pieces of every reachable state, of sum 1.
+fn read_shares(model: &Model<'_>, node: &Node<'_>) -> Checked<Vec<Vec<Q>>> {
+    let shape = model.shape;
+    let mut all = vec![Vec::new(); shape.states.len()];
+    for (item, &e) in node.exactly(shape.reachable.len(), "graph")?.iter().zip(&shape.reachable) {
+        let shares = item.vector(shape.states[e].pieces.len())?;
+        let whole = shares.iter().all(Signed::is_positive) && total(shares.iter().cloned())? == Q::one();
+        item.need(whole, "graph", "the shares of the pieces of a state are positive and sum to 1")?;
+        all[e] = shares;
+    }
+    Ok(all)
+}
+
+/// The states that can be reached from one, itself among them.
+fn reached(shape: &Shape, from: usize) -> Vec<usize> {
+    let (mut list, mut next) = (vec![from], 0);
+    while next < list.len() {
+        for piece in &shape.states[list[next]].pieces {
+            if !list.contains(&piece.target) {
+                list.push(piece.target);
+            }
+        }
+        next += 1;
+    }
+    list
+}
+
 impl<'a> Level<'a> {
-    /// The curve itself: every reachable state is an edge of the same number of pieces, and more than a point is seen.
-    fn first(model: &'a Model<'a>) -> Checked<Self> {
-        let (shape, spaces) = (model.shape, &model.spaces);
-        let pieces = shape.states[shape.start].pieces.len();
-        let uniform = shape.reachable.iter().all(|&e| {
-            let state = &shape.states[e];
-            state.kind == Kind::Edge && state.pieces.len() == pieces
-        });
+    /// The curve itself, where the states that come back to themselves have the same number of pieces.
+    fn uniform(model: &'a Model<'a>) -> Checked<Self> {
+        let shape = model.shape;
+        let returning = |e: &&usize| shape.states[**e].pieces.iter().any(|p| reached(shape, p.target).contains(*e));
+        let counts: Vec<usize> =
+            shape.reachable.iter().filter(returning).map(|&e| shape.states[e].pieces.len()).collect();
+        let pieces = *some(counts.first(), "orders", "no state comes back to itself")?;
+        let uniform = counts.iter().all(|n| *n == pieces);
         need(uniform && pieces >= 2, "orders", "a curve of one number of pieces is needed")?;
+        Self::first(model, pieces, None)
+    }
+
+    /// The curve itself: every reachable state is an edge, and more than a point is seen.
+    fn first(model: &'a Model<'a>, pieces: usize, shares: Option<Vec<Vec<Q>>>) -> Checked<Self> {
+        let (shape, spaces) = (model.shape, &model.spaces);
+        let edges = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
+        need(edges, "orders", "a curve is needed")?;
         let mut families = shape.no_rows();
         let mut chords = shape.no_rows();
         for &e in &shape.reachable {
@@ -122,7 +171,7 @@ impl<'a> Level<'a> {
             chords[e] = space.visible.times(&space.reading.times(&chord)?)?;
         }
         need(families[shape.start].rows > 0, "orders", "the curve is a point")?;
-        Ok(Self { shape, spaces, pieces, order: 0, families, chords })
+        Ok(Self { shape, spaces, pieces, shares, order: 0, families, chords })
     }
 
     /// `N^k`.
@@ -130,10 +179,18 @@ impl<'a> Level<'a> {
         num_traits::pow(whole(self.pieces as i64), k)
     }
 
-    /// `(ε N)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece.
+    /// `N_e^k`, or `s^-k` for a piece with the share `s`.
+    fn stretch(&self, e: usize, piece: &Piece) -> Checked<Q> {
+        let pieces = &self.shape.states[e].pieces;
+        let Some(shares) = &self.shares else { return Ok(num_traits::pow(whole(pieces.len() as i64), self.order)) };
+        let letter = some(pieces.iter().position(|p| std::ptr::eq(p, piece)), "graph", "a piece of another state")?;
+        Ok(num_traits::pow(shares[e][letter].recip(), self.order))
+    }
+
+    /// `(ε N_e)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece of a state.
     fn scaled(&self, e: usize, piece: &Piece) -> Checked<Matrix> {
         let one = if piece.reversed && self.order % 2 == 1 { -Q::one() } else { Q::one() };
-        Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.power(self.order))))
+        Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.stretch(e, piece)?)))
     }
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
@@ -152,7 +209,9 @@ impl<'a> Level<'a> {
             let matrix = images.columns(&pivots);
             let closed = matrix.times(&self.families[e])? == images;
             need(closed, "orders", "an operator does not act on the differences")?;
-            arrows.push((place(e)?, place(piece.target)?, matrix.transpose()));
+            // With shares it is the scaled operators whose radius is bounded.
+            let stretch = if self.shares.is_some() { self.stretch(e, piece)? } else { Q::one() };
+            arrows.push((place(e)?, place(piece.target)?, matrix.transpose().scaled(&stretch)));
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
         let found = bounds(&System { name: String::new(), dims, arrows }, node)?;
@@ -179,18 +238,7 @@ impl<'a> Level<'a> {
     /// Whether, in a strongly connected part that no arrow leaves, a chord lies among the differences of its derivative, although
     /// the curve of the order before, whose differences are given, is more than a point.
     fn turns_back(&self, before: &[Matrix]) -> Checked<bool> {
-        let reached = |from: usize| {
-            let (mut list, mut next) = (vec![from], 0);
-            while next < list.len() {
-                for piece in &self.shape.states[list[next]].pieces {
-                    if !list.contains(&piece.target) {
-                        list.push(piece.target);
-                    }
-                }
-                next += 1;
-            }
-            list
-        };
+        let reached = |from: usize| reached(self.shape, from);
         for &e in &self.shape.reachable {
             let inside = self.families[e].stack(&self.chords[e].transpose()).rank()? == self.families[e].rows;
             if before[e].rows > 0 && inside && reached(e).iter().all(|&d| reached(d).contains(&e)) {

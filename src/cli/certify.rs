@@ -1,18 +1,18 @@
 //! `secant certify` of a single case.
 
-use super::answered::{Answered, answered, question};
+use super::answered::{Answered, ONCE, answered, question};
 use super::output::{complain, print, problem_code, stdout_colour, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many};
 use crate::answer::Verdict;
 use crate::case::{Case, Question, Valences};
-use crate::certificate::Unsupported;
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::picture::characteristic::sheet;
 use crate::prove::Findings;
 use crate::report::document::Block;
 use crate::report::proof::Level;
+use crate::report::words::listed;
 use crate::report::{figures, findings, html, json, latex, markdown, text, vertex as at_vertices};
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
                 note(&answered);
             }
             print(&shown);
-            exit_code(answered.findings.verdict())
+            exit_code(answered.findings.verdict_on(&args.require))
         }
         Err(problem) => {
             if args.json || args.jsonl {
@@ -82,8 +82,16 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 /// Says so where the verdict was not proved again, or a state plays no part.
 fn note(answered: &Answered) {
     let Findings::Tangents { case, .. } = &answered.findings else { return };
-    if let Some(Err(unsupported)) = &answered.evidence {
-        note_unconfirmed(unsupported);
+    let mut why = match &answered.evidence {
+        Some(Err(unsupported)) => vec![unsupported.to_string()],
+        Some(Ok(certificate)) => certificate.left_out().iter().map(ToString::to_string).collect(),
+        None => Vec::new(),
+    };
+    if !answered.once.is_empty() {
+        why.insert(0, format!("{ONCE} {}", listed(&answered.once)));
+    }
+    if !why.is_empty() {
+        note_unconfirmed(&why.join("; "));
     }
     note_dangling(case);
 }
@@ -98,8 +106,8 @@ fn note_dangling(case: &Case) {
 }
 
 /// Says so where a decided verdict has no certificate that could be checked.
-fn note_unconfirmed(unsupported: &Unsupported) {
-    let message = format!("the verdict was not proved again: {unsupported}");
+fn note_unconfirmed(why: &str) {
+    let message = format!("not all verdicts were proved again: {why}");
     complain(
         &Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, “What is not covered”"),
     );
@@ -122,12 +130,26 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         )
         .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
-    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
-    if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
-        return Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
-            .with_help("the ending of --report says the format: .html, .md or .tex"));
+    args.report.as_deref().map_or(Ok(()), known_format)
+}
+
+/// Refuses a report whose ending names no format.
+pub(super) fn known_format(path: &Path) -> Result<(), Problem> {
+    if matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex") {
+        return Ok(());
     }
-    Ok(())
+    Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
+        .with_help("the ending of --report says the format: .html, .md or .tex"))
+}
+
+/// A proof in the format that the ending of the path names.
+pub(super) fn rendered(path: &Path, of: &Findings, level: Level) -> String {
+    let document = findings::proof_at(of, level);
+    match extension(path).as_str() {
+        "md" => markdown::render(&document),
+        "tex" => latex::render(&document),
+        _ => html::render(&document),
+    }
 }
 
 pub(super) fn extension(path: &Path) -> String {
@@ -142,12 +164,7 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
             ReportLevel::Proof => Level::Proof,
             ReportLevel::Full => Level::Full,
         };
-        let document = findings::proof_at(&answered.findings, level);
-        let written = match extension(path).as_str() {
-            "md" => markdown::render(&document),
-            "tex" => latex::render(&document),
-            _ => html::render(&document),
-        };
+        let written = rendered(path, &answered.findings, level);
         (path, written)
     });
     let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args.draw)?))).transpose()?;
@@ -205,9 +222,11 @@ fn undrawn(name: &str) -> Problem {
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {
     if args.json || args.jsonl {
-        return json_text(&answered.json(), args.json);
+        let mut data = answered.json(&args.require);
+        data["path"] = args.cases.first().map(|p| p.display().to_string()).into();
+        return json_text(&data, args.json);
     }
-    text::render(&findings::summary(&answered.findings, args.verbose), stdout_colour())
+    text::render(&findings::summary(&answered.findings, &args.require, args.verbose), stdout_colour())
 }
 
 /// A value as JSON text, indented or in one line.

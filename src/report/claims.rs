@@ -5,7 +5,9 @@ use super::vertex_reasons;
 use crate::case::Case;
 use crate::shape::word_text;
 use crate::theorem::surface::{Surface, SurfacePoint};
-use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, Limit, PointReport, Reason, Role, Seen, Verdict};
+use crate::theorem::{
+    About, AboutPlane, Assertion, Certified, Claim, Limit, Parameter, PointReport, Reason, Role, Seen, Topic, Verdict,
+};
 use crate::vertex::AtValence;
 
 /// What is claimed, as a sentence without a capital and a full stop.
@@ -41,6 +43,16 @@ pub fn assertion(what: &Assertion) -> String {
         Assertion::SomePoint => "some point of the shape has a tangent line",
         Assertion::G1 => "the curve is G¹: it has a tangent at every point, which turns continuously",
         Assertion::Smooth { order } => return format!("the curve is C^{order} in the uniform parameter"),
+        Assertion::Polynomial => "the curve is a polynomial in the uniform parameter, C^k for all k",
+        Assertion::Exponent(bounds) => {
+            return match bounds {
+                Some(b) => format!(
+                    "the Hölder exponent of the curve in the uniform parameter is {}",
+                    super::radius::interval(b)
+                ),
+                None => "the Hölder exponent of the curve in the uniform parameter has a bound".to_owned(),
+            };
+        }
         Assertion::PlaneAtVertices => {
             "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)"
         }
@@ -83,6 +95,29 @@ pub fn assertion(what: &Assertion) -> String {
         }
     };
     text.to_owned()
+}
+
+/// What a claim is about, in the first column of a table: `ends`, `every point (G¹)`, `C²`.
+#[must_use]
+pub fn label(what: &Assertion) -> String {
+    match (what, what.topic()) {
+        (Assertion::Polynomial, _) => "C^k for all k".to_owned(),
+        (Assertion::PlaneAtVertices, _) => "vertices".to_owned(),
+        (Assertion::SomePoint, _) => "some point".to_owned(),
+        (Assertion::C1AtVertex { valence } | Assertion::PlaneAtVertex { valence }, _) => format!("valence {valence}"),
+        (Assertion::C1AtVertices { from }, _) => format!("valences from {from}"),
+        (_, None) => "tangents".to_owned(),
+        (_, Some(Topic::Ends)) => "ends".to_owned(),
+        (_, Some(Topic::Joints)) => "joints".to_owned(),
+        (_, Some(Topic::Dense)) => "dense set".to_owned(),
+        (_, Some(Topic::G1 | Topic::Inside)) => "every point (G¹)".to_owned(),
+        (_, Some(Topic::C(order))) => format!("C^{order}"),
+        (_, Some(Topic::Exponent)) => "Hölder exponent".to_owned(),
+        (_, Some(Topic::Points)) => match what.asked() {
+            Some((address, _)) => format!("point {address}"),
+            None => "points".to_owned(),
+        },
+    }
 }
 
 /// A claim with its verdict, as a sentence that follows a mark: "it is false that …", "whether …".
@@ -165,6 +200,24 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
         Reason::Similarities => {
             "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
         }
+        Reason::EveryPoint | Reason::InsidePoint => {
+            let every = found.everywhere.as_ref();
+            every.and_then(|e| reasons::everywhere(found, e)).unwrap_or_else(unknown)
+        }
+        Reason::Order(order) => match &found.parameter {
+            Some(Parameter::Orders(orders)) => {
+                orders.orders.get(*order).and_then(|o| super::regularity::outcome(&case.shape, o))
+            }
+            _ => None,
+        }
+        .unwrap_or_else(|| "no bounds of its joint spectral radius are known".to_owned()),
+        Reason::NoOrder => match &found.parameter {
+            Some(Parameter::None(error)) => error.to_string(),
+            Some(Parameter::Large(size)) => {
+                format!("the visible quotients have {size} coordinates together; `secant regularity` goes on beyond 24")
+            }
+            _ => unknown(),
+        },
         Reason::TooManyCells => "there are too many cells around a vertex".to_owned(),
         Reason::SurfaceNotInjective { .. } => "an operator is not injective on the visible relevant space".to_owned(),
         Reason::SurfacePoint(_) | Reason::SurfaceVertex(_) | Reason::VertexInside(_) => {

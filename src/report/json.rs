@@ -12,8 +12,8 @@ use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Role, Side, Verdict,
-    Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role,
+    Side, Verdict, Witness,
 };
 use serde_json::{Value, json};
 
@@ -22,17 +22,23 @@ pub const VERSION: u32 = 1;
 
 /// Everything that was found, as data.
 #[must_use]
-pub fn report(case: &Case, found: &Certified) -> Value {
+pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
     json!({
         "version": VERSION,
         "case": case.name,
         "title": case.title,
-        "verdict": found.verdict.word(),
+        "verdict": required.verdict(&found.claims).word(),
+        "required": required.to_string(),
+        "tangents": found.verdict.word(),
         "claim": found.claims.first().map(|c| claims::assertion(&c.what)),
         "claims": found.claims.iter().map(|c| claim(case, found, c)).collect::<Vec<_>>(),
         "limits": found.limits().iter().map(limit).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
         "every_point": super::every::value(found),
+        "parameter": match &found.parameter {
+            Some(Parameter::Orders(orders)) => super::regularity::curve_data(&case.shape, orders),
+            _ => Value::Null,
+        },
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => found.points.iter().map(|p| point(case, p)).collect(),
@@ -166,6 +172,7 @@ fn limit(limit: &Limit) -> Value {
 fn claim(case: &Case, found: &Certified, c: &Claim) -> Value {
     json!({
         "kind": c.what.id(),
+        "about": c.what.topic().map(|t| t.to_string()),
         "claim": claims::assertion(&c.what),
         "verdict": c.verdict().word(),
         "theorem": c.statement().map(|s| s.id()),

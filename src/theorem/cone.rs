@@ -8,6 +8,7 @@ use crate::arith::{Integer, Interval, Rational};
 use crate::jordan::leading_roots;
 use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
+use crate::statement::Statement;
 use malachite_base::num::arithmetic::traits::Floor;
 
 /// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
@@ -327,6 +328,12 @@ fn largest_cross_ratio(b: &Matrix) -> Option<Rational> {
 }
 
 impl CommonCone {
+    /// The theorem that gives the cones: where single pieces have coefficients 0 it is Theorem 6′.
+    #[must_use]
+    pub fn statement(&self) -> Statement {
+        if self.slow.is_empty() && self.window == 1 { Statement::Theorem6 } else { Statement::Theorem6Slow }
+    }
+
     /// Whether all hypotheses of Theorem 6 (or 6′) on the cones hold, by multiplication.
     #[must_use]
     pub fn holds(&self, shape: &Shape, spaces: &Spaces) -> bool {

@@ -3,6 +3,7 @@
 
 mod branch;
 pub mod claim;
+mod components;
 pub mod cone;
 mod cone_search;
 mod dense;
@@ -12,9 +13,12 @@ mod everywhere;
 pub mod filter;
 mod frames;
 pub mod gap;
+pub mod graph;
 mod hodograph;
+pub mod parameter;
 mod point;
 pub mod regularity;
+mod require;
 mod ring;
 mod sign;
 mod similarity;
@@ -28,11 +32,14 @@ pub mod wavelet;
 pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
 pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
+pub use components::{Component, Components};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
 pub use gap::{BranchGap, Defect, EveryGap, NoChart, NoGerm, PlaneGap, PointGap, TopRow};
 pub use hodograph::{Hodograph, Span, Turn};
+pub use parameter::Parameter;
+pub use require::{Required, Topic, UnknownTopic};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use sign::{Depth, depths};
 pub use similarity::Similarities;
@@ -57,6 +64,7 @@ use thiserror::Error;
 
 /// Why a shape cannot be certified at all.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum ModelError {
     /// Sizes or sums are wrong.
     #[error(transparent)]
@@ -146,7 +154,9 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
+        found.parameter = parameter::parameter(&cx);
         found.everywhere = everywhere::everywhere(&cx, &mut found);
+        parameter::adopt_derivative(&mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
@@ -156,6 +166,7 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
         let by = Some(Statement::Similarities);
         found.claims.push(Claim::refuted(Assertion::SomePoint, by, Reason::Similarities));
     }
+    parameter::add_claims(&mut found);
     found.verdict = found.overall();
     Ok(found)
 }

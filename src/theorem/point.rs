@@ -193,9 +193,19 @@ fn conclude(
         return report;
     }
     report.verdict = Verdict::Proved;
-    report.tangent = Some(first.clone());
+    report.tangent = Some(along(first, &report));
     report.kind = kind(&report);
     report
+}
+
+/// The tangent in the direction of travel: towards the ray of what follows, or away from that of what comes before.
+fn along(tangent: &Direction, report: &PointReport) -> Direction {
+    let sign = match (report.left.as_slice(), report.right.as_slice()) {
+        (_, [after]) => tangent.same_line(after),
+        ([before], []) => tangent.same_line(before).map(|s| -s),
+        _ => None,
+    };
+    sign.map_or_else(|| tangent.clone(), |s| tangent.times(s))
 }
 
 /// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.
@@ -224,11 +234,12 @@ fn lower_bound(branch: &BranchReport) -> usize {
 
 fn kind(report: &PointReport) -> Kind {
     let (left, right) = (&report.left, &report.right);
-    let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd | Role::SetPoint);
+    let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd);
     let opposite = |a: &Direction, b: &Direction| a.same_line(b) == Some(-1);
     match (left.len(), right.len()) {
         (2, _) | (_, 2) => Kind::Oscillating,
-        (1, 0) | (0, 1) if one_sided => Kind::HalfTangent,
+        (1, 0) | (0, 1) if report.role == Role::SetPoint => Kind::HalfTangent,
+        (1, 0) | (0, 1) if one_sided => Kind::SmoothEnd,
         (1, 1) if opposite(&left[0], &right[0]) => Kind::Regular,
         (1, 1) => Kind::Cusp,
         _ => Kind::Line,
