@@ -135,12 +135,26 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
             Problem::new("secant::usage::shard", message).with_help("a part has one case at least: take fewer parts")
         );
     }
-    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
-    if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
-        return Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
-            .with_help("the ending of --report says the format: .html, .md or .tex"));
+    args.report.as_deref().map_or(Ok(()), known_format)
+}
+
+/// Refuses a report whose ending names no format.
+pub(super) fn known_format(path: &Path) -> Result<(), Problem> {
+    if matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex") {
+        return Ok(());
     }
-    Ok(())
+    Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
+        .with_help("the ending of --report says the format: .html, .md or .tex"))
+}
+
+/// A proof in the format that the ending of the path names.
+pub(super) fn rendered(path: &Path, of: &Findings, level: Level) -> String {
+    let document = findings::proof_at(of, level);
+    match extension(path).as_str() {
+        "md" => markdown::render(&document),
+        "tex" => latex::render(&document),
+        _ => html::render(&document),
+    }
 }
 
 pub(super) fn extension(path: &Path) -> String {
@@ -155,12 +169,7 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
             ReportLevel::Proof => Level::Proof,
             ReportLevel::Full => Level::Full,
         };
-        let document = findings::proof_at(&answered.findings, level);
-        let written = match extension(path).as_str() {
-            "md" => markdown::render(&document),
-            "tex" => latex::render(&document),
-            _ => html::render(&document),
-        };
+        let written = rendered(path, &answered.findings, level);
         (path, written)
     });
     let svg = args.svg.as_deref().map(|path| Ok((path, answered.picture(args.draw == Drawn::Cones)?))).transpose()?;
