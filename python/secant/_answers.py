@@ -304,7 +304,11 @@ def _regular(
         return x, None, []
     if is_wavelet(x):
         if is_named(x) and (_secant.wavelet_mask(x.name) or x.name.startswith("db")):
-    XX
+            return x.name, None, []
+        # In the decimals that are printed, a filter with irrational sum is understood as one that is known so closely.
+        floats = wavelet_filter(x, exact)
+        decimals = [f"{c:.17f}" for c in x.rec_lo] if exact == "decimal" else floats
+        return ", ".join(decimals), None, []
     if not isinstance(x, (Mapping, str, os.PathLike)) and _flat(x):
         mask = [written(number(c, exact, f"coefficient {k} of the mask")) for k, c in enumerate(x)]
         return ", ".join(mask), None, []
