@@ -117,8 +117,8 @@ def certify(
     >>> result = secant.certify(["1/4", "3/4", "3/4", "1/4"])
     >>> result.verdict
     <Verdict.PROVED: 'proved'>
-    >>> result.points[0].tangent[:2]
-    (Fraction(1, 1), Fraction(-1, 1))
+    >>> result.points[0].address
+    '(0)'
     """
     given = source(x, exact=exact, convention=convention, arity=arity, name=name)
     options: dict[str, Any] = {"at": at, "valences": valences, "check": check, "effort": effort, "cells": cells, "words": words}

@@ -351,7 +351,15 @@ def iter_sweep(
     progress: bool = False,
     **options: Any,
 ) -> Iterator[Row]:
-    """The rows of :func:`sweep`, one after the other and in order; memory does not grow with their number."""
+    """The rows of :func:`sweep`, one after the other and in order; memory does not grow with their number.
+
+    The parameters are those of :func:`sweep`: `case`, `parameters`, `executor`, `workers`, `folder`, `recheck`, `chunk`, `ahead`,
+    `progress` and the `options` of :func:`secant.certify`.
+
+    Yields
+    ------
+    Row
+    """
     kept = Folder(folder) if folder is not None else None
     places = kept.places() if kept is not None else {}
     own = _Own(workers or os.cpu_count() or 1) if executor is None and workers != 0 else None

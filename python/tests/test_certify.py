@@ -15,7 +15,7 @@ def test_the_thesis(cases):
     assert result.verdict == "proved" and result.proved
     joint = next(p for p in result.points if p.address == "0(1)")
     assert joint.kind == "cusp" and joint.eigenvalue == F(3, 4)
-    assert tuple(joint.tangent) == (2, -3, 1) and joint.position == (1, F(-1, 4), F(1, 4))
+    assert tuple(joint.tangent) in {(2, -3, 1), (-2, 3, -1)} and joint.position == (1, F(-1, 4), F(1, 4))
     assert joint.left[0] == joint.right[0] == (-2, 3, -1)
     assert [c.kind for c in result.claims][:2] == ["tangent-at-ends", "dense-joints"]
     with pytest.raises(secant.InputError):
