@@ -130,6 +130,7 @@ def written(x: Fraction | str) -> str:
     return x if isinstance(x, str) else str(x)
 
 
+_APART = re.compile(r"[0-9A-Za-z_.)] +[0-9A-Za-z_.(]")
 _PLAIN = re.compile(r"[0-9A-Za-z+\-*/^().,_ ]+")
 
 
@@ -142,8 +143,9 @@ def entry_text(x: Fraction | str, where: str) -> str:
         if depth < 0 or (c == "," and depth == 0):
             break
     else:
-        if _PLAIN.fullmatch(text) and depth == 0:
-            return text
+        # Blanks separate entries in some forms of a matrix: between two words or numbers they are refused, elsewhere left out.
+        if _PLAIN.fullmatch(text) and depth == 0 and not _APART.search(text):
+            return text.replace(" ", "")
     raise _refuse(f"{where} is {text!r}, which is no number", 'write "3/4", "0.25" or "(1+sqrt(5))/4"')
 
 

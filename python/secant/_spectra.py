@@ -257,7 +257,7 @@ def spectra(x: Any, *, exact: Exact | None = None, convention: Convention | None
     if _is_matrix(x):
         rows = matrix(x, exact)
         texts = [[entry_text(c, f"entry ({i}, {j})") for j, c in enumerate(row)] for i, row in enumerate(rows)]
-        name, text, case = "matrix", "[" + ", ".join("[" + ", ".join(row) + "]" for row in texts) + "]", False
+        name, text, case = "matrix", "[" + ",".join("[" + ",".join(row) + "]" for row in texts) + "]", False
     else:
         from ._answers import text_of
 

@@ -124,6 +124,9 @@ def test_radicals_of_sympy():
     golden = next(v for v in values if isinstance(v, secant.Algebraic))
     assert sympy.simplify(golden.sympy() - m[0, 0]) == 0
     assert golden == secant.spectrum([["(1 + sqrt(5))/4"]]).eigenvalues[0].value
+    assert secant.spectrum([[golden, 0], [0, 1]]).eigenvalues[1].value == golden
+    with pytest.raises(secant.InputError):
+        secant.spectrum([["1 2"], ["3 4"]])
     cosine = sympy.Matrix([[sympy.cos(2 * sympy.pi / 7)]])
     assert float(secant.spectrum(cosine).eigenvalues[0].value) == pytest.approx(math.cos(2 * math.pi / 7))
 
