@@ -1,6 +1,5 @@
 //! The command line: arguments, one file for each command, exit codes.
 
-mod answered;
 mod approximate;
 mod cards;
 mod certify;
@@ -17,6 +16,7 @@ mod junction;
 mod many;
 mod output;
 mod progress;
+mod question;
 mod refine;
 mod regularity;
 mod render;
@@ -125,7 +125,7 @@ enum Command {
     Man,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 struct CertifyArgs {
     /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
     /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4").
@@ -168,6 +168,9 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// Take only the I-th of N parts of the cases: tasks 1 … N of a job array do all of them, each once.
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with = "approx")]
+    shard: Option<(usize, usize)>,
     /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
     /// first four; with `?` behind it a claim decides only where it is refuted.
     #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,inside?", hide_default_value = false)]
@@ -218,6 +221,13 @@ impl CertifyArgs {
         budget.words = self.words.unwrap_or(budget.words);
         budget
     }
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let (part, parts) = text.split_once('/').ok_or("write I/N, as in 3/16")?;
+    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("`{s}` is no whole number"));
+    let (part, parts) = (number(part)?, number(parts)?);
+    if part == 0 || part > parts { Err(format!("{part} is not from 1 to {parts}")) } else { Ok((part, parts)) }
 }
 
 fn effort(word: &str) -> Result<Effort, String> {

@@ -64,6 +64,7 @@ use thiserror::Error;
 
 /// Why a shape cannot be certified at all.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum ModelError {
     /// Sizes or sums are wrong.
     #[error(transparent)]

@@ -12,6 +12,7 @@ use thiserror::Error;
 
 /// Why a curve has no table of orders.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum CurveRegularityError {
     /// The uniform parameter needs the same number of pieces in all states that come back to themselves.
     #[error(
