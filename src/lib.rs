@@ -67,6 +67,7 @@ pub mod escape;
 pub mod glossary;
 pub mod guard;
 pub mod laws;
+pub mod mesh;
 pub mod picture;
 pub mod prove;
 pub mod radius;

@@ -118,6 +118,8 @@ statements! {
     Lemma4 = "lemma-4",
     Lemma4Prime = "lemma-4-prime",
     Theorem9 = "theorem-9",
+    MeshVertex = "mesh-vertex",
+    MeshSurface = "mesh-surface",
     Theorem6 = "theorem-6",
     Theorem6Slow = "theorem-6-slow",
     Theorem6Polynomial = "theorem-6-polynomial",
