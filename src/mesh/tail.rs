@@ -18,8 +18,8 @@ use crate::vertex::top::{Top, leading_value, leading_values};
 const PLACES: u64 = 192;
 /// The longest power of the subdivision matrix that is formed.
 const POWERS: usize = 160;
-/// How often patches of the characteristic map are halved, at least and at most.
-const HALVINGS: (usize, usize) = (4, 13);
+/// How often patches of the characteristic map are halved: what leaves most room is taken.
+const HALVINGS: [usize; 3] = [4, 8, 11];
 /// How often the patches of a ring are halved at most.
 const DEPTH: usize = 10;
 /// Rings that are tested one by one at most.
@@ -260,26 +260,25 @@ impl Tail {
     /// the derivatives are independent. Errors of Bézier points are means of those of the net; the derivative of the error in
     /// a direction `d` has coefficients of at most `2 (|d_1| + |d_2|)` times that.
     fn room(&self) -> Option<f64> {
+        HALVINGS.into_iter().filter_map(|depth| self.room_at(depth)).reduce(f64::max)
+    }
+
+    fn room_at(&self, depth: usize) -> Option<f64> {
         let floats = Floats::default();
         let mut least = f64::INFINITY;
         for patch in self.patches(0)? {
             let points: Vec<[Float; 3]> =
                 patch.iter().map(|i| [self.map[*i][0], self.map[*i][1], Float::ZERO]).collect();
-            let net = bezier(&floats, self.triangles, &points);
-            let places = corners(self.triangles);
-            let mut stack = vec![(net, places, 0)];
+            let mut stack = vec![(bezier(&floats, self.triangles, &points), corners(self.triangles), 0)];
             while let Some((net, places, level)) = stack.pop() {
-                let room = if level < HALVINGS.0 { None } else { margin(&floats, &net, &places) };
-                if let Some(room) = room {
-                    least = least.min(room);
-                } else if level == HALVINGS.1 {
-                    return None;
-                } else {
-                    let (left, right) = net.halves_by(|a, b| floats.sum(&[(1, a), (1, b)], 2));
-                    let (first, second) = halved_corners(&places);
-                    stack.push((left.turned(), first, level + 1));
-                    stack.push((right.turned(), second, level + 1));
+                if level == depth {
+                    least = least.min(margin(&floats, &net, &places)?);
+                    continue;
                 }
+                let (left, right) = net.halves_by(|a, b| floats.sum(&[(1, a), (1, b)], 2));
+                let (first, second) = halved_corners(&places);
+                stack.push((left.turned(), first, level + 1));
+                stack.push((right.turned(), second, level + 1));
             }
         }
         (least > 0.0 && least.is_finite()).then_some(least)
