@@ -41,7 +41,7 @@ fn every_mesh_has_its_answer() {
         ("line", &QUADS, Refuted, Refuted),
         ("strip", &QUADS, Undetermined, Undetermined),
         ("plane", &QUADS, Undetermined, Undetermined),
-        ("tetrahedron", &LOOP, Proved, Proved),
+        ("tetrahedron", &LOOP, Proved, Undetermined),
         ("octahedron", &LOOP, Proved, Proved),
         ("octahedron", &warren, Proved, Proved),
         ("icosahedron", &LOOP, Proved, Proved),
