@@ -3,9 +3,11 @@
 use secant::case::Case;
 use secant::certificate::confirm;
 use secant::report::claims::{assertion, judged, reason};
+use secant::report::reasons;
 use secant::shape::cell_text;
 use secant::theorem::surface::certify_complex;
 use secant::theorem::{About, Assertion, Certified, Kind, Outcome, PointReport, Reason, Statement, Verdict, Witness};
+use serde_json::{Value, json};
 use std::path::Path;
 
 fn certified(name: &str) -> Certified {
@@ -50,7 +52,7 @@ fn a_piece_that_is_set_aside_belongs_to_the_shape() {
 #[test]
 fn a_branch_without_a_germ_is_not_called_an_isolated_point_of_the_shape() {
     let found = certified("sets/other-addresses");
-    let reason = |address: &str| at(&found, address).reason.clone().unwrap();
+    let reason = |address: &str| reasons::point(at(&found, address)).unwrap();
     assert!(reason("1(0)").contains("isolated in this branch"), "{}", reason("1(0)"));
     assert!(reason("(0)").contains("isolated in the shape"), "{}", reason("(0)"));
     assert_eq!(at(&found, "1(0)").about(), About::Branch);
@@ -61,7 +63,7 @@ fn a_cusp_inside_is_not_called_a_joint_with_different_tangents() {
     let found = certified("control/interior-cusp");
     let every = found.everywhere.as_ref().unwrap();
     assert_eq!(every.verdict, Verdict::Refuted);
-    let reason = every.reason.as_ref().unwrap();
+    let reason = reasons::everywhere(&found, every).unwrap();
     assert!(reason.contains("(01)") && reason.contains("cusp") && !reason.contains("joint"), "{reason}");
 }
 
@@ -161,8 +163,43 @@ fn polynomial_curves_are_decided_at_every_point() {
         } else {
             assert_eq!(verdict, Verdict::Proved, "{control}");
         }
-        confirm(&case, &found).unwrap_or_else(|doubt| panic!("{control}: {doubt}"));
+        let certificate = confirm(&case, &found).unwrap_or_else(|doubt| panic!("{control}: {doubt}"));
+        // The format has no rule for zeros of derivatives; the certificate names what it leaves out.
+        let derivative = every.hodograph.is_some() && every.witness.is_none();
+        assert_eq!(certificate.left_out().len(), usize::from(derivative), "{control}");
     }
+}
+
+/// A dense set beside a joint without a tangent has an answer of its own, and every part of it is needed.
+#[test]
+fn joints_that_are_not_killed_are_proved_again_beside_one_that_is() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/control/killed-deep-joint.toml");
+    let case = Case::read(&path).unwrap();
+    let found = certify_complex(&case.complex(), &case.examine).unwrap();
+    let certificate = confirm(&case, &found).unwrap();
+    assert!(certificate.left_out().is_empty(), "{:?}", certificate.left_out());
+    let answers = certificate.json()["proof"]["answers"].as_array().unwrap();
+    assert_eq!(answers[1]["verdict"], "refuted");
+    let k = answers.iter().position(|a| a["question"] == "joints not killed").unwrap();
+    let rule = |change: &dyn Fn(&mut Vec<Value>)| {
+        let mut forged = certificate.json().clone();
+        change(forged["proof"]["answers"].as_array_mut().unwrap());
+        secant_check::check(&case.text.text, &forged.to_string()).unwrap_err().rule
+    };
+    assert_eq!(rule(&|a| a[k]["upstairs"] = json!([])), "joints");
+    assert_eq!(rule(&|a| a[k]["theorem"] = json!("5")), "joints");
+    assert_eq!(rule(&|a| a[k]["theorem"] = json!("none")), "joints");
+    assert_eq!(rule(&|a| a[k]["theorem"] = json!("11'")), "format");
+    assert_eq!(rule(&|a| a[k]["verdict"] = json!("refuted")), "answers");
+    assert_eq!(rule(&|a| a[k]["upstairs"][0]["point"]["place"]["at"] = json!("left end")), "format");
+    let twice = |a: &mut Vec<Value>| {
+        let again = a[k]["upstairs"][0].clone();
+        a[k]["upstairs"].as_array_mut().unwrap().push(again);
+    };
+    assert_eq!(rule(&twice), "joints");
+    assert_eq!(rule(&|a| a.push(a[k].clone())), "format");
+    // What is true of these joints is not true of all.
+    assert_eq!(rule(&|a| a[1]["verdict"] = json!("proved")), "answers");
 }
 
 #[test]

@@ -31,6 +31,47 @@ fn exit_codes_tell_the_verdict() {
     output(&["--help"], 0);
 }
 
+/// Every claim can be asked for; where nothing is said, tangents decide, and a cusp inside.
+#[test]
+fn the_claims_that_decide_can_be_named() {
+    let smooth = "cases/bspline/degree-3.toml";
+    for (case, list, code) in [
+        (HALF, "tangents", 0),
+        (HALF, "ends,joints,dense", 0),
+        (HALF, "ends,g1?", 1),
+        (HALF, "g1", 1),
+        (smooth, "ends,joints,dense,points,inside?", 0),
+        (smooth, "g1,c2", 0),
+        (smooth, "c3", 0),
+        ("four-point", "c1", 0),
+        ("four-point", "c2", 1),
+        (smooth, "points", 3),
+        ("cases/surfaces/bicubic-space.toml", "dense", 0),
+        ("cases/surfaces/bicubic-space.toml", "g1", 3),
+        (smooth, "smooth", 2),
+    ] {
+        output(&["certify", "-q", "--no-check", case, "--require", list], code);
+    }
+    // A cusp between whole numbers of letters, which no joint shows.
+    let cusp = "cases/control/interior-cusp.toml";
+    let (out, _) = output(&["certify", cusp], 1);
+    assert!(out.contains("refuted, by every point (G¹). Holds: ends") && !out.contains("every claim holds"), "{out}");
+}
+
+/// Whoever asks which claims hold is told so first, and once.
+#[test]
+fn one_table_comes_first() {
+    let (out, _) = output(&["certify", "four-point"], 0);
+    let before: Vec<&str> = out.lines().take_while(|l| *l != "Shape").collect();
+    for piece in ["ends ", "dense set ", "every point (G¹) ", "C^1 ", "C^2 ", "Hölder exponent ", "smooth end"] {
+        assert!(before.iter().any(|l| l.contains(piece)), "{piece} is missing in\n{out}");
+    }
+    // An exponent below 1 excludes C¹.
+    let knopp = "name = \"knopp\"\n[scheme]\nname = \"takagi\"\nalpha = \"3/4\"\n";
+    let out = secant(&["certify", "-", "--json", "--require", "c1"]).write_stdin(knopp).output().unwrap();
+    assert_eq!(out.status.code(), Some(1));
+}
+
 #[test]
 fn quiet_prints_nothing() {
     let (out, err) = output(&["certify", "-q", HALF], 0);
@@ -40,7 +81,7 @@ fn quiet_prints_nothing() {
 #[test]
 fn the_summary_says_what_was_found() {
     let (out, err) = output(&["certify", HALF], 0);
-    for piece in ["(−1, 1, 0)", "3/4; then −1/4", "cusp", "Theorem 2", "Theorem 5", "half-tangent", "(1, −1/4, 1/4)"]
+    for piece in ["(−1, 1, 0)", "3/4; then −1/4", "cusp", "Theorem 2", "Theorem 5", "smooth end", "(1, −1/4, 1/4)"]
     {
         assert!(out.contains(piece), "{piece} is missing in\n{out}");
     }
@@ -121,7 +162,7 @@ fn json_has_the_documented_fields() {
     let value = json(HALF, 0);
     assert_eq!(value["version"], 1);
     assert_eq!(value["case"], "half-tangent");
-    assert_eq!(value["verdict"], "proved");
+    assert_eq!((&value["verdict"], &value["tangents"]), (&"proved".into(), &"proved".into()));
     assert_eq!(value["contraction"]["verdict"], "proved");
     assert!(value["claim"].is_string());
     let points = value["points"].as_array().unwrap();
@@ -145,7 +186,7 @@ fn json_has_the_documented_fields() {
     }
     let left = &points[0];
     assert_eq!(left["address"], "(0)");
-    assert_eq!(left["kind"], "half-tangent");
+    assert_eq!(left["kind"], "smooth end");
     assert_eq!(left["dimension"]["at_least"], 1);
     assert_eq!(left["rays"]["right"][0]["exact"], serde_json::json!(["-1", "1", "0"]));
     assert_eq!(left["eigenvalue"]["minimal_polynomial"], "x - 3/4");

@@ -4,7 +4,7 @@ use crate::answer::Verdict;
 use crate::case::{Case, VertexCase};
 use crate::certificate::{self, Certificate, Doubt, Unsupported};
 use crate::diagnostic::SourceText;
-use crate::theorem::{Assertion, Certified, Claim, Reason};
+use crate::theorem::{Assertion, Certified, Claim, Reason, Required};
 use crate::vertex::{AtValence, Every, overall};
 use std::sync::Arc;
 
@@ -31,11 +31,17 @@ pub enum Findings {
 }
 
 impl Findings {
-    /// The verdict on all claims together: refuted if one is refuted, proved if there are claims and all are proved.
+    /// The verdict on the claims that decide where nobody says otherwise ([`Required::default`]).
     #[must_use]
     pub fn verdict(&self) -> Verdict {
+        self.verdict_on(&Required::default())
+    }
+
+    /// The verdict on the claims that are required; at the vertices of a mesh on all claims.
+    #[must_use]
+    pub fn verdict_on(&self, required: &Required) -> Verdict {
         match self {
-            Self::Tangents { found, .. } => found.verdict,
+            Self::Tangents { found, .. } => required.verdict(&found.claims),
             Self::Vertices { found, every, .. } => overall(found, every.as_ref()),
         }
     }
@@ -99,8 +105,8 @@ impl Findings {
 pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
     match findings {
         Findings::Tangents { case, found } => certificate::confirm(case, found),
-        Findings::Vertices { case, found, .. } => {
-            certificate::confirm_vertices(case, found)?.ok_or_else(|| none().into())
+        Findings::Vertices { case, found, every } => {
+            Ok(certificate::confirm_vertices(case, found)?.without(all_at_once(every.as_ref())))
         }
     }
 }
@@ -112,10 +118,14 @@ pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
 pub fn unconfirmed(findings: &Findings) -> Result<Certificate, Unsupported> {
     match findings {
         Findings::Tangents { case, found } => certificate::certificate(case, found),
-        Findings::Vertices { case, found, .. } => certificate::vertex_certificate(case, found).ok_or_else(none),
+        Findings::Vertices { case, found, every } => {
+            Ok(certificate::vertex_certificate(case, found)?.without(all_at_once(every.as_ref())))
+        }
     }
 }
 
-fn none() -> Unsupported {
-    Unsupported { what: "these vertices".to_owned(), place: "valences".to_owned() }
+/// The proof for all valences at once, which has no rule.
+fn all_at_once(every: Option<&Every>) -> Option<Unsupported> {
+    let proved = every.filter(|e| e.proved())?;
+    Some(Unsupported { what: "all valences at once".to_owned(), place: format!("valences from {}", proved.from) })
 }

@@ -113,6 +113,12 @@ impl System {
         self.arrows.iter().all(|a| (0..a.matrix.rows()).all(|i| a.matrix.row(i).iter().all(|x| *x >= 0)))
     }
 
+    /// The dimension of the largest space, at least 1: for budgets.
+    #[must_use]
+    pub(super) fn widest(&self) -> usize {
+        self.dims.iter().fold(1, |widest, d| widest.max(*d))
+    }
+
     /// The labels along a path of positions.
     #[must_use]
     pub fn labels(&self, path: &[usize]) -> Vec<usize> {

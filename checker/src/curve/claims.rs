@@ -9,6 +9,9 @@ use num_traits::Signed;
 /// The question whether the curve is G¹, answered by Theorem 12.
 const DERIVATIVE: &str = "every point by its derivative";
 
+/// The question about the joints whose lines are not killed, beside joints that are not all proved.
+const NOT_KILLED: &str = "joints not killed";
+
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
 type Question = (&'static str, Option<Address>);
 
@@ -37,6 +40,11 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
         DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
+        NOT_KILLED
+            if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) =>
+        {
+            return Ok((NOT_KILLED, None));
+        }
         "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
@@ -70,7 +78,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, "every point" | DERIVATIVE)).then_some(verdict));
+        found.extend((!matches!(question.0, "every point" | DERIVATIVE | NOT_KILLED)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -117,6 +125,11 @@ impl<'a> Claims<'a> {
                 let [_, stated, theorem, points, upstairs] = node.fields("question verdict theorem points upstairs")?;
                 let (found, places) = self.joints([&theorem, &points, &upstairs])?;
                 (stated, found, Claim::TangentAtJoints(places))
+            }
+            (what, None) if *what == NOT_KILLED => {
+                let [_, stated, theorem, upstairs] = node.fields("question verdict theorem upstairs")?;
+                self.not_killed(&theorem, &upstairs)?;
+                (stated, Verdict::Proved, Claim::TangentAtJoints(Joints::OnlyNotKilled))
             }
             ("every point", _) => {
                 let mut found = everywhere::check(self.model, self.points, node)?;
@@ -218,6 +231,21 @@ impl<'a> Claims<'a> {
         }
         self.upstairs(&items, upstairs)?;
         Ok((Verdict::Proved, Joints::NotKilled))
+    }
+
+    /// Theorem 5′ or 11′ by itself: what is needed of the joints is upstairs, in the states where they are.
+    fn not_killed(&self, theorem: &Node<'_>, upstairs: &Node<'_>) -> Checked<()> {
+        let (name, items) = (theorem.text()?, upstairs.list()?);
+        theorem.need(
+            matches!(name, "5'" | "11'") && !items.is_empty(),
+            "joints",
+            "Theorem 5' or 11', with its joints",
+        )?;
+        if name == "11'" {
+            return frames::check(self.model, upstairs, false).map(drop);
+        }
+        theorem.at(self.injective(false))?;
+        self.upstairs(&items, upstairs)
     }
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.

@@ -7,6 +7,7 @@ use super::evidence::Evidence;
 use super::{Quoted, cycles, matrix};
 use crate::case::Case;
 use crate::report::figures;
+use crate::report::reasons;
 use crate::shape::{CellKind, word_text};
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
@@ -152,10 +153,13 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
             blocks.push(Block::text("On this branch $\\dim D^*≥@$.", [Math::count(*dimension)]))
         }
         Outcome::NoGerm { reason } => {
-            blocks.push(Block::Paragraph(words(format!("There are no secants to look at: {reason}."))));
+            blocks.push(Block::Paragraph(words(format!(
+                "There are no secants to look at: {}.",
+                reasons::no_germ(*reason)
+            ))));
         }
         Outcome::Open { reason, at_least, direction: known, .. } => {
-            let mut text = words(format!("Not decided: {reason}."));
+            let mut text = words(format!("Not decided: {}.", reasons::branch(*reason)));
             if let Some(d) = known.as_ref().filter(|_| *at_least > 0) {
                 text.extend(line(" The tangent subspace contains the direction ", []));
                 text.extend(direction(d));
@@ -177,18 +181,19 @@ fn together(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
         text.extend(direction(left));
         text.extend(words(" and "));
         text.extend(direction(right));
-        text.extend(words(if agree {
-            ", which are multiples of one another."
-        } else {
-            ", which are no multiples of one another."
-        }));
+        text.extend(words("; neither is killed."));
         let mut evidence = Evidence::of(Statement::Joint).holds(
             "branches",
             "$D^*$ of both branches is a line, as shown with their cycles.",
             [],
         );
-        evidence.push("transported", if agree { Tone::Good } else { Tone::Bad }, text);
+        evidence.push("transported", Tone::Good, text);
         blocks.push(evidence.block());
+        blocks.push(Block::Paragraph(words(if agree {
+            "The two lines agree."
+        } else {
+            "The two lines are different, so that there is no tangent line."
+        })));
         return blocks;
     }
     let known: Vec<&Direction> = point.branches.iter().filter_map(contained).collect();
@@ -240,7 +245,7 @@ fn conclusion(point: &PointReport) -> Line {
         out.extend(words(": "));
         out.push(Inline::Strong(kind.to_owned()));
     }
-    let meaning = kind_meaning(point.kind);
+    let meaning = kind_meaning(point.kind, point.role == Role::SetPoint);
     if !meaning.is_empty() {
         out.extend(words(format!(" ({meaning})")));
     }
@@ -257,7 +262,7 @@ fn conclusion(point: &PointReport) -> Line {
         out.extend(words(if point.role == Role::SetPoint { "; limit rays: " } else { "; limit rays by side: " }));
         out.extend(rays);
     }
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::point(point) {
         out.extend(words(format!("; {reason}")));
     }
     out.extend(words("."));
