@@ -120,6 +120,7 @@ statements! {
     Theorem9 = "theorem-9",
     MeshVertex = "mesh-vertex",
     MeshSurface = "mesh-surface",
+    CurvatureSize = "curvature-size",
     Theorem6 = "theorem-6",
     Theorem6Slow = "theorem-6-slow",
     Theorem6Polynomial = "theorem-6-polynomial",

@@ -3,8 +3,7 @@
 use assert_cmd::Command;
 use secant::answer::Verdict::{self, Proved, Refuted, Undetermined};
 use secant::budget::Budget;
-use secant::mesh::{AtVertex, Found, Model, Reason, Rings, Spot, certify};
-use secant::scheme::{LoopWeights, MeshRule};
+use secant::mesh::{AtVertex, Found, Model, Reason, Rings, Scheme, Second, Size, Spot, certify};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -15,38 +14,38 @@ fn file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/meshes").join(name).with_extension("obj")
 }
 
-fn found(name: &str, rule: &MeshRule) -> (Model, Found) {
+fn found(name: &str, scheme: Scheme) -> (Model, Found) {
     let model = Model::read(&file(name)).unwrap();
-    let found = certify(&model, rule, &Budget::default(), &|| {}).unwrap();
+    let found = certify(&model, scheme, &Budget::default(), &|| {}).unwrap();
     (model, found)
 }
 
-const QUADS: MeshRule = MeshRule::CatmullClark(None);
-const LOOP: MeshRule = MeshRule::Loop(LoopWeights::Original);
+const QUADS: Scheme = Scheme::CatmullClark;
+const LOOP: Scheme = Scheme::Loop;
 
 #[test]
 fn every_mesh_has_its_answer() {
-    let warren = MeshRule::Loop(LoopWeights::Warren);
+    let warren = Scheme::LoopWarren;
     // The mesh, the rule, C¹ at all vertices, a regular C¹ surface.
-    let answers: [(&str, &MeshRule, Verdict, Verdict); 18] = [
-        ("cube", &QUADS, Proved, Proved),
-        ("tetrahedron", &QUADS, Proved, Proved),
-        ("octahedron", &QUADS, Proved, Proved),
-        ("icosahedron", &QUADS, Proved, Proved),
-        ("torus", &QUADS, Proved, Proved),
-        ("klein", &QUADS, Proved, Proved),
-        ("valence-64", &QUADS, Proved, Undetermined),
-        ("folded", &QUADS, Undetermined, Refuted),
-        ("vanishing", &QUADS, Undetermined, Undetermined),
-        ("line", &QUADS, Refuted, Refuted),
-        ("strip", &QUADS, Undetermined, Undetermined),
-        ("plane", &QUADS, Undetermined, Undetermined),
-        ("tetrahedron", &LOOP, Proved, Undetermined),
-        ("octahedron", &LOOP, Proved, Proved),
-        ("octahedron", &warren, Proved, Proved),
-        ("icosahedron", &LOOP, Proved, Proved),
-        ("icosahedron", &warren, Proved, Proved),
-        ("line", &LOOP, Refuted, Refuted),
+    let answers: [(&str, Scheme, Verdict, Verdict); 18] = [
+        ("cube", QUADS, Proved, Proved),
+        ("tetrahedron", QUADS, Proved, Proved),
+        ("octahedron", QUADS, Proved, Proved),
+        ("icosahedron", QUADS, Proved, Proved),
+        ("torus", QUADS, Proved, Proved),
+        ("klein", QUADS, Proved, Proved),
+        ("valence-64", QUADS, Proved, Undetermined),
+        ("folded", QUADS, Undetermined, Refuted),
+        ("vanishing", QUADS, Undetermined, Undetermined),
+        ("line", QUADS, Refuted, Refuted),
+        ("strip", QUADS, Undetermined, Undetermined),
+        ("plane", QUADS, Undetermined, Undetermined),
+        ("tetrahedron", LOOP, Proved, Proved),
+        ("octahedron", LOOP, Proved, Proved),
+        ("octahedron", warren, Proved, Proved),
+        ("icosahedron", LOOP, Proved, Proved),
+        ("icosahedron", warren, Proved, Proved),
+        ("line", LOOP, Refuted, Refuted),
     ];
     for (name, rule, smooth, regular) in answers {
         let (_, found) = found(name, rule);
@@ -59,7 +58,7 @@ fn reasons_name_what_is_wrong() {
     let at = |found: &Found, k: usize| -> AtVertex {
         found.vertices.iter().find(|v| v.spot == Spot::Vertex(k)).unwrap().clone()
     };
-    let (model, fold) = found("folded", &QUADS);
+    let (model, fold) = found("folded", QUADS);
     let bad: Vec<&AtVertex> = fold.vertices.iter().filter(|v| v.smooth != Proved).collect();
     assert_eq!(bad.len(), 12);
     for v in &bad {
@@ -68,16 +67,16 @@ fn reasons_name_what_is_wrong() {
     }
     // Patches on both sides of the fold are refuted at a corner.
     assert_eq!(fold.patches.bad.len(), 24);
-    let (_, vanishing) = found("vanishing", &QUADS);
+    let (_, vanishing) = found("vanishing", QUADS);
     assert_eq!(at(&vanishing, 0).reason, Reason::Vanishing);
     assert_eq!(at(&vanishing, 25).smooth, Proved);
-    let (_, strip) = found("strip", &QUADS);
+    let (_, strip) = found("strip", QUADS);
     assert!(strip.vertices.iter().all(|v| v.reason == Reason::Border) && !strip.closed);
-    let (_, plane) = found("plane", &QUADS);
+    let (_, plane) = found("plane", QUADS);
     assert_eq!(plane.vertices.iter().filter(|v| v.smooth == Proved).count(), 16);
-    let (_, klein) = found("klein", &QUADS);
+    let (_, klein) = found("klein", QUADS);
     assert_eq!((klein.parts.as_slice(), klein.closed), ([false].as_slice(), true));
-    let (_, many) = found("valence-64", &QUADS);
+    let (_, many) = found("valence-64", QUADS);
     assert_eq!((at(&many, 0).valence, at(&many, 0).smooth), (64, Proved));
 }
 
@@ -253,10 +252,9 @@ fn limit(mesh: &Naive, v: usize, triangles: bool) -> (P, P) {
 #[test]
 fn limits_and_normals_agree_with_subdivision() {
     let quads = ["cube", "tetrahedron", "octahedron", "icosahedron", "torus", "valence-64"];
-    let all =
-        quads.iter().map(|q| (*q, &QUADS)).chain(["tetrahedron", "octahedron", "icosahedron"].map(|t| (t, &LOOP)));
+    let all = quads.iter().map(|q| (*q, QUADS)).chain(["tetrahedron", "octahedron", "icosahedron"].map(|t| (t, LOOP)));
     for (name, rule) in all {
-        let triangles = *rule == LOOP;
+        let triangles = rule == LOOP;
         let (model, found) = found(name, rule);
         let number = |v: &u32| *v as usize;
         let mesh = Naive {
@@ -302,7 +300,7 @@ fn limits_and_normals_agree_with_subdivision() {
 /// Where the whole surface is proved regular, the faces of a fine subdivision have no corner without extent.
 #[test]
 fn proved_surfaces_have_no_flat_corner() {
-    for (name, rule) in [("cube", &QUADS), ("octahedron", &QUADS), ("octahedron", &LOOP), ("icosahedron", &LOOP)] {
+    for (name, rule) in [("cube", QUADS), ("octahedron", QUADS), ("octahedron", LOOP), ("icosahedron", LOOP)] {
         let (model, found) = found(name, rule);
         assert_eq!(found.regular(), Proved);
         assert!(
@@ -315,7 +313,7 @@ fn proved_surfaces_have_no_flat_corner() {
                 .collect(),
         };
         for _ in 0..3 {
-            mesh = mesh.step(*rule == LOOP);
+            mesh = mesh.step(rule == LOOP);
         }
         for face in &mesh.faces {
             let p = |k: usize| mesh.points[face[k % face.len()]];
@@ -323,6 +321,15 @@ fn proved_surfaces_have_no_flat_corner() {
             assert!(n.iter().map(|x| x * x).sum::<f64>() > 0.0, "{name}");
         }
     }
+}
+
+#[test]
+fn the_curvature_of_each_valence() {
+    let (_, drum) = found("valence-64", QUADS);
+    let second = |n: usize| drum.curvature[&n].second;
+    assert_eq!((second(3), second(4), second(64)), (Second::Flat, Second::Regular, Second::No));
+    let (_, octahedron) = found("octahedron", LOOP);
+    assert_eq!((octahedron.curvature[&4].size, octahedron.curvature[&4].second), (Size::Bounded, Second::No));
 }
 
 fn secant() -> Command {
@@ -360,7 +367,7 @@ fn what_does_not_go_with_a_mesh_is_refused() {
     for (args, code) in [
         (vec!["--scheme", "loop"], "secant::mesh::triangles"),
         (vec![], "secant::usage::scheme"),
-        (vec!["--scheme", "butterfly"], "secant::mesh::scheme"),
+        (vec!["--scheme", "butterfly"], "secant::usage::scheme"),
         (vec!["--scheme", "none"], "secant::usage::scheme"),
         (vec!["--scheme", "catmull-clark", "--certificate", "c.json"], "secant::usage"),
         (vec!["--scheme", "catmull-clark", "--valence", "5"], "secant::usage"),

@@ -5,11 +5,9 @@ use super::certify::{exit_code, extension, json_text};
 use super::output::{print, stdout_colour, write_file};
 use super::progress::Progress;
 use crate::diagnostic::Problem;
-use crate::mesh::{Found, Model, certify};
+use crate::mesh::{Found, Model, Scheme, certify};
 use crate::picture::mesh::{ply, svg};
 use crate::report::{html, latex, markdown, mesh as report, text};
-use crate::scheme::mesh_rule;
-use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Certifies one mesh, prints and writes what was asked for; the exit code.
@@ -18,22 +16,23 @@ use std::path::Path;
 /// The [`Problem`] of the file, of an option, or of an output.
 pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
     check(args)?;
-    let scheme = args.scheme.as_deref().ok_or_else(|| {
+    let names = Scheme::ALL.map(Scheme::name).join(", ");
+    let name = args.scheme.as_deref().ok_or_else(|| {
         Problem::new("secant::usage::scheme", "a mesh has no scheme of its own")
-            .with_help("add --scheme catmull-clark, --scheme loop or --scheme loop-warren")
+            .with_help(format!("add --scheme with one of {names}"))
     })?;
-    let rule = mesh_rule(scheme, &BTreeMap::new()).map_err(|error| {
-        Problem::new("secant::usage::scheme", error.to_string())
-            .with_help("--scheme is catmull-clark, loop or loop-warren for a mesh")
+    let scheme = Scheme::named(name).ok_or_else(|| {
+        Problem::new("secant::usage::scheme", format!("meshes are not refined by `{name}`"))
+            .with_help(format!("the schemes for meshes are {names}"))
     })?;
     let model = Model::read(path)?;
     let progress = Progress::of(0, "vertices", args.quiet);
-    let found = certify(&model, &rule, &args.budget(), &|| progress.step());
+    let found = certify(&model, scheme, &args.budget(), &|| progress.step());
     progress.finish();
     let found = found?;
-    write(&model, scheme, &found, args)?;
+    write(&model, name, &found, args)?;
     if !args.quiet {
-        print(&shown(&model, scheme, &found, args));
+        print(&shown(&model, name, &found, args));
     }
     Ok(exit_code(found.regular()))
 }

@@ -6,12 +6,13 @@ use super::limit::{Limit, Stencil, collinear};
 use super::patch::{Regular, bezier, control, regular, regular_exactly};
 use super::read::{Model, Point};
 use super::refine::{Exact, Floats, Level, Space};
+use super::scheme::Scheme;
 use super::tail::Tail;
 use super::topology::Frame;
 use crate::answer::Verdict;
 use crate::budget::Budget;
 use crate::diagnostic::Problem;
-use crate::scheme::{LoopWeights, MAX_VALENCE, MeshRule};
+use crate::scheme::{MAX_VALENCE, MeshRule};
 use crate::vertex::net::Spot as Parameter;
 use crate::vertex::{AtValence, at_valence_within, every};
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +28,8 @@ const LARGEST: usize = 512;
 /// The rule, its stencils and levels, while a mesh is examined.
 struct Work<'a> {
     model: &'a Model,
-    rule: &'a MeshRule,
+    scheme: Scheme,
+    rule: MeshRule,
     budget: &'a Budget,
     step: &'a (dyn Fn() + Sync),
     triangles: bool,
@@ -48,16 +50,9 @@ struct Work<'a> {
 ///
 /// # Cost
 /// Linear in the faces, apart from the valences, each of which is examined once.
-pub fn certify(model: &Model, rule: &MeshRule, budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Found, Problem> {
-    let triangles = match rule {
-        MeshRule::CatmullClark(None) => false,
-        MeshRule::Loop(LoopWeights::Original | LoopWeights::Warren) => true,
-        _ => {
-            let message = format!("meshes are not refined by the scheme {}", rule.name());
-            return Err(Problem::new("secant::mesh::scheme", message)
-                .with_help("--scheme is catmull-clark, loop or loop-warren for a mesh"));
-        }
-    };
+pub fn certify(model: &Model, scheme: Scheme, budget: &Budget, step: &(dyn Fn() + Sync)) -> Result<Found, Problem> {
+    let rule = scheme.rule().map_err(|error| Problem::new("secant::mesh::scheme", error.to_string()))?;
+    let triangles = scheme.triangles();
     let sizes = |n: usize| (0..model.topology.faces()).find(|f| model.topology.polygon(*f).len() != n);
     if let Some(face) = sizes(3).filter(|_| triangles) {
         let message = format!("{}:{}: the face is no triangle", model.name, model.face_lines[face]);
@@ -66,17 +61,17 @@ pub fn certify(model: &Model, rule: &MeshRule, budget: &Budget, step: &(dyn Fn()
     }
     let file = Level::of(model.topology.clone());
     let exact: Vec<Option<Point>> = model.points.iter().cloned().map(Some).collect();
-    let mut floats = Floats::new(rule, file.valence.iter().map(|n| *n as usize));
+    let mut floats = Floats::new(scheme, file.valence.iter().map(|n| *n as usize));
     let (start, exact, steps) = if triangles || sizes(4).is_none() {
         (file, exact, 0)
     } else {
-        let next = file.points(&Exact::new(rule), false, &exact);
+        let next = file.points(&Exact::new(scheme), false, &exact);
         (file.refined(false), next, 1)
     };
     if triangles {
-        floats = Floats::new(rule, start.valence.iter().map(|n| *n as usize).chain([6]));
+        floats = Floats::new(scheme, start.valence.iter().map(|n| *n as usize).chain([6]));
     }
-    Ok(Work { model, rule, budget, step, triangles, start, steps, exact, floats }.found())
+    Ok(Work { model, scheme, rule, budget, step, triangles, start, steps, exact, floats }.found())
 }
 
 impl Work<'_> {
@@ -95,7 +90,7 @@ impl Work<'_> {
             let (old, level) = self.beside(&self.start, &irregular);
             let known = pick(&near, &old);
             let next = level.points(&self.floats, self.triangles, &known);
-            let exactly = || level.points(&Exact::new(self.rule), self.triangles, &pick(&self.exact, &old));
+            let exactly = || level.points(&Exact::new(self.scheme), self.triangles, &pick(&self.exact, &old));
             self.around(
                 &mut vertices,
                 &valences,
@@ -107,14 +102,19 @@ impl Work<'_> {
         let key = |b: &Bad| (b.face, b.level);
         patches.bad.sort_by_key(key);
         let (part, parts) = self.model.topology.parts();
-        Found { valences, vertices, patches, closed: self.model.topology.closed(), parts, part }
+        let curvature = valences
+            .iter()
+            .filter(|(_, a)| a.smooth == Verdict::Proved && a.frequency == Some(1))
+            .filter_map(|(n, _)| Some((*n, super::curvature::curvature(self.scheme, *n)?)))
+            .collect();
+        Found { valences, curvature, vertices, patches, closed: self.model.topology.closed(), parts, part }
     }
 
     /// The verdicts for almost all points at each valence that occurs.
     fn valences(&self) -> BTreeMap<usize, AtValence> {
         let all: BTreeSet<usize> = self.start.valence.iter().map(|n| *n as usize).filter(|n| *n >= 3).collect();
         let all: Vec<usize> = all.into_iter().filter(|n| *n <= MAX_VALENCE).collect();
-        let found = super::each(&all, |n| at_valence_within(self.rule, *n, self.budget).ok());
+        let found = super::each(&all, |n| at_valence_within(&self.rule, *n, self.budget).ok());
         all.into_iter().zip(found).filter_map(|(n, found)| Some((n, found?))).collect()
     }
 
@@ -129,10 +129,9 @@ impl Work<'_> {
         }
         let used: BTreeSet<usize> =
             self.start.valence.iter().map(|n| *n as usize).filter(|n| (3..=LARGEST).contains(n)).collect();
-        let stencils: BTreeMap<usize, Stencil> =
-            used.iter().filter_map(|n| Some((*n, Stencil::new(self.rule, *n)?))).collect();
+        let stencils: BTreeMap<usize, Stencil> = used.iter().map(|n| (*n, Stencil::new(self.scheme, *n))).collect();
         let common = match used.iter().next_back() {
-            Some(n) if *n > MAX_VALENCE => every(self.rule).ok().flatten().is_some_and(|e| e.proved()),
+            Some(n) if *n > MAX_VALENCE => every(&self.rule).ok().flatten().is_some_and(|e| e.proved()),
             _ => false,
         };
         super::each(&spots, |(spot, v)| {
@@ -255,7 +254,7 @@ impl Work<'_> {
         steps: usize,
         out: &mut Patches,
     ) {
-        let space = Exact::new(self.rule);
+        let space = Exact::new(self.scheme);
         let budget = EXACT.saturating_sub(out.bad.len());
         let test = |(k, (_, points, spot)): &(usize, (usize, Vec<u32>, Parameter))| {
             let own: Vec<Option<Point>> = points.iter().map(|v| exact.get(*v as usize).cloned().flatten()).collect();
@@ -397,7 +396,7 @@ impl Work<'_> {
     fn tail(&self, n: usize, valences: &BTreeMap<usize, AtValence>) -> Result<Tail, String> {
         let top = valences.get(&n).and_then(|a| a.top.as_ref());
         let top = top.ok_or_else(|| format!("the spectrum at valence {n} was not computed"))?;
-        Tail::new(self.rule, n, top, &self.floats)
+        Tail::new(self.scheme, n, top, &self.floats)
     }
 }
 

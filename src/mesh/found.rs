@@ -1,5 +1,6 @@
 //! What is found of a mesh: C¹ at every vertex of these points, and the regularity of the whole limit surface.
 
+use super::curvature::Curvature;
 use super::limit::Limit;
 use super::patch::Regular;
 use super::tail::Rings;
@@ -101,6 +102,8 @@ pub struct Patches {
 pub struct Found {
     /// The valences with their verdicts for almost all points.
     pub valences: BTreeMap<usize, AtValence>,
+    /// The size of the curvature for almost all points at the valences at which the scheme is proved C¹.
+    pub curvature: BTreeMap<usize, Curvature>,
     /// Every vertex of the file that a face has, then the middles of faces that become extraordinary.
     pub vertices: Vec<AtVertex>,
     /// The polynomial patches.
@@ -149,13 +152,15 @@ impl Found {
     #[must_use]
     pub fn statements(&self) -> Vec<Statement> {
         let mut all = BTreeSet::new();
-        if self.vertices.iter().any(|v| v.smooth != Verdict::Undetermined) {
+        for v in self.vertices.iter().filter(|v| v.smooth != Verdict::Undetermined) {
             all.insert(Statement::MeshVertex);
-            let ground = |n: &usize| if *n > MAX_VALENCE { Statement::Theorem9 } else { Statement::Theorem7 };
-            all.extend(self.valences.keys().map(ground));
+            all.insert(if v.valence > MAX_VALENCE { Statement::Theorem9 } else { Statement::Theorem7 });
         }
         if self.patches.tested > 0 {
             all.insert(Statement::MeshSurface);
+        }
+        if !self.curvature.is_empty() {
+            all.insert(Statement::CurvatureSize);
         }
         all.into_iter().collect()
     }

@@ -3,10 +3,9 @@
 use super::interval::Float;
 use super::number::{Number, Numbers};
 use super::read::Point;
-use super::refine::rational_weight;
+use super::scheme::Scheme;
 use crate::arith::{Rational, ratio};
 use crate::poly::Poly;
-use crate::scheme::{LoopWeights, MeshRule};
 
 /// Up to this degree of `t` limit points with irrational weights are written out.
 const WRITTEN: usize = 12;
@@ -40,20 +39,12 @@ pub struct Limit {
 }
 
 impl Stencil {
-    /// The stencil of a rule at a valence of 3 or more; `None` for other rules.
+    /// The stencil of a scheme at a valence of 3 or more.
     #[must_use]
-    pub fn new(rule: &MeshRule, valence: usize) -> Option<Self> {
-        let weight = match rule {
-            MeshRule::CatmullClark(None) => None,
-            MeshRule::Loop(weights @ (LoopWeights::Warren | LoopWeights::Original)) => {
-                Some(match rational_weight(weights, valence) {
-                    Some(w) => Poly::constant(w),
-                    // 5/8 − (3/8 + t/8)².
-                    None => Poly::new(vec![ratio(31, 64), ratio(-3, 32), ratio(-1, 64)]),
-                })
-            }
-            _ => return None,
-        };
+    pub fn new(scheme: Scheme, valence: usize) -> Self {
+        // 5/8 − (3/8 + t/8)² where it is irrational.
+        let written = || Poly::new(vec![ratio(31, 64), ratio(-3, 32), ratio(-1, 64)]);
+        let weight = scheme.triangles().then(|| scheme.weight(valence).map_or_else(written, Poly::constant));
         let numbers = Numbers::new(valence);
         let mut powers = vec![(Poly::constant(ratio(1, 1)), Poly::zero())];
         for s in 0..valence {
@@ -61,7 +52,7 @@ impl Stencil {
             let (p, q) = &powers[s];
             powers.push((numbers.step(p, q), -p));
         }
-        Some(Self { numbers, weight, powers })
+        Self { numbers, weight, powers }
     }
 
     /// The limit at a vertex with its neighbours and, of quadrangles, the opposite corners of its faces.
@@ -169,7 +160,7 @@ mod tests {
     #[test]
     fn one_step_multiplies_the_coefficient() {
         for n in [3, 4, 5, 7] {
-            let stencil = Stencil::new(&MeshRule::CatmullClark(None), n).unwrap();
+            let stencil = Stencil::new(Scheme::CatmullClark, n);
             let point = |k: i64| -> Point { [ratio(k * k % 11, 1), ratio(3 * k % 7 - k, 2), ratio(k * k * k % 13, 3)] };
             let own = point(50);
             let e: Vec<Point> = (0..n as i64).map(|s| point(s + 1)).collect();

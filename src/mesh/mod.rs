@@ -5,17 +5,17 @@
 //!
 //! ```
 //! use secant::{answer::Verdict, budget::Budget, diagnostic::SourceText, mesh};
-//! # use secant::scheme::MeshRule;
 //! let octahedron = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n\
 //!     f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n";
 //! let model = mesh::Model::parse(&SourceText::new("octahedron.obj", octahedron), false)?;
-//! let found = mesh::certify(&model, &MeshRule::CatmullClark(None), &Budget::default(), &|| {})?;
+//! let found = mesh::certify(&model, mesh::Scheme::CatmullClark, &Budget::default(), &|| {})?;
 //! assert_eq!(found.regular(), Verdict::Proved);
 //! # Ok::<(), secant::diagnostic::Problem>(())
 //! ```
 #![deny(clippy::disallowed_methods)]
 
 mod certify;
+mod curvature;
 mod found;
 mod interval;
 mod limit;
@@ -23,16 +23,19 @@ mod number;
 mod patch;
 mod read;
 mod refine;
+mod scheme;
 mod tail;
 mod topology;
 
 pub use certify::certify;
+pub use curvature::{Curvature, Second, Size, curvature};
 pub use found::{AtVertex, Bad, Found, Patches, Reason, Spot};
 pub use interval::Float;
 pub use limit::{Limit, Stencil};
 pub use number::{Number, Numbers};
 pub use patch::Regular;
 pub use read::{MAX_BYTES, MAX_FACES, Model, Point, is_mesh};
+pub use scheme::Scheme;
 pub use tail::Rings;
 pub use topology::{Fault, Frame, Star, Topology};
 

@@ -202,27 +202,36 @@ pub(super) fn functionals_of<S: Tested>(space: &S, net: &Net<S::P>) -> Proposed<
     (along, across, f, g)
 }
 
-/// Both halves of a net, turned so that the next halving is across.
-fn halves<S: Space>(space: &S, net: &Net<S::P>) -> (Net<S::P>, Net<S::P>) {
+/// A piece of a patch with the parameters of its corners.
+pub(super) type Piece<P> = (Net<P>, Vec<Spot>);
+
+/// Both halves of a piece, turned so that the next halving is across; of a triangle, so that the side opposite to the new corner
+/// is halved next, which keeps the pieces from becoming thin.
+pub(super) fn halves<S: Space>(space: &S, (net, places): &Piece<S::P>) -> [Piece<S::P>; 2] {
     let (left, right) = net.halves_by(|a, b| space.sum(&[(1, a), (1, b)], 2));
-    (left.turned(), right.turned())
+    let (mut first, second) = halved_corners(places);
+    let left = if net.triangle {
+        first.rotate_left(1);
+        left.turned().turned()
+    } else {
+        left.turned()
+    };
+    [(left, first), (right.turned(), second)]
 }
 
 /// Tests a patch, halving it up to a depth; the pieces, or the corners of the first one that was not decided.
 fn test<S: Tested>(space: &S, net: Net<S::P>, depth: usize) -> Result<usize, Vec<Spot>> {
     let mut pieces = 0;
     let places = corners(net.triangle);
-    let mut stack = vec![(net, places, 0)];
-    while let Some((net, places, level)) = stack.pop() {
-        if independent(space, &net) {
+    let mut stack = vec![((net, places), 0)];
+    while let Some((piece, level)) = stack.pop() {
+        if independent(space, &piece.0) {
             pieces += 1;
         } else if level == depth {
-            return Err(places);
+            return Err(piece.1);
         } else {
-            let (left, right) = halves(space, &net);
-            let (first, second) = halved_corners(&places);
-            stack.push((right, second, level + 1));
-            stack.push((left, first, level + 1));
+            let [left, right] = halves(space, &piece);
+            stack.extend([(right, level + 1), (left, level + 1)]);
         }
     }
     Ok(pieces)
@@ -247,16 +256,16 @@ pub fn regular_exactly(space: &Exact, net: &Net<Option<Point3>>, depth: usize) -
     // Witnesses among the corners of pieces of a moderate depth.
     let mut signs: [Option<Spot>; 2] = [None, None];
     let plane = plane(net);
-    let mut stack = vec![(net.clone(), corners(net.triangle), 0)];
-    while let Some((net, places, level)) = stack.pop() {
-        let (product, spot) = (normal(&net)?, places[0].clone());
+    let mut stack = vec![((net.clone(), corners(net.triangle)), 0)];
+    while let Some((piece, level)) = stack.pop() {
+        let (product, spot) = (normal(&piece.0)?, piece.1[0].clone());
         if product.iter().all(|x| *x == 0) {
             return Some(Regular::Refuted(spot));
         }
         if let Some(w) = &plane {
             let sign = dot(w, &product);
             // A turned piece keeps the orientation of a triangle and exchanges the variables of a square.
-            let mirrored = !net.triangle && level % 2 == 1;
+            let mirrored = !piece.0.triangle && level % 2 == 1;
             let index = usize::from((sign > 0) != mirrored);
             signs[index].get_or_insert_with(|| spot);
             if let [Some(a), Some(b)] = &signs {
@@ -264,10 +273,8 @@ pub fn regular_exactly(space: &Exact, net: &Net<Option<Point3>>, depth: usize) -
             }
         }
         if level < WITNESSES {
-            let (left, right) = halves(space, &net);
-            let (first, second) = halved_corners(&places);
-            stack.push((right, second, level + 1));
-            stack.push((left, first, level + 1));
+            let [left, right] = halves(space, &piece);
+            stack.extend([(right, level + 1), (left, level + 1)]);
         }
     }
     Some(Regular::Open(open))
@@ -321,7 +328,7 @@ mod tests {
 
     fn exact(height: impl Fn(i64, i64) -> [Rational; 3]) -> Net<Option<Point3>> {
         let points: Vec<Option<Point3>> = offsets(false).into_iter().map(|(i, j)| Some(height(i, j))).collect();
-        bezier(&Exact::new(&crate::scheme::MeshRule::CatmullClark(None)), false, &points)
+        bezier(&Exact::new(crate::mesh::Scheme::CatmullClark), false, &points)
     }
 
     fn integers(x: i64, y: i64, z: i64) -> [Rational; 3] {
@@ -329,7 +336,7 @@ mod tests {
     }
 
     fn answer(net: &Net<Option<Point3>>) -> Regular {
-        let space = Exact::new(&crate::scheme::MeshRule::CatmullClark(None));
+        let space = Exact::new(crate::mesh::Scheme::CatmullClark);
         regular_exactly(&space, net, 8).unwrap()
     }
 

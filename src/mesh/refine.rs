@@ -2,10 +2,10 @@
 
 use super::interval::Float;
 use super::read::Point;
+use super::scheme::Scheme;
 use super::topology::{Star, Topology};
-use crate::arith::{Rational, ratio};
+use crate::arith::Rational;
 use crate::ring::Enclosures;
-use crate::scheme::{LoopWeights, MeshRule, rational_cosine};
 use std::collections::BTreeMap;
 
 /// Where the coordinates of points live.
@@ -27,30 +27,17 @@ pub struct Floats {
 }
 
 /// Rational numbers; `None` where a point has irrational coordinates.
-#[derive(Debug, Clone)]
-pub struct Exact {
-    warren: bool,
-}
-
-/// The weight of all neighbours together in Loop's rule, where it is rational.
-#[must_use]
-pub fn rational_weight(weights: &LoopWeights, n: usize) -> Option<Rational> {
-    match weights {
-        LoopWeights::Warren => Some(if n == 3 { ratio(9, 16) } else { ratio(3, 8) }),
-        LoopWeights::Original => {
-            let own = ratio(3, 8) + rational_cosine(1, n)? * ratio(1, 4);
-            Some(ratio(5, 8) - &own * &own)
-        }
-        LoopWeights::Given(_) => None,
-    }
-}
+#[derive(Debug, Clone, Copy)]
+pub struct Exact(Scheme);
 
 impl Floats {
     /// Floats for a rule on a mesh whose vertices have the given valences.
     #[must_use]
-    pub fn new(rule: &MeshRule, valences: impl IntoIterator<Item = usize>) -> Self {
-        let MeshRule::Loop(weights) = rule else { return Self::default() };
-        let weight = |n: usize| match rational_weight(weights, n) {
+    pub fn new(scheme: Scheme, valences: impl IntoIterator<Item = usize>) -> Self {
+        if !scheme.triangles() {
+            return Self::default();
+        }
+        let weight = |n: usize| match scheme.weight(n) {
             Some(w) => Float::of(&w),
             None => {
                 let k = Enclosures::new(96);
@@ -91,10 +78,10 @@ impl Space for Floats {
 }
 
 impl Exact {
-    /// Rational points for a rule.
+    /// Rational points for a scheme.
     #[must_use]
-    pub fn new(rule: &MeshRule) -> Self {
-        Self { warren: *rule == MeshRule::Loop(LoopWeights::Warren) }
+    pub fn new(scheme: Scheme) -> Self {
+        Self(scheme)
     }
 }
 
@@ -117,8 +104,7 @@ impl Space for Exact {
     }
 
     fn blend(&self, own: &Self::P, ring: &[&Self::P]) -> Self::P {
-        let weights = if self.warren { LoopWeights::Warren } else { LoopWeights::Original };
-        let w = rational_weight(&weights, ring.len())?;
+        let w = self.0.weight(ring.len())?;
         let terms: Vec<(i64, &Self::P)> = ring.iter().map(|p| (1, *p)).collect();
         let (mean, own) = (self.sum(&terms, ring.len() as i64)?, own.as_ref()?);
         Some(std::array::from_fn(|k| &own[k] + &w * (&mean[k] - &own[k])))

@@ -3,14 +3,14 @@
 #![allow(clippy::float_arithmetic, reason = "bounds of floats; what is plain proposes functionals")]
 
 use super::interval::Float;
-use super::patch::{Tested, bezier, functionals_of, offsets};
-use super::refine::{Floats, Space};
+use super::patch::{Tested, bezier, functionals_of, halves, offsets};
+use super::refine::Floats;
+use super::scheme::Scheme;
 use crate::arith::{Rational, to_f64};
 use crate::ring::Field as _;
-use crate::scheme::MeshRule;
 use crate::vertex::block::{Block, Vertex};
 use crate::vertex::field::{Enclosures, Field as _};
-use crate::vertex::net::{Net, Spot, corners, halved_corners};
+use crate::vertex::net::{Net, Spot, corners};
 use crate::vertex::ring::{CELLS, RINGS, TRIANGLES, own_place};
 use crate::vertex::top::{Top, leading_value, leading_values};
 
@@ -91,9 +91,9 @@ impl Tail {
     ///
     /// # Errors
     /// What was not brought under a bound.
-    pub fn new(rule: &MeshRule, valence: usize, top: &Top, floats: &Floats) -> Result<Self, String> {
+    pub fn new(scheme: Scheme, valence: usize, top: &Top, floats: &Floats) -> Result<Self, String> {
         let say = |error: crate::scheme::SchemeError| error.to_string();
-        let vertex = Vertex::new(rule, valence, RINGS).map_err(say)?;
+        let vertex = Vertex::new(&scheme.rule().map_err(say)?, valence, RINGS).map_err(say)?;
         let blocks: Vec<Block> =
             vertex.frequencies().map(|k| vertex.block(k)).collect::<Result<_, _>>().map_err(say)?;
         let known = "bounds of the characteristic map are too wide";
@@ -107,7 +107,7 @@ impl Tail {
         for s in 1..valence {
             turns.push(times(turns[s - 1], omega));
         }
-        let triangles = matches!(rule, MeshRule::Loop(_));
+        let triangles = scheme.triangles();
         let places = vertex.stencils.places.clone();
         let own: Vec<Complex> =
             values.orbits.iter().map(|v| [near(&v.x) + near(&v.y) * omega[0], near(&v.y) * omega[1]]).collect();
@@ -269,16 +269,13 @@ impl Tail {
         for patch in self.patches(0)? {
             let points: Vec<[Float; 3]> =
                 patch.iter().map(|i| [self.map[*i][0], self.map[*i][1], Float::ZERO]).collect();
-            let mut stack = vec![(bezier(&floats, self.triangles, &points), corners(self.triangles), 0)];
-            while let Some((net, places, level)) = stack.pop() {
+            let mut stack = vec![((bezier(&floats, self.triangles, &points), corners(self.triangles)), 0)];
+            while let Some((piece, level)) = stack.pop() {
                 if level == depth {
-                    least = least.min(margin(&floats, &net, &places)?);
-                    continue;
+                    least = least.min(margin(&floats, &piece.0, &piece.1)?);
+                } else {
+                    stack.extend(halves(&floats, &piece).map(|half| (half, level + 1)));
                 }
-                let (left, right) = net.halves_by(|a, b| floats.sum(&[(1, a), (1, b)], 2));
-                let (first, second) = halved_corners(&places);
-                stack.push((left.turned(), first, level + 1));
-                stack.push((right.turned(), second, level + 1));
             }
         }
         (least > 0.0 && least.is_finite()).then_some(least)
@@ -358,4 +355,83 @@ fn margin(floats: &Floats, net: &Net<[Float; 3]>, places: &[Spot]) -> Option<f64
         }
     }
     Some(least)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vertex::at_valence;
+    use oorandom::Rand64;
+
+    fn tail(scheme: Scheme, n: usize) -> Tail {
+        let top = at_valence(&scheme.rule().unwrap(), n).unwrap().top.unwrap();
+        Tail::new(scheme, n, &top, &Floats::new(scheme, [n, 6])).unwrap()
+    }
+
+    fn step(tail: &Tail, x: &[f64]) -> Vec<f64> {
+        tail.rows.iter().map(|row| row.iter().map(|(i, w)| w.mid() * x[*i]).sum::<f64>() / tail.lambda.mid()).collect()
+    }
+
+    fn most(x: &[f64]) -> f64 {
+        x.iter().fold(0.0, |m, v| m.max(v.abs()))
+    }
+
+    /// The map is an eigenvector, the functionals are dual to it, and no random rest grows by more than the bound.
+    #[test]
+    fn bounds_hold_on_random_nets() {
+        let rules = [Scheme::CatmullClark, Scheme::Loop];
+        for (rule, n) in [(rules[0], 3), (rules[0], 5), (rules[0], 8), (rules[1], 3), (rules[1], 4), (rules[1], 7)] {
+            let tail = tail(rule, n);
+            let map: [Vec<f64>; 2] = [0, 1].map(|k| tail.map.iter().map(|v| v[k].mid()).collect());
+            for (part, other) in [(0, 1), (1, 0)] {
+                let rest: Vec<f64> = step(&tail, &map[part]).iter().zip(&map[part]).map(|(a, b)| a - b).collect();
+                assert!(most(&rest) < 1e-11, "{} at {n}", rule.name());
+                let of = |k: usize, x: &[f64]| -> f64 { tail.left.iter().zip(x).map(|(l, x)| l[k].mid() * x).sum() };
+                // a = Re A, b = −Im A.
+                let (own, mixed) = if part == 0 { (1.0, 0.0) } else { (-1.0, 0.0) };
+                assert!((of(part, &map[part]) - own).abs() < 1e-11 && (of(other, &map[part]) - mixed).abs() < 1e-11);
+            }
+            let mut random = Rand64::new(7);
+            for _ in 0..20 {
+                let x: Vec<f64> = map[0].iter().map(|_| random.rand_float() - 0.5).collect();
+                let of = |f: &dyn Fn(usize) -> f64| -> f64 { (0..x.len()).map(|i| f(i) * x[i]).sum() };
+                let (centre, a, b) =
+                    (of(&|i| tail.mean[i].mid()), of(&|i| tail.left[i][0].mid()), of(&|i| -tail.left[i][1].mid()));
+                let mut rest: Vec<f64> = (0..x.len()).map(|i| x[i] - centre - a * map[0][i] - b * map[1][i]).collect();
+                let size = most(&rest);
+                for _ in 0..10 {
+                    assert!(most(&rest) <= tail.growth * size * (1.0 + 1e-6), "{} at {n}", rule.name());
+                    rest = step(&tail, &rest);
+                }
+            }
+        }
+    }
+
+    /// Every net so near the map has regular patches; one that is much farther need not.
+    #[test]
+    fn disturbed_maps_are_immersed() {
+        let rules = [Scheme::CatmullClark, Scheme::Loop];
+        for (rule, n) in [(rules[0], 5), (rules[1], 3), (rules[1], 5)] {
+            let tail = tail(rule, n);
+            let mut random = Rand64::new(3);
+            let mut immersed = |radius: f64| {
+                let net: Vec<[Float; 3]> = tail
+                    .map
+                    .iter()
+                    .map(|v| {
+                        let angle = random.rand_float() * std::f64::consts::TAU;
+                        let near = |x: Float, by: f64| Float::point(x.mid() + by * radius);
+                        [near(v[0], angle.cos()), near(v[1], angle.sin()), Float::ZERO]
+                    })
+                    .collect();
+                tail.patches(0).unwrap().iter().all(|patch| {
+                    let points: Vec<[Float; 3]> = patch.iter().map(|i| net[*i]).collect();
+                    let net = bezier(&Floats::default(), tail.triangles, &points);
+                    super::super::patch::regular(&Floats::default(), net, DEPTH).is_ok()
+                })
+            };
+            assert!((0..20).all(|_| immersed(tail.radius * 0.999)), "{} at {n}", rule.name());
+            assert!((0..20).any(|_| !immersed(tail.radius * 1000.0)), "{} at {n}", rule.name());
+        }
+    }
 }

@@ -3,7 +3,7 @@
 use super::document::{Block, Document, Inline, Line, Table, code, words};
 use super::words::{count, mark};
 use crate::answer::Verdict;
-use crate::mesh::{AtVertex, Bad, Found, Model, Number, Reason, Regular, Rings, Spot};
+use crate::mesh::{AtVertex, Bad, Curvature, Found, Model, Number, Reason, Regular, Rings, Second, Size, Spot};
 use crate::picture::mesh::svg;
 use crate::vertex::decimal;
 use serde_json::{Value, json};
@@ -187,10 +187,28 @@ fn table(found: &Found) -> Table {
         let mut cells = vec![if *n == 0 { words("border") } else { words(n.to_string()) }];
         cells.extend([all.len().to_string(), lambda, of(Verdict::Proved).to_string()].map(words));
         cells.extend([of(Verdict::Refuted).to_string(), of(Verdict::Undetermined).to_string(), rings].map(words));
+        cells.push(words(found.curvature.get(n).map_or_else(|| "–".to_owned(), curved)));
         cells
     };
-    let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "undetermined", "rings immersed"];
-    Table { caption: Vec::new(), header: header.map(words).to_vec(), rows: by.iter().map(row).collect() }
+    let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "undetermined", "rings immersed", "curvature"];
+    let caption = words(
+        "The curvature is that of almost all points at such a vertex; flat it is for all points with independent leading \
+         coefficients (Size of the curvature).",
+    );
+    Table { caption, header: header.map(words).to_vec(), rows: by.iter().map(row).collect() }
+}
+
+/// The curvature of almost all points at a valence.
+fn curved(c: &Curvature) -> String {
+    match (c.size, c.second, c.exponent) {
+        (_, Second::Flat, _) => "tends to 0; C², flat".to_owned(),
+        (_, Second::Regular, _) => "bounded; C² (regular)".to_owned(),
+        (Size::Unbounded, _, Some(p)) => format!("unbounded, p* = {p:.3}"),
+        (Size::Unbounded, ..) => "unbounded".to_owned(),
+        (Size::Bounded, Second::No, _) => "bounded, not C²".to_owned(),
+        (Size::Bounded, ..) => "bounded; C² not decided".to_owned(),
+        (Size::Vanishing, ..) => "tends to 0".to_owned(),
+    }
 }
 
 fn limits(found: &Found, most: usize) -> Table {
@@ -259,6 +277,12 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
         "statements": found.statements().iter().map(|s| s.id()).collect::<Vec<_>>(),
         "patches": {"tested": p.tested, "by_floats": p.by_floats, "exactly": p.exactly, "bad": p.bad.iter().map(bad).collect::<Vec<_>>()},
         "numbers": "t = 2cos(2π/n) at valence n; a is the positive root of a² = (2 + t)a + 8 + 4t",
+        "curvature": found.curvature.iter().map(|(n, c)| json!({
+            "valence": n,
+            "almost_all": curved(c),
+            "ratio": c.ratio.mid(),
+            "exponent": c.exponent,
+        })).collect::<Vec<_>>(),
         "vertices": found.vertices.iter().map(vertex).collect::<Vec<_>>(),
     })
 }
