@@ -58,6 +58,7 @@
 
 pub mod answer;
 pub mod approx;
+pub mod ask;
 pub mod budget;
 pub mod case;
 pub mod certificate;
@@ -67,6 +68,7 @@ pub mod diagnostic;
 pub mod escape;
 pub mod glossary;
 pub mod guard;
+pub mod junction;
 pub mod laws;
 pub mod mesh;
 pub mod picture;
@@ -81,7 +83,7 @@ pub mod strategies;
 pub mod theorem;
 pub mod vertex;
 
-pub use secant_exact::{algebraic, arith, jordan, linalg, poly, ring};
+pub use secant_exact::{algebraic, arith, jordan, linalg, poly, ring, stop};
 
 pub use prove::{Findings, prove};
 

@@ -998,6 +998,7 @@ def envelope(value):
 
 
 DERIVATIVE = "every point by its derivative"
+SHARES = "every point by its derivative in shares"
 NOT_KILLED = "joints not killed"
 
 
@@ -1033,7 +1034,7 @@ class Certificate:
         need(len(answers) >= len(asked), "answers")
         for k in range(len(asked), len(answers)):
             question = answers[k].get("question")
-            if question in ("every point", DERIVATIVE, NOT_KILLED):
+            if question in ("every point", DERIVATIVE, SHARES, NOT_KILLED):
                 need(question not in asked and (question != NOT_KILLED or kind == "edge"), "answers")
             elif k + 1 < len(answers) or question != "any point":
                 question = address(answers[k].get("address"))
@@ -1068,11 +1069,12 @@ class Certificate:
                 self.upstairs(upstairs)
             self.lines.append("proved: joints not killed, theorem " + theorem)
             return None
-        elif question == DERIVATIVE:
-            what, verdict, radius = fields(value, "question", "verdict", "radius")
+        elif question in (DERIVATIVE, SHARES):
+            keys = ("shares", "radius") if question == SHARES else ("radius",)
+            what, verdict, *shares, radius = fields(value, "question", "verdict", *keys)
             import check_radii
             try:
-                check_radii.graph(self.model, radius)
+                check_radii.graph(self.model, radius, *shares)
             except Exception:  # that module has its own copy of this one, and of its exceptions
                 need(False, "graph")
             need(verdict == "proved", "answers")

@@ -28,9 +28,19 @@ pub fn answer(
     if every.hodograph.is_some() && witness.is_empty() {
         return unsupported("zeros of the derivative of a polynomial curve", "every point");
     }
+    if every.components.is_some() {
+        return unsupported("components of the curve, one after the other", "every point");
+    }
     if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
         let radius = super::regularity::order(order)?["radius"].take();
-        return Ok(Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius})));
+        return Ok(Some(match &order.shares {
+            None => json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}),
+            Some(shares) => {
+                let shares: Value = shares.iter().map(|s| numbers(s)).collect();
+                json!({"question": "every point by its derivative in shares", "verdict": "proved", "shares": shares,
+                       "radius": radius})
+            }
+        }));
     }
     match &every.cone {
         Some(cone) => with_cone(shape, found, every, cone, &witness, &position).map(Some),

@@ -1,20 +1,19 @@
 //! `secant certify` of a single case.
 
-use super::answered::{Answered, ONCE, answered, question};
 use super::output::{complain, print, problem_code, settle, stdout_colour, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
+use super::question::question;
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many, mesh};
 use crate::answer::Verdict;
+use crate::ask::{Answered, ONCE, answered};
 use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::mesh::is_mesh;
-use crate::picture::characteristic::sheet;
 use crate::prove::Findings;
-use crate::report::document::Block;
 use crate::report::proof::Level;
-use crate::report::words::listed;
-use crate::report::{figures, findings, html, json, latex, markdown, text, vertex as at_vertices};
+use crate::report::words::{self, listed};
+use crate::report::{findings, html, json, latex, markdown, text};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -42,7 +41,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
         return approximate::run(args);
     }
     let path = match args.cases.as_slice() {
-        [path] if args.resume.is_none() => path,
+        [path] if args.resume.is_none() && args.shard.is_none() => path,
         _ => return many::run(args),
     };
     let done = guarded(|| {
@@ -133,7 +132,7 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     }
     let files = [&args.report, &args.svg, &args.png, &args.certificate];
     let of_one_case = args.json || files.iter().any(|f| f.is_some());
-    if args.cases.len() > 1 && of_one_case {
+    if (args.cases.len() > 1 || args.shard.is_some()) && of_one_case {
         return Err(Problem::new(
             "secant::usage",
             "--json, --report, --svg, --png and --certificate are for a single case",
@@ -147,12 +146,32 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         )
         .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
-    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
-    if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
-        return Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
-            .with_help("the ending of --report says the format: .html, .md or .tex"));
+    if let Some((_, parts)) = args.shard.filter(|(_, parts)| *parts > args.cases.len()) {
+        let message = format!("--shard: {parts} parts of {}", words::count(args.cases.len(), "case"));
+        return Err(
+            Problem::new("secant::usage::shard", message).with_help("a part has one case at least: take fewer parts")
+        );
     }
-    Ok(())
+    args.report.as_deref().map_or(Ok(()), known_format)
+}
+
+/// Refuses a report whose ending names no format.
+pub(super) fn known_format(path: &Path) -> Result<(), Problem> {
+    if matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex") {
+        return Ok(());
+    }
+    Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
+        .with_help("the ending of --report says the format: .html, .md or .tex"))
+}
+
+/// A proof in the format that the ending of the path names.
+pub(super) fn rendered(path: &Path, of: &Findings, level: Level) -> String {
+    let document = findings::proof_at(of, level);
+    match extension(path).as_str() {
+        "md" => markdown::render(&document),
+        "tex" => latex::render(&document),
+        _ => html::render(&document),
+    }
 }
 
 pub(super) fn extension(path: &Path) -> String {
@@ -167,16 +186,11 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
             ReportLevel::Proof => Level::Proof,
             ReportLevel::Full => Level::Full,
         };
-        let document = findings::proof_at(&answered.findings, level);
-        let written = match extension(path).as_str() {
-            "md" => markdown::render(&document),
-            "tex" => latex::render(&document),
-            _ => html::render(&document),
-        };
+        let written = rendered(path, &answered.findings, level);
         (path, written)
     });
-    let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args.draw)?))).transpose()?;
-    let png = args.png.as_deref().map(|path| Ok((path, png(answered)?))).transpose()?;
+    let svg = args.svg.as_deref().map(|path| Ok((path, answered.picture(args.draw == Drawn::Cones)?))).transpose()?;
+    let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap()?))).transpose()?;
     let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
     for (path, content) in report.into_iter().chain(svg) {
         write_file(path, &content)?;
@@ -192,40 +206,6 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         write_file(path, &image)?;
     }
     Ok(())
-}
-
-fn picture(answered: &Answered, what: Drawn) -> Result<String, Problem> {
-    let (case, found) = match &answered.findings {
-        Findings::Tangents { case, found } => (case, found),
-        Findings::Vertices { case, found, .. } => {
-            let panels: Vec<_> = found.iter().filter_map(at_vertices::panel).collect();
-            return Ok(sheet(&panels, &case.title));
-        }
-    };
-    match (what, figures::cones(case, found)) {
-        (Drawn::Shape, _) => figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(&case.name)),
-        (Drawn::Cones, Some(Block::Figure { svg, .. })) => Ok(svg),
-        (Drawn::Cones, _) => {
-            let message = format!("there are no cones to be drawn for {}", case.name);
-            Err(Problem::new("secant::picture", message)
-                .with_help("cones are found for curves that are G¹ or have corners only (Theorem 6); leave out --draw"))
-        }
-    }
-}
-
-fn png(answered: &Answered) -> Result<Vec<u8>, Problem> {
-    match &answered.findings {
-        Findings::Tangents { case, found } => figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name)),
-        Findings::Vertices { .. } => {
-            Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
-                .with_help("--svg draws their characteristic maps"))
-        }
-    }
-}
-
-fn undrawn(name: &str) -> Problem {
-    Problem::new("secant::picture", format!("{name} cannot be drawn"))
-        .with_help("no point of the shape can be computed, because contraction is not decided")
 }
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {

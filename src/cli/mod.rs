@@ -1,6 +1,5 @@
 //! The command line: arguments, one file for each command, exit codes.
 
-mod answered;
 mod approximate;
 mod cards;
 mod certify;
@@ -13,10 +12,13 @@ mod import;
 mod init;
 mod irrational;
 mod jsr;
+mod junction;
 mod many;
 mod mesh;
 mod output;
 mod progress;
+mod question;
+mod refine;
 mod regularity;
 mod render;
 mod resume;
@@ -96,6 +98,10 @@ enum Command {
     Render(RenderArgs),
     /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
     Solve(SolveArgs),
+    /// Join two curve schemes by an intermediate curve, and write the joined shape as a case. Exit code 1: no member passes.
+    Junction(junction::JunctionArgs),
+    /// Refine a curve: its cells on points of their own, glued where they meet, as a case with the control points carried over.
+    Refine(refine::RefineArgs),
     /// Print a statement with its proof and reference.
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
@@ -120,7 +126,7 @@ enum Command {
     Man,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 struct CertifyArgs {
     /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
     /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4").
@@ -169,6 +175,9 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// Take only the I-th of N parts of the cases: tasks 1 … N of a job array do all of them, each once.
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with = "approx")]
+    shard: Option<(usize, usize)>,
     /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
     /// first four; with `?` behind it a claim decides only where it is refuted.
     #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,inside?", hide_default_value = false)]
@@ -221,6 +230,13 @@ impl CertifyArgs {
     }
 }
 
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let (part, parts) = text.split_once('/').ok_or("write I/N, as in 3/16")?;
+    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("`{s}` is no whole number"));
+    let (part, parts) = (number(part)?, number(parts)?);
+    if part == 0 || part > parts { Err(format!("{part} is not from 1 to {parts}")) } else { Ok((part, parts)) }
+}
+
 fn effort(word: &str) -> Result<Effort, String> {
     [Effort::Quick, Effort::Normal, Effort::Hard]
         .into_iter()
@@ -269,6 +285,9 @@ struct RenderArgs {
     /// Letters of the words whose cells are drawn; by default as many as give about 20 000 points.
     #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
     depth: Option<usize>,
+    /// Draw so many letters that no point of the shape is farther than this from a drawn one; the bound is proved and printed.
+    #[arg(long, value_name = "DISTANCE", conflicts_with_all = ["chaos", "depth"])]
+    error: Option<String>,
     /// Draw this many points with random addresses instead (the chaos game).
     #[arg(long, value_name = "POINTS")]
     chaos: Option<usize>,
@@ -412,6 +431,8 @@ fn run(command: Command) -> u8 {
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
         Command::Render(args) => render::run(&args),
         Command::Solve(args) => solve::run(&args),
+        Command::Junction(args) => junction::run(&args),
+        Command::Refine(args) => refine::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),

@@ -95,6 +95,7 @@ impl<'a> Budget<'a> {
 
     /// Spends work; false where it was not there, and the caller must stop.
     pub fn spend(&self, work: u64) -> bool {
+        crate::stop::check();
         let outer = self.whole.is_none_or(|b| b.spend(work));
         let enough = self.left.get() >= work;
         self.left.set(self.left.get().saturating_sub(work));

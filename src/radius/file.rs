@@ -24,6 +24,7 @@ pub struct FileError {
 
 /// Why a file is not a system of matrices.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum FileProblem {
     /// Not TOML.
     #[error("not valid TOML: {0}")]

@@ -27,6 +27,7 @@ pub struct System {
 
 /// Why matrices are not a system.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum SystemError {
     /// No matrix at all.
     #[error("a joint spectral radius needs at least one matrix")]

@@ -97,7 +97,8 @@ fn breaks_inside(found: &Certified, every: &Everywhere) -> bool {
 /// The order 1 that was proved with a larger budget takes the place of one that is open.
 pub(super) fn adopt_derivative(found: &mut Certified) {
     let proved = found.everywhere.as_ref().filter(|e| e.verdict == Verdict::Proved);
-    let Some(order) = proved.and_then(|e| e.derivative.as_deref()) else { return };
+    let uniform = proved.and_then(|e| e.derivative.as_deref()).filter(|order| order.shares.is_none());
+    let Some(order) = uniform else { return };
     if let Some(Parameter::Orders(orders)) = &mut found.parameter
         && let [_, first] = orders.orders.as_mut_slice()
         && first.outcome == Outcome::Open

@@ -4,7 +4,7 @@
 use super::cone::CommonCone;
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
-use crate::jordan::{Chain, Eigenvalue, Spectrum};
+use crate::jordan::{Chain, Eigenvalue, Factor, Leading, ModulusClass, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Shape, Spaces};
 use std::collections::BTreeMap;
@@ -161,6 +161,34 @@ impl SlowCycle {
         None
     }
 
+    /// The evidence for a piece from a state to itself and rays in coordinates of its relevant space: the functional is positive on
+    /// all of them, or negative on all of them and then turned round.
+    pub(super) fn of_rays(
+        shape: &Shape,
+        spaces: &Spaces,
+        (state, letter): (usize, usize),
+        rays: &Matrix,
+    ) -> Option<Self> {
+        let word = vec![letter];
+        let linear = signed_product(shape, spaces, state, &word)?;
+        let spectrum = Spectrum::of(&linear);
+        let lead = leading(&spectrum)?;
+        let functional =
+            longest_chain(&spectrum.factor(lead).left, spectrum.factor(lead).blocks[0])?.vectors[0].clone();
+        let root = spectrum.root(lead).clone();
+        let zero = || Elem::from_rational(&Rational::from(0));
+        let value = |j: usize| {
+            let column = rays.column(j);
+            functional.iter().zip(&column).fold(zero(), |s, (g, x)| s.add(&g.scale(x))).sign(&root)
+        };
+        let sign = (rays.cols() > 0).then(|| value(0)).filter(|s| *s != 0)?;
+        if (1..rays.cols()).any(|j| value(j) != sign) {
+            return None;
+        }
+        let functional = functional.iter().map(|x| x.scale(&Rational::from(sign))).collect();
+        Some(Self { state, word, linear, spectrum, lead, functional })
+    }
+
     /// Whether the cycle belongs to the shape, and every ray has a positive leading coefficient or is the one to which the
     /// others are pulled.
     #[must_use]
@@ -211,12 +239,17 @@ fn along(v: &[Elem], ray: &[Rational], root: &Root) -> Option<i32> {
 
 /// The positive eigenvalue of largest modulus with the one longest block.
 fn leading(spectrum: &Spectrum) -> Option<Eigenvalue> {
-    let members = &spectrum.classes.first()?.members;
-    let longest = members.iter().map(|m| spectrum.factor(*m).blocks[0]).max()?;
-    let count = |m: &Eigenvalue| spectrum.factor(*m).blocks.iter().filter(|b| **b == longest).count();
-    let with: Vec<Eigenvalue> = members.iter().copied().filter(|m| count(m) > 0).collect();
+    longest_block(&spectrum.factors, spectrum.classes.first()?)
+}
+
+/// The same from the factors of the eigenvalues of largest modulus.
+fn longest_block(factors: &[Factor], class: &ModulusClass) -> Option<Eigenvalue> {
+    let blocks = |m: &Eigenvalue| &factors[m.factor].blocks;
+    let longest = class.members.iter().map(|m| blocks(m)[0]).max()?;
+    let count = |m: &Eigenvalue| blocks(m).iter().filter(|b| **b == longest).count();
+    let with: Vec<Eigenvalue> = class.members.iter().copied().filter(|m| count(m) > 0).collect();
     let [lead] = with[..] else { return None };
-    let root = spectrum.root(lead);
+    let root = &factors[lead.factor].roots[lead.root];
     (count(&lead) == 1 && root.is_real() && root.sign() > 0).then_some(lead)
 }
 
@@ -238,9 +271,8 @@ fn signed_product(shape: &Shape, spaces: &Spaces, state: usize, word: &[usize]) 
 
 /// The ray to which a cycle pulls most of the space, on the side of `chord`, where it is rational: a proposal.
 pub fn limit_ray(product: &Matrix, chord: &[Rational]) -> Option<Vec<Rational>> {
-    let spectrum = Spectrum::of(product);
-    let lead = leading(&spectrum)?;
-    let factor = spectrum.factor(lead);
+    let top = Leading::of(product)?;
+    let factor = &top.factors[longest_block(&top.factors, &top.class)?.factor];
     let longest = factor.blocks[0];
     let plain = |v: &[Elem]| v.iter().map(Elem::is_rational).collect::<Option<Vec<Rational>>>();
     let right = longest_chain(&factor.right, longest)?;

@@ -8,6 +8,8 @@ use num_traits::Signed;
 
 /// The question whether the curve is G¹, answered by Theorem 12.
 const DERIVATIVE: &str = "every point by its derivative";
+/// The same in a parameter of which the pieces take given shares.
+const SHARES: &str = "every point by its derivative in shares";
 
 /// The question about the joints whose lines are not killed, beside joints that are not all proved.
 const NOT_KILLED: &str = "joints not killed";
@@ -40,6 +42,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
         DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
+        SHARES if asked.iter().all(|(what, _)| *what != SHARES) => return Ok((SHARES, None)),
         NOT_KILLED
             if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) =>
         {
@@ -78,7 +81,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, "every point" | DERIVATIVE | NOT_KILLED)).then_some(verdict));
+        found.extend((!matches!(question.0, "every point" | DERIVATIVE | SHARES | NOT_KILLED)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -140,7 +143,12 @@ impl<'a> Claims<'a> {
             }
             (what, None) if *what == DERIVATIVE => {
                 let [_, stated, radius] = node.fields("question verdict radius")?;
-                radius.at(crate::regularity::graph(self.model, &radius))?;
+                radius.at(crate::regularity::graph(self.model, None, &radius))?;
+                (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
+            }
+            (what, None) if *what == SHARES => {
+                let [_, stated, shares, radius] = node.fields("question verdict shares radius")?;
+                radius.at(crate::regularity::graph(self.model, Some(&shares), &radius))?;
                 (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
             }
             (_, None) => {

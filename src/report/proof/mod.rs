@@ -1,6 +1,7 @@
 //! The proof-style report: every statement applied, with every number that it needs, in an order in which it can be
 //! checked by hand.
 
+mod components;
 mod contracts;
 mod cycles;
 mod dense;
