@@ -70,6 +70,7 @@ pub mod glossary;
 pub mod guard;
 pub mod junction;
 pub mod laws;
+pub mod mesh;
 pub mod picture;
 pub mod prove;
 pub mod radius;

@@ -1,14 +1,15 @@
 //! `secant certify` of a single case.
 
-use super::output::{complain, print, problem_code, stdout_colour, write_certificate, write_file};
+use super::output::{complain, print, problem_code, settle, stdout_colour, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
 use super::question::question;
-use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many};
+use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many, mesh};
 use crate::answer::Verdict;
 use crate::ask::{Answered, ONCE, answered};
 use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
+use crate::mesh::is_mesh;
 use crate::prove::Findings;
 use crate::report::proof::Level;
 use crate::report::words::{self, listed};
@@ -30,6 +31,11 @@ pub fn run(args: &CertifyArgs) -> u8 {
     if let Err(problem) = check_arguments(args) {
         complain(&problem);
         return BAD_INPUT;
+    }
+    if let [path] = args.cases.as_slice()
+        && is_mesh(path)
+    {
+        return settle(guarded(|| mesh::run(path, args)));
     }
     if args.approx {
         return approximate::run(args);
@@ -113,6 +119,17 @@ fn note_unconfirmed(why: &str) {
 }
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
+    let mesh = args.cases.iter().any(|path| is_mesh(path));
+    if mesh && args.cases.len() > 1 {
+        return Err(Problem::new("secant::usage", "a mesh is certified by itself")
+            .with_help("give one mesh at a time, with its --scheme"));
+    }
+    if let Some(option) =
+        [(args.scheme.is_some(), "--scheme"), (args.ply.is_some(), "--ply")].iter().find(|o| o.0 && !mesh)
+    {
+        return Err(Problem::new("secant::usage", format!("{} is for a mesh", option.1))
+            .with_help("a mesh is a file that ends in .obj or .off"));
+    }
     let files = [&args.report, &args.svg, &args.png, &args.certificate];
     let of_one_case = args.json || files.iter().any(|f| f.is_some());
     if (args.cases.len() > 1 || args.shard.is_some()) && of_one_case {

@@ -14,6 +14,7 @@ mod irrational;
 mod jsr;
 mod junction;
 mod many;
+mod mesh;
 mod output;
 mod progress;
 mod question;
@@ -143,6 +144,12 @@ struct CertifyArgs {
     /// For a case with a `[vertex]` table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
+    /// For a mesh (.obj, .off): the scheme of its limit surface, catmull-clark, loop or loop-warren.
+    #[arg(long, value_name = "NAME")]
+    scheme: Option<String>,
+    /// For a mesh: write it as PLY, its vertices coloured by verdict.
+    #[arg(long, value_name = "FILE")]
+    ply: Option<PathBuf>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
