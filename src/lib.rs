@@ -70,6 +70,7 @@ pub mod laws;
 pub mod picture;
 pub mod prove;
 pub mod radius;
+pub mod replay;
 pub mod report;
 pub mod scheme;
 pub mod shape;
