@@ -1,6 +1,7 @@
 //! The numbers from which Coq computes the hypotheses of a theorem at a branch: eigenvectors and functionals on the vectors
 //! of sum 0, a power that shrinks their complement, and a lower bound of the functional on the ring.
 
+use super::curve::reduced;
 use crate::arith::{Rational, abs, sign};
 use crate::linalg::{Matrix, dot};
 use crate::shape::{Shape, dobrushin, oscillation};
@@ -34,7 +35,7 @@ pub(super) struct Evidence {
 }
 
 /// The largest power of an operator that is tried, and the most cells of a ring.
-const MAX_POWER: usize = 48;
+pub(super) const MAX_POWER: usize = 48;
 const MAX_CELLS: usize = 4000;
 const MAX_DEPTH: usize = 40;
 
@@ -45,6 +46,30 @@ pub(super) fn of(
     branch: &BranchReport,
     direction: &[Rational],
 ) -> Result<Evidence, String> {
+    let mut evidence = without_scale(shape, balls, branch)?;
+    evidence.scale = quotient(&branch.transport.apply(&evidence.top.vector), direction)
+        .ok_or("an eigenvector that is not on the tangent line")?;
+    Ok(evidence)
+}
+
+/// The same in the space of a state from which `transport` leads to the cycle, with the ray of a positive eigenvalue there.
+pub(super) fn in_its_state(
+    shape: &Shape,
+    balls: &Balls,
+    branch: &BranchReport,
+    transport: &Matrix,
+) -> Result<(Evidence, Vec<Rational>), String> {
+    let mut evidence = without_scale(shape, balls, branch)?;
+    let (direction, scale) =
+        reduced(&transport.apply(&evidence.top.vector)).ok_or("an eigenvector that an operator kills")?;
+    if sign(&evidence.top.value) < 0 {
+        return Err("a negative eigenvalue".to_owned());
+    }
+    evidence.scale = scale;
+    Ok((evidence, direction))
+}
+
+fn without_scale(shape: &Shape, balls: &Balls, branch: &BranchReport) -> Result<Evidence, String> {
     let Outcome::Line { eigenvalue, block, .. } = &branch.outcome else {
         return Err("a branch without a tangent line".to_owned());
     };
@@ -67,9 +92,7 @@ pub(super) fn of(
     }
     let (power, rate) = gap(operator, &top)?;
     let (low, depth) = ring(shape, balls, branch, &top.row).ok_or("a ring condition that takes too many cells")?;
-    let scale = quotient(&branch.transport.apply(&top.vector), direction)
-        .ok_or("an eigenvector that is not on the tangent line")?;
-    Ok(Evidence { point: branch.fixed.clone(), top, power, rate, low, depth, exit, scale })
+    Ok(Evidence { point: branch.fixed.clone(), top, power, rate, low, depth, exit, scale: Rational::from(1) })
 }
 
 impl Top {
@@ -86,7 +109,7 @@ impl Top {
 }
 
 /// The operator on vectors of sum 0 in the coordinates 1, 2, …, minus the number.
-fn shifted(operator: &Matrix, value: &Rational) -> Matrix {
+pub(super) fn shifted(operator: &Matrix, value: &Rational) -> Matrix {
     let n = operator.rows() - 1;
     Matrix::from_fn(n, n, |i, j| {
         let entry = &operator[(i + 1, j + 1)] - &operator[(i + 1, 0)];
@@ -94,7 +117,7 @@ fn shifted(operator: &Matrix, value: &Rational) -> Matrix {
     })
 }
 
-fn vector(y: &[Rational]) -> Vec<Rational> {
+pub(super) fn vector(y: &[Rational]) -> Vec<Rational> {
     let first = y.iter().fold(Rational::from(0), |sum, x| sum - x);
     std::iter::once(first).chain(y.iter().cloned()).collect()
 }
@@ -155,12 +178,9 @@ fn gap(operator: &Matrix, top: &Top) -> Result<(usize, Rational), String> {
         power = operator * &power;
         bound *= abs(&top.value);
         let mut pairs = vec![(&top.row, power.apply(&top.vector))];
-        match &top.chain {
+        if let Some((row, vector)) = &top.chain {
             // The functional of the other end belongs to the eigenvector, that of the ring to the vector above it.
-            Some((row, vector)) => {
-                pairs = vec![(row, power.apply(&top.vector)), (&top.row, power.apply(vector))];
-            }
-            None => {}
+            pairs = vec![(row, power.apply(&top.vector)), (&top.row, power.apply(vector))];
         }
         let rest = Matrix::from_fn(power.rows(), power.cols(), |i, j| {
             pairs.iter().fold(power[(i, j)].clone(), |x, (g, v)| x - &v[i] * &g[j])
@@ -227,4 +247,10 @@ fn quotient(a: &[Rational], b: &[Rational]) -> Option<Rational> {
     let lead = b.iter().position(|x| *x != 0)?;
     let factor = &a[lead] / &b[lead];
     (factor != 0 && a.iter().zip(b).all(|(x, y)| *x == &factor * y)).then_some(factor)
+}
+
+/// Two coordinates in which the vectors are independent.
+pub(super) fn independent(a: &[Rational], b: &[Rational]) -> Option<(usize, usize)> {
+    let mut pairs = (0..a.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
+    pairs.find(|(i, j)| &a[*i] * &b[*j] != &a[*j] * &b[*i])
 }

@@ -3,15 +3,18 @@
 //! Nothing here proves anything: Coq checks every number of the file by computation. What has no formal theorem is refused,
 //! and nothing is written.
 
+mod curve;
 mod evidence;
+mod refuted;
 mod write;
 
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
-use crate::shape::{CellKind, Contraction, Shape};
+use crate::shape::{Address, CellKind, Contraction, Shape};
 use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict, primitive};
-use evidence::{Balls, Evidence};
+use evidence::{Balls, Evidence, independent};
+use refuted::Refuted;
 use thiserror::Error;
 
 /// Why a verdict cannot be replayed.
@@ -36,6 +39,8 @@ enum Statement {
     Line { branch: Replayed },
     /// Rays on both sides: opposite, equal, or on two lines with a minor that is not 0.
     Joint { kind: Kind, before: Replayed, after: Replayed, minor: (usize, usize) },
+    /// No tangent line, by two limit directions of one branch.
+    NoTangent { address: Address, point: Vec<Rational>, refuted: Refuted },
 }
 
 /// A branch with its evidence.
@@ -53,6 +58,12 @@ struct Stated {
     statement: Statement,
     /// The image of the point.
     image: Vec<Rational>,
+}
+
+/// What is stated of a whole curve, or why it is not.
+struct Whole {
+    levels: Result<curve::Levels, NoTheorem>,
+    cones: Result<curve::Cones, NoTheorem>,
 }
 
 /// The reachable part of a shape, with the numbers that its states have in the file, and what encloses its attractors.
@@ -116,10 +127,11 @@ pub fn coq(case: &Case, found: &Certified) -> Result<String, NoTheorem> {
             theorems.push(stated(&model, point, name)?);
         }
     }
-    if theorems.is_empty() {
-        return none("a case of which no point is decided", case.name.clone());
+    if theorems.is_empty() || found.verdict == Verdict::Undetermined {
+        return none("an undetermined verdict", case.name.clone());
     }
-    Ok(write::file(case, found, &model, &theorems))
+    let whole = Whole { levels: curve::levels(&model, found), cones: curve::cones(&model, found) };
+    Ok(write::file(case, found, &model, &theorems, &whole))
 }
 
 fn name(point: &PointReport, index: usize) -> String {
@@ -159,7 +171,7 @@ fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated
         }
         (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
-            let minor = minor(&left, &right);
+            let minor = independent(&left, &right);
             let before = replayed(model, before, left, &place)?;
             let after = replayed(model, after, right, &place)?;
             if (point.kind == Kind::Corner) != minor.is_some() {
@@ -167,18 +179,23 @@ fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated
             }
             Statement::Joint { kind: point.kind, before, after, minor: minor.unwrap_or((0, 0)) }
         }
-        (Kind::NoTangent, _) => return none("a point without a tangent line that is no corner", &*place),
+        (Kind::NoTangent, branches) => {
+            let mut reason = "a point without a tangent line and without branches".to_owned();
+            let several = branches.iter().find_map(|b| match refuted::of(model.shape, b) {
+                Ok(refuted) => Some((b, refuted)),
+                Err(what) => {
+                    reason = what;
+                    None
+                }
+            });
+            let Some((branch, refuted)) = several else { return none(reason, &*place) };
+            Statement::NoTangent { address: branch.address.clone(), point: branch.fixed.clone(), refuted }
+        }
         (kind, branches) => {
             return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), &*place);
         }
     };
     Ok(Stated { name, place, statement, image })
-}
-
-/// Two coordinates in which the vectors are independent.
-fn minor(a: &[Rational], b: &[Rational]) -> Option<(usize, usize)> {
-    let pairs = (0..a.len()).flat_map(|i| (0..i).map(move |j| (j, i)));
-    pairs.into_iter().find(|(i, j)| &a[*i] * &b[*j] != &a[*j] * &b[*i])
 }
 
 fn replayed(
