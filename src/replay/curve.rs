@@ -95,8 +95,9 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     if cone.window != 1 || !cone.slow.is_empty() {
         return Err(none("cones that shrink slowly"));
     }
-    let plain = |e: &usize| model.shape.states[*e].kind == CellKind::Edge
-        && model.shape.states[*e].pieces.iter().all(|p| !p.reversed);
+    let plain = |e: &usize| {
+        model.shape.states[*e].kind == CellKind::Edge && model.shape.states[*e].pieces.iter().all(|p| !p.reversed)
+    };
     if !model.states.iter().all(plain) {
         return Err(none("pieces that run backwards"));
     }

@@ -73,9 +73,11 @@ fn projection(operator: &Matrix, eigenvalue: &Rational) -> Option<Matrix> {
     let dual = &pairs.inverse()? * &left.transpose();
     let columns: Vec<Vec<Rational>> = (0..right.cols()).map(|j| vector(&right.column(j))).collect();
     let up = Matrix::from_columns(operator.rows(), &columns);
-    Some(&up * &Matrix::from_fn(dual.rows(), dual.cols() + 1, |i, j| {
-        if j == 0 { Rational::from(0) } else { dual[(i, j - 1)].clone() }
-    }))
+    Some(
+        &up * &Matrix::from_fn(dual.rows(), dual.cols() + 1, |i, j| {
+            if j == 0 { Rational::from(0) } else { dual[(i, j - 1)].clone() }
+        }),
+    )
 }
 
 /// A power whose largest column on the rest is below that power of the eigenvalue.
@@ -101,7 +103,9 @@ fn tails(shape: &Shape, state: usize) -> Vec<(Address, Vec<Rational>, Vec<Ration
         let (before, end) = shape.product(state, &prefix);
         for cycle in words(shape, end, LETTERS).into_iter().filter(|w| !w.is_empty()) {
             let (operator, back) = shape.product(end, &cycle);
-            if back == end && let Some(value) = fixed_point(&operator) {
+            if back == end
+                && let Some(value) = fixed_point(&operator)
+            {
                 let point = before.apply(&value);
                 all.push((Address { prefix: prefix.clone(), cycle }, value, point));
             }

@@ -168,7 +168,8 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
     };
     match statement {
         Statement::Ray { branch: b } => {
-            let ((claim, proof), of, d) = (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
+            let ((claim, proof), of, d) =
+                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
             let cells = "[exact contracts|vm_compute; reflexivity..]";
             (
                 format!("{claim}half_tangent {ABOUT} {of} (qv {d})"),
@@ -176,7 +177,8 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
             )
         }
         Statement::Line { branch: b } => {
-            let ((claim, proof), of, d) = (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
+            let ((claim, proof), of, d) =
+                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
             (
                 format!("{claim}tangent_line {ABOUT} {of} (qv {d})"),
                 format!("{proof}apply (tangent_line_ok {GIVEN} _ {name}_evidence); {BY_COMPUTATION}."),
@@ -189,13 +191,17 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
             let (d1, d2) = (vector(&before.direction), vector(&after.direction));
             let (claim, proof) = at(&b2, &format!("(value {name}_after)"));
             let (word, dirs, last) = match kind {
-                Kind::Corner => ("corner", format!("(qv {d1}) (qv {d2})"), format!("{d1} {d2} {} {}", minor.0, minor.1)),
+                Kind::Corner => {
+                    ("corner", format!("(qv {d1}) (qv {d2})"), format!("{d1} {d2} {} {}", minor.0, minor.1))
+                }
                 Kind::Cusp => ("cusp", format!("(qv {d2})"), d2),
                 _ => ("regular", format!("(qv {d2})"), d2),
             };
             (
                 format!("{claim}{word} {ABOUT}\n    {b1}\n    {b2} {dirs}"),
-                format!("{proof}apply ({word}_ok {GIVEN} _ _ {name}_before {name}_after {image} {last}); {BY_COMPUTATION}."),
+                format!(
+                    "{proof}apply ({word}_ok {GIVEN} _ _ {name}_before {name}_after {image} {last}); {BY_COMPUTATION}."
+                ),
             )
         }
         Statement::NoTangent { address, point, refuted } => no_tangent(out, name, address, point, refuted, &at),
@@ -238,7 +244,9 @@ fn no_tangent(
     let (i, j) = refuted.minor;
     (
         format!("{claim}no_tangent {ABOUT} {of}"),
-        format!("{proof}apply (no_tangent_ok {GIVEN} _ {q} {name}_limit_0 {name}_limit_1 {d1} {d2} {i} {j}); {BY_COMPUTATION}."),
+        format!(
+            "{proof}apply (no_tangent_ok {GIVEN} _ {q} {name}_limit_0 {name}_limit_1 {d1} {d2} {i} {j}); {BY_COMPUTATION}."
+        ),
     )
 }
 
