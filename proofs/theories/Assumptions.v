@@ -1,5 +1,5 @@
 (** The axioms behind the main theorems. *)
-From Secant Require Import Replay Dense Refute Everywhere.
+From Secant Require Import Directions Replay Dense Refute Everywhere.
 Print Assumptions contraction.
 Print Assumptions attractor_equation.
 Print Assumptions base_points.
@@ -11,6 +11,8 @@ Print Assumptions directed_intro.
 Print Assumptions limit_intro.
 Print Assumptions limit_parallel.
 Print Assumptions no_common_tangent.
+Print Assumptions one_direction.
+Print Assumptions two_directions.
 Print Assumptions directed_inside.
 Print Assumptions tangent_everywhere.
 Print Assumptions regular_ok.

@@ -270,7 +270,7 @@ fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut 
             "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u (qv {d})))"
         );
         let proof = format!(
-            "apply ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values}); [exact contracts|vm_compute; reflexivity|].\n  apply ({word}_ok case centres radii (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
+            "refine ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values} _ _ _ _); [exact contracts|vm_compute; reflexivity|].\n  apply ({word}_ok case centres radii (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
             vector(point)
         );
         finished(out, &name, &claim, &proof);
