@@ -59,7 +59,12 @@ pub struct Budget {
     pub ring_cells: usize,
     /// Joint spectral radii, where contraction rests on one.
     pub radius: Options,
+    /// Joint spectral radii of the orders of smoothness in the uniform parameter: a small part of what `secant regularity` spends.
+    pub orders: Options,
 }
+
+/// Work for each order of smoothness: about 20 ms.
+const ORDER: u64 = 20_000_000;
 
 impl Default for Budget {
     fn default() -> Self {
@@ -84,6 +89,7 @@ impl Budget {
             halvings: 14,
             ring_cells: 40_000,
             radius: Options::default(),
+            orders: Options { longest: 8, vertices: 400, work: Some(ORDER), ..Options::default() },
         };
         match effort {
             Effort::Normal => normal,
@@ -104,6 +110,7 @@ impl Budget {
             cone_steps: times(self.cone_steps),
             witness_cells: times(self.witness_cells),
             ring_cells: times(self.ring_cells),
+            orders: Options { work: self.orders.work.map(|w| w * by as u64 / over as u64), ..self.orders.clone() },
             ..self.clone()
         }
     }

@@ -9,6 +9,7 @@ pub use model::model_problem;
 use crate::budget::Budget;
 use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
+use crate::scheme::mesh_rules;
 use crate::theorem::surface::certify_complex_within;
 use crate::vertex::{AtValence, Every, at_valence_within, every};
 use std::sync::Arc;
@@ -78,10 +79,9 @@ fn all_at_once(case: &VertexCase) -> Result<Every, Problem> {
         .map_err(|error| Problem::new("secant::scheme", format!("{}: {error}", case.name)).with_source(&case.text))?;
     found.ok_or_else(|| {
         let message = format!("no proof for all valences at once is known for {}", case.scheme);
-        Problem::new("secant::usage::valence", message).with_help(
-            "there is one for catmull-clark, loop, loop-warren, doo-sabin, doo-sabin-catmull-clark and midedge; give a \
-             range such as --valence 3..32",
-        )
+        let known: Vec<&str> = mesh_rules().iter().filter(|r| r.has_all_valences()).map(|r| r.name).collect();
+        let help = format!("there is one for {}; give a range such as --valence 3..32", known.join(", "));
+        Problem::new("secant::usage::valence", message).with_help(help)
     })
 }
 

@@ -106,3 +106,63 @@ fn data_flows_one_way() {
         }
     }
 }
+
+/// The rooms that prove; the reader of files of matrices stands beside the engine of radii.
+const PROVING: [&str; 5] = ["theorem", "vertex", "radius", "answer.rs", "budget.rs"];
+const READERS: [&str; 1] = ["radius/file.rs"];
+
+/// What may stand before a sentence in a proving room: messages of errors and of mistakes of the program.
+const MESSAGES: [&str; 7] =
+    ["#[error(", "expect(", "reason =", "panic!(", "unreachable!(", "assert!(", "debug_assert!("];
+
+/// The string literals of a text, each with what stands before it.
+fn literals(text: &str) -> Vec<(&str, &str)> {
+    let mut all = Vec::new();
+    let (mut start, mut escaped) = (None, false);
+    for (at, c) in text.char_indices() {
+        match (start, c) {
+            _ if escaped => escaped = false,
+            (Some(_), '\\') => escaped = true,
+            // A quotation mark between apostrophes is a character.
+            (None, '"') if text[..at].ends_with('\'') && text[at + 1..].starts_with('\'') => {}
+            (None, '"') => start = Some(at),
+            (Some(from), '"') => {
+                all.push((text[..from].trim_end(), &text[from + 1..at]));
+                start = None;
+            }
+            _ => {}
+        }
+    }
+    all
+}
+
+/// Whether three words follow each other, as in prose.
+fn is_prose(text: &str) -> bool {
+    let is_word = |w: &str| w.len() > 1 && w.chars().all(char::is_alphabetic);
+    let words: Vec<bool> = text.split_whitespace().map(|w| is_word(w.trim_matches([',', '.', ':', ';']))).collect();
+    words.windows(3).any(|w| w.iter().all(|word| *word))
+}
+
+#[test]
+fn proving_rooms_hold_no_prose() {
+    assert!(is_prose("the branch is not isolated") && !is_prose("tangent line") && !is_prose("a b c"));
+    let mut seen = 0;
+    for room in PROVING {
+        let path = root().join("src").join(room);
+        let mut files = Vec::new();
+        if path.is_dir() {
+            sources(&path, &mut files)
+        } else {
+            files.push(path)
+        }
+        for file in files.iter().filter(|f| READERS.iter().all(|r| !f.ends_with(r))) {
+            let text = code(file);
+            for (before, literal) in literals(&text) {
+                seen += 1;
+                let message = MESSAGES.iter().any(|m| before.ends_with(m));
+                assert!(message || !is_prose(literal), "{}: prose in a room that proves: {literal:?}", file.display());
+            }
+        }
+    }
+    assert!(seen > 100, "{seen} literals were read");
+}

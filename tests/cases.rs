@@ -72,7 +72,7 @@ fn mistakes(path: &Path) -> Vec<String> {
         Findings::Vertices { case, found, .. } => {
             let differs = |(n, verdict): &(usize, Verdict)| match found.iter().find(|f| f.valence == *n) {
                 Some(f) if f.smooth == *verdict => None,
-                Some(f) => Some(format!("valence {n}: {} instead of {verdict}: {}", f.smooth, f.reason)),
+                Some(f) => Some(format!("valence {n}: {} instead of {verdict}: {:?}", f.smooth, f.reason)),
                 None => Some(format!("valence {n} was not examined")),
             };
             case.expect.iter().filter_map(differs).collect()

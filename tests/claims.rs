@@ -3,6 +3,7 @@
 use secant::case::Case;
 use secant::certificate::confirm;
 use secant::report::claims::{assertion, judged, reason};
+use secant::report::reasons;
 use secant::shape::cell_text;
 use secant::theorem::surface::certify_complex;
 use secant::theorem::{About, Assertion, Certified, Kind, Outcome, PointReport, Reason, Statement, Verdict, Witness};
@@ -50,7 +51,7 @@ fn a_piece_that_is_set_aside_belongs_to_the_shape() {
 #[test]
 fn a_branch_without_a_germ_is_not_called_an_isolated_point_of_the_shape() {
     let found = certified("sets/other-addresses");
-    let reason = |address: &str| at(&found, address).reason.clone().unwrap();
+    let reason = |address: &str| reasons::point(at(&found, address)).unwrap();
     assert!(reason("1(0)").contains("isolated in this branch"), "{}", reason("1(0)"));
     assert!(reason("(0)").contains("isolated in the shape"), "{}", reason("(0)"));
     assert_eq!(at(&found, "1(0)").about(), About::Branch);
@@ -61,7 +62,7 @@ fn a_cusp_inside_is_not_called_a_joint_with_different_tangents() {
     let found = certified("control/interior-cusp");
     let every = found.everywhere.as_ref().unwrap();
     assert_eq!(every.verdict, Verdict::Refuted);
-    let reason = every.reason.as_ref().unwrap();
+    let reason = reasons::everywhere(&found, every).unwrap();
     assert!(reason.contains("(01)") && reason.contains("cusp") && !reason.contains("joint"), "{reason}");
 }
 

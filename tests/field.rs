@@ -4,7 +4,7 @@ use assert_cmd::Command;
 use secant::algebraic::Elem;
 use secant::case::matrix_file::parse_field;
 use secant::jordan::FieldSpectrum;
-use secant::scheme::{DualWeights, LoopWeights, MeshRule, field_local_matrix};
+use secant::scheme::{field_local_matrix, mesh_rule};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -46,12 +46,12 @@ fn eigenvectors_are_in_the_field() {
 #[test]
 fn loop_and_doo_sabin_have_their_known_eigenvalues_at_larger_valences() {
     for n in [9usize, 11, 13] {
-        let local = field_local_matrix(&MeshRule::Loop(LoopWeights::Original), n, 1).unwrap();
+        let local = field_local_matrix(&mesh_rule("loop", &[].into()).unwrap(), n, 1).unwrap();
         let s = FieldSpectrum::of(&local.matrix);
         // (3/8 + c_k/4), twice for each k, in the field.
         assert!(s.factors.iter().all(|f| f.in_field()), "{n}");
         assert_eq!(s.factors.iter().filter(|f| f.blocks == [1, 1]).count(), (n - 1) / 2, "{n}");
-        let dual = field_local_matrix(&MeshRule::DooSabin(DualWeights::Original), n, 1).unwrap();
+        let dual = field_local_matrix(&mesh_rule("doo-sabin", &[].into()).unwrap(), n, 1).unwrap();
         let s = FieldSpectrum::of(&dual.matrix);
         let mut values: Vec<(String, usize)> =
             s.factors.iter().map(|f| (s.field.display(&f.poly[0].neg()), f.multiplicity)).collect();

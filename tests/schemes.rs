@@ -340,7 +340,7 @@ fn shapes_survive_as_case_files() {
         .map(|s| (s.name, build(s.name, given.get(s.name).map_or(&[], Vec::as_slice)).unwrap()))
         .collect();
     shapes.push(("vertices", scheme::bspline(3, 2).unwrap().curve_with_vertices().unwrap()));
-    shapes.push(("disc", scheme::disc(&scheme::MeshRule::CatmullClark(None), 3).unwrap()));
+    shapes.push(("disc", scheme::disc(&scheme::mesh_rule("catmull-clark", &[].into()).unwrap(), 3).unwrap()));
     for (name, shape) in shapes {
         let text = scheme::case_text(&shape, &heading(name));
         let case = secant::case::Case::parse(name, &text).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"));

@@ -2,10 +2,12 @@
 
 use secant::arith::{Rational, parse_rational, ratio};
 use secant::linalg::{Matrix, char_poly};
-use secant::scheme::{
-    DualWeights, LocalMatrix, LoopWeights, MeshRule, SchemeError, Sector, VertexWeights, local_matrix, local_matrix_of,
-};
+use secant::scheme::{LocalMatrix, MeshRule, SchemeError, Sector, local_matrix, local_matrix_of, mesh_rule};
 use std::collections::BTreeMap;
+
+fn scheme(name: &str, given: &[(&str, Rational)]) -> MeshRule {
+    mesh_rule(name, &given.iter().map(|(k, x)| ((*k).to_owned(), x.clone())).collect()).unwrap()
+}
 
 fn characteristic(m: &Matrix) -> Vec<Rational> {
     char_poly(m).coeffs().to_vec()
@@ -42,11 +44,11 @@ fn characteristic_polynomials_agree_with_flint() {
         let (family, valence) = name.split_once('_').unwrap();
         let valence: usize = valence.parse().unwrap();
         let (rule, rings) = match family {
-            "cc1" => (MeshRule::CatmullClark(None), 1),
-            "cc2" => (MeshRule::CatmullClark(None), 2),
-            "loop1" => (MeshRule::Loop(LoopWeights::Warren), 1),
-            "loop2" => (MeshRule::Loop(LoopWeights::Warren), 2),
-            _ => (MeshRule::DooSabin(DualWeights::CatmullClark), 1),
+            "cc1" => (scheme("catmull-clark", &[]), 1),
+            "cc2" => (scheme("catmull-clark", &[]), 2),
+            "loop1" => (scheme("loop-warren", &[]), 1),
+            "loop2" => (scheme("loop-warren", &[]), 2),
+            _ => (scheme("doo-sabin-catmull-clark", &[]), 1),
         };
         let found = local(&rule, valence, rings).matrix;
         let expected: Vec<Rational> = expected.iter().map(|c| parse_rational(c).unwrap()).collect();
@@ -57,19 +59,19 @@ fn characteristic_polynomials_agree_with_flint() {
 #[test]
 fn regular_valences_give_the_spline_spectra() {
     // Catmull–Clark of valence 4: 1, 1/2 twice, 1/4 three times, 1/8 twice, 1/16.
-    let m = local(&MeshRule::CatmullClark(None), 4, 1).matrix;
+    let m = local(&scheme("catmull-clark", &[]), 4, 1).matrix;
     for (root, times) in [(1, 1), (2, 2), (4, 3), (8, 2), (16, 1)] {
         assert_eq!(nullity(&m, &[(-1, root), (1, 1)]), times, "1/{root}");
     }
     // Loop of valence 6: 1, 1/2 twice, 1/4 three times, 1/8.
-    for weights in [LoopWeights::Original, LoopWeights::Warren] {
-        let m = local(&MeshRule::Loop(weights), 6, 1).matrix;
+    for name in ["loop", "loop-warren"] {
+        let m = local(&scheme(name, &[]), 6, 1).matrix;
         for (root, times) in [(1, 1), (2, 2), (4, 3), (8, 1)] {
             assert_eq!(nullity(&m, &[(-1, root), (1, 1)]), times, "1/{root}");
         }
     }
     // The butterfly scheme reproduces cubics at valence 6: 1, 1/2 twice, 1/4 three times, 1/8 four times at least.
-    let m = local(&MeshRule::Butterfly { w: ratio(1, 16), modified: true }, 6, 2).matrix;
+    let m = local(&scheme("butterfly-modified", &[("w", ratio(1, 16))]), 6, 2).matrix;
     for (root, times) in [(1, 1), (2, 2)] {
         assert_eq!(nullity(&m, &[(-1, root), (1, 1)]), times, "1/{root}");
     }
@@ -79,7 +81,7 @@ fn regular_valences_give_the_spline_spectra() {
 #[test]
 fn catmull_clark_eigenvalues_solve_their_quadratic() {
     // 16x² − (10 + 2c)x + 1, c = cos(2πk/n), for every frequency k.
-    let rule = MeshRule::CatmullClark(None);
+    let rule = scheme("catmull-clark", &[]);
     assert_eq!(nullity(&local(&rule, 3, 1).matrix, &[(1, 1), (-9, 1), (16, 1)]), 4);
     assert_eq!(nullity(&local(&rule, 6, 1).matrix, &[(1, 1), (-11, 1), (16, 1)]), 4);
     // n = 5: A² + Ax − x² with A = 16x² − 10x + 1, the norm over the conjugates of c.
@@ -97,19 +99,16 @@ fn catmull_clark_variants_move_the_symmetric_part() {
     // x² − (α − 1/4)x + (1/2 − β)/8 for frequency 0.
     for (n, a, b) in [(6, (1, 1), (0, 1)), (5, (3, 4), (1, 4)), (3, (1, 2), (1, 2)), (4, (7, 8), (1, 8))] {
         let (alpha, beta) = (ratio(a.0, a.1), ratio(b.0, b.1));
-        let gamma = ratio(1, 1) - &alpha - &beta;
-        let rule = MeshRule::CatmullClark(Some(VertexWeights { alpha: alpha.clone(), beta: beta.clone(), gamma }));
+        let rule = scheme("catmull-clark-variant", &[("alpha", alpha.clone()), ("beta", beta.clone())]);
         let m = local(&rule, n, 1).matrix;
         let p = [(ratio(1, 2) - beta) / ratio(8, 1), ratio(1, 4) - alpha, ratio(1, 1)];
         assert_eq!(m.rows() - polynomial(&m, &p).rank(), 2, "n = {n}");
     }
-    let bad = VertexWeights { alpha: ratio(1, 1), beta: ratio(1, 1), gamma: ratio(0, 1) };
-    assert!(matches!(local_matrix(&MeshRule::CatmullClark(Some(bad)), 5, 1), Err(SchemeError::Mesh { .. })));
 }
 
 #[test]
 fn loop_eigenvalues_are_those_published() {
-    let original = MeshRule::Loop(LoopWeights::Original);
+    let original = scheme("loop", &[]);
     // λ = 3/8 + cos(2π/n)/4 twice, μ₀ = (3/8 + c/4)².
     for (n, lambda, symmetric) in [(3, (1, 4), (1, 16)), (4, (3, 8), (9, 64)), (6, (1, 2), (1, 4))] {
         let m = local(&original, n, 1).matrix;
@@ -119,7 +118,7 @@ fn loop_eigenvalues_are_those_published() {
     }
     assert!(matches!(local_matrix(&original, 5, 1), Err(SchemeError::Irrational(_))));
     // n = 5: (5 ± √5)/16, each twice, 64x² − 40x + 5.
-    let warren = local(&MeshRule::Loop(LoopWeights::Warren), 5, 1).matrix;
+    let warren = local(&scheme("loop-warren", &[]), 5, 1).matrix;
     assert_eq!(nullity(&warren, &[(5, 1), (-40, 1), (64, 1)]), 4);
     // Given β: μ₀ = 5/8 − nβ.
     for (n, beta, mu) in [
@@ -135,7 +134,7 @@ fn loop_eigenvalues_are_those_published() {
         (12, (0, 1), (5, 8)),
         (6, (1, 4), (-7, 8)),
     ] {
-        let rule = MeshRule::Loop(LoopWeights::Given(ratio(beta.0, beta.1)));
+        let rule = scheme("loop-variant", &[("beta", ratio(beta.0, beta.1))]);
         let m = local(&rule, n, 1).matrix;
         let shared = nullity(&m, &[(-mu.0, mu.1), (1, 1)]);
         // Where λ has the same value the eigenvalue is triple.
@@ -148,16 +147,16 @@ fn loop_eigenvalues_are_those_published() {
 #[test]
 fn dual_schemes_have_their_published_eigenvalues() {
     for n in [3, 4, 6] {
-        let m = local(&MeshRule::DooSabin(DualWeights::Original), n, 1).matrix;
+        let m = local(&scheme("doo-sabin", &[]), n, 1).matrix;
         assert_eq!(nullity(&m, &[(-1, 2), (1, 1)]), 2, "n = {n}");
         assert_eq!(nullity(&m, &[(-1, 4), (1, 1)]), n - 3, "n = {n}");
-        let wide = local(&MeshRule::DooSabin(DualWeights::Original), n, 3);
+        let wide = local(&scheme("doo-sabin", &[]), n, 3);
         assert_eq!(wide.rings, [0, n, 4 * n, 9 * n]);
         assert_eq!(nullity(&wide.matrix, &[(-1, 2), (1, 1)]), 2, "n = {n}");
     }
-    assert!(matches!(local_matrix(&MeshRule::DooSabin(DualWeights::Original), 5, 1), Err(SchemeError::Irrational(_))));
+    assert!(matches!(local_matrix(&scheme("doo-sabin", &[]), 5, 1), Err(SchemeError::Irrational(_))));
     // Midedge: cos²(π k/n); n = 5: (3 ± √5)/8, 16x² − 12x + 1; n = 6: 3/4.
-    let midedge = MeshRule::DooSabin(DualWeights::Midedge);
+    let midedge = scheme("midedge", &[]);
     assert_eq!(nullity(&local(&midedge, 5, 1).matrix, &[(1, 1), (-12, 1), (16, 1)]), 4);
     assert_eq!(nullity(&local(&midedge, 6, 1).matrix, &[(-3, 4), (1, 1)]), 2);
     assert_eq!(nullity(&local(&midedge, 4, 1).matrix, &[(-1, 2), (1, 1)]), 2);
@@ -188,15 +187,15 @@ fn dual_schemes_have_their_published_eigenvalues() {
 fn turning_schemes_have_their_published_eigenvalues() {
     // √3, two steps: λ = (2 + 2cos(2π/n))/9.
     for (n, lambda) in [(3, (1, 9)), (4, (2, 9)), (6, (1, 3))] {
-        let result = local(&MeshRule::Sqrt3(None), n, 1);
+        let result = local(&scheme("sqrt3", &[]), n, 1);
         assert_eq!(result.steps, 2);
         assert_eq!(nullity(&result.matrix, &[(-lambda.0, lambda.1), (1, 1)]), 2, "n = {n}");
     }
     // n = 5 with given weight: (3 ± √5)/18, 81x² − 27x + 1.
-    let m = local(&MeshRule::Sqrt3(Some(ratio(3, 8))), 5, 1).matrix;
+    let m = local(&scheme("sqrt3-variant", &[("alpha", ratio(3, 8))]), 5, 1).matrix;
     assert_eq!(nullity(&m, &[(1, 1), (-27, 1), (81, 1)]), 4);
     // 4-8: at valence 4 the double eigenvalue is 1/2; at valence 6 (c = 1/2) and 3 (c = −1/2) the published quintic divides.
-    assert_eq!(nullity(&local(&MeshRule::FourEight, 4, 2).matrix, &[(-1, 2), (1, 1)]), 2);
+    assert_eq!(nullity(&local(&scheme("four-eight", &[]), 4, 2).matrix, &[(-1, 2), (1, 1)]), 2);
     for (n, c) in [(3, ratio(-1, 2)), (6, ratio(1, 2)), (4, ratio(0, 1))] {
         let c2 = &c * &c;
         let p = [
@@ -207,7 +206,7 @@ fn turning_schemes_have_their_published_eigenvalues() {
             -(ratio(25, 1) + ratio(5, 1) * &c) / ratio(32, 1),
             ratio(1, 1),
         ];
-        let m = local(&MeshRule::FourEight, n, 2).matrix;
+        let m = local(&scheme("four-eight", &[]), n, 2).matrix;
         let found = m.rows() - polynomial(&m, &p).rank();
         assert!(found >= 8, "n = {n}: {found}");
     }
@@ -216,7 +215,7 @@ fn turning_schemes_have_their_published_eigenvalues() {
 #[test]
 fn the_butterfly_scheme_has_its_cubic() {
     // 64x³ + (64h⁴ − 96h² − 16)x² + (23h² − 12h⁴ + 1)x − h² with h = cos(πk/n), so h² = (1 + cos(2πk/n))/2.
-    let rule = MeshRule::Butterfly { w: ratio(1, 16), modified: false };
+    let rule = scheme("butterfly", &[("w", ratio(1, 16))]);
     assert!(matches!(local_matrix(&rule, 6, 1), Err(SchemeError::Mesh { .. })));
     for (n, h2) in [(3, ratio(1, 4)), (4, ratio(1, 2)), (6, ratio(3, 4))] {
         let h4 = &h2 * &h2;
@@ -232,22 +231,22 @@ fn the_butterfly_scheme_has_its_cubic() {
         assert!(found >= 6 - usize::from(n == 3), "n = {n}: {found}");
     }
     for n in [3, 4] {
-        let m = local(&MeshRule::Butterfly { w: ratio(1, 16), modified: true }, n, 2).matrix;
+        let m = local(&scheme("butterfly-modified", &[("w", ratio(1, 16))]), n, 2).matrix;
         assert_eq!(nullity(&m, &[(-1, 2), (1, 1)]), 2, "modified, n = {n}");
     }
     assert!(matches!(
-        local_matrix(&MeshRule::Butterfly { w: ratio(1, 16), modified: true }, 7, 2),
+        local_matrix(&scheme("butterfly-modified", &[("w", ratio(1, 16))]), 7, 2),
         Err(SchemeError::Irrational(_))
     ));
 }
 
 #[test]
 fn mixed_meshes_contain_both_regular_schemes() {
-    let mixed = MeshRule::QuadTriangle;
+    let mixed = scheme("quad-triangle", &[]);
     let quads = local_matrix_of(&mixed, &[Sector::Quads; 4], 2).unwrap().matrix;
-    assert_eq!(quads, local(&MeshRule::CatmullClark(None), 4, 2).matrix);
+    assert_eq!(quads, local(&scheme("catmull-clark", &[]), 4, 2).matrix);
     let triangles = local_matrix_of(&mixed, &[Sector::Triangles; 6], 2).unwrap().matrix;
-    assert_eq!(triangles, local(&MeshRule::Loop(LoopWeights::Warren), 6, 2).matrix);
+    assert_eq!(triangles, local(&scheme("loop-warren", &[]), 6, 2).matrix);
     // Two quadrangles and three triangles: regular, 1/2 twice.
     use Sector::{Quads, Triangles};
     let seam = local_matrix_of(&mixed, &[Quads, Quads, Triangles, Triangles, Triangles], 2).unwrap();
@@ -256,12 +255,12 @@ fn mixed_meshes_contain_both_regular_schemes() {
 
 #[test]
 fn limits_are_diagnosed() {
-    let rule = MeshRule::CatmullClark(None);
+    let rule = scheme("catmull-clark", &[]);
     assert!(matches!(local_matrix(&rule, 2, 1), Err(SchemeError::Value { .. })));
     assert!(matches!(local_matrix(&rule, 5, 0), Err(SchemeError::Value { .. })));
     assert!(matches!(local_matrix(&rule, 100_000, 1), Err(SchemeError::Large { .. })));
     assert!(matches!(local_matrix(&rule, 5, 100_000), Err(SchemeError::Large { .. })));
-    let short = MeshRule::DooSabin(DualWeights::Given(vec![ratio(1, 1)]));
+    let short = scheme("doo-sabin", &[]).with_weights(vec![ratio(1, 1)]).unwrap();
     assert!(matches!(local_matrix(&short, 5, 1), Err(SchemeError::Mesh { .. })));
     assert!(matches!(local_matrix_of(&rule, &[Sector::Triangles; 5], 1), Err(SchemeError::Mesh { .. })));
 }
@@ -274,21 +273,21 @@ fn patches_at_extraordinary_vertices_are_complexes() {
         assert!(complex.check().unwrap() > 12);
         complex.shape.states[0].dim
     };
-    let cc = MeshRule::CatmullClark(None);
-    let warren = MeshRule::Loop(LoopWeights::Warren);
+    let cc = scheme("catmull-clark", &[]);
+    let warren = scheme("loop-warren", &[]);
     assert_eq!([3, 4, 5, 6, 9].map(|n| face_dim(&cc, n)), [14, 16, 18, 20, 26]);
     assert_eq!([3, 4, 5, 6, 7].map(|n| face_dim(&warren, n)), [9, 10, 11, 12, 13]);
-    let dual = MeshRule::DooSabin(DualWeights::CatmullClark);
+    let dual = scheme("doo-sabin-catmull-clark", &[]);
     assert_eq!([3, 4, 5, 8].map(|n| face_dim(&dual, n)), [8, 9, 10, 13]);
-    let given = MeshRule::Loop(LoopWeights::Given(ratio(1, 20)));
+    let given = scheme("loop-variant", &[("beta", ratio(1, 20))]);
     assert_eq!(face_dim(&given, 6), 12);
-    assert!(matches!(patch(&MeshRule::FourEight, 5), Err(SchemeError::Mesh { .. })));
+    assert!(matches!(patch(&scheme("four-eight", &[]), 5), Err(SchemeError::Mesh { .. })));
 }
 
 #[test]
 fn the_regular_patches_are_the_splines() {
     use secant::scheme::{bspline, patch, tensor};
-    let complex = patch(&MeshRule::CatmullClark(None), 4).unwrap();
+    let complex = patch(&scheme("catmull-clark", &[]), 4).unwrap();
     let dims: Vec<usize> = complex.shape.states.iter().map(|s| s.dim).collect();
     assert_eq!(dims, [16, 12, 12, 9]);
     let curve = bspline(3, 2).unwrap().curve_with_vertices().unwrap();
@@ -299,14 +298,14 @@ fn the_regular_patches_are_the_splines() {
     }
     let quadratic = bspline(2, 2).unwrap().curve_with_vertices().unwrap();
     let product = tensor(&quadratic, &quadratic).unwrap();
-    let complex = patch(&MeshRule::DooSabin(DualWeights::Original), 4).unwrap();
+    let complex = patch(&scheme("doo-sabin", &[]), 4).unwrap();
     let dims: Vec<usize> = complex.shape.states.iter().map(|s| s.dim).collect();
     assert_eq!(dims, [9, 6, 6, 4]);
     for letter in 0..4 {
         let op = |c: &secant::shape::Complex| characteristic(&c.shape.states[0].pieces[letter].op);
         assert_eq!(op(&complex), op(&product), "piece {letter}");
     }
-    let loops = patch(&MeshRule::Loop(LoopWeights::Original), 6).unwrap();
+    let loops = patch(&scheme("loop", &[]), 6).unwrap();
     let dims: Vec<usize> = loops.shape.states.iter().map(|s| s.dim).collect();
     assert_eq!(dims, [12, 12, 10, 10, 10, 7]);
     // Corner pieces: 1, 1/2, 1/2, 1/4, 1/4, 1/4, and 1/8 three times, 1/16 three times.
@@ -319,7 +318,7 @@ fn the_regular_patches_are_the_splines() {
 #[test]
 fn irregular_patches_keep_the_vertex_spectrum() {
     use secant::scheme::patch;
-    let rule = MeshRule::CatmullClark(None);
+    let rule = scheme("catmull-clark", &[]);
     let complex = patch(&rule, 5).unwrap();
     let quartic = [(1, 1), (-19, 1), (121, 1), (-304, 1), (256, 1)];
     let state = |name: &str| complex.shape.states.iter().find(|s| s.name == name).unwrap();
@@ -353,16 +352,16 @@ fn mesh_rules_have_names() {
 fn discs_are_covered_by_their_pieces() {
     use secant::scheme::{disc, patch};
     for (rule, n) in [
-        (MeshRule::CatmullClark(None), 3),
-        (MeshRule::CatmullClark(None), 4),
-        (MeshRule::CatmullClark(None), 5),
-        (MeshRule::Loop(LoopWeights::Warren), 3),
-        (MeshRule::Loop(LoopWeights::Warren), 5),
-        (MeshRule::Loop(LoopWeights::Warren), 6),
-        (MeshRule::DooSabin(DualWeights::CatmullClark), 3),
-        (MeshRule::DooSabin(DualWeights::CatmullClark), 4),
-        (MeshRule::DooSabin(DualWeights::CatmullClark), 5),
-        (MeshRule::DooSabin(DualWeights::Midedge), 3),
+        (scheme("catmull-clark", &[]), 3),
+        (scheme("catmull-clark", &[]), 4),
+        (scheme("catmull-clark", &[]), 5),
+        (scheme("loop-warren", &[]), 3),
+        (scheme("loop-warren", &[]), 5),
+        (scheme("loop-warren", &[]), 6),
+        (scheme("doo-sabin-catmull-clark", &[]), 3),
+        (scheme("doo-sabin-catmull-clark", &[]), 4),
+        (scheme("doo-sabin-catmull-clark", &[]), 5),
+        (scheme("midedge", &[]), 3),
     ] {
         let shape = disc(&rule, n).unwrap_or_else(|e| panic!("valence {n}: {e}"));
         let complex = patch(&rule, n).unwrap();
@@ -408,7 +407,7 @@ fn curve(complex: &secant::shape::Complex, side: &secant::shape::Side, word: &[u
 fn the_butterfly_scheme_fails_at_high_valences() {
     // Subdominant eigenvalue of frequency 2 (n = 9, 10) and 3 (n = 14), so the characteristic map winds more than once
     // (D. Zorin, Ph.D. thesis, Caltech 1998). A change of sign within 10^-9 of the value, and none from there to 1.
-    let rule = MeshRule::Butterfly { w: ratio(1, 16), modified: false };
+    let rule = scheme("butterfly", &[("w", ratio(1, 16))]);
     for (n, value) in [(9, 497_294_073), (10, 506_675_611), (14, 501_978_319)] {
         let m = local(&rule, n, 2).matrix;
         let factors = secant::poly::factor(&char_poly(&m));

@@ -14,7 +14,7 @@ const MAX_ORDERS: usize = 32;
 struct Level<'a> {
     shape: &'a Shape,
     spaces: &'a Spaces,
-    /// `N`, the number of pieces of every state.
+    /// `N`, the number of pieces of every state that comes back to itself.
     pieces: usize,
     /// The order `k`.
     order: usize,
@@ -32,7 +32,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut level = node.at(Level::first(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
-    let mut exponent = None;
+    let (mut exponent, mut least) = (None, Q::zero());
     for (k, item) in items.iter().enumerate() {
         let [order, dims, radius, outcome] = item.fields("order dims radius outcome")?;
         order.need(order.index(MAX_ORDERS)? == k, "orders", "the orders come one after the other")?;
@@ -63,6 +63,11 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
                 radius.need(slow, "orders", "no cycle with a radius of N to the power -k or more")?;
                 (false, true)
             }
+            "exponent" if k > 0 => {
+                let slow = &least * &level.power(k) > Q::one();
+                outcome.need(slow, "orders", "the radius of the order before is not above N to the power -k")?;
+                (false, true)
+            }
             "chord" if k > 0 => {
                 outcome.need(level.turns_back(&before)?, "orders", "no chord among the differences")?;
                 (false, true)
@@ -72,6 +77,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
         let verdict = if smooth { Verdict::Proved } else { Verdict::Refuted };
         claims.push(Claim::Smooth { order: k }.is(verdict));
+        least.clone_from(&low);
         if smooth {
             exponent = (!found.iter().all(|d| *d == 0)).then_some((k, low, high));
         }
@@ -103,15 +109,31 @@ pub fn graph(model: &Model<'_>, radius: &Node<'_>) -> Checked<()> {
     need(seen, "graph", "the projection of the chord lies among those of the differences of the derivative")
 }
 
+/// The states that can be reached from one, itself among them.
+fn reached(shape: &Shape, from: usize) -> Vec<usize> {
+    let (mut list, mut next) = (vec![from], 0);
+    while next < list.len() {
+        for piece in &shape.states[list[next]].pieces {
+            if !list.contains(&piece.target) {
+                list.push(piece.target);
+            }
+        }
+        next += 1;
+    }
+    list
+}
+
 impl<'a> Level<'a> {
-    /// The curve itself: every reachable state is an edge of the same number of pieces, and more than a point is seen.
+    /// The curve itself: every reachable state is an edge, those that come back to themselves have the same number of pieces, and
+    /// more than a point is seen.
     fn first(model: &'a Model<'a>) -> Checked<Self> {
         let (shape, spaces) = (model.shape, &model.spaces);
-        let pieces = shape.states[shape.start].pieces.len();
-        let uniform = shape.reachable.iter().all(|&e| {
-            let state = &shape.states[e];
-            state.kind == Kind::Edge && state.pieces.len() == pieces
-        });
+        let returning = |e: &&usize| shape.states[**e].pieces.iter().any(|p| reached(shape, p.target).contains(*e));
+        let counts: Vec<usize> =
+            shape.reachable.iter().filter(returning).map(|&e| shape.states[e].pieces.len()).collect();
+        let edges = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
+        let pieces = *some(counts.first(), "orders", "no state comes back to itself")?;
+        let uniform = edges && counts.iter().all(|n| *n == pieces);
         need(uniform && pieces >= 2, "orders", "a curve of one number of pieces is needed")?;
         let mut families = shape.no_rows();
         let mut chords = shape.no_rows();
@@ -130,10 +152,11 @@ impl<'a> Level<'a> {
         num_traits::pow(whole(self.pieces as i64), k)
     }
 
-    /// `(ε N)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece.
+    /// `(ε N_e)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece of a state.
     fn scaled(&self, e: usize, piece: &Piece) -> Checked<Matrix> {
-        let one = if piece.reversed && self.order % 2 == 1 { -Q::one() } else { Q::one() };
-        Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.power(self.order))))
+        let count = whole(self.shape.states[e].pieces.len() as i64);
+        let step = if piece.reversed { -count } else { count };
+        Ok(self.spaces.on_visible(e, piece)?.scaled(&num_traits::pow(step, self.order)))
     }
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
@@ -179,18 +202,7 @@ impl<'a> Level<'a> {
     /// Whether, in a strongly connected part that no arrow leaves, a chord lies among the differences of its derivative, although
     /// the curve of the order before, whose differences are given, is more than a point.
     fn turns_back(&self, before: &[Matrix]) -> Checked<bool> {
-        let reached = |from: usize| {
-            let (mut list, mut next) = (vec![from], 0);
-            while next < list.len() {
-                for piece in &self.shape.states[list[next]].pieces {
-                    if !list.contains(&piece.target) {
-                        list.push(piece.target);
-                    }
-                }
-                next += 1;
-            }
-            list
-        };
+        let reached = |from: usize| reached(self.shape, from);
         for &e in &self.shape.reachable {
             let inside = self.families[e].stack(&self.chords[e].transpose()).rank()? == self.families[e].rows;
             if before[e].rows > 0 && inside && reached(e).iter().all(|&d| reached(d).contains(&e)) {

@@ -2,7 +2,7 @@ use super::node::{Node, Table};
 use super::read::address;
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
-use crate::shape::{Address, Shape};
+use crate::shape::{Address, CellKind, Shape};
 use toml::de::{DeTable, DeValue};
 
 /// What a test expects of a case.
@@ -47,7 +47,8 @@ pub struct ExpectForced {
 pub struct ExpectPoint {
     /// An address of the point.
     pub address: Address,
-    /// `half-tangent`, `regular`, `cusp`, `oscillating`, `corner`, `none` or `tangent-plane`.
+    /// `smooth end` (of a curve `half-tangent` is the same), `regular`, `cusp`, `oscillating`, `corner`, `tangent line`,
+    /// `no tangent`, `tangent-plane`, `no tangent plane` or `undetermined`.
     pub kind: Option<String>,
     /// `proved`, `refuted` or `undetermined`.
     pub verdict: Option<String>,
@@ -66,7 +67,8 @@ pub struct ExpectPoint {
 }
 
 const VERDICTS: [&str; 3] = ["proved", "refuted", "undetermined"];
-const KINDS: [&str; 10] = [
+const KINDS: [&str; 11] = [
+    "smooth end",
     "half-tangent",
     "regular",
     "cusp",
@@ -140,7 +142,7 @@ impl ExpectPoint {
         };
         Ok(Self {
             address: address(&table.need("address", "\"(0)\"")?, shape)?,
-            kind: table.word("kind", &KINDS)?.map(str::to_owned),
+            kind: table.word("kind", &KINDS)?.map(|kind| of_curve(kind, shape).to_owned()),
             verdict: table.word("verdict", &VERDICTS)?.map(str::to_owned),
             dimension: table.get("dimension").map(|n| n.index(super::MAX_COORDINATES)).transpose()?,
             plane: rays("plane")?,
@@ -150,6 +152,12 @@ impl ExpectPoint {
             eigenvalue: table.optional_text("eigenvalue")?.map(str::to_owned),
         })
     }
+}
+
+/// The end of a curve with one ray is a smooth end; of a set it is called a half-tangent.
+fn of_curve(kind: &'static str, shape: &Shape) -> &'static str {
+    let curve = shape.states[shape.start].kind == CellKind::Edge;
+    if curve && kind == "half-tangent" { "smooth end" } else { kind }
 }
 
 fn vector(node: &Node<'_>) -> Result<Vec<Rational>, Problem> {

@@ -4,7 +4,8 @@
 //! * `MatrixMarket` (`array` or `coordinate`; `integer` or `real`; `general`, `symmetric` or `skew-symmetric`), with an
 //!   optional comment `% denominator: 64` that divides every entry;
 //! * literals: `matrix(QQ, [[1/2, 0], [0, 1]])` and `matrix(QQ, 2, 2, [...])` of `SageMath`, `{{1/2, 0}, {0, 1}}` of
-//!   Mathematica, `Matrix([[Rational(1, 2), 0], [0, 1]])` of `SymPy`, `[1/2 0; 0 1]` of MATLAB.
+//!   Mathematica, `Matrix([[Rational(1, 2), 0], [0, 1]])` of `SymPy`, `[1/2 0; 0 1]` of MATLAB;
+//! * rows of plain numbers (NumPy's `savetxt`, CSV), what NumPy prints, `SymPy`'s `srepr`, strings in JSON, LaTeX.
 //!
 //! Decimals are read exactly: `0.1` is 1/10. [`MatrixFile::decimals`] counts them, so that the user can be told.
 //!
@@ -12,6 +13,7 @@
 //! `root(x^3 - x - 1, 1, 2)` (see [`crate::algebraic::field`]); [`parse_field`] reads them.
 
 mod entry;
+mod foreign;
 mod literal;
 mod market;
 
@@ -43,6 +45,8 @@ pub enum Format {
     Semicolons,
     /// Sizes and one list of entries, as in `matrix(QQ, 2, 2, [...])`.
     Flat,
+    /// A notation that was rewritten as nested brackets: rows of plain numbers, NumPy's print, JSON strings, `srepr`, LaTeX.
+    Rewritten,
 }
 
 /// A square matrix that was read.
@@ -149,6 +153,13 @@ fn read(text: &str) -> Result<FieldFile, Mistake> {
     if text.len() > MAX_FILE_BYTES {
         return Err(Mistake::new("limit", 0, format!("the file has more than {} MiB", MAX_FILE_BYTES >> 20)));
     }
+    if let Some(rewritten) = foreign::rewritten(text)? {
+        // What is wrong in a text that was written anew has no place in the old one.
+        let same = rewritten.len() == text.len();
+        let read = literal::read(&rewritten).and_then(square);
+        let read = read.map(|file| FieldFile { format: Format::Rewritten, ..file });
+        return read.map_err(|mistake| Mistake { at: if same { mistake.at } else { 0 }, ..mistake });
+    }
     let start = text.trim_start();
     let rows = if start.get(..14).is_some_and(|s| s.eq_ignore_ascii_case("%%MatrixMarket")) {
         market::read(text)?
@@ -250,7 +261,8 @@ fn plain(text: &str) -> Result<Rows, Mistake> {
     let mut tokens = words(text, '#');
     let (at, first) = tokens.next().ok_or_else(|| Mistake::new("empty", 0, "there is no matrix in this file"))?;
     let n: usize = first.parse().map_err(|_| {
-        Mistake::new("size", at, format!("`{first}` is not the size of a matrix")).help("the file starts with n")
+        Mistake::new("size", at, format!("`{first}` is not the size of a matrix"))
+            .help("write n and then n rows of n numbers, or only the rows, each on a line of its own")
     })?;
     check_size(n, at)?;
     let mut builder = FieldBuilder::new();

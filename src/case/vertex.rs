@@ -4,7 +4,7 @@ use super::node::{File, Node, Table};
 use crate::answer::Verdict;
 use crate::arith::{Rational, ratio};
 use crate::diagnostic::{Problem, SourceText};
-use crate::scheme::{DualWeights, MAX_VALENCE, MeshRule, SchemeError, mesh_rule, mesh_rules};
+use crate::scheme::{MAX_VALENCE, MeshRule, SchemeError, mesh_rule, mesh_rules};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -177,19 +177,16 @@ fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
     };
     let mut known = vec!["mesh", "valence", "cell"];
     known.extend(info.parameters.iter().map(|p| p.name));
-    let variant = scheme == "catmull-clark-variant";
-    let dual = scheme == "doo-sabin";
-    if variant {
-        known.push("gamma");
-    }
-    if dual {
-        known.push("weights");
-    }
+    known.extend(info.rest.iter().chain(&info.list));
     table.only(&known)?;
-    if let Some(node) = table.get("weights").filter(|_| dual) {
+    let refused = |error: SchemeError| {
+        table.problem("value", error.to_string(), "here").with_help("`secant schemes` lists schemes and parameters")
+    };
+    if let Some(node) = info.list.and_then(|key| table.get(key)) {
         let weights: Vec<Rational> =
             node.array(|k| format!("weight {k}"))?.iter().map(Node::number).collect::<Result<_, _>>()?;
-        return Ok((scheme.to_owned(), MeshRule::DooSabin(DualWeights::Given(weights))));
+        let rule = mesh_rule(scheme, &BTreeMap::new()).and_then(|rule| rule.with_weights(weights)).map_err(refused)?;
+        return Ok((scheme.to_owned(), rule));
     }
     let mut parameters = BTreeMap::new();
     for parameter in info.parameters {
@@ -197,16 +194,16 @@ fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
             parameters.insert(parameter.name.to_owned(), node.number()?);
         }
     }
-    if let Some(node) = table.get("gamma").filter(|_| variant) {
+    if let Some((key, node)) = info.rest.and_then(|key| Some((key, table.get(key)?))) {
+        let names: Vec<&str> = info.parameters.iter().map(|p| p.name).chain([key]).collect();
+        let names = names.join(" + ");
         let sum = parameters.values().fold(node.number()?, |s, x| s + x);
         if sum != ratio(1, 1) {
             return Err(node
-                .problem("value", format!("alpha + beta + gamma is {sum}, not 1"), "the weights do not add up to 1")
-                .with_help("the three weights are shares of a mean; leave gamma out to have it computed"));
+                .problem("value", format!("{names} is {sum}, not 1"), "the weights do not add up to 1")
+                .with_help(format!("the weights are shares of a mean; leave {key} out to have it computed")));
         }
     }
-    let rule = mesh_rule(scheme, &parameters).map_err(|error: SchemeError| {
-        table.problem("value", error.to_string(), "here").with_help("`secant schemes` lists schemes and parameters")
-    })?;
+    let rule = mesh_rule(scheme, &parameters).map_err(refused)?;
     Ok((scheme.to_owned(), rule))
 }

@@ -8,7 +8,8 @@ use crate::linalg::Matrix;
 use crate::shape::Address;
 use crate::shape::Shape;
 use crate::theorem::{
-    BranchReport, Depth, Direction, Outcome, PointReport, Position, RingProof, Statement, Verdict, Witness, depths,
+    BranchReport, Depth, Direction, Kind, Outcome, PointReport, Position, RingProof, Statement, Verdict, Witness,
+    depths,
 };
 use serde_json::{Value, json};
 
@@ -44,7 +45,11 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
     Ok(json!({
         "place": place,
         "verdict": point.verdict.word(),
-        "kind": if point.kind.has_rays() { point.kind.word() } else { "none" },
+        "kind": match point.kind {
+            Kind::SmoothEnd => Kind::HalfTangent.word(),
+            kind if kind.has_rays() => kind.word(),
+            _ => "none",
+        },
         "rule": rule,
         "common": common,
         "branches": branches,

@@ -2,7 +2,8 @@
 
 use super::{Certificate, Unsupported, certificate};
 use crate::case::Case;
-use crate::theorem::{About, Assertion, Certified, Verdict};
+use crate::shape::Spaces;
+use crate::theorem::{About, Assertion, Certified, Parameter, Verdict};
 use secant_check::{Accepted, Decided, Joints, Subject};
 use thiserror::Error;
 
@@ -80,6 +81,43 @@ fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
         }
     }
     Ok(())
+}
+
+/// The claims about the uniform parameter that the checker proves or refutes, as they were found, from a certificate of the
+/// orders of smoothness; none where that has no rule for the evidence.
+///
+/// # Errors
+/// [`Doubt`] where the checker does not accept the certificate.
+///
+/// # Cost
+/// That of the certificate and of [`secant_check::check`].
+pub fn confirm_orders(case: &Case, found: &Certified) -> Result<Vec<Assertion>, Doubt> {
+    let (Some(Parameter::Orders(orders)), Some(spaces)) = (&found.parameter, Spaces::new(&case.shape)) else {
+        return Ok(Vec::new());
+    };
+    let Ok(certificate) = super::regularity_certificate(case, &spaces, &found.contraction, orders) else {
+        return Ok(Vec::new());
+    };
+    let accepted = match accepted(&case.checked_text(), &certificate) {
+        Err(Doubt::Unsupported(_)) => return Ok(Vec::new()),
+        answer => answer?,
+    };
+    let mut again = Vec::new();
+    for claim in found.claims.iter().filter(|c| c.what.is_of_parameter() && c.verdict() != Verdict::Undetermined) {
+        let proved = accepted.claims.iter().any(|d| {
+            let same = match (&claim.what, &d.claim) {
+                (Assertion::Smooth { order }, secant_check::Claim::Smooth { order: k }) => order == k,
+                (Assertion::Polynomial, secant_check::Claim::Polynomial) => true,
+                (Assertion::Exponent(_), secant_check::Claim::Exponent { order, .. }) => *order == orders.smoothness(),
+                _ => false,
+            };
+            same && same_verdict(claim.verdict(), d.verdict)
+        });
+        if proved {
+            again.push(claim.what.clone());
+        }
+    }
+    Ok(again)
 }
 
 /// Has a certificate checked by `secant-check` against the text of what it is about.

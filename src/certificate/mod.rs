@@ -19,7 +19,7 @@ mod top;
 mod tree;
 mod vertex;
 
-pub use confirm::{Doubt, checked, confirm};
+pub use confirm::{Doubt, checked, confirm, confirm_orders};
 pub use joint::radius_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
@@ -73,6 +73,17 @@ impl Certificate {
     #[must_use]
     pub fn json(&self) -> &Value {
         &self.json
+    }
+
+    /// Whether it has the answer to "every point" with this verdict.
+    #[must_use]
+    pub fn decides_every_point(&self, verdict: Verdict) -> bool {
+        let answers = self.json["proof"]["answers"].as_array();
+        answers.is_some_and(|answers| {
+            answers.iter().any(|a| {
+                a["question"].as_str().is_some_and(|q| q.starts_with("every point")) && a["verdict"] == verdict.word()
+            })
+        })
     }
 
     /// The text of the certificate file: one line for each item of the lists of the proof.

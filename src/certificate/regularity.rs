@@ -43,6 +43,7 @@ pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
         Outcome::Joint(_) => "joint",
         Outcome::Cycle => "cycle",
         Outcome::Chord(_) => "chord",
+        Outcome::Exponent => "exponent",
         Outcome::Open => return unsupported("an order that is not decided", format!("order {}", order.order)),
     };
     Ok(json!({"order": order.order, "dims": order.dims, "radius": radius, "outcome": outcome}))

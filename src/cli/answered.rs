@@ -4,11 +4,12 @@ use super::CertifyArgs;
 use crate::answer::Verdict;
 use crate::budget::Budget;
 use crate::case::{Question, Valences};
-use crate::certificate::{Certificate, Doubt, Unsupported};
+use crate::certificate::{Certificate, Doubt, Unsupported, confirm_orders};
 use crate::diagnostic::Problem;
 use crate::prove::{Findings, confirm, prove_with, unconfirmed};
-use crate::report::findings;
-use crate::theorem::Certified;
+use crate::report::words::listed;
+use crate::report::{claims, findings};
+use crate::theorem::{Assertion, Certified, Claim, Required};
 use crate::vertex::Again;
 use serde_json::Value;
 use std::path::Path;
@@ -22,6 +23,8 @@ pub struct Answered {
     pub findings: Findings,
     /// What the checker said; `None` where it was not asked, or nothing is decided.
     pub evidence: Option<Evidence>,
+    /// What is decided and was not proved again, although there is a certificate: labels of claims.
+    pub once: Vec<String>,
 }
 
 /// Whether the checker proved a verdict again.
@@ -29,11 +32,16 @@ pub struct Answered {
 pub enum Checked {
     /// It did.
     Yes,
+    /// Of the claims that decide, or of the others, some have no rule in the certificate format.
+    Part,
     /// The certificate format has no rule for some evidence.
     NoRule,
     /// It was not asked.
     NotAsked,
 }
+
+/// What a report says where some claims are not proved again.
+pub const ONCE: &str = "no rule of the certificate format covers";
 
 /// What a report says where there is no evidence.
 pub const NOT_ASKED: &str = "the checker was not asked";
@@ -70,7 +78,7 @@ pub fn answered(
 ) -> Result<Answered, Problem> {
     let mut findings = prove_with(question, budget, step)?;
     let decided = match &findings {
-        Findings::Tangents { found, .. } => found.verdict != Verdict::Undetermined,
+        Findings::Tangents { found, .. } => found.claims.iter().any(|c| c.verdict() != Verdict::Undetermined),
         Findings::Vertices { found, .. } => !found.is_empty(),
     };
     let evidence = if check && decided {
@@ -82,7 +90,27 @@ pub fn answered(
     } else {
         None
     };
-    Ok(Answered { findings, evidence })
+    let once = match (&findings, &evidence) {
+        (Findings::Tangents { case, found }, Some(Ok(certificate))) => {
+            let orders = confirm_orders(case, found).map_err(|doubt| rejected(findings.name(), &doubt))?;
+            let once = found.claims.iter().filter(|c| !is_proved_again(c, certificate, &orders));
+            once.map(|c| claims::label(&c.what)).collect()
+        }
+        _ => Vec::new(),
+    };
+    Ok(Answered { findings, evidence, once })
+}
+
+/// Whether a claim is open, or proved again by the certificate that was accepted or by that of the orders of smoothness.
+fn is_proved_again(claim: &Claim, certificate: &Certificate, orders: &[Assertion]) -> bool {
+    if claim.verdict() == Verdict::Undetermined {
+        return true;
+    }
+    match &claim.what {
+        Assertion::G1 => certificate.decides_every_point(claim.verdict()),
+        what if what.is_of_parameter() => orders.contains(what),
+        _ => true,
+    }
 }
 
 /// A certificate that the checker does not accept.
@@ -97,6 +125,7 @@ impl Answered {
         match (&self.findings, &self.evidence) {
             (_, None) => Checked::NotAsked,
             (_, Some(Err(_))) => Checked::NoRule,
+            (Findings::Tangents { .. }, Some(Ok(_))) if !self.once.is_empty() => Checked::Part,
             (Findings::Tangents { .. }, Some(Ok(_))) => Checked::Yes,
             (Findings::Vertices { found, every, .. }, Some(Ok(_))) => {
                 let mut decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined);
@@ -119,12 +148,13 @@ impl Answered {
     }
 
     /// The JSON report, with what the checker said.
-    pub fn json(&self) -> Value {
-        let mut report = findings::json(&self.findings);
+    pub fn json(&self, required: &Required) -> Value {
+        let mut report = findings::json(&self.findings, required);
         let why = match &self.evidence {
             None => Some(NOT_ASKED.to_owned()),
             Some(Err(unsupported)) => Some(unsupported.to_string()),
             Some(Ok(_)) if self.checked() == Checked::Yes => None,
+            Some(Ok(_)) if !self.once.is_empty() => Some(format!("{ONCE} {}", listed(&self.once))),
             Some(Ok(_)) => Some("some of the verdicts have no rule in the certificate format".to_owned()),
         };
         report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});

@@ -11,8 +11,9 @@ use crate::picture::characteristic::thumbnail;
 use crate::prove::Findings;
 use crate::report::html::escaped;
 use crate::report::vertex::{panel, ranges};
-use crate::report::{figures, findings, html, words};
+use crate::report::{claims, figures, findings, html, words};
 use crate::shape::Solution;
+use crate::theorem::{Assertion, Certified};
 use crate::vertex::{AtValence, Every};
 use std::path::Path;
 
@@ -110,12 +111,26 @@ fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
     let (picture, what) = match &answered.findings {
         Findings::Tangents { case, found } => {
             let picture = figures::attractor(case, found).map(|p| p.thumbnail);
-            (picture, format!("{}: {}", marked(found.verdict), escaped(&answered.kinds().join(", "))))
+            (
+                picture,
+                format!(
+                    "{}{}: {}",
+                    marked(answered.findings.verdict()),
+                    smoothness(found),
+                    escaped(&answered.kinds().join(", "))
+                ),
+            )
         }
         Findings::Vertices { found, every, .. } => vertices(found, every.as_ref()),
     };
     let verdict = answered.findings.verdict().word();
     Ok((card(&picture.unwrap_or_default(), name, answered.findings.title(), &what), verdict, report))
+}
+
+/// What is known of every point, and of the parameter.
+fn smoothness(found: &Certified) -> String {
+    let claims = found.claims.iter().filter(|c| !c.what.is_of_tangents() && !matches!(c.what, Assertion::Exponent(_)));
+    claims.map(|c| format!("; {} {}", escaped(&claims::label(&c.what)), c.verdict().word())).collect()
 }
 
 fn tone(verdict: Verdict) -> &'static str {

@@ -1,18 +1,18 @@
 //! `secant certify` of a single case.
 
-use super::answered::{Answered, answered, question};
+use super::answered::{Answered, ONCE, answered, question};
 use super::output::{complain, print, problem_code, stdout_colour, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many};
 use crate::answer::Verdict;
 use crate::case::{Case, Question, Valences};
-use crate::certificate::Unsupported;
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::picture::characteristic::sheet;
 use crate::prove::Findings;
 use crate::report::document::Block;
 use crate::report::proof::Level;
+use crate::report::words::listed;
 use crate::report::{figures, findings, html, json, latex, markdown, text, vertex as at_vertices};
 use std::path::Path;
 
@@ -51,7 +51,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
                 note(&answered);
             }
             print(&shown);
-            exit_code(answered.findings.verdict())
+            exit_code(answered.findings.verdict_on(&args.require))
         }
         Err(problem) => {
             if args.json || args.jsonl {
@@ -83,7 +83,9 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 fn note(answered: &Answered) {
     let Findings::Tangents { case, .. } = &answered.findings else { return };
     if let Some(Err(unsupported)) = &answered.evidence {
-        note_unconfirmed(unsupported);
+        note_unconfirmed(&unsupported.to_string());
+    } else if !answered.once.is_empty() {
+        note_unconfirmed(&format!("{ONCE} {}", listed(&answered.once)));
     }
     note_dangling(case);
 }
@@ -98,8 +100,8 @@ fn note_dangling(case: &Case) {
 }
 
 /// Says so where a decided verdict has no certificate that could be checked.
-fn note_unconfirmed(unsupported: &Unsupported) {
-    let message = format!("the verdict was not proved again: {unsupported}");
+fn note_unconfirmed(why: &str) {
+    let message = format!("not all verdicts were proved again: {why}");
     complain(
         &Problem::new("secant::certificate::none", message).with_help("see docs/certificate.md, “What is not covered”"),
     );
@@ -219,9 +221,11 @@ fn undrawn(name: &str) -> Problem {
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {
     if args.json || args.jsonl {
-        return json_text(&answered.json(), args.json);
+        let mut data = answered.json(&args.require);
+        data["path"] = args.cases.first().map(|p| p.display().to_string()).into();
+        return json_text(&data, args.json);
     }
-    text::render(&findings::summary(&answered.findings, args.verbose), stdout_colour())
+    text::render(&findings::summary(&answered.findings, &args.require, args.verbose), stdout_colour())
 }
 
 /// A value as JSON text, indented or in one line.

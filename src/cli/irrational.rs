@@ -2,13 +2,13 @@
 //! `secant spectrum` reads.
 
 use crate::algebraic::field::FieldMatrix;
-use crate::scheme::{DualWeights, FieldMask, LoopWeights, MeshRule, daubechies, field_local_matrix};
+use crate::scheme::{FieldMask, MeshRule, RuleInfo, daubechies, field_local_matrix, mesh_rule, mesh_rules};
 use std::fmt::Write as _;
 
 /// A scheme over number fields.
 pub struct Entry {
-    name: &'static str,
-    summary: &'static str,
+    name: String,
+    summary: String,
     source: &'static str,
     kind: Kind,
 }
@@ -18,39 +18,25 @@ enum Kind {
     Filter(usize),
 }
 
-/// All of them, in alphabetical order.
-pub const LIST: &[Entry] = &[
-    Entry {
-        name: "db2",
-        summary: "Daubechies's filter with 2 vanishing moments and 4 taps, as a = √2 h over Q(√3); for `secant spectrum`",
+/// All of them, in alphabetical order: filters, and the mesh rules with irrational weights.
+pub fn list() -> Vec<Entry> {
+    let filter = |moments: usize, what: &str| Entry {
+        name: format!("db{moments}"),
+        summary: format!(
+            "Daubechies's filter with {moments} vanishing moments and {} taps, as a = √2 h{what}; for `secant spectrum`",
+            2 * moments
+        ),
         source: "I. Daubechies, Comm. Pure Appl. Math. 41 (1988)",
-        kind: Kind::Filter(2),
-    },
-    Entry {
-        name: "db3",
-        summary: "Daubechies's filter with 3 vanishing moments and 6 taps, as a = √2 h, degree 4; for `secant spectrum`",
-        source: "I. Daubechies, Comm. Pure Appl. Math. 41 (1988)",
-        kind: Kind::Filter(3),
-    },
-    Entry {
-        name: "doo-sabin-original",
-        summary: "local matrix with the published cosine weights around a face of every valence; for `secant spectrum`",
-        source: "D. Doo, M. Sabin, Computer-Aided Design 10 (1978)",
-        kind: Kind::Mesh(MeshRule::DooSabin(DualWeights::Original)),
-    },
-    Entry {
-        name: "loop-original",
-        summary: "local matrix with the published weights at a vertex of every valence; for `secant spectrum`",
-        source: "C. Loop, master's thesis, Utah (1987)",
-        kind: Kind::Mesh(MeshRule::Loop(LoopWeights::Original)),
-    },
-    Entry {
-        name: "sqrt3-original",
-        summary: "local matrix of two steps with the published weights at a vertex of every valence; for `secant spectrum`",
-        source: "L. Kobbelt, SIGGRAPH 2000",
-        kind: Kind::Mesh(MeshRule::Sqrt3(None)),
-    },
-];
+        kind: Kind::Filter(moments),
+    };
+    let mesh = |info: &RuleInfo| {
+        let summary = format!("{}; for `secant spectrum`", info.over_fields?);
+        let rule = mesh_rule(info.name, &[].into()).ok()?;
+        Some(Entry { name: format!("{}-original", info.name), summary, source: info.source, kind: Kind::Mesh(rule) })
+    };
+    let filters = [filter(2, " over Q(√3)"), filter(3, ", degree 4")];
+    filters.into_iter().chain(mesh_rules().iter().filter_map(mesh)).collect()
+}
 
 /// The entry of the list.
 pub fn entry(info: &Entry) -> String {
@@ -63,11 +49,11 @@ pub fn entry(info: &Entry) -> String {
 
 /// The text of one of these schemes; `None` where the name is not among them.
 pub fn written(name: &str, parameters: &[String]) -> Option<Result<String, String>> {
-    let info = LIST.iter().find(|s| s.name == name)?;
+    let info = list().into_iter().find(|s| s.name == name)?;
     Some(match &info.kind {
-        Kind::Mesh(rule) => mesh(info, rule, parameters),
+        Kind::Mesh(rule) => mesh(&info, rule, parameters),
         Kind::Filter(moments) if parameters.is_empty() => {
-            daubechies(*moments).map(|mask| case(info, &mask)).map_err(|e| e.to_string())
+            daubechies(*moments).map(|mask| case(&info, &mask)).map_err(|e| e.to_string())
         }
         Kind::Filter(_) => Err(format!("`{name}` has no parameters")),
     })

@@ -1,6 +1,6 @@
 //! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
-use super::answered::{Checked, Evidence, NOT_ASKED, answered, question};
+use super::answered::{Checked, Evidence, NOT_ASKED, ONCE, answered, question};
 use super::certify::{exit_code, json_text};
 use super::output::{complain, print, problem_code, stdout_colour};
 use super::progress::Progress;
@@ -34,6 +34,7 @@ fn checked_in(report: &Value) -> Option<Checked> {
     Some(match (said["checked"].as_bool()?, said["why"].as_str()) {
         (true, None) => Checked::Yes,
         (false, Some(NOT_ASKED)) => Checked::NotAsked,
+        (false, Some(why)) if why.starts_with(ONCE) => Checked::Part,
         (false, Some(_)) => Checked::NoRule,
         _ => return None,
     })
@@ -42,6 +43,7 @@ fn checked_in(report: &Value) -> Option<Checked> {
 fn checked_word(checked: Checked) -> &'static str {
     match checked {
         Checked::Yes => "yes",
+        Checked::Part => "in part",
         Checked::NoRule => "no rule",
         Checked::NotAsked => "–",
     }
@@ -103,16 +105,20 @@ fn code(outcome: &Outcome) -> u8 {
 fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
     let question = question(path, args)?;
     let store = store.filter(|_| question.subject() != Subject::Vertices);
+    let with_path = |mut done: Done| {
+        done.json["path"] = path.display().to_string().into();
+        done
+    };
     if let Some(done) = store.and_then(|s| s.find(path, &question)).and_then(kept) {
-        return Ok(done);
+        return Ok(with_path(done));
     }
     let answered = answered(&question, !args.no_check, &args.budget(), &|| {})?;
     let done = Done {
         name: answered.findings.name().to_owned(),
-        verdict: answered.findings.verdict(),
+        verdict: answered.findings.verdict_on(&args.require),
         kinds: answered.kinds().join(", "),
         checked: answered.checked(),
-        json: answered.json(),
+        json: answered.json(&args.require),
         kept: false,
     };
     if let Some(store) = store {
@@ -120,7 +126,7 @@ fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
         let kept = Kept { report: done.json.clone(), kinds: done.kinds.clone() };
         store.keep(path, &question.text().text, &kept, certificate.as_deref())?;
     }
-    Ok(done)
+    Ok(with_path(done))
 }
 
 /// A stored result, read back; `None` where it is not what this version writes.
@@ -141,18 +147,26 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
         match outcome {
             Ok(done) => {
                 let mark = vec![phrases::mark(done.verdict)];
-                vec![words(done.name.clone()), mark, words(checked_word(done.checked)), words(done.kinds.clone())]
+                let (every, order) = (every_point(&done.json), order(&done.json));
+                vec![
+                    words(done.name.clone()),
+                    mark,
+                    words(checked_word(done.checked)),
+                    every,
+                    words(order),
+                    words(done.kinds.clone()),
+                ]
             }
             Err(problem) => {
                 let word = if problem.is_internal() { "internal error" } else { "refused" };
                 let mark = vec![Inline::Mark(Tone::Bad, word.to_owned())];
-                vec![words(stem(name)), mark, words("–"), words(problem.message().to_owned())]
+                vec![words(stem(name)), mark, words("–"), words("–"), words("–"), words(problem.message().to_owned())]
             }
         }
     };
     let table = Table {
         caption: Line::new(),
-        header: vec![words("Case"), words("Verdict"), words("Checked"), words("Points")],
+        header: ["Case", "Verdict", "Checked", "G¹", "C^k", "Points"].map(words).to_vec(),
         rows: names.iter().zip(outcomes).map(row).collect(),
     };
     let count = |wanted: u8| outcomes.iter().filter(|o| code(o) == wanted).count();
@@ -180,6 +194,28 @@ fn table(names: &[String], outcomes: &[Outcome]) -> Document {
     Document { title: "secant certify".to_owned(), blocks: vec![Block::Table(table), Block::Paragraph(words(total))] }
 }
 
+/// What a report says of every point.
+fn every_point(report: &Value) -> Line {
+    let claims = report["claims"].as_array();
+    let found = claims.and_then(|all| all.iter().find(|c| c["about"] == "g1"));
+    let verdict = found.and_then(|c| Verdict::of_word(c["verdict"].as_str()?));
+    verdict.map_or_else(|| words("–"), |v| vec![phrases::mark(v)])
+}
+
+/// The largest order of smoothness that a report proves, with `≥` where the next one is open.
+fn order(report: &Value) -> String {
+    let parameter = &report["parameter"];
+    match (parameter["polynomial"].as_bool(), parameter["smoothness"].as_u64()) {
+        (Some(true), _) => "∞".to_owned(),
+        (_, Some(k)) => {
+            let last = parameter["orders"].as_array().and_then(|orders| orders.last());
+            let exact = last.is_some_and(|o| o["smooth"] == false);
+            format!("{}{k}", if exact { "" } else { "≥ " })
+        }
+        _ => "–".to_owned(),
+    }
+}
+
 /// The name of the file without directory and ending.
 fn stem(path: &str) -> String {
     Path::new(path).file_stem().map_or_else(|| path.to_owned(), |s| s.to_string_lossy().into_owned())
@@ -192,7 +228,7 @@ mod tests {
     use clap::Parser;
 
     fn arguments(more: &[&str]) -> CertifyArgs {
-        let words = ["secant", "certify", "-q", "cases/classical/takagi.toml", "broken", "cases/classical/levy.toml"];
+        let words = ["secant", "certify", "-q", "cases/bspline/degree-2.toml", "broken", "cases/classical/levy.toml"];
         match Cli::try_parse_from(words.iter().chain(more)).map(|cli| cli.command) {
             Ok(Command::Certify(args)) => args,
             _ => unreachable!("the command line above is one of certify"),

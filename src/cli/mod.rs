@@ -25,6 +25,7 @@ mod spectrum;
 
 use crate::budget::{Budget, Effort};
 use crate::guard::guarded;
+use crate::theorem::Required;
 use clap::{Args, CommandFactory, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -165,6 +166,10 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
+    /// first four; with `?` behind it a claim decides only where it is refuted.
+    #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,g1?", hide_default_value = false)]
+    require: Required,
     /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
     #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
     effort: Effort,

@@ -40,7 +40,7 @@ impl Store {
         let program = std::env::current_exe().and_then(std::fs::read).ok().map(sha256);
         let maker = program.map(|digest| {
             let version = env!("CARGO_PKG_VERSION");
-            json!({"secant": version, "program": digest, "address": args.address, "unchecked": args.no_check, "effort": args.effort.word(), "cells": args.cells, "words": args.words})
+            json!({"secant": version, "program": digest, "address": args.address, "unchecked": args.no_check, "effort": args.effort.word(), "cells": args.cells, "words": args.words, "require": args.require.to_string()})
                 .to_string()
         });
         Ok(Self { dir: dir.to_owned(), maker })
@@ -54,7 +54,7 @@ impl Store {
         let certificate = stored["certificate"].as_str();
         let whole = stored["seal"].as_str()? == self.seal(&case.text.text, &kept, certificate)?;
         let proved = match certificate {
-            Some(digest) => self.proves(path, case, digest, kept.report["verdict"].as_str()?),
+            Some(digest) => self.proves(path, case, digest, kept.report["tangents"].as_str()?),
             // Without a certificate the report must not claim that there was one.
             None => kept.report["certificate"]["checked"] == false,
         };

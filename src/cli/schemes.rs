@@ -13,7 +13,7 @@ pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
     let Some(name) = name else {
         let curves = scheme::list().iter().map(|i| entry(i.name, i.summary, i.parameters, i.source));
         let meshes = scheme::mesh_rules().iter().map(|i| entry(i.name, i.summary, i.parameters, i.source));
-        let curves: String = curves.chain(irrational::LIST.iter().map(irrational::entry)).collect();
+        let curves: String = curves.chain(irrational::list().iter().map(irrational::entry)).collect();
         let meshes: String = meshes.collect();
         print(&format!("{curves}\nMesh rules, for `mesh = …` and `valence = …` under [scheme] in a case:\n\n{meshes}"));
         return PROVED;

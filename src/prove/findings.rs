@@ -4,7 +4,7 @@ use crate::answer::Verdict;
 use crate::case::{Case, VertexCase};
 use crate::certificate::{self, Certificate, Doubt, Unsupported};
 use crate::diagnostic::SourceText;
-use crate::theorem::{Assertion, Certified, Claim, Reason};
+use crate::theorem::{Assertion, Certified, Claim, Reason, Required};
 use crate::vertex::{AtValence, Every, overall};
 use std::sync::Arc;
 
@@ -31,11 +31,17 @@ pub enum Findings {
 }
 
 impl Findings {
-    /// The verdict on all claims together: refuted if one is refuted, proved if there are claims and all are proved.
+    /// The verdict on the claims that decide where nobody says otherwise ([`Required::default`]).
     #[must_use]
     pub fn verdict(&self) -> Verdict {
+        self.verdict_on(&Required::default())
+    }
+
+    /// The verdict on the claims that are required; at the vertices of a mesh on all claims.
+    #[must_use]
+    pub fn verdict_on(&self, required: &Required) -> Verdict {
         match self {
-            Self::Tangents { found, .. } => found.verdict,
+            Self::Tangents { found, .. } => required.verdict(&found.claims),
             Self::Vertices { found, every, .. } => overall(found, every.as_ref()),
         }
     }

@@ -1,9 +1,13 @@
 //! The words of claims and of the reasons why they are refuted or open: the only place where they are written.
 
+use super::reasons::{self, UNKNOWN};
+use super::vertex_reasons;
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::theorem::surface::Surface;
-use crate::theorem::{About, AboutPlane, Assertion, Certified, Claim, Limit, PointReport, Reason, Role, Seen, Verdict};
+use crate::theorem::surface::{Surface, SurfacePoint};
+use crate::theorem::{
+    About, AboutPlane, Assertion, Certified, Claim, Limit, Parameter, PointReport, Reason, Role, Seen, Topic, Verdict,
+};
 use crate::vertex::AtValence;
 
 /// What is claimed, as a sentence without a capital and a full stop.
@@ -39,6 +43,16 @@ pub fn assertion(what: &Assertion) -> String {
         Assertion::SomePoint => "some point of the shape has a tangent line",
         Assertion::G1 => "the curve is G¹: it has a tangent at every point, which turns continuously",
         Assertion::Smooth { order } => return format!("the curve is C^{order} in the uniform parameter"),
+        Assertion::Polynomial => "the curve is a polynomial in the uniform parameter, C^k for all k",
+        Assertion::Exponent(bounds) => {
+            return match bounds {
+                Some(b) => format!(
+                    "the Hölder exponent of the curve in the uniform parameter is {}",
+                    super::radius::interval(b)
+                ),
+                None => "the Hölder exponent of the curve in the uniform parameter has a bound".to_owned(),
+            };
+        }
         Assertion::PlaneAtVertices => {
             "the surface has a tangent plane at every vertex of its first subdivision (corners, sides, inside)"
         }
@@ -83,6 +97,29 @@ pub fn assertion(what: &Assertion) -> String {
     text.to_owned()
 }
 
+/// What a claim is about, in the first column of a table: `ends`, `every point (G¹)`, `C²`.
+#[must_use]
+pub fn label(what: &Assertion) -> String {
+    match (what, what.topic()) {
+        (Assertion::Polynomial, _) => "C^k for all k".to_owned(),
+        (Assertion::PlaneAtVertices, _) => "vertices".to_owned(),
+        (Assertion::SomePoint, _) => "some point".to_owned(),
+        (Assertion::C1AtVertex { valence } | Assertion::PlaneAtVertex { valence }, _) => format!("valence {valence}"),
+        (Assertion::C1AtVertices { from }, _) => format!("valences from {from}"),
+        (_, None) => "tangents".to_owned(),
+        (_, Some(Topic::Ends)) => "ends".to_owned(),
+        (_, Some(Topic::Joints)) => "joints".to_owned(),
+        (_, Some(Topic::Dense)) => "dense set".to_owned(),
+        (_, Some(Topic::G1)) => "every point (G¹)".to_owned(),
+        (_, Some(Topic::C(order))) => format!("C^{order}"),
+        (_, Some(Topic::Exponent)) => "Hölder exponent".to_owned(),
+        (_, Some(Topic::Points)) => match what.asked() {
+            Some((address, _)) => format!("point {address}"),
+            None => "points".to_owned(),
+        },
+    }
+}
+
 /// A claim with its verdict, as a sentence that follows a mark: "it is false that …", "whether …".
 #[must_use]
 pub fn judged(claim: &Claim) -> String {
@@ -115,7 +152,8 @@ pub fn limit(limit: &Limit) -> String {
 /// The same of a claim about the vertices of a mesh.
 #[must_use]
 pub fn reason_at_vertices(found: &[AtValence], claim: &Claim) -> Option<String> {
-    let said = |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| f.reason.clone());
+    let said =
+        |n: usize| found.iter().find(|f| f.valence == n).map_or_else(unknown, |f| vertex_reasons::reason(&f.reason));
     claim.reason().map(|reason| match reason {
         Reason::Valence(n) => said(*n),
         Reason::Conditions => "a condition of the proof for all valences is not shown to hold".to_owned(),
@@ -162,6 +200,24 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
         Reason::Similarities => {
             "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
         }
+        Reason::EveryPoint => {
+            let every = found.everywhere.as_ref();
+            every.and_then(|e| reasons::everywhere(found, e)).unwrap_or_else(unknown)
+        }
+        Reason::Order(order) => match &found.parameter {
+            Some(Parameter::Orders(orders)) => {
+                orders.orders.get(*order).and_then(|o| super::regularity::outcome(&case.shape, o))
+            }
+            _ => None,
+        }
+        .unwrap_or_else(|| "no bounds of its joint spectral radius are known".to_owned()),
+        Reason::NoOrder => match &found.parameter {
+            Some(Parameter::None(error)) => error.to_string(),
+            Some(Parameter::Large(size)) => {
+                format!("the visible quotients have {size} coordinates together; `secant regularity` goes on beyond 24")
+            }
+            _ => unknown(),
+        },
         Reason::TooManyCells => "there are too many cells around a vertex".to_owned(),
         Reason::SurfaceNotInjective { .. } => "an operator is not injective on the visible relevant space".to_owned(),
         Reason::SurfacePoint(_) | Reason::SurfaceVertex(_) | Reason::VertexInside(_) => {
@@ -172,17 +228,17 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
 }
 
 fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
-    let said = |reason: &Option<String>| reason.clone().unwrap_or_else(unknown);
+    let said = |point: &SurfacePoint| reasons::plane(point).unwrap_or_else(unknown);
     match reason {
-        Reason::SurfacePoint(index) => surface.points.get(*index).map_or_else(unknown, |p| said(&p.reason)),
+        Reason::SurfacePoint(index) => surface.points.get(*index).map_or_else(unknown, said),
         Reason::SurfaceVertex(index) => match surface.points.get(*index).map(|p| (p, p.branches.first())) {
-            Some((point, Some(branch))) => format!("at {}: {}", branch.address, said(&point.reason)),
+            Some((point, Some(branch))) => format!("at {}: {}", branch.address, said(point)),
             _ => unknown(),
         },
         Reason::VertexInside(index) => match surface.dense.as_ref().and_then(|d| d.vertices.get(*index)) {
             Some((state, point)) => {
                 let name = &case.shape.states[*state].name;
-                format!("at the vertices inside state `{name}`: {}", said(&point.reason))
+                format!("at the vertices inside state `{name}`: {}", said(point))
             }
             None => unknown(),
         },
@@ -191,10 +247,9 @@ fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
 }
 
 fn of_point(point: &PointReport) -> String {
-    point.reason.clone().unwrap_or_else(unknown)
+    reasons::point(point).unwrap_or(UNKNOWN).to_owned()
 }
 
-/// Evidence always says why it does not prove; this stands where it would not.
 fn unknown() -> String {
-    "no reason was given".to_owned()
+    UNKNOWN.to_owned()
 }

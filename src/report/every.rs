@@ -2,23 +2,17 @@
 
 use super::document::{Inline, Line, line, words};
 use super::radius::decimal;
+use super::reasons;
 use super::values::root_math;
 use super::words::{count, listed, mark, point_name};
 use crate::case::Case;
 use crate::shape::word_text;
-use crate::statement::Statement;
 use crate::theorem::cone::{CommonCone, ConeObstacle};
 use crate::theorem::{Certified, Everywhere, Hodograph, Kind, PointReport, Turn, Verdict};
 use serde_json::{Value, json};
 
 /// Places of an exponent.
 const PLACES: u64 = 6;
-
-/// The theorem that gives the cones: where single pieces have coefficients 0 it is Theorem 6′.
-#[must_use]
-pub fn theorem(cone: &CommonCone) -> Statement {
-    if cone.slow.is_empty() && cone.window == 1 { Statement::Theorem6 } else { Statement::Theorem6Slow }
-}
 
 /// What is claimed, in a few words.
 #[must_use]
@@ -40,7 +34,7 @@ pub fn claim(every: &Everywhere) -> String {
 pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String, Line)> {
     let mut verdict = vec![mark(every.verdict)];
     verdict.extend(words(format!(": {}", claim(every))));
-    if let Some(reason) = &every.reason {
+    if let Some(reason) = reasons::everywhere(found, every) {
         verdict.extend(words(format!("; {reason}")));
     }
     let mut facts = vec![("smoothness".to_owned(), verdict)];
@@ -62,7 +56,7 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
         facts.push(("tangent".to_owned(), words(text)));
     }
     if let Some(h) = &every.hodograph {
-        facts.push(("derivative".to_owned(), words(h.summary())));
+        facts.push(("derivative".to_owned(), words(reasons::arcs(h))));
     }
     if let Some(point) = every.witness.and_then(|k| found.points.get(k)) {
         facts.push(("witness".to_owned(), witness(case, point)));
@@ -75,9 +69,7 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
 
 fn witness(case: &Case, point: &PointReport) -> Line {
     let kind = match point.kind {
-        Kind::Line | Kind::NoTangent | Kind::Undetermined => {
-            point.reason.clone().unwrap_or_else(|| "no tangent".to_owned())
-        }
+        Kind::Line | Kind::NoTangent | Kind::Undetermined => reasons::point(point).unwrap_or("no tangent").to_owned(),
         kind => kind.word().to_owned(),
     };
     let mut out = words(format!("{}, address ", point_name(&case.shape, point)));
@@ -93,7 +85,7 @@ pub fn obstacle(case: &Case, o: &ConeObstacle) -> Line {
     let text = format!(
         "no cone is mapped strictly into itself (Theorem 6), because the product along the cycle `{}`{place} has {}: ",
         word_text(&o.word),
-        o.reason
+        reasons::defect(o.reason)
     );
     let mut out = line(&text, []);
     for (k, root) in o.leading.iter().enumerate() {
@@ -153,7 +145,7 @@ pub fn value(found: &Certified) -> Value {
     let matrix = |m: &crate::linalg::Matrix| (0..m.rows()).map(|i| text(m.row(i))).collect::<Vec<_>>();
     let cone = every.cone.as_ref().map(|c| {
         json!({
-            "theorem": theorem(c).id(),
+            "theorem": c.statement().id(),
             "cones": c.cones.iter().map(|k| json!({
                 "state": k.state,
                 "rays": matrix(&k.rays.transpose()),
@@ -180,9 +172,9 @@ pub fn value(found: &Certified) -> Value {
             "word": word_text(&o.word),
             "product": matrix(&o.product),
             "eigenvalues": o.leading.iter().map(super::json::root_value).collect::<Vec<_>>(),
-            "reason": o.reason,
+            "reason": reasons::defect(o.reason),
         })),
         "derivative": every.hodograph.as_ref().map(derivative),
-        "reason": every.reason,
+        "reason": reasons::everywhere(found, every),
     })
 }

@@ -4,6 +4,7 @@ use super::document::Document;
 use super::proof::Level;
 use super::{json, proof, summary, vertex};
 use crate::prove::Findings;
+use crate::theorem::Required;
 use serde_json::Value;
 
 /// The proof.
@@ -23,18 +24,18 @@ pub fn proof_at(findings: &Findings, level: Level) -> Document {
 
 /// What `secant certify` prints; `verbose` adds branches, rates and exponents.
 #[must_use]
-pub fn summary(findings: &Findings, verbose: bool) -> Document {
+pub fn summary(findings: &Findings, required: &Required, verbose: bool) -> Document {
     match findings {
-        Findings::Tangents { case, found } => summary::summary(case, found, verbose),
+        Findings::Tangents { case, found } => summary::summary(case, found, required, verbose),
         Findings::Vertices { case, found, every } => vertex::document(case, found, every.as_ref(), verbose),
     }
 }
 
 /// The JSON report (docs/json.md).
 #[must_use]
-pub fn json(findings: &Findings) -> Value {
+pub fn json(findings: &Findings, required: &Required) -> Value {
     match findings {
-        Findings::Tangents { case, found } => json::report(case, found),
+        Findings::Tangents { case, found } => json::report(case, found, required),
         Findings::Vertices { case, found, every } => vertex::json(case, found, every.as_ref(), &findings.claims()),
     }
 }

@@ -1,6 +1,7 @@
 //! The JSON report, version 1; documented in `docs/json.md`.
 
 use super::claims;
+use super::reasons;
 use super::text::math_line;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
 use super::words::ratio;
@@ -11,8 +12,8 @@ use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Role, Side, Verdict,
-    Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role,
+    Side, Verdict, Witness,
 };
 use serde_json::{Value, json};
 
@@ -21,17 +22,23 @@ pub const VERSION: u32 = 1;
 
 /// Everything that was found, as data.
 #[must_use]
-pub fn report(case: &Case, found: &Certified) -> Value {
+pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
     json!({
         "version": VERSION,
         "case": case.name,
         "title": case.title,
-        "verdict": found.verdict.word(),
+        "verdict": required.verdict(&found.claims).word(),
+        "required": required.to_string(),
+        "tangents": found.verdict.word(),
         "claim": found.claims.first().map(|c| claims::assertion(&c.what)),
         "claims": found.claims.iter().map(|c| claim(case, found, c)).collect::<Vec<_>>(),
         "limits": found.limits().iter().map(limit).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
         "every_point": super::every::value(found),
+        "parameter": match &found.parameter {
+            Some(Parameter::Orders(orders)) => super::regularity::curve_data(&case.shape, orders),
+            _ => Value::Null,
+        },
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => found.points.iter().map(|p| point(case, p)).collect(),
@@ -62,7 +69,7 @@ fn surface_point(p: &SurfacePoint) -> Value {
         },
         "plane": p.tangent.as_ref().map(subspace),
         "theorem": p.statement.map(|s| s.id()),
-        "reason": p.reason,
+        "reason": reasons::plane(p),
         "product": p.product.as_ref().map(|e| json!({
             "verdict": e.verdict.word(),
             "curves": [e.first.verdict.word(), e.second.verdict.word()],
@@ -112,14 +119,14 @@ fn surface_branch(b: &SurfaceBranch) -> Value {
         "relevant": b.relevant,
         "visible": b.linear.rows(),
         "spectrum": spectrum_value(&b.spectrum),
-        "top": o.row,
+        "top": reasons::top_row(o.row),
         "theorem": o.statement.map(|s| s.id()),
         "dimension": { "at_least": o.dimension.at_least, "exact": o.dimension.exact, "at_most": o.at_most },
         "contains": subspace(&o.contains),
         "cells": o.ring.as_ref().map(|r| r.discharged.len()),
         "depth": o.depth.as_ref().map(|(depth, proof)| json!({ "depth": depth, "cells": proof.discharged.len() })),
         "witness": witness,
-        "reason": o.open.as_ref().map(|(reason, _)| reason),
+        "reason": o.open.as_ref().map(|(reason, _)| reasons::surface_branch(*reason)),
         "cell": o.open.as_ref().and_then(|(_, place)| place.as_ref().map(|w| word_text(w))),
     })
 }
@@ -165,6 +172,7 @@ fn limit(limit: &Limit) -> Value {
 fn claim(case: &Case, found: &Certified, c: &Claim) -> Value {
     json!({
         "kind": c.what.id(),
+        "about": c.what.topic().map(|t| t.to_string()),
         "claim": claims::assertion(&c.what),
         "verdict": c.verdict().word(),
         "theorem": c.statement().map(|s| s.id()),
@@ -223,7 +231,7 @@ fn point(case: &Case, p: &PointReport) -> Value {
             map.insert(key.to_owned(), value);
         }
         if p.verdict != Verdict::Proved {
-            map.insert("reason".to_owned(), json!(p.reason));
+            map.insert("reason".to_owned(), json!(reasons::point(p)));
         }
         map.insert("branches".to_owned(), p.branches.iter().map(branch_value).collect());
     }
@@ -277,9 +285,9 @@ fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
             fields.push(("witness", witness.as_ref().map_or_else(|| spanning(b, eigenvalues), witness_value)));
             fields
         }
-        Outcome::NoGerm { reason } => vec![("reason", json!(reason))],
+        Outcome::NoGerm { reason } => vec![("reason", json!(reasons::no_germ(*reason)))],
         Outcome::Open { reason, place, .. } => {
-            vec![("reason", json!(reason)), ("cell", json!(place.as_ref().map(|w| word_text(w))))]
+            vec![("reason", json!(reasons::branch(*reason))), ("cell", json!(place.as_ref().map(|w| word_text(w))))]
         }
     }
 }

@@ -230,6 +230,7 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
             Outcome::Joint(_) => "joint",
             Outcome::Cycle => "cycle",
             Outcome::Chord(_) => "chord",
+            Outcome::Exponent => "exponent",
             Outcome::Open => "open",
         };
         let jump = match &o.outcome {
@@ -256,7 +257,11 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
 #[must_use]
 pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
     let mut out = String::new();
-    let _ = writeln!(out, "curve of {} pieces in every state, in the uniform parameter", r.pieces);
+    let _ = writeln!(
+        out,
+        "curve of {} pieces in every state that comes back to itself, in the uniform parameter",
+        r.pieces
+    );
     let _ = writeln!(
         out,
         "condition   C^k if and only if C^(k-1), products of k-th derivatives tend to 0 on their differences\n            \
@@ -278,7 +283,7 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
             None => "open",
         };
         let letters = o.radius.as_ref().and_then(|r| r.lower.as_ref());
-        let letters = letters.map_or_else(|| "-".to_owned(), |l| cycle(shape, r.pieces, &l.path));
+        let letters = letters.map_or_else(|| "-".to_owned(), |l| cycle(shape, &l.path));
         let dims = format!("{:?}", o.dims);
         let threshold = o.threshold.to_string();
         let _ = writeln!(out, "{:<3} {dims:<9} {radius:<34} {threshold:<8} {joint:<7} {word:<6} {letters}", o.order);
@@ -292,16 +297,21 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
 }
 
 /// The letters of a cycle of arrows, which are numbered by state and letter, and the state where it begins.
-fn cycle(shape: &Shape, pieces: usize, path: &[usize]) -> String {
-    let word = word_text(&path.iter().map(|a| a % pieces).collect::<Vec<_>>());
-    match path.first().and_then(|a| shape.reachable().get(a / pieces).copied()) {
-        Some(e) if shape.states.len() > 1 => format!("{word} at {}", shape.states[e].name),
+fn cycle(shape: &Shape, path: &[usize]) -> String {
+    let states = shape.reachable().into_iter();
+    let arrows: Vec<(usize, usize)> =
+        states.flat_map(|e| (0..shape.states[e].pieces.len()).map(move |i| (e, i))).collect();
+    let steps: Vec<(usize, usize)> = path.iter().filter_map(|a| arrows.get(*a).copied()).collect();
+    let word = word_text(&steps.iter().map(|(_, letter)| *letter).collect::<Vec<_>>());
+    match steps.first() {
+        Some((e, _)) if shape.states.len() > 1 => format!("{word} at {}", shape.states[*e].name),
         _ => word,
     }
 }
 
 /// Why an order is refuted or open.
-fn outcome(shape: &Shape, o: &CurveOrder) -> Option<String> {
+#[must_use]
+pub fn outcome(shape: &Shape, o: &CurveOrder) -> Option<String> {
     let k = o.order;
     let state = |e: usize| match shape.states.len() {
         1 => String::new(),
@@ -327,6 +337,7 @@ fn outcome(shape: &Shape, o: &CurveOrder) -> Option<String> {
         Outcome::Chord(e) => {
             format!("the chord{} of order {} is among the differences of the derivative: not C^{k}", state(*e), k - 1)
         }
+        Outcome::Exponent => format!("the exponent of the order before is below {k}: not C^{k}"),
         Outcome::Open => "the bounds of the radius do not decide whether it is below the bound".to_owned(),
     })
 }

@@ -1,22 +1,28 @@
 //! The short report that `secant certify` prints.
 
 use super::claims;
-use super::document::{Block, Document, Inline, Line, Tone, line, words};
+use super::document::{Block, Document, Inline, Line, Table, Tone, code, formula, line, words};
 use super::math::Math;
+use super::proof::parameter;
+use super::reasons;
+use super::values::{decimals_math, direction_decimals};
 use super::words::{
-    addresses, contraction, count, dimension, direction, holder, mark, outcome, point_name, rate, ray_line,
-    spectrum_line, statement,
+    addresses, contraction, count, dimension, direction, holder, listed, mark, outcome, point_name, rate, ray_line,
+    spectrum_line, statement, tone,
 };
 use crate::case::Case;
 use crate::shape::{CellKind, Frame};
-use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Role, Side, Verdict};
+use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict};
+
+/// Points in the table at the top; all of them follow one by one.
+const MAX_POINTS: usize = 12;
 
 /// How many classes of eigenvalues are shown without `--verbose`.
 const CLASSES: usize = 3;
 
 /// Sums up what was found; `verbose` adds branches, rates and exponents.
 #[must_use]
-pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
+pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: bool) -> Document {
     let mut blocks = Vec::new();
     if case.title != case.name {
         blocks.push(Block::Paragraph(words(case.title.clone())));
@@ -25,9 +31,8 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
         blocks.push(Block::Paragraph(vec![Inline::Mark(Tone::Neutral, source.clone())]));
     }
     blocks.push(Block::heading(2, "Claims"));
-    for claim in &found.claims {
-        blocks.push(Block::Paragraph(claim_line(case, found, claim)));
-    }
+    blocks.push(claims_table(case, found));
+    blocks.extend(points_table(case, found));
     blocks.push(Block::heading(2, "Shape"));
     blocks.push(Block::Facts(shape_facts(case, found)));
     if let Some(every) = &found.everywhere {
@@ -41,18 +46,86 @@ pub fn summary(case: &Case, found: &Certified, verbose: bool) -> Document {
         blocks.extend(super::surface::summary(surface, verbose));
     }
     blocks.push(Block::heading(2, "Verdict"));
-    let mut verdict = vec![mark(found.verdict)];
-    verdict.extend(words(match found.verdict {
-        Verdict::Proved => ": every claim holds.",
-        Verdict::Refuted => ": a claim fails, with the witness given above.",
-        Verdict::Undetermined => ": some claim is neither proved nor refuted.",
-    }));
-    blocks.push(Block::Paragraph(verdict));
+    blocks.push(Block::Paragraph(overall_line(found, required)));
     let limits: Vec<Line> = found.limits().iter().map(|limit| words(claims::limit(limit))).collect();
     if !limits.is_empty() {
         blocks.push(Block::List(limits));
     }
     Document { title: case.name.clone(), blocks }
+}
+
+/// What is claimed, each with its answer, statement and reason.
+pub(super) fn claims_table(case: &Case, found: &Certified) -> Block {
+    let row = |claim: &Claim| {
+        let mut said = words(claims::judged(claim));
+        if let Some(s) = claim.statement() {
+            said.extend(words(format!(" [{}]", statement(s))));
+        }
+        if let Some(reason) = claims::reason(case, found, claim) {
+            said.extend(words(format!("; {reason}")));
+        }
+        vec![words(claims::label(&claim.what)), vec![mark(claim.verdict())], said]
+    };
+    let header = ["about", "answer", "claim"].map(words).to_vec();
+    Block::Table(Table { caption: Line::new(), header, rows: found.claims.iter().map(row).collect() })
+}
+
+/// The examined points: address, parameter, kind, and the tangent as a ray of travel, exactly and in decimals.
+fn points_table(case: &Case, found: &Certified) -> Option<Block> {
+    if found.points.is_empty() {
+        return None;
+    }
+    let row = |point: &PointReport| {
+        let parameter = point.branches.first().and_then(|b| parameter(&case.shape, &b.address));
+        let decimals = point
+            .tangent
+            .as_ref()
+            .map_or_else(|| words("–"), |d| vec![Inline::Math(decimals_math(&direction_decimals(d)))]);
+        vec![
+            code(addresses(point).join(" = ")),
+            parameter.map_or_else(|| words("–"), |t| formula(Math::number(&t))),
+            vec![Inline::Mark(tone(point.verdict), point.kind.word().to_owned())],
+            point.tangent.as_ref().map_or_else(|| words("–"), direction),
+            decimals,
+        ]
+    };
+    let mut rows: Vec<Vec<Line>> = found.points.iter().take(MAX_POINTS).map(row).collect();
+    if found.points.len() > MAX_POINTS {
+        let rest = words(format!("and {} more", found.points.len() - MAX_POINTS));
+        rows.push([rest, Line::new(), Line::new(), Line::new(), Line::new()].to_vec());
+    }
+    let header = ["address", "parameter", "kind", "tangent, as travelled", "≈"].map(words).to_vec();
+    Some(Block::Table(Table { caption: Line::new(), header, rows }))
+}
+
+/// What holds, what fails, what is open, and what decides.
+pub(super) fn overall_line(found: &Certified, required: &Required) -> Line {
+    let of = |verdict: Verdict| {
+        let labels: Vec<String> =
+            found.claims.iter().filter(|c| c.verdict() == verdict).map(|c| claims::label(&c.what)).collect();
+        (!labels.is_empty()).then(|| listed(&labels))
+    };
+    let verdict = required.verdict(&found.claims);
+    let deciding: Vec<String> = found
+        .claims
+        .iter()
+        .filter(|c| c.verdict() == verdict && required.counts(c))
+        .map(|c| claims::label(&c.what))
+        .collect();
+    let mut out = vec![mark(verdict)];
+    out.extend(words(match (verdict, deciding.as_slice()) {
+        (_, []) => ", as what is required is not claimed of this shape.".to_owned(),
+        (Verdict::Proved, all) => format!(": {} as required.", listed(all)),
+        (_, all) => format!(", by {}.", listed(all)),
+    }));
+    for (text, verdict) in
+        [("Holds", Verdict::Proved), ("Fails", Verdict::Refuted), ("Not decided", Verdict::Undetermined)]
+    {
+        if let Some(labels) = of(verdict) {
+            out.extend(words(format!(" {text}: {labels}.")));
+        }
+    }
+    out
 }
 
 /// A claim with its verdict, statement and reason.
@@ -155,7 +228,7 @@ fn verdict_line(point: &PointReport) -> Line {
         out.extend(words(", "));
         out.extend(dimension(point.dimension));
     }
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::point(point) {
         out.extend(words(format!("; {reason}")));
     }
     out

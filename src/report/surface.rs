@@ -2,6 +2,7 @@
 
 use super::document::{Block, Inline, Line, line, words};
 use super::math::Math;
+use super::reasons;
 use super::values::{decimals_math, direction_math, is_rational, root_math};
 use super::words::{cell, count, dimension, mark, ring_proof, spectrum_line, statement};
 use crate::arith::Rational;
@@ -100,7 +101,7 @@ pub fn witness(w: &SurfaceWitness) -> Line {
 /// What follows at a branch, in one line.
 #[must_use]
 pub fn outcome(o: &SurfaceOutcome) -> Line {
-    let mut out = words(o.row);
+    let mut out = words(reasons::top_row(o.row));
     if let Some(s) = o.statement {
         out.extend(words(format!("; {}", statement(s))));
     }
@@ -116,7 +117,7 @@ pub fn outcome(o: &SurfaceOutcome) -> Line {
         out.extend(line(&format!("; $0∉π_@(X)$ on {cells}"), [Math::count(*depth)]));
     }
     if let Some((reason, place)) = &o.open {
-        out.extend(words(format!("; not decided: {reason}")));
+        out.extend(words(format!("; not decided: {}", reasons::surface_branch(*reason))));
         if let Some(place) = place {
             out.extend(line(&format!(" (cell {})", cell(place)), []));
         }
@@ -134,7 +135,7 @@ pub fn verdict(point: &SurfacePoint) -> Line {
     }
     out.extend(words(", "));
     out.extend(dimension(point.dimension));
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::plane(point) {
         out.extend(words(format!("; {reason}")));
     }
     out

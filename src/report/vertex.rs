@@ -3,6 +3,7 @@
 use super::claims;
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, code, words};
 use super::math::Math;
+use super::vertex_reasons;
 use super::words::{count, mark};
 use crate::arith::Rational;
 use crate::case::VertexCase;
@@ -10,7 +11,7 @@ use crate::picture::characteristic::{Panel, sheet, tikz};
 use crate::poly::Poly;
 use crate::theorem::Claim;
 use crate::theorem::Verdict;
-use crate::vertex::{Again, AtValence, Every, decimal, overall};
+use crate::vertex::{Again, AtValence, Every, VertexReason, decimal, overall};
 use serde_json::{Value, json};
 
 /// The place in the lattice of a sector where the Jacobian determinant has a sign.
@@ -170,16 +171,16 @@ pub(super) fn summary_by_valence(case: &VertexCase, found: &[AtValence], every: 
     if !equations.is_empty() {
         blocks.push(Block::List(equations));
     }
-    let mut grouped: Vec<(String, Verdict, Vec<usize>)> = Vec::new();
+    let mut grouped: Vec<(&VertexReason, Verdict, Vec<usize>)> = Vec::new();
     for f in found {
-        match grouped.iter_mut().find(|(reason, verdict, _)| *reason == f.reason && *verdict == f.smooth) {
+        match grouped.iter_mut().find(|(reason, verdict, _)| **reason == f.reason && *verdict == f.smooth) {
             Some((_, _, list)) => list.push(f.valence),
-            None => grouped.push((f.reason.clone(), f.smooth, vec![f.valence])),
+            None => grouped.push((&f.reason, f.smooth, vec![f.valence])),
         }
     }
     let reasons = grouped.iter().map(|(reason, verdict, list)| {
         let mut line = vec![mark(*verdict)];
-        line.extend(words(format!(" at {}: {reason}", ranges(list))));
+        line.extend(words(format!(" at {}: {}", ranges(list), vertex_reasons::reason(reason))));
         line
     });
     let reasons: Vec<Line> = reasons.collect();
@@ -240,7 +241,7 @@ fn all_valences(every: &Every) -> Vec<Block> {
     )));
     let check = |c: &crate::vertex::Condition| Check {
         tone: if c.holds { Tone::Good } else { Tone::Open },
-        text: words(c.claim.clone()),
+        text: words(vertex_reasons::requirement(c.claim)),
     };
     let pieces = format!("{} pieces of patches and interval were needed.", every.pieces);
     vec![
@@ -323,7 +324,7 @@ fn evidence(f: &AtValence) -> Vec<(String, Line)> {
     if let Some(w) = f.winding {
         facts.push(("winding number".to_owned(), words(w.to_string())));
     }
-    facts.push(("reason".to_owned(), words(f.reason.clone())));
+    facts.push(("reason".to_owned(), words(vertex_reasons::reason(&f.reason))));
     facts
 }
 
@@ -370,7 +371,7 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
         "valence": f.valence,
         "verdict": f.smooth.word(),
         "tangent_plane": f.plane.word(),
-        "reason": f.reason,
+        "reason": vertex_reasons::reason(&f.reason),
         "eigenvalue": f.top.as_ref().map(|t| json!({
             "rational": t.rational.as_ref().map(ToString::to_string),
             "minimal_polynomial": f.minimal.as_ref().map(|p| p.primitive_display("x")),
@@ -423,7 +424,7 @@ pub fn json(case: &VertexCase, found: &[AtValence], every: Option<&Every>, claim
             "proved": e.proved(),
             "setting": e.setting,
             "pieces": e.pieces,
-            "conditions": e.conditions.iter().map(|c| json!({"claim": c.claim, "holds": c.holds})).collect::<Vec<_>>(),
+            "conditions": e.conditions.iter().map(|c| json!({"claim": vertex_reasons::requirement(c.claim), "holds": c.holds})).collect::<Vec<_>>(),
         })),
         "note": twice(found),
         "valences": found.iter().map(|f| valence_json(case, f)).collect::<Vec<_>>(),

@@ -2,6 +2,7 @@
 
 use super::document::{Inline, Line, Tone, line, words};
 use super::math::Math;
+use super::reasons;
 use super::values::{
     decimal_math, decimals_math, direction_decimals, direction_math, enclosed, exponent, is_rational, lambda_math,
     polynomial, root_math,
@@ -259,7 +260,7 @@ fn exact_exponent(h: &Holder) -> Option<Rational> {
 #[must_use]
 pub fn kind_meaning(kind: Kind) -> &'static str {
     match kind {
-        Kind::HalfTangent => "one limit ray",
+        Kind::SmoothEnd | Kind::HalfTangent => "one limit ray",
         Kind::Regular => "one ray on each side, opposite to one another",
         Kind::Cusp => "one ray on each side, the same",
         Kind::Oscillating => "the tangent line exists, and both of its rays are limit rays on a side",
@@ -348,10 +349,10 @@ pub fn outcome(branch: &BranchReport) -> Line {
             }
             out
         }
-        Outcome::NoGerm { reason } => words(reason.clone()),
+        Outcome::NoGerm { reason } => words(reasons::no_germ(*reason)),
         Outcome::Open { reason, place, .. } => match place {
-            Some(place) => line(&format!("not decided: {reason} (cell {})", cell(place)), []),
-            None => words(format!("not decided: {reason}")),
+            Some(place) => line(&format!("not decided: {} (cell {})", reasons::branch(*reason), cell(place)), []),
+            None => words(format!("not decided: {}", reasons::branch(*reason))),
         },
     }
 }

@@ -33,6 +33,20 @@ pub enum SchemeError {
         /// What it is.
         summary: String,
     },
+    /// The weights of a new point do not add up to 1.
+    #[error("{rule}: the weights of a new point add up to {sum}, not to 1")]
+    Weights {
+        /// The rule.
+        rule: &'static str,
+        /// Their sum.
+        sum: Rational,
+    },
+    /// The eigenvalues of a rule around a vertex are not real.
+    #[error("{rule}: the weights have no mirror symmetry, and the eigenvalues are not real")]
+    Asymmetric {
+        /// The rule.
+        rule: &'static str,
+    },
     /// A parameter out of range.
     #[error("{parameter} = {value}: {expected}")]
     Value {

@@ -4,7 +4,7 @@
 //! The weights at the centre enter a local matrix as a polynomial (linear for one step, quadratic for the two steps of √3),
 //! so that the matrices for rational weights determine it.
 
-use super::{DualWeights, LoopWeights, MeshRule, SchemeError, local_matrix};
+use super::{Corners, MeshRule, SchemeError, local_matrix};
 use crate::algebraic::Elem;
 use crate::algebraic::field::{FieldBuilder, FieldMatrix, Number, NumberField};
 use crate::arith::{Rational, ratio};
@@ -29,8 +29,8 @@ pub struct FieldLocalMatrix {
 ///
 /// # Examples
 /// ```
-/// use secant::scheme::{LoopWeights, MeshRule, field_local_matrix};
-/// let one_ring = field_local_matrix(&MeshRule::Loop(LoopWeights::Original), 7, 1)?;
+/// use secant::scheme::{field_local_matrix, mesh_rule};
+/// let one_ring = field_local_matrix(&mesh_rule("loop", &[].into())?, 7, 1)?;
 /// assert_eq!((one_ring.matrix.rows(), one_ring.matrix.field().degree()), (8, 3));
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
@@ -45,40 +45,30 @@ pub fn field_local_matrix(rule: &MeshRule, valence: usize, rings: usize) -> Resu
             .cos(&turns)
             .map_err(|e| SchemeError::Irrational(format!("valence {valence}: {e}; the weight cos(2π/{valence})")))
     };
-    let number = |p: i64, q: i64| Elem::from_rational(&ratio(p, q));
-    match rule {
-        MeshRule::Loop(LoopWeights::Original) => {
-            let c = cosine(&mut builder, 1)?;
-            let (field, c) = (builder.field().clone(), builder.elem(&c));
-            // (5/8 - (3/8 + c/4)^2) / n
-            let inner = number(3, 8).add(&c.scale(&ratio(1, 4)));
-            let beta = number(5, 8).sub(&field.mul(&inner, &inner)).scale(&ratio(1, valence as i64));
-            let given = |x: Rational| MeshRule::Loop(LoopWeights::Given(x));
-            polynomial(&field, &beta, 1, |x| local_matrix(&given(x), valence, rings))
-        }
-        MeshRule::Sqrt3(None) => {
-            let c = cosine(&mut builder, 1)?;
-            let (field, c) = (builder.field().clone(), builder.elem(&c));
-            let alpha = number(4, 9).sub(&c.scale(&ratio(2, 9)));
-            polynomial(&field, &alpha, 2, |x| local_matrix(&MeshRule::Sqrt3(Some(x)), valence, rings))
-        }
-        MeshRule::DooSabin(DualWeights::Original) => {
-            let cosines: Result<Vec<Number>, _> = (0..valence).map(|k| cosine(&mut builder, k)).collect();
-            let cosines = cosines?;
-            let weight = |(j, x): (usize, &Number)| {
-                let own = if j == 0 { number(1, 4) } else { Elem::zero() };
-                let scaled = builder.elem(x).scale(&ratio(1, 2 * valence as i64));
-                own.add(&number(3, 4 * valence as i64)).add(&scaled)
-            };
-            let weights: Vec<Elem> = cosines.iter().enumerate().map(weight).collect();
-            dual(builder.field(), &weights, rings)
-        }
-        _ => {
-            let local = local_matrix(rule, valence, rings)?;
-            let matrix = FieldMatrix::from_rational(&NumberField::rationals(), &local.matrix);
-            Ok(FieldLocalMatrix { matrix, rings: local.rings, steps: local.steps })
-        }
+    if let Some(star) = rule.star(valence, true)
+        && star.near.degree().is_some_and(|d| d > 0)
+    {
+        let c = cosine(&mut builder, 1)?;
+        let (field, t) = (builder.field().clone(), builder.elem(&c).scale(&ratio(2, 1)));
+        let coefficients = star.near.coeffs().iter().rev().map(Elem::from_rational);
+        let weight = coefficients.fold(Elem::zero(), |value, c| field.mul(&value, &t).add(&c));
+        return polynomial(&field, &weight, rule.steps(), |x| local_matrix(&rule.with_near(x), valence, rings));
     }
+    if let Some(Corners::Wheel(wheel)) = rule.corners(valence, true)
+        && wheel.waving()
+        && wheel.total() == 1
+    {
+        let cosines: Result<Vec<Number>, _> = (0..valence).map(|k| cosine(&mut builder, k)).collect();
+        let cosines: Vec<Elem> = cosines?.iter().map(|c| builder.elem(c)).collect();
+        let weight = |j: usize| {
+            let (plain, waves) = wheel.weight(j, valence);
+            waves.iter().fold(Elem::from_rational(&plain), |sum, (m, w)| sum.add(&cosines[*m].scale(w)))
+        };
+        return dual(rule, builder.field(), &(0..valence).map(weight).collect::<Vec<_>>(), rings);
+    }
+    let local = local_matrix(rule, valence, rings)?;
+    let matrix = FieldMatrix::from_rational(&NumberField::rationals(), &local.matrix);
+    Ok(FieldLocalMatrix { matrix, rings: local.rings, steps: local.steps })
 }
 
 /// The matrix that depends on a weight as a polynomial of the given degree.
@@ -118,11 +108,10 @@ fn combined(field: &NumberField, matrices: &[&Matrix], factors: &[Elem]) -> Fiel
 }
 
 /// The matrix of a dual scheme with given weights in the central face: a mean, with sum 1, of those for unit vectors.
-fn dual(field: &NumberField, weights: &[Elem], rings: usize) -> Result<FieldLocalMatrix, SchemeError> {
+fn dual(rule: &MeshRule, field: &NumberField, weights: &[Elem], rings: usize) -> Result<FieldLocalMatrix, SchemeError> {
     let n = weights.len();
     let unit = |k: usize| (0..n).map(|j| Rational::from(u8::from(j == k))).collect::<Vec<_>>();
-    let samples: Result<Vec<_>, _> =
-        (0..n).map(|k| local_matrix(&MeshRule::DooSabin(DualWeights::Given(unit(k))), n, rings)).collect();
+    let samples: Result<Vec<_>, _> = (0..n).map(|k| local_matrix(&rule.with_corners(unit(k)), n, rings)).collect();
     let samples = samples?;
     let Some(first) = samples.first() else {
         return Err(SchemeError::value("valence", &n, "a vertex inside a mesh has at least 3 neighbours"));
@@ -215,16 +204,14 @@ impl FieldMask {
 mod tests {
     use super::*;
     use crate::jordan::FieldSpectrum;
+    use crate::scheme::mesh_rule;
 
     #[test]
     fn rational_valences_agree_with_the_rational_matrices() {
         for n in [3, 4, 6] {
-            for rule in [
-                MeshRule::Loop(LoopWeights::Original),
-                MeshRule::DooSabin(DualWeights::Original),
-                MeshRule::Sqrt3(None),
-            ] {
-                let rings = if matches!(rule, MeshRule::Sqrt3(_)) { 2 } else { 1 };
+            for name in ["loop", "doo-sabin", "sqrt3"] {
+                let rule = mesh_rule(name, &[].into()).unwrap();
+                let rings = rule.steps();
                 let (Ok(found), Ok(expected)) = (field_local_matrix(&rule, n, rings), local_matrix(&rule, n, rings))
                 else {
                     panic!("{} at valence {n}", rule.name());
@@ -237,7 +224,7 @@ mod tests {
 
     #[test]
     fn rows_sum_to_one_and_the_spectrum_of_loop_is_known() {
-        let local = field_local_matrix(&MeshRule::Loop(LoopWeights::Original), 7, 1).unwrap();
+        let local = field_local_matrix(&mesh_rule("loop", &[].into()).unwrap(), 7, 1).unwrap();
         let a = &local.matrix;
         for i in 0..a.rows() {
             let sum = a.row(i).iter().fold(Elem::zero(), |s, x| s.add(x));

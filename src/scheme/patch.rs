@@ -6,7 +6,7 @@
 
 use super::mesh::{Centre, Mesh, Row, Sector};
 use super::refine::Refined;
-use super::{MeshRule, SchemeError};
+use super::{MeshRule, SchemeError, Split};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::shape::{Boundary, CellKind, Complex, Face, Frame, Layout, Piece, Shape, Side, State};
@@ -45,8 +45,8 @@ struct Site {
 ///
 /// # Examples
 /// ```
-/// use secant::scheme::{MeshRule, patch};
-/// let complex = patch(&MeshRule::CatmullClark(None), 5)?;
+/// use secant::scheme::{mesh_rule, patch};
+/// let complex = patch(&mesh_rule("catmull-clark", &[].into())?, 5)?;
 /// assert_eq!(complex.shape.states[0].dim, 18);
 /// complex.check().expect("all identities hold");
 /// # Ok::<(), secant::scheme::SchemeError>(())
@@ -64,8 +64,8 @@ pub fn patch(rule: &MeshRule, valence: usize) -> Result<Complex, SchemeError> {
 ///
 /// # Examples
 /// ```
-/// use secant::scheme::{MeshRule, disc};
-/// let shape = disc(&MeshRule::CatmullClark(None), 3)?;
+/// use secant::scheme::{disc, mesh_rule};
+/// let shape = disc(&mesh_rule("catmull-clark", &[].into())?, 3)?;
 /// assert_eq!((shape.states[0].dim, shape.states[0].pieces.len()), (19, 10));
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
@@ -149,11 +149,10 @@ struct Builder<'a> {
 
 impl<'a> Builder<'a> {
     fn new(rule: &'a MeshRule, valence: usize) -> Result<Self, SchemeError> {
-        let sector = match rule {
-            MeshRule::CatmullClark(_) | MeshRule::DooSabin(_) => Sector::Quads,
-            MeshRule::Loop(_) => Sector::Triangles,
-            _ => return Err(failure(rule, "patches are built for Catmull–Clark's, Loop's and dual rules only")),
-        };
+        if rule.info().spline.is_none() || rule.info().split == Split::Averaged {
+            return Err(failure(rule, "patches are built for Catmull–Clark's, Loop's and dual rules only"));
+        }
+        let sector = rule.sector();
         // The matrix checks the valence, the weights and the sums.
         super::local_matrix(rule, valence, 1)?;
         let disc = Mesh::disc(&vec![sector; valence], 7);
@@ -161,14 +160,8 @@ impl<'a> Builder<'a> {
         let (mesh, centre) =
             if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
         let refined = rule.refine(&mesh, centre, 0)?;
-        let own_weights = matches!(
-            rule,
-            MeshRule::CatmullClark(Some(_))
-                | MeshRule::Loop(super::LoopWeights::Given(_))
-                | MeshRule::DooSabin(super::DualWeights::Given(_))
-        );
         let usual = if sector == Sector::Quads { 4 } else { 6 };
-        Ok(Self { rule, sector, mesh, centre, refined, sites: sites(sector, valence == usual && !own_weights) })
+        Ok(Self { rule, sector, mesh, centre, refined, sites: sites(sector, valence == usual && !rule.own_weights()) })
     }
 
     /// The centre as seen from each sector.

@@ -39,11 +39,17 @@ enum Build {
 }
 
 /// Values of parameters by name, defaults filled in.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Values(BTreeMap<&'static str, Rational>);
 
 impl Values {
     pub(super) fn number(&self, name: &str) -> &Rational {
         &self.0[name]
+    }
+
+    /// What is missing to a sum of 1.
+    pub(super) fn rest(&self) -> Rational {
+        self.0.values().fold(Rational::from(1), |rest, x| rest - x)
     }
 
     fn count(&self, name: &str) -> Result<usize, SchemeError> {

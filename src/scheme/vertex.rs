@@ -31,8 +31,8 @@ pub struct LocalMatrix {
 ///
 /// # Examples
 /// ```
-/// use secant::{arith::ratio, scheme::{MeshRule, local_matrix}};
-/// let one_ring = local_matrix(&MeshRule::CatmullClark(None), 5, 1)?;
+/// use secant::{arith::ratio, scheme::{local_matrix, mesh_rule}};
+/// let one_ring = local_matrix(&mesh_rule("catmull-clark", &[].into())?, 5, 1)?;
 /// assert_eq!(one_ring.matrix.rows(), 11);
 /// assert_eq!(one_ring.matrix[(0, 0)], ratio(13, 20));
 /// # Ok::<(), secant::scheme::SchemeError>(())

@@ -1,6 +1,7 @@
 //! One branch `u w^ω`: its visible quotient, spectrum, ring, and the statement that applies (theory §3–§9).
 
 use super::direction::Direction;
+use super::gap::{BranchGap, NoGerm};
 use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
 use super::sign::changes_sign;
 use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side};
@@ -123,7 +124,7 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         view,
         spectrum,
         ring,
-        outcome: Outcome::NoGerm { reason: String::new() },
+        outcome: Outcome::NoGerm { reason: NoGerm::NoSpace },
     };
     let seen: Vec<RingPiece> = report.ring.iter().filter(|p| !p.collapses).cloned().collect();
     report.outcome = Analysis { cx, branch: &report, seen: &seen }.outcome();
@@ -222,10 +223,10 @@ impl Analysis<'_> {
     fn outcome(&self) -> Outcome {
         let b = self.branch;
         if b.linear.rows() == 0 {
-            return Outcome::NoGerm { reason: "the cell of this address is a single point".to_owned() };
+            return Outcome::NoGerm { reason: NoGerm::SinglePoint };
         }
         let Some(top) = top(&b.spectrum) else {
-            return Outcome::NoGerm { reason: "the relevant space is 0".to_owned() };
+            return Outcome::NoGerm { reason: NoGerm::NoSpace };
         };
         if top.root.is_zero() {
             return self.nilpotent();
@@ -249,17 +250,12 @@ impl Analysis<'_> {
             match ring.decide(&coordinates, self.cx.budget.first_cells) {
                 RingAnswer::Holds(_) => {}
                 RingAnswer::Fails(_) => {
-                    let reason = "L is nilpotent and the ring passes through the point: its germ is that of finitely many pieces";
-                    return Outcome::Open { reason: reason.to_owned(), place: None, at_least: 0, direction: None };
+                    let reason = BranchGap::NilpotentRing;
+                    return Outcome::Open { reason, place: None, at_least: 0, direction: None };
                 }
                 RingAnswer::Open { place } => {
-                    let reason = "L is nilpotent and it is not decided whether the ring passes through the point";
-                    return Outcome::Open {
-                        reason: reason.to_owned(),
-                        place: Some(place),
-                        at_least: 0,
-                        direction: None,
-                    };
+                    let reason = BranchGap::NilpotentOpen;
+                    return Outcome::Open { reason, place: Some(place), at_least: 0, direction: None };
                 }
             }
             for piece in &mut images {
@@ -268,8 +264,7 @@ impl Analysis<'_> {
             }
             turns += 1;
         }
-        let place = if self.branch.is_shape() { "the shape" } else { "this branch" };
-        Outcome::NoGerm { reason: format!("the point is isolated in {place}: no tangent question arises") }
+        Outcome::NoGerm { reason: NoGerm::Isolated { shape: self.branch.is_shape() } }
     }
 
     /// `dim U >= 2`: the corollary refutes without the ring, if the view does not fold `U`.
@@ -285,8 +280,7 @@ impl Analysis<'_> {
                 witness: None,
             };
         }
-        let reason = "several directions of the largest modulus, which the control points may fold into one line";
-        Outcome::Open { reason: reason.to_owned(), place: None, at_least: 1, direction: None }
+        Outcome::Open { reason: BranchGap::Folded, place: None, at_least: 1, direction: None }
     }
 
     /// `dim U = 1`: one real eigenvalue with one longest block.
@@ -330,8 +324,8 @@ impl Analysis<'_> {
 
     /// The ring condition fails or is open: isolation first, then what the witness gives.
     fn ring_fails(&self, top: &Top, functional: &Functional, answer: RingAnswer) -> Outcome {
-        let open = |reason: &str, place| Outcome::Open {
-            reason: reason.to_owned(),
+        let open = |reason, place| Outcome::Open {
+            reason,
             place,
             at_least: 1,
             direction: Some(self.direction(top).normalised()),
@@ -341,13 +335,10 @@ impl Analysis<'_> {
             RingAnswer::Fails(Witness::Point { address, .. }) => {
                 let mut place = address.prefix;
                 place.extend(address.cycle);
-                return open(
-                    "the branch is not isolated: a point of the ring falls into the generalised kernel",
-                    Some(place),
-                );
+                return open(BranchGap::KernelPoint, Some(place));
             }
-            RingAnswer::Fails(_) => return open("the branch is not isolated", None),
-            RingAnswer::Open { place } => return open("it is not decided whether the branch is isolated", Some(place)),
+            RingAnswer::Fails(_) => return open(BranchGap::NotIsolated, None),
+            RingAnswer::Open { place } => return open(BranchGap::IsolationOpen, Some(place)),
         };
         let injective = self.branch.view.rank() == self.branch.linear.rows();
         let refuted = |statement, witness| Outcome::AtLeast {
@@ -360,7 +351,7 @@ impl Analysis<'_> {
         let (place, witness) = match answer {
             RingAnswer::Open { place } => (place, None),
             RingAnswer::Fails(witness) => (Vec::new(), Some(witness)),
-            RingAnswer::Holds(_) => return open("the ring condition is not decided", None),
+            RingAnswer::Holds(_) => return open(BranchGap::RingOpen, None),
         };
         if let Some(witness) = &witness {
             let leaves = matches!(witness, Witness::Point { offset, .. } if self.leaves_line(top, offset));
@@ -390,14 +381,14 @@ impl Analysis<'_> {
             };
         }
         let Some(witness) = witness else {
-            return open("the ring condition is not decided in this cell", Some(place));
+            return open(BranchGap::RingOpen, Some(place));
         };
         let place = match witness {
             Witness::Point { address, .. } => address.prefix.into_iter().chain(address.cycle).collect(),
             Witness::SignChange { positive, .. } => positive.prefix.into_iter().chain(positive.cycle).collect(),
             Witness::Crossing { positive, .. } => positive.prefix,
         };
-        open("the ring condition fails, but what follows for the tangent is not decided", Some(place))
+        open(BranchGap::RingFails, Some(place))
     }
 
     /// Theorem 4′.

@@ -2,7 +2,7 @@
 
 use super::verdict::{About, BranchReport, Certified, Outcome};
 use crate::answer::{Answer, Verdict};
-use crate::arith::Rational;
+use crate::arith::{Interval, Rational};
 use crate::shape::Address;
 use crate::statement::Statement;
 
@@ -107,6 +107,11 @@ pub enum Assertion {
         /// The order `k`.
         order: usize,
     },
+    /// The curve is a polynomial in the uniform parameter.
+    Polynomial,
+    /// The supremum of the Hölder exponents `k + α` of the curve in the uniform parameter lies in an interval; `None` where no
+    /// bound is known.
+    Exponent(Option<Interval>),
     /// The surface has a tangent plane at every vertex of its first subdivision.
     PlaneAtVertices,
     /// The surface has a tangent plane at a dense set of points (Theorem 5″).
@@ -157,6 +162,8 @@ impl Assertion {
             Self::SomePoint => "some-point",
             Self::G1 => "g1",
             Self::Smooth { .. } => "smooth",
+            Self::Polynomial => "polynomial",
+            Self::Exponent(_) => "exponent",
             Self::PlaneAtVertices => "plane-at-vertices",
             Self::DensePlanes { .. } => "dense-planes",
             Self::PlaneAt { .. } => "plane-at",
@@ -260,6 +267,12 @@ pub enum Reason {
     NoSpan,
     /// All maps are similarities of a plane.
     Similarities,
+    /// What was found about every point of the curve ([`super::Certified::everywhere`]).
+    EveryPoint,
+    /// What was found about an order of smoothness in the uniform parameter.
+    Order(usize),
+    /// Nothing is known in the uniform parameter ([`super::Certified::parameter`]).
+    NoOrder,
     /// What was found at the point of the surface that the claim is about, by its index in the surface's points.
     SurfacePoint(usize),
     /// What was found at a vertex, by its index in the surface's points.

@@ -1,12 +1,14 @@
 //! Theorems 6 and 6′: invariant cones, and what they say about every point of a curve.
 
 use super::cone_search::{Frame, propose, propose_closed};
+use super::gap::Defect;
 use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
 use crate::arith::{Integer, Interval, Rational};
 use crate::jordan::Spectrum;
 use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
+use crate::statement::Statement;
 use malachite_base::num::arithmetic::traits::Floor;
 
 /// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
@@ -74,7 +76,7 @@ pub struct ConeObstacle {
     /// Its eigenvalues of largest modulus.
     pub leading: Vec<Root>,
     /// What is wrong with them.
-    pub reason: &'static str,
+    pub reason: Defect,
 }
 
 /// The answer to the search for a common cone.
@@ -334,6 +336,12 @@ fn largest_cross_ratio(b: &Matrix) -> Option<Rational> {
 }
 
 impl CommonCone {
+    /// The theorem that gives the cones: where single pieces have coefficients 0 it is Theorem 6′.
+    #[must_use]
+    pub fn statement(&self) -> Statement {
+        if self.slow.is_empty() && self.window == 1 { Statement::Theorem6 } else { Statement::Theorem6Slow }
+    }
+
     /// Whether all hypotheses of Theorem 6 (or 6′) on the cones hold, by multiplication.
     #[must_use]
     pub fn holds(&self, shape: &Shape, spaces: &Spaces) -> bool {
@@ -515,21 +523,21 @@ fn obstacle(frame: &Frame) -> Option<ConeObstacle> {
     None
 }
 
-fn defect(product: &Matrix) -> Option<(Vec<Root>, &'static str)> {
+fn defect(product: &Matrix) -> Option<(Vec<Root>, Defect)> {
     let spectrum = Spectrum::of(product);
     let members = &spectrum.classes.first()?.members;
     let leading: Vec<Root> = members.iter().map(|e| spectrum.root(*e).clone()).collect();
     let first = &leading[0];
     let reason = if first.is_zero() {
-        "no eigenvalue but 0"
+        Defect::Nilpotent
     } else if leading.iter().any(|r| !r.is_real()) {
-        "complex eigenvalues of largest modulus"
+        Defect::Complex
     } else if leading.len() > 1 {
-        "eigenvalues of equal largest modulus"
+        Defect::Several
     } else if spectrum.factors[members[0].factor].multiplicity > 1 {
-        "a multiple eigenvalue of largest modulus"
+        Defect::Multiple
     } else if first.sign() < 0 {
-        "a negative leading eigenvalue"
+        Defect::Negative
     } else {
         return None;
     };

@@ -3,13 +3,16 @@
 use super::branch::Context;
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
+use super::gap::EveryGap;
 use super::hodograph::{Hodograph, hodograph};
+use super::parameter::Parameter;
 use super::smoothness::{CurveOrder, graph_over_parameter};
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
 use crate::radius::Options;
 use crate::shape::{Address, CellKind};
+use crate::statement::Statement;
 
 /// What is known of every point of a curve, not only of a dense set.
 ///
@@ -36,7 +39,21 @@ pub struct Everywhere {
     /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
     pub derivative: Option<Box<CurveOrder>>,
     /// Why the verdict is not `Proved`.
-    pub reason: Option<String>,
+    pub reason: Option<EveryGap>,
+}
+
+impl Everywhere {
+    /// The statement that proves G¹; `None` where a point refutes it, or where it is open.
+    #[must_use]
+    pub fn statement(&self) -> Option<Statement> {
+        match (self.verdict, &self.hodograph, &self.derivative, &self.cone) {
+            (Verdict::Undetermined, ..) => None,
+            (_, Some(_), ..) => Some(Statement::Theorem6Polynomial),
+            (Verdict::Refuted, ..) => None,
+            (_, _, Some(_), _) => Some(Statement::Graph),
+            (_, _, _, cone) => cone.as_ref().map(CommonCone::statement),
+        }
+    }
 }
 
 /// A first-level joint of a state, seen so that no direction of the visible quotient is lost.
@@ -79,7 +96,8 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
         ConeAnswer::Undetermined => without_cone(cx, found, None),
     };
     let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
-    Some(if every.verdict == Verdict::Undetermined { as_graph(cx, every) } else { every })
+    let open = every.verdict == Verdict::Undetermined && !found.parameter.as_ref().is_some_and(Parameter::is_not_c1);
+    Some(if open { as_graph(cx, every) } else { every })
 }
 
 /// Decides G¹ of a polynomial curve by the zeros of its derivative.
@@ -87,7 +105,7 @@ fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Ever
     let Some(hodograph) = hodograph(cx) else { return every };
     let (verdict, reason) = match hodograph.turns.first() {
         None => (Verdict::Proved, None),
-        Some(turn) => (Verdict::Refuted, Some(hodograph.reason(turn))),
+        Some(_) => (Verdict::Refuted, Some(EveryGap::Turn)),
     };
     let address = hodograph.turns.iter().find_map(|turn| hodograph.address(cx, turn));
     let spec =
@@ -128,17 +146,6 @@ fn breaks(p: &PointReport) -> bool {
     p.verdict == Verdict::Refuted || has_no_cone(p)
 }
 
-/// What breaks at a point.
-fn broken(p: &PointReport) -> String {
-    let what = match p.kind {
-        Kind::Cusp => "the half-tangents of both sides are the same ray: a cusp",
-        Kind::Oscillating => "both rays of the line are limits of secants of one side",
-        Kind::Corner => "the half-tangents of the two sides lie on different lines: a corner",
-        _ => "there is no tangent line",
-    };
-    format!("at {} {what}", p.place())
-}
-
 fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let seen = cx.shape.control.is_none() || cone.view.is_some();
     let witness = found.points.iter().position(breaks);
@@ -149,10 +156,10 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
     let agree = complete && joints.iter().all(|j| regular(j.report(found)));
     let exponent = cone.rate.as_ref().and_then(|r| r.exponent(most_pieces(cx.shape)));
     let (verdict, reason) = match witness {
-        Some(k) => (Verdict::Refuted, Some(broken(&found.points[k]))),
-        None if !seen => (Verdict::Undetermined, Some(UNSEEN.to_owned())),
+        Some(k) => (Verdict::Refuted, Some(EveryGap::Broken(k))),
+        None if !seen => (Verdict::Undetermined, Some(EveryGap::Unseen)),
         None if agree => (Verdict::Proved, None),
-        None => (Verdict::Undetermined, Some("a first-level joint is not decided".to_owned())),
+        None => (Verdict::Undetermined, Some(EveryGap::Joint)),
     };
     let exponent = exponent.filter(|_| verdict == Verdict::Proved);
     Everywhere {
@@ -194,21 +201,15 @@ fn joints(cx: &Context, found: &Certified) -> Option<Vec<EveryJoint>> {
     Some(out)
 }
 
-const UNSEEN: &str =
-    "no functional was found that is positive on the projected cones, so that this holds before the projection only";
-
 fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstacle>) -> Everywhere {
     let mut witness = found.points.iter().position(breaks);
     if let (None, Some(obstacle)) = (witness, &obstacle) {
         witness = periodic_point(cx, obstacle, found).filter(|&k| breaks(&found.points[k]));
     }
     let (verdict, reason) = match (witness, &obstacle) {
-        (Some(k), _) => (Verdict::Refuted, broken(&found.points[k])),
-        (None, Some(o)) => {
-            let word = crate::shape::word_text(&o.word);
-            (Verdict::Undetermined, format!("no strictly invariant cone exists: the cycle {word} has {}", o.reason))
-        }
-        (None, None) => (Verdict::Undetermined, "no common cone was found within the budget".to_owned()),
+        (Some(k), _) => (Verdict::Refuted, EveryGap::Broken(k)),
+        (None, Some(_)) => (Verdict::Undetermined, EveryGap::Obstacle),
+        (None, None) => (Verdict::Undetermined, EveryGap::NoCone),
     };
     let reason = Some(reason);
     Everywhere {

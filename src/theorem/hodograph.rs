@@ -244,46 +244,6 @@ fn collect(
 }
 
 impl Hodograph {
-    /// What happens at a turn, in words.
-    #[must_use]
-    pub fn reason(&self, turn: &Turn) -> String {
-        let arc = |k: usize| match self.spans.len() {
-            1 => String::new(),
-            _ => format!(" of arc {k}"),
-        };
-        match turn {
-            Turn::Inside(k, root) => {
-                let t = root.rational().map_or_else(
-                    || format!("{:.6} (a root of {})", root.to_f64().0, root.minpoly().display("t")),
-                    |t| t.to_string(),
-                );
-                format!("at the parameter {t}{} the derivative changes to the opposite direction: a cusp", arc(*k))
-            }
-            Turn::Between(k) => format!("between the arcs {k} and {} the direction of travel changes", k + 1),
-        }
-    }
-
-    /// The arcs in words.
-    #[must_use]
-    pub fn summary(&self) -> String {
-        let degree = self.spans.iter().flat_map(|s| s.coordinates.iter().filter_map(Poly::degree)).max();
-        let degree = degree.map_or_else(String::new, |d| format!(" of degree at most {d}"));
-        let zeros: Vec<String> = self
-            .spans
-            .iter()
-            .enumerate()
-            .filter(|(_, s)| s.divisor.degree().is_some_and(|d| d > 0))
-            .map(|(k, s)| format!("{} (arc {k})", s.divisor.display("t")))
-            .collect();
-        let where_zero = if zeros.is_empty() {
-            "its derivative vanishes nowhere".to_owned()
-        } else {
-            format!("the components of its derivative have the common divisors {}", zeros.join(", "))
-        };
-        let arcs = if self.spans.len() == 1 { "1 arc".to_owned() } else { format!("{} arcs", self.spans.len()) };
-        format!("a polynomial curve of {arcs}{degree}; {where_zero}")
-    }
-
     /// The address of a turn from the start state, where its parameter is rational.
     #[must_use]
     pub fn address(&self, cx: &Context, turn: &Turn) -> Option<Address> {

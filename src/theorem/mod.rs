@@ -11,9 +11,12 @@ pub mod enclosed;
 mod everywhere;
 pub mod filter;
 mod frames;
+pub mod gap;
 mod hodograph;
+pub mod parameter;
 mod point;
 pub mod regularity;
+mod require;
 mod ring;
 mod sign;
 mod similarity;
@@ -30,7 +33,10 @@ pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
+pub use gap::{BranchGap, Defect, EveryGap, NoChart, NoGerm, PlaneGap, PointGap, TopRow};
 pub use hodograph::{Hodograph, Span, Turn};
+pub use parameter::Parameter;
+pub use require::{Required, Topic, UnknownTopic};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use sign::{Depth, depths};
 pub use similarity::Similarities;
@@ -144,7 +150,9 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
+        found.parameter = parameter::parameter(&cx);
         found.everywhere = everywhere::everywhere(&cx, &mut found);
+        parameter::adopt_derivative(&mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
@@ -154,6 +162,7 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
         let by = Some(Statement::Similarities);
         found.claims.push(Claim::refuted(Assertion::SomePoint, by, Reason::Similarities));
     }
+    parameter::add_claims(&mut found);
     found.verdict = found.overall();
     Ok(found)
 }

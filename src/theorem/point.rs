@@ -2,6 +2,7 @@
 
 use super::branch::{Context, examine};
 use super::direction::Direction;
+use super::gap::PointGap;
 use super::verdict::{BranchReport, Dimension, Kind, Outcome, PointReport, Role, Side, Verdict};
 use crate::arith::Rational;
 use crate::shape::{Address, CellKind, End, Piece};
@@ -153,19 +154,19 @@ fn conclude(
     if at_least >= 2 {
         report.verdict = Verdict::Refuted;
         report.kind = Kind::NoTangent;
-        report.reason = Some("the tangent subspace has more than one dimension".to_owned());
+        report.reason = Some(PointGap::Dimension);
         return report;
     }
     if let Some(known) = spread(&report.branches) {
-        let reason = Some(SPREAD.to_owned());
+        let reason = Some(PointGap::Spread);
         return PointReport { verdict: Verdict::Refuted, kind: Kind::NoTangent, dimension: known, reason, ..report };
     }
     let mut lines = Vec::new();
-    for branch in &report.branches {
+    for (index, branch) in report.branches.iter().enumerate() {
         match &branch.outcome {
             Outcome::Line { direction, rays, .. } => lines.push((direction.clone(), rays.clone())),
-            Outcome::Open { reason, .. } | Outcome::NoGerm { reason } => {
-                report.reason = Some(reason.clone());
+            Outcome::Open { .. } | Outcome::NoGerm { .. } => {
+                report.reason = Some(PointGap::Branch(index));
                 return report;
             }
             Outcome::AtLeast { .. } => {}
@@ -188,17 +189,24 @@ fn conclude(
         report.dimension = Dimension { at_least: 2, exact: true };
         let single = report.left.len() == 1 && report.right.len() == 1;
         report.kind = if single { Kind::Corner } else { Kind::NoTangent };
-        report.reason = Some("the tangent lines of the two sides differ".to_owned());
+        report.reason = Some(PointGap::SidesDiffer);
         return report;
     }
     report.verdict = Verdict::Proved;
-    report.tangent = Some(first.clone());
+    report.tangent = Some(along(first, &report));
     report.kind = kind(&report);
     report
 }
 
-const SPREAD: &str =
-    "directions that the tangent subspaces of the two sides are known to contain lie on different lines";
+/// The tangent in the direction of travel: towards the ray of what follows, or away from that of what comes before.
+fn along(tangent: &Direction, report: &PointReport) -> Direction {
+    let sign = match (report.left.as_slice(), report.right.as_slice()) {
+        (_, [after]) => tangent.same_line(after),
+        ([before], []) => tangent.same_line(before).map(|s| -s),
+        _ => None,
+    };
+    tangent.times(sign.unwrap_or(1))
+}
 
 /// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.
 fn spread(branches: &[BranchReport]) -> Option<Dimension> {
@@ -226,11 +234,12 @@ fn lower_bound(branch: &BranchReport) -> usize {
 
 fn kind(report: &PointReport) -> Kind {
     let (left, right) = (&report.left, &report.right);
-    let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd | Role::SetPoint);
+    let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd);
     let opposite = |a: &Direction, b: &Direction| a.same_line(b) == Some(-1);
     match (left.len(), right.len()) {
         (2, _) | (_, 2) => Kind::Oscillating,
-        (1, 0) | (0, 1) if one_sided => Kind::HalfTangent,
+        (1, 0) | (0, 1) if report.role == Role::SetPoint => Kind::HalfTangent,
+        (1, 0) | (0, 1) if one_sided => Kind::SmoothEnd,
         (1, 1) if opposite(&left[0], &right[0]) => Kind::Regular,
         (1, 1) => Kind::Cusp,
         _ => Kind::Line,

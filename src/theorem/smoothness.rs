@@ -1,6 +1,7 @@
 //! Orders of smoothness of a curve in the uniform parameter (theory §11, Theorem E): radii on a descending chain of invariant
 //! spaces, and the joint equations of every order, all in the visible quotients `W_e` of §9.
 
+use super::frames::component;
 use super::regularity::minus_log;
 use crate::arith::{Interval, Rational};
 use crate::linalg::{Matrix, closures};
@@ -12,8 +13,11 @@ use thiserror::Error;
 /// Why a curve has no table of orders.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum CurveRegularityError {
-    /// The uniform parameter needs curves with the same number of pieces everywhere.
-    #[error("the uniform parameter needs a curve all of whose states have the same number of pieces, at least 2")]
+    /// The uniform parameter needs the same number of pieces in all states that come back to themselves.
+    #[error(
+        "the uniform parameter needs a curve all of whose states that come back to themselves have the same number of pieces, \
+         at least 2"
+    )]
     Pieces,
     /// The curve that is seen is a point.
     #[error("the curve is a single point")]
@@ -37,6 +41,8 @@ pub enum Outcome {
     /// In this state, which belongs to a strongly connected part that no arrow leaves, the chord of order `k−1` lies in `F_e`,
     /// and the curve of order `k−1` is more than a point: not `C^k`.
     Chord(usize),
+    /// The supremum of the exponents of the order before is below `k`: not `C^k`.
+    Exponent,
     /// Not decided by this statement.
     Open,
 }
@@ -89,7 +95,7 @@ impl CurveOrder {
     pub fn smooth(&self) -> Option<bool> {
         match self.outcome {
             Outcome::Curve | Outcome::Holds => Some(true),
-            Outcome::Joint(_) | Outcome::Cycle | Outcome::Chord(_) => Some(false),
+            Outcome::Joint(_) | Outcome::Cycle | Outcome::Chord(_) | Outcome::Exponent => Some(false),
             Outcome::Open => None,
         }
     }
@@ -98,7 +104,7 @@ impl CurveOrder {
 /// The orders of smoothness of the curve of the start state, as it is seen.
 #[derive(Debug, Clone)]
 pub struct CurveRegularity {
-    /// `N`, the number of pieces.
+    /// `N`, the number of pieces of the states that come back to themselves.
     pub pieces: usize,
     /// The orders `0, 1, …` up to the first that fails or is open, at most [`MAX_ORDER`].
     pub orders: Vec<CurveOrder>,
@@ -116,6 +122,15 @@ impl CurveRegularity {
     #[must_use]
     pub fn smoothness(&self) -> usize {
         self.orders.iter().filter(|o| o.smooth() == Some(true)).count() - 1
+    }
+
+    /// Whether the curve is `C^k`; `None` where that is not decided.
+    #[must_use]
+    pub fn is_smooth(&self, order: usize) -> Option<bool> {
+        if self.polynomial || order <= self.smoothness() {
+            return Some(true);
+        }
+        self.orders.iter().any(|o| o.order <= order && o.smooth() == Some(false)).then_some(false)
     }
 }
 
@@ -150,7 +165,10 @@ pub fn curve_regularity(
         let values = if order.is_below() { curve.ends(k, &smaller, &chords) } else { None };
         order.outcome = match &values {
             Some(values) => curve.joints(k, values).map_or(Outcome::Holds, Outcome::Joint),
-            None => curve.refuted(&order, &families, &smaller, &chords),
+            None => match curve.refuted(&order, &families, &smaller, &chords) {
+                Outcome::Open if found.orders[k - 1].is_above(&order.threshold) => Outcome::Exponent,
+                outcome => outcome,
+            },
         };
         let holds = order.smooth() == Some(true);
         found.polynomial &= holds;
@@ -178,13 +196,18 @@ impl CurveOrder {
         self.enclosure.as_ref().is_some_and(|e| e.hi < self.threshold)
     }
 
+    /// Whether the radius is proved to be greater than a number.
+    fn is_above(&self, bound: &Rational) -> bool {
+        self.enclosure.as_ref().is_some_and(|e| e.lo > *bound)
+    }
+
     /// Whether the leading word of the radius is a cycle with `ρ(N^(k|w|) T_w) >= 1`.
     fn has_slow_cycle(&self) -> bool {
         self.radius.as_ref().and_then(|r| r.lower.as_ref()).is_some_and(|lower| lower.is_at_least(&self.threshold))
     }
 
     /// Enclosure of `−log_N` of the radius, cut with `[k, k+1]`, where it lies if this order holds and its differences are not 0.
-    fn exponent(&self, pieces: usize) -> Option<Interval> {
+    pub(super) fn exponent(&self, pieces: usize) -> Option<Interval> {
         let radius = self.enclosure.as_ref()?;
         let (least, most) = (Rational::from(self.order as u64), Rational::from(self.order as u64 + 1));
         let own = minus_log(radius, pieces)?;
@@ -224,6 +247,10 @@ pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -
     Some(order)
 }
 
+fn power(base: &Rational, exponent: usize) -> Rational {
+    (0..exponent).fold(Rational::from(1), |p, _| p * base)
+}
+
 /// The joint spectral radius of these operators; 0 without them.
 fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
     let Some(system) = system else { return (None, Some(Interval::point(Rational::from(0)))) };
@@ -243,6 +270,7 @@ struct Curve<'a> {
     states: Vec<usize>,
     /// By state of the shape, its position.
     positions: Vec<Option<usize>>,
+    /// `N`, the number of pieces of the states that come back to themselves.
     pieces: usize,
     /// By position and letter: the map `W_to -> W_from`.
     operators: Vec<Vec<Matrix>>,
@@ -255,11 +283,13 @@ type Ends = Vec<[Vec<Rational>; 2]>;
 impl<'a> Curve<'a> {
     fn new(shape: &'a Shape, spaces: &'a Spaces) -> Result<Self, CurveRegularityError> {
         let states = shape.reachable();
-        let pieces = shape.states[shape.start].pieces.len();
-        let curve = |e: &usize| shape.states[*e].kind == CellKind::Edge && shape.states[*e].pieces.len() == pieces;
-        if pieces < 2 || !states.iter().all(curve) {
-            return Err(CurveRegularityError::Pieces);
-        }
+        let count = |e: &usize| shape.states[*e].pieces.len();
+        let returning: Vec<usize> = states.iter().filter(|e| !component(shape, **e).is_empty()).map(count).collect();
+        let edges = states.iter().all(|e| shape.states[*e].kind == CellKind::Edge && count(e) > 0);
+        let pieces = match returning.first() {
+            Some(&first) if first >= 2 && edges && returning.iter().all(|n| *n == first) => first,
+            _ => return Err(CurveRegularityError::Pieces),
+        };
         if spaces.of(shape.start).visible.rows() == 0 {
             return Err(CurveRegularityError::Point);
         }
@@ -303,18 +333,17 @@ impl<'a> Curve<'a> {
         })
     }
 
-    /// `(ε N)^k`: what derivatives of order `k` are multiplied with on a piece.
-    fn factor(&self, k: usize, reversed: bool) -> Rational {
-        let one = Rational::from(self.pieces as u64);
-        let one = if reversed { -one } else { one };
-        (0..k).fold(Rational::from(1), |p, _| p * &one)
+    /// `(ε N_e)^k`: what derivatives of order `k` are multiplied with on a piece of a state.
+    fn factor(&self, k: usize, from: usize, reversed: bool) -> Rational {
+        let count = Rational::from(self.shape.states[self.states[from]].pieces.len());
+        power(&if reversed { -count } else { count }, k)
     }
 
     fn order(&self, k: usize, families: &[Matrix], options: &Options) -> CurveOrder {
         let system = self.system(families);
         let (radius, enclosure) = radius_of(system.as_ref(), options);
         let dims = families.iter().map(Matrix::rows).collect();
-        let threshold = Rational::from(1) / self.factor(k, false);
+        let threshold = Rational::from(1) / power(&Rational::from(self.pieces), k);
         let outcome = if k == 0 { Outcome::Curve } else { Outcome::Open };
         CurveOrder { order: k, threshold, dims, system, radius, enclosure, outcome }
     }
@@ -340,7 +369,7 @@ impl<'a> Curve<'a> {
     fn differences(&self, k: usize, chords: &Chords) -> Families {
         let mut families: Vec<Matrix> = chords.iter().map(|c| Matrix::zero(0, c.len())).collect();
         for (from, letter, piece, to) in self.arrows() {
-            let image = self.operators[from][letter].scale(&self.factor(k, piece.reversed)).apply(&chords[to]);
+            let image = self.operators[from][letter].scale(&self.factor(k, from, piece.reversed)).apply(&chords[to]);
             let offset = Matrix::from_rows(image.len(), vec![difference(&image, &chords[from])]);
             families[from] = families[from].stack(&offset).echelon().rows;
         }
@@ -378,7 +407,7 @@ impl<'a> Curve<'a> {
         let start = Matrix::identity(self.dim(from));
         word.iter().fold((start, from), |(product, at), &letter| {
             let piece = &self.shape.states[self.states[at]].pieces[letter];
-            let step = self.operators[at][letter].scale(&self.factor(k, piece.reversed));
+            let step = self.operators[at][letter].scale(&self.factor(k, at, piece.reversed));
             (&product * &step, self.position(piece.target))
         })
     }
@@ -389,9 +418,9 @@ impl<'a> Curve<'a> {
             let value = |letter: usize, end: End| {
                 let piece = &self.shape.states[state].pieces[letter];
                 let own = &ends[self.position(piece.target)][usize::from(end.in_piece(piece) == End::Finish)];
-                self.operators[from][letter].scale(&self.factor(k, piece.reversed)).apply(own)
+                self.operators[from][letter].scale(&self.factor(k, from, piece.reversed)).apply(own)
             };
-            for right in 1..self.pieces {
+            for right in 1..self.shape.states[state].pieces.len() {
                 let (before, after) = (value(right - 1, End::Finish), value(right, End::Start));
                 if before != after {
                     return Some(Jump { state, right, seen: self.seen(k, from, [before, after]) });

@@ -3,6 +3,7 @@
 use super::claim::Claim;
 use super::direction::Direction;
 use super::frames::Frames;
+use super::gap::{BranchGap, NoGerm, PointGap};
 use super::ring::{RingPiece, RingProof, Witness};
 pub use crate::answer::Verdict;
 use crate::arith::Rational;
@@ -14,7 +15,9 @@ use crate::statement::Statement;
 /// Kinds of points (theory §2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// An end point with one ray.
+    /// An end point of a curve with one ray.
+    SmoothEnd,
+    /// A point of a set with one ray.
     HalfTangent,
     /// One ray on each side, opposite.
     Regular,
@@ -37,6 +40,7 @@ impl Kind {
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
+            Self::SmoothEnd => "smooth end",
             Self::HalfTangent => "half-tangent",
             Self::Regular => "regular",
             Self::Cusp => "cusp",
@@ -200,12 +204,12 @@ pub enum Outcome {
     /// There are no points of the shape near the point on this branch.
     NoGerm {
         /// Why.
-        reason: String,
+        reason: NoGerm,
     },
     /// Not decided.
     Open {
         /// Why.
-        reason: String,
+        reason: BranchGap,
         /// The smallest unresolved cell or the obstacle found, as a word from the branch's state.
         place: Option<Vec<usize>>,
         /// A proved lower bound of `dim D*`.
@@ -274,24 +278,6 @@ impl PointReport {
             _ => About::Curve,
         }
     }
-
-    /// Where the point lies, in words.
-    #[must_use]
-    pub fn place(&self) -> String {
-        let after = |path: &[usize]| match path {
-            [] => String::new(),
-            path => format!(" in cell {}", crate::shape::word_text(path)),
-        };
-        match (&self.role, self.branches.first()) {
-            (Role::LeftEnd, _) => "the left end".to_owned(),
-            (Role::RightEnd, _) => "the right end".to_owned(),
-            (Role::Joint { path, left, right, .. }, _) => {
-                format!("the joint of pieces {left} and {right}{}", after(path))
-            }
-            (_, Some(branch)) => format!("the point with the address {}", branch.address),
-            (_, None) => "a point".to_owned(),
-        }
-    }
 }
 
 /// One examined point.
@@ -305,20 +291,21 @@ pub struct PointReport {
     pub image: Option<Vec<Rational>>,
     /// Its branches; of a joint the left one first.
     pub branches: Vec<BranchReport>,
-    /// Whether the shape is differentiable of dimension 1 there.
+    /// Whether there is a tangent line: the tangent subspace has dimension 1.
     pub verdict: Verdict,
     /// The kind.
     pub kind: Kind,
     /// Dimension of `D*`.
     pub dimension: Dimension,
-    /// The tangent line, where it exists.
+    /// The tangent line, where it exists: in the direction of travel at the start of what follows, or at the end of what comes
+    /// before, where that side has one ray.
     pub tangent: Option<Direction>,
     /// Rays on the left side (none at a left end or where they are not settled).
     pub left: Vec<Direction>,
     /// Rays on the right side.
     pub right: Vec<Direction>,
-    /// Why, in words, where the verdict is not `Proved`.
-    pub reason: Option<String>,
+    /// Why the verdict is not `Proved`.
+    pub reason: Option<PointGap>,
 }
 
 /// The hypotheses of Theorem 5 as found.
@@ -356,7 +343,8 @@ pub struct StateReport {
 pub struct Certified {
     /// The claims; the first is the main one.
     pub claims: Vec<Claim>,
-    /// The verdict on all claims together.
+    /// The verdict on the tangents examined, without what is claimed of every point and of the parameter; that of the
+    /// certificate. [`Required`](super::Required) says which claims decide about a case.
     pub verdict: Verdict,
     /// Contraction.
     pub contraction: Contraction,
@@ -372,17 +360,20 @@ pub struct Certified {
     pub polygon_weights: Option<HullWeights>,
     /// The scalar product for which all maps are similarities, where there is one.
     pub similarities: Option<super::similarity::Similarities>,
-    /// What is known of every point of a curve (Theorem 6). Its verdict is its own: the claims are about what was asked.
+    /// What is known of every point of a curve (Theorem 6).
     pub everywhere: Option<super::everywhere::Everywhere>,
+    /// What is known of a curve in its uniform parameter (Theorem E).
+    pub parameter: Option<super::parameter::Parameter>,
     /// What is found of a surface; the points are then listed there.
     pub surface: Option<super::surface::Surface>,
 }
 
 impl Certified {
-    /// The verdict on all claims together; undetermined where nothing is claimed.
+    /// The verdict on all claims about tangents together; undetermined where there are none.
     #[must_use]
     pub fn overall(&self) -> Verdict {
-        Verdict::all(self.claims.len(), self.claims.iter().map(Claim::verdict))
+        let own: Vec<Verdict> = self.claims.iter().filter(|c| c.what.is_of_tangents()).map(Claim::verdict).collect();
+        Verdict::all(own.len(), own)
     }
 
     /// The claim about the dense set of joints (Theorem 5 or 5′), where there is one.
@@ -404,6 +395,7 @@ impl Certified {
             polygon_weights: None,
             similarities: None,
             everywhere: None,
+            parameter: None,
             surface: None,
         }
     }

@@ -9,7 +9,7 @@ use super::turning::Symbol;
 use crate::arith::{Rational, ratio};
 use crate::linalg::{Matrix, strong_components};
 use crate::poly::Poly;
-use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError, SectorStencils, sector_stencils};
+use crate::scheme::{Corners, MeshRule, SchemeError, SectorStencils, sector_stencils};
 
 /// A scheme at a vertex (for dual schemes: in a face) of one valence.
 #[derive(Debug, Clone)]
@@ -54,12 +54,7 @@ impl Vertex {
     /// # Errors
     /// As for [`crate::scheme::local_matrix`], but for the weights that may be irrational.
     pub fn new(rule: &MeshRule, valence: usize, rings: usize) -> Result<Self, SchemeError> {
-        if let MeshRule::DooSabin(DualWeights::Frequency(f)) = rule
-            && f.is_multiple_of(valence)
-        {
-            let expected = "weights of a frequency that is a multiple of the valence do not add up to 1";
-            return Err(SchemeError::value("frequency", f, expected));
-        }
+        rule.check_at(valence)?;
         let stencils = sector_stencils(&stand_in(rule, valence, 0), valence, rings)?;
         let vertex = Self { rule: rule.clone(), valence, rings, stencils };
         vertex.check()?;
@@ -72,8 +67,7 @@ impl Vertex {
         for (row, own) in s.rows.iter().zip(&s.from_centre) {
             let sum = row.iter().fold(own.clone(), |sum, (_, _, w)| sum + w);
             if sum != 1 {
-                let message = format!("the weights of a new point add up to {sum}, not to 1");
-                return Err(SchemeError::Mesh { rule: self.rule.name().to_owned(), message });
+                return Err(SchemeError::Weights { rule: self.rule.name(), sum });
             }
         }
         Ok(())
@@ -94,7 +88,7 @@ impl Vertex {
     /// The block of a frequency.
     ///
     /// # Errors
-    /// [`SchemeError`] of the stencils; [`SchemeError::Mesh`] where a characteristic polynomial is not real (a scheme
+    /// [`SchemeError`] of the stencils; [`SchemeError::Asymmetric`] where a characteristic polynomial is not real (a scheme
     /// without mirror symmetry).
     pub fn block(&self, frequency: usize) -> Result<Block, SchemeError> {
         let (entries, before, angle) =
@@ -108,8 +102,7 @@ impl Vertex {
                 indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
             let coefficients = characteristic(&inner);
             if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
-                let message = "the weights have no mirror symmetry, and the eigenvalues are not real".to_owned();
-                return Err(SchemeError::Mesh { rule: self.rule.name().to_owned(), message });
+                return Err(SchemeError::Asymmetric { rule: self.rule.name() });
             }
             parts.push(Part { indices, poly: coefficients.into_iter().map(|c| c.x).collect() });
         }
@@ -142,44 +135,17 @@ impl Vertex {
 
     /// The orbit whose new points depend on their own orbit only, with weights that depend on the frequency.
     fn central(&self, k: usize) -> Option<(usize, Symbol)> {
-        let n = self.valence;
-        let constant = |p, q| Symbol::constant(&ratio(p, q));
-        match &self.rule {
-            // δ/4 + (3 + 2cos)/(4n) has the transform 1, 1/2, 1/4, 1/4, …
-            MeshRule::DooSabin(weights @ (DualWeights::Original | DualWeights::Frequency(_))) => {
-                let turns = if let DualWeights::Frequency(f) = weights { f % n } else { 1 };
-                let own = turns.min(n - turns);
-                // The transform of (3 + 2cos)/(4n): 3/4 at 0, and 1/4 at ± the frequency, which may coincide.
-                let mut value = ratio(1, 4);
-                if k == 0 {
-                    value += ratio(3, 4);
-                }
-                if k == own {
-                    value += if own == 0 || 2 * own == n { ratio(1, 2) } else { ratio(1, 4) };
-                }
-                Some((self.orbit((0, 0))?, Symbol::constant(&value)))
-            }
-            // δ/2 + (δ₁ + δ₋₁)/8 + 1/(4n): written out so that the entry is the same at every valence.
-            MeshRule::DooSabin(DualWeights::CatmullClark) => {
-                let own = if k == 0 { vec![ratio(1, 1)] } else { vec![ratio(1, 2), ratio(1, 8)] };
-                Some((self.orbit((0, 0))?, Symbol::real(Poly::new(own))))
-            }
-            MeshRule::Butterfly { modified: true, .. } if n != 6 => Some((
-                self.orbit((1, 0))?,
-                match k {
-                    0 => constant(1, 4),
-                    1 => constant(1, 2),
-                    2 => constant(1, 4),
-                    _ => constant(0, 1),
-                },
-            )),
-            _ => None,
-        }
+        let (place, wheel) = match self.rule.corners(self.valence, true) {
+            Some(Corners::Wheel(wheel)) => ((0, 0), wheel),
+            Some(Corners::List(_)) => return None,
+            None => ((1, 0), self.rule.spokes(self.valence)?),
+        };
+        Some((self.orbit(place)?, Symbol::real(wheel.eigenvalue(k))))
     }
 
     /// The block 0: entries, the indices before the orbits, the angle.
     fn still(&self) -> Result<(Vec<Vec<Symbol>>, usize, usize), SchemeError> {
-        let Some(weight) = irrational_weight(&self.rule) else {
+        let Some(weight) = irrational_weight(&self.rule, self.valence) else {
             let rational = self.still_rational(&self.stencils);
             let entries = rational.iter().map(|row| row.iter().map(Symbol::constant).collect()).collect();
             return Ok((entries, usize::from(self.stencils.centre.is_some()), 1));
@@ -231,29 +197,21 @@ impl Vertex {
 }
 
 /// The irrational weight at the centre as a polynomial in `t = 2cos(2π/n)`: the weight of all neighbours together.
-fn irrational_weight(rule: &MeshRule) -> Option<Poly> {
-    match rule {
-        // 5/8 − (3/8 + t/8)².
-        MeshRule::Loop(LoopWeights::Original) => Some(Poly::new(vec![ratio(31, 64), ratio(-3, 32), ratio(-1, 64)])),
-        // (4 − t)/9.
-        MeshRule::Sqrt3(None) => Some(Poly::new(vec![ratio(4, 9), ratio(-1, 9)])),
-        _ => None,
-    }
+fn irrational_weight(rule: &MeshRule, valence: usize) -> Option<Poly> {
+    Some(rule.star(valence, true)?.near).filter(|p| p.degree().is_some_and(|d| d > 0))
 }
 
 /// A rule with rational weights; `weight` takes the place of [`irrational_weight`].
 fn stand_in(rule: &MeshRule, valence: usize, weight: usize) -> MeshRule {
-    let weight = Rational::from(weight as u64);
-    match rule {
-        MeshRule::Loop(LoopWeights::Original) => {
-            MeshRule::Loop(LoopWeights::Given(weight / Rational::from(valence as u64)))
+    if irrational_weight(rule, valence).is_some() {
+        return rule.with_near(Rational::from(weight as u64));
+    }
+    match rule.corners(valence, true) {
+        Some(Corners::Wheel(wheel)) if wheel.waving() => {
+            rule.with_corners(vec![Rational::from(1) / Rational::from(valence as u64); valence])
         }
-        MeshRule::Sqrt3(None) => MeshRule::Sqrt3(Some(weight)),
-        MeshRule::DooSabin(DualWeights::Original | DualWeights::Frequency(_)) => {
-            MeshRule::DooSabin(DualWeights::CatmullClark)
-        }
-        MeshRule::Butterfly { w, modified: true } => MeshRule::Butterfly { w: w.clone(), modified: false },
-        other => other.clone(),
+        _ if rule.spokes(valence).is_some() => rule.regular(),
+        _ => rule.clone(),
     }
 }
 
@@ -307,7 +265,10 @@ fn characteristic(a: &[Vec<Symbol>]) -> Vec<Symbol> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scheme::VertexWeights;
+
+    fn rule(name: &str) -> MeshRule {
+        crate::scheme::mesh_rule(name, &[].into()).unwrap()
+    }
 
     fn text(part: &Part) -> Vec<String> {
         part.poly.iter().map(|p| p.display("t")).collect()
@@ -315,27 +276,27 @@ mod tests {
 
     #[test]
     fn the_published_polynomials() {
-        let cc = Vertex::new(&MeshRule::CatmullClark(None), 5, 3).unwrap();
+        let cc = Vertex::new(&rule("catmull-clark"), 5, 3).unwrap();
         let block = cc.block(1).unwrap();
         // x² − (10 + 2c)/16 x + 1/16.
         let inner = block.parts.iter().find(|p| p.indices.len() == 2).unwrap();
         assert_eq!(text(inner), ["1/16", "-1/16t - 5/8", "1"]);
-        let lp = Vertex::new(&MeshRule::Loop(LoopWeights::Original), 5, 3).unwrap();
+        let lp = Vertex::new(&rule("loop"), 5, 3).unwrap();
         assert!(lp.block(2).unwrap().parts.iter().any(|p| text(p) == ["-1/8t - 3/8", "1"]));
         let still = lp.block(0).unwrap();
         // (x − 1)(x − (3/8 + c/4)²).
         let inner = still.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
         assert_eq!(text(inner), ["1/64t^2 + 3/32t + 9/64", "-1/64t^2 - 3/32t - 73/64", "1"]);
-        let sqrt3 = Vertex::new(&MeshRule::Sqrt3(None), 7, 3).unwrap();
+        let sqrt3 = Vertex::new(&rule("sqrt3"), 7, 3).unwrap();
         assert!(sqrt3.block(3).unwrap().parts.iter().any(|p| text(p) == ["-1/9t - 2/9", "1"]));
-        let midedge = Vertex::new(&MeshRule::DooSabin(DualWeights::Midedge), 5, 3).unwrap();
+        let midedge = Vertex::new(&rule("midedge"), 5, 3).unwrap();
         assert!(midedge.block(2).unwrap().parts.iter().any(|p| text(p) == ["-1/4t - 1/2", "1"]));
     }
 
     #[test]
     fn the_blocks_of_a_variant() {
-        let weights = VertexWeights { alpha: ratio(3, 4), beta: ratio(1, 4), gamma: ratio(0, 1) };
-        let v = Vertex::new(&MeshRule::CatmullClark(Some(weights)), 5, 3).unwrap();
+        let weights = [("alpha".to_owned(), ratio(3, 4)), ("beta".to_owned(), ratio(1, 4))].into();
+        let v = Vertex::new(&crate::scheme::mesh_rule("catmull-clark-variant", &weights).unwrap(), 5, 3).unwrap();
         let block = v.block(0).unwrap();
         let inner = block.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
         // (x − 1)(x² − (α − 1/4)x + (1/2 − β)/8).
@@ -347,9 +308,8 @@ mod tests {
     #[test]
     fn rows_add_up_to_one_and_all_blocks_exist() {
         for info in crate::scheme::mesh_rules().iter().filter(|r| r.parameters.iter().all(|p| p.default.is_some())) {
-            let rule = crate::scheme::mesh_rule(info.name, &std::collections::BTreeMap::new()).unwrap();
             for n in [3, 4, 5, 6, 9] {
-                let v = Vertex::new(&rule, n, 3).unwrap_or_else(|e| panic!("{} at {n}: {e}", info.name));
+                let v = Vertex::new(&rule(info.name), n, 3).unwrap_or_else(|e| panic!("{} at {n}: {e}", info.name));
                 for k in v.frequencies() {
                     let block = v.block(k).unwrap_or_else(|e| panic!("{} at {n}, block {k}: {e}", info.name));
                     if k == 0 {

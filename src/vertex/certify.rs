@@ -5,6 +5,7 @@ use super::cosine::{gcd, minimal_polynomial};
 use super::field::{Enclosures, Field, Fixed};
 use super::limit::{self, Ring};
 use super::net::{Net, Signs};
+use super::reason::VertexReason;
 use super::regular::Regular;
 use super::ring::{self, Values, jacobian, patches};
 use super::top::{Top, TopError, leading_value, leading_values, top};
@@ -86,8 +87,8 @@ pub struct AtValence {
     pub winding: Option<usize>,
     /// The functional that is positive on the sector, in the coordinates of `x + y ω`.
     pub half_plane: Option<(Rational, Rational)>,
-    /// Why: the theorem applied, or what failed.
-    pub reason: String,
+    /// Why: what was found, or what failed.
+    pub reason: VertexReason,
     /// What a decided verdict rests on, where it is one leading eigenvector with its conjugate.
     pub ground: Option<Ground>,
     /// That eigenvector.
@@ -111,7 +112,7 @@ impl AtValence {
             polynomial: true,
             winding: None,
             half_plane: None,
-            reason: String::new(),
+            reason: VertexReason::Unexamined,
             ground: None,
             eigenvector: None,
             again: Again::NotAsked,
@@ -173,7 +174,7 @@ impl AtValence {
     /// The place of a witness in the lattice of sector 0.
     #[must_use]
     pub fn lattice(&self, rule: &MeshRule, at: &(usize, (Rational, Rational))) -> Option<(Rational, Rational)> {
-        if ring::spline(rule).is_none() {
+        if rule.info().spline.is_none() {
             return limit::lattice_point(rule, at.0, &at.1);
         }
         ring::lattice_point(rule, at.0, &at.1)
@@ -187,8 +188,8 @@ impl AtValence {
 ///
 /// # Examples
 /// ```
-/// use secant::{scheme::MeshRule, theorem::Verdict, vertex::at_valence};
-/// let found = at_valence(&MeshRule::CatmullClark(None), 5)?;
+/// use secant::{scheme::mesh_rule, theorem::Verdict, vertex::at_valence};
+/// let found = at_valence(&mesh_rule("catmull-clark", &[].into())?, 5)?;
 /// assert_eq!((found.smooth, found.winding), (Verdict::Proved, Some(1)));
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
@@ -205,12 +206,12 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
 /// As [`at_valence`].
 pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
-    found.polynomial = ring::spline(rule).is_some();
+    found.polynomial = rule.info().spline.is_some();
     let vertex = Vertex::new(rule, valence, ring::RINGS)?;
     let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
         Ok(blocks) => blocks,
-        Err(SchemeError::Mesh { message, .. }) => {
-            found.reason = message;
+        Err(error @ (SchemeError::Mesh { .. } | SchemeError::Asymmetric { .. })) => {
+            found.reason = VertexReason::Block(error);
             return Ok(found);
         }
         Err(error) => return Err(error),
@@ -247,37 +248,28 @@ impl Judge<'_> {
             return;
         }
         if !self.found.polynomial && Regular::of(&self.vertex.rule).is_none() {
-            "whether the scheme converges away from the vertex is not known: no bounds of its regular rule were found (Lemma 4)"
-                .clone_into(&mut self.found.reason);
+            self.found.reason = VertexReason::RegularRule;
             return;
         }
         let (length, dimension) = self.top.longest(n);
         let leading: Vec<(usize, bool)> = self.top.leading(n).iter().map(|m| (m.frequency, m.negative)).collect();
-        let name = if length > 1 { format!("{length}×{length} Jordan blocks") } else { "eigenvectors".to_owned() };
         match (dimension, leading.as_slice()) {
             (3.., _) => {
                 self.found.ground = Some(Ground::Span);
-                self.refute(format!(
-                    "the leading {name} span a space of dimension {dimension}, and limit directions span all of it \
-                     (corollary, Theorem 8)"
-                ));
+                self.refute(VertexReason::Span { length, dimension });
             }
             (1, [(k, false)]) => self.line(*k, length),
             (2, [(k, false)]) if 0 < *k && 2 * *k < n => self.pair(*k, length),
             (2, all) if length == 1 && all.iter().all(|(_, negative)| !negative) => {
                 self.found.ground = Some(Ground::Sectors);
-                self.refute(
-                    "the two leading eigenvectors are the same in every second sector, so that the characteristic map is \
-                     not injective (Theorem 8)"
-                        .to_owned(),
-                );
+                self.refute(VertexReason::Sectors);
                 self.found.plane = Verdict::Undetermined;
             }
-            _ => format!("two leading {name} of this kind are not covered").clone_into(&mut self.found.reason),
+            _ => self.found.reason = VertexReason::Uncovered { length },
         }
     }
 
-    fn refute(&mut self, reason: String) {
+    fn refute(&mut self, reason: VertexReason) {
         self.found.smooth = Verdict::Refuted;
         self.found.plane = Verdict::Refuted;
         self.found.reason = reason;
@@ -287,50 +279,31 @@ impl Judge<'_> {
     fn no_limit(&mut self, certain: bool) {
         if certain {
             self.found.ground = Some(Ground::NoLimit);
-            self.refute(
-                "besides 1, counted once, an eigenvalue has modulus 1 or more: for almost all control points the rings do not \
-                 shrink to a point (Rings that do not shrink)"
-                    .to_owned(),
-            );
+            self.refute(VertexReason::NoLimit);
         } else {
-            "besides 1, counted once, an eigenvalue is not proved to be smaller than 1 in modulus"
-                .clone_into(&mut self.found.reason);
+            self.found.reason = VertexReason::LimitOpen;
         }
     }
 
     /// One leading eigenvector: all limit directions are parallel to it where its function on the ring has no zero.
     fn line(&mut self, k: usize, length: usize) {
         self.found.frequency = Some(k);
-        let what = if length > 1 {
-            format!("one {length}×{length} Jordan block")
-        } else {
-            "one simple eigenvalue".to_owned()
-        };
         let Some((signs, boundary)) = self.signs_of_function(k) else {
-            self.found.reason = format!(
-                "{what} in block {k} leads; whether its function has a zero on the ring is not known for this scheme"
-            );
+            self.found.reason = VertexReason::LineOpen { length, block: k };
             return;
         };
         if signs.strict().is_some() {
             self.found.ground = Some(Ground::Line);
-            self.refute(format!(
-                "{what} in block {k} leads and its function on the ring has no zero: all limit directions lie on one line \
-                 (Theorem {})",
-                if length > 1 { 3 } else { 2 }
-            ));
+            self.refute(VertexReason::Line { length, block: k });
         } else if k == 0 && boundary.strict().is_some() {
-            self.one_sided(&what);
+            self.one_sided(length);
         } else {
-            self.found.reason = format!("{what} in block {k} leads, and its function has a zero on the ring");
+            self.found.reason = VertexReason::LineZero { length, block: k };
         }
     }
 
-    fn one_sided(&mut self, what: &str) {
-        self.refute(format!(
-            "{what} in block 0 leads and its function has no zero on a closed path around the vertex, whose copies stay on \
-             one side of it (Theorem 8)"
-        ));
+    fn one_sided(&mut self, length: usize) {
+        self.refute(VertexReason::Path { length });
         self.found.plane = Verdict::Undetermined;
         self.found.ground = Some(Ground::Path);
     }
@@ -383,55 +356,36 @@ impl Judge<'_> {
     fn pair(&mut self, k: usize, length: usize) {
         self.found.frequency = Some(k);
         let known = self.budget.places.into_iter().any(|bits| self.characteristic(k, bits));
-        let with_blocks =
-            if length > 1 { format!(", the ends of {length}×{length} Jordan blocks") } else { String::new() };
         if self.found.winding.is_some() {
             self.found.plane = Verdict::Proved;
         }
         if k != 1 && length > 1 && self.found.winding.is_none() {
-            self.found.reason =
-                format!("the leading Jordan blocks live in block {k}; whether their ring avoids 0 is not known");
+            self.found.reason = VertexReason::RingOpen { block: k };
             return;
         }
         if k != 1 {
             self.found.ground = Some(Ground::Winding);
             self.found.smooth = Verdict::Refuted;
-            self.found.reason = match self.found.winding {
-                Some(w) => format!(
-                    "the leading eigenvectors live in block {k}{with_blocks}: the ring winds {w} times around the vertex \
-                     (Theorem 8)"
-                ),
-                None => format!(
-                    "the leading eigenvectors live in block {k}{with_blocks}: the ring cannot wind once around the vertex \
-                     (Theorem 8)"
-                ),
-            };
+            self.found.reason = VertexReason::Winding { length, block: k, times: self.found.winding };
             return;
         }
         if !known && self.found.jacobian.is_none() {
-            self.found.reason = format!(
-                "the leading eigenvectors live in block 1{with_blocks}; the ring of this scheme is not polynomial, and no \
-                 bounds of its derivatives were found (Lemma 4)"
-            );
+            self.found.reason = VertexReason::Derivatives { length };
             return;
         }
         match (self.found.regular(), self.found.winding) {
             (Some(true), Some(1)) => {
                 self.found.smooth = Verdict::Proved;
                 self.found.ground = Some(Ground::Regular);
-                self.found.reason =
-                    format!("the characteristic map is regular and winds once around 0{with_blocks} (Theorem 7)");
+                self.found.reason = VertexReason::Regular { length };
             }
             (Some(false), _) => {
                 self.found.smooth = Verdict::Refuted;
                 self.found.ground = Some(Ground::Fold);
-                "the Jacobian determinant of the characteristic map changes its sign (Theorem 8)"
-                    .clone_into(&mut self.found.reason);
+                self.found.reason = VertexReason::Fold;
             }
-            (None, _) => {
-                "the sign of the Jacobian determinant was not decided everywhere".clone_into(&mut self.found.reason);
-            }
-            _ => "no half-plane through 0 holds the ring of one sector".clone_into(&mut self.found.reason),
+            (None, _) => self.found.reason = VertexReason::JacobianOpen,
+            _ => self.found.reason = VertexReason::HalfPlane,
         }
     }
 

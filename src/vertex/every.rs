@@ -6,13 +6,14 @@
 use super::block::Vertex;
 use super::field::{Field, Fraction, Functions};
 use super::net::Net;
+use super::reason::Requirement;
 use super::ring::{RINGS, jacobian, patches};
 use super::solve::eigenvector;
 use super::turning::{Rotation, Turning};
 use crate::arith::{Rational, ratio};
 use crate::poly::{Poly, factor};
 use crate::ring::{Field as _, Ring as _};
-use crate::scheme::{DualWeights, LoopWeights, MeshRule, SchemeError};
+use crate::scheme::{AllValences, MeshRule, SchemeError};
 
 /// A valence at which no stencil meets itself around the vertex.
 const LARGE: usize = 12;
@@ -25,7 +26,7 @@ const HALVINGS: usize = 8;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Condition {
     /// What is claimed.
-    pub claim: String,
+    pub claim: Requirement,
     /// Whether it was proved.
     pub holds: bool,
 }
@@ -36,7 +37,7 @@ pub struct Every {
     /// The first valence covered.
     pub from: usize,
     /// The parameter, the eigenvalue and `t` in it, and the interval, in words.
-    pub setting: String,
+    pub setting: &'static str,
     /// The conditions of Theorem 9.
     pub conditions: Vec<Condition>,
     /// Pieces of patch and interval on which all Bernstein coefficients of the Jacobian determinant are positive.
@@ -53,85 +54,15 @@ impl Every {
 
 /// A scheme as a family over a parameter.
 struct Family {
-    from: usize,
+    row: AllValences,
     twice_cosine: Fraction,
     eigenvalue: Fraction,
-    interval: (Rational, Rational),
-    setting: &'static str,
-    /// Claims about the other eigenvalues; the polynomials are positive on the interval.
-    claims: Vec<(&'static str, Poly)>,
 }
 
-fn poly(coefficients: &[(i64, i64)]) -> Poly {
-    Poly::new(coefficients.iter().map(|(p, q)| ratio(*p, *q)).collect())
-}
-
-fn family(rule: &MeshRule) -> Option<Family> {
-    let t = poly(&[(0, 1), (1, 1)]);
-    let plain = |from, low: i64, eigenvalue: Poly, setting, claims| Family {
-        from,
-        twice_cosine: Fraction::polynomial(t.clone()),
-        eigenvalue: Fraction::polynomial(eigenvalue),
-        interval: (ratio(low, 1), ratio(2, 1)),
-        setting,
-        claims,
-    };
-    match rule {
-        MeshRule::CatmullClark(None) => Some(Family {
-            from: 3,
-            // 16λ² − (10 + t)λ + 1 = 0.
-            twice_cosine: Fraction::new(poly(&[(1, 1), (-10, 1), (16, 1)]), t.clone()),
-            eigenvalue: Fraction::polynomial(t),
-            interval: (ratio(13, 32), ratio(131, 200)),
-            setting: "parameter λ, t = (16λ² − 10λ + 1)/λ, 13/32 ≤ λ ≤ 131/200, which covers −1 ≤ t ≤ 2",
-            claims: vec![
-                ("λ > 1/4: with λ < 1, the blocks k ≥ 2 have smaller eigenvalues (t_k < t)", poly(&[(-1, 4), (1, 1)])),
-                ("λ > 3/8 and (7/4 − 5/6)λ > 3/16: the block 0 has smaller eigenvalues", poly(&[(-3, 8), (1, 1)])),
-                ("(7/4 − 5/6)λ > 3/16", poly(&[(-3, 16), (11, 12)])),
-            ],
-        }),
-        MeshRule::Loop(LoopWeights::Original) => Some(plain(
-            3,
-            -1,
-            poly(&[(3, 8), (1, 8)]),
-            "parameter t = 2cos(2π/n), λ = 3/8 + t/8, −1 ≤ t ≤ 2",
-            vec![
-                ("λ + (3/8 − 2/8) > 0: the blocks k ≥ 2 have 3/8 + t_k/8 in (−λ, λ)", poly(&[(1, 2), (1, 8)])),
-                ("λ − λ² > 0 for t < 2, as 1 − λ ≥ 3/8: the block 0 has λ²", poly(&[(3, 8), (1, 8)])),
-            ],
-        )),
-        MeshRule::Loop(LoopWeights::Warren) => Some(plain(
-            4,
-            0,
-            poly(&[(3, 8), (1, 8)]),
-            "parameter t = 2cos(2π/n), λ = 3/8 + t/8, 0 ≤ t ≤ 2",
-            vec![
-                ("λ + (3/8 − 2/8) > 0: the blocks k ≥ 2 have 3/8 + t_k/8 in (−λ, λ)", poly(&[(1, 2), (1, 8)])),
-                ("λ − 1/4 > 0: the block 0 has 5/8 − 3/8", poly(&[(1, 8), (1, 8)])),
-            ],
-        )),
-        MeshRule::DooSabin(DualWeights::Original) => Some(plain(
-            3,
-            -1,
-            poly(&[(1, 2)]),
-            "parameter t = 2cos(2π/n), λ = 1/2, −1 ≤ t ≤ 2",
-            vec![("λ − 1/4 > 0: the blocks k ≥ 2 have 1/4", poly(&[(1, 4)]))],
-        )),
-        MeshRule::DooSabin(DualWeights::CatmullClark) => Some(plain(
-            3,
-            -1,
-            poly(&[(1, 2), (1, 8)]),
-            "parameter t = 2cos(2π/n), λ = 1/2 + t/8, −1 ≤ t ≤ 2",
-            vec![("λ + (1/2 − 2/8) > 0: the blocks k ≥ 2 have 1/2 + t_k/8 in (−λ, λ)", poly(&[(3, 4), (1, 8)]))],
-        )),
-        MeshRule::DooSabin(DualWeights::Midedge) => Some(plain(
-            4,
-            0,
-            poly(&[(1, 2), (1, 4)]),
-            "parameter t = 2cos(2π/n), λ = 1/2 + t/4, 0 ≤ t ≤ 2",
-            vec![("λ + (1/2 − 2/4) > 0: the blocks k ≥ 2 have 1/2 + t_k/4 in (−λ, λ)", poly(&[(1, 2), (1, 4)]))],
-        )),
-        _ => None,
+impl Family {
+    fn new(row: AllValences) -> Self {
+        let (num, den) = row.twice_cosine.clone();
+        Self { twice_cosine: Fraction::new(num, den), eigenvalue: Fraction::polynomial(row.eigenvalue.clone()), row }
     }
 }
 
@@ -223,12 +154,12 @@ fn positive_on(field: &Functions, net: Net<Fraction>, interval: (Rational, Ratio
 /// # Cost
 /// A few seconds.
 pub fn every(rule: &MeshRule) -> Result<Option<Every>, SchemeError> {
-    let Some(family) = family(rule) else { return Ok(None) };
+    let Some(family) = rule.all_valences().map(Family::new) else { return Ok(None) };
     let field = Functions::new(crate::ring::Functions::anywhere(), family.twice_cosine.clone());
     let vertex = Vertex::new(rule, LARGE, RINGS)?;
     let block = vertex.block(1)?;
     let mut conditions: Vec<Condition> = Vec::new();
-    let mut check = |claim: &str, holds: bool| conditions.push(Condition { claim: claim.to_owned(), holds });
+    let mut check = |claim, holds: bool| conditions.push(Condition { claim, holds });
     let root = |part: &super::block::Part| {
         let value = part.poly.iter().rev().fold(field.zero(), |v, c| {
             field.add(&field.mul(&v, &family.eigenvalue), &field.eval(c, &family.twice_cosine))
@@ -236,29 +167,26 @@ pub fn every(rule: &MeshRule) -> Result<Option<Every>, SchemeError> {
         value.num.is_zero()
     };
     let part = block.parts.iter().position(root);
-    check("λ is an eigenvalue of block 1", part.is_some());
-    for (claim, p) in &family.claims {
-        check(claim, strict_sign(p, &family.interval) == Some(1));
+    check(Requirement::Eigenvalue, part.is_some());
+    for (claim, p) in &family.row.claims {
+        check(Requirement::Row(claim), strict_sign(p, &family.row.interval) == Some(1));
     }
-    check("all eigenvalues that do not depend on the frequency are smaller than λ", constants(&vertex, &family, part)?);
+    check(Requirement::Constants, constants(&vertex, &family, part)?);
     let values = part.and_then(|p| eigenvector(&field, &block, p, &family.eigenvalue));
     let nets = values.and_then(|v| patches(&vertex, &field, &v));
     let Some(nets) = nets else {
-        check("the characteristic map is known as a rational function of the parameter", false);
-        return Ok(Some(Every { from: family.from, setting: family.setting.to_owned(), conditions, pieces: 0 }));
+        check(Requirement::Known, false);
+        return Ok(Some(Every { from: family.row.from, setting: family.row.setting, conditions, pieces: 0 }));
     };
     let finite =
-        |p: &Turning<Fraction>| [&p.x, &p.y].into_iter().all(|e| strict_sign(&e.den, &family.interval).is_some());
-    check(
-        "no denominator of the Bézier points vanishes",
-        nets.iter().flat_map(|n| n.rows.iter().flatten()).all(finite),
-    );
+        |p: &Turning<Fraction>| [&p.x, &p.y].into_iter().all(|e| strict_sign(&e.den, &family.row.interval).is_some());
+    check(Requirement::Denominators, nets.iter().flat_map(|n| n.rows.iter().flatten()).all(finite));
     let mut pieces = 0;
     let regular =
-        nets.iter().all(|net| positive_on(&field, jacobian(&field, net), family.interval.clone(), &mut pieces));
-    check("the Bernstein coefficients of the Jacobian determinant are positive", regular);
-    check("the ring of a sector lies in an open half-plane through 0", half_plane(&field, &nets, &family));
-    Ok(Some(Every { from: family.from, setting: family.setting.to_owned(), conditions, pieces }))
+        nets.iter().all(|net| positive_on(&field, jacobian(&field, net), family.row.interval.clone(), &mut pieces));
+    check(Requirement::Jacobian, regular);
+    check(Requirement::HalfPlane, half_plane(&field, &nets, &family));
+    Ok(Some(Every { from: family.row.from, setting: family.row.setting, conditions, pieces }))
 }
 
 /// The parts of the blocks that are the same for all frequencies, against a bound below λ.
@@ -286,7 +214,7 @@ fn constants(vertex: &Vertex, family: &Family, own: Option<usize>) -> Result<boo
     }
     let difference =
         Fraction::new(&family.eigenvalue.num - &family.eigenvalue.den.scale(&bound), family.eigenvalue.den.clone());
-    Ok(positive(&difference, &family.interval))
+    Ok(positive(&difference, &family.row.interval))
 }
 
 /// A functional that is positive on the ring of a sector for all parameters: `x + y`, or `x + y t/2` where the sector begins
@@ -301,7 +229,7 @@ fn half_plane(field: &Functions, nets: &[Net<Turning<Fraction>>], family: &Famil
                 let p = rotation.add(p, &rotation.zero());
                 field.add(&p.x, &field.mul(&weight, &p.y))
             });
-            positive_on(field, values, family.interval.clone(), &mut pieces)
+            positive_on(field, values, family.row.interval.clone(), &mut pieces)
         })
     })
 }
@@ -310,6 +238,14 @@ fn half_plane(field: &Functions, nets: &[Net<Turning<Fraction>>], family: &Famil
 mod tests {
     use super::*;
     use crate::vertex::cosine::minimal_polynomial;
+
+    fn rule(name: &str) -> MeshRule {
+        crate::scheme::mesh_rule(name, &[].into()).unwrap()
+    }
+
+    fn poly(coefficients: &[(i64, i64)]) -> Poly {
+        Poly::new(coefficients.iter().map(|(p, q)| ratio(*p, *q)).collect())
+    }
 
     #[test]
     fn signs_on_intervals() {
@@ -324,13 +260,8 @@ mod tests {
     /// The entries of block 1 at small valences are those at a large one, modulo the equation of `t`.
     #[test]
     fn the_blocks_are_the_same_at_every_valence() {
-        let rules = [
-            MeshRule::CatmullClark(None),
-            MeshRule::Loop(LoopWeights::Original),
-            MeshRule::DooSabin(DualWeights::Original),
-            MeshRule::DooSabin(DualWeights::CatmullClark),
-            MeshRule::DooSabin(DualWeights::Midedge),
-        ];
+        let rules =
+            [rule("catmull-clark"), rule("loop"), rule("doo-sabin"), rule("doo-sabin-catmull-clark"), rule("midedge")];
         for rule in rules {
             let large = Vertex::new(&rule, LARGE, RINGS).unwrap().block(1).unwrap();
             for n in [3, 4, 5, 7] {
@@ -349,13 +280,13 @@ mod tests {
     fn block_0_is_the_one_of_the_proof() {
         for n in [3, 4, 5, 8, 13] {
             let m = ratio(1, n as i64);
-            let block = Vertex::new(&MeshRule::CatmullClark(None), n, RINGS).unwrap().block(0).unwrap();
+            let block = Vertex::new(&rule("catmull-clark"), n, RINGS).unwrap().block(0).unwrap();
             let part = block.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
             let found = Poly::new(part.poly.iter().map(|c| c.coeff(0)).collect());
             let linear = ratio(7, 4) * &m - ratio(3, 4);
             let constant = (ratio(1, 1) - ratio(3, 1) * &m) / ratio(16, 1);
             assert_eq!(found, &Poly::linear(&ratio(1, 1)) * &Poly::new(vec![constant, linear, ratio(1, 1)]), "{n}");
-            let block = Vertex::new(&MeshRule::Loop(LoopWeights::Warren), n, RINGS).unwrap().block(0).unwrap();
+            let block = Vertex::new(&rule("loop-warren"), n, RINGS).unwrap().block(0).unwrap();
             let part = block.parts.iter().find(|p| p.indices.contains(&0)).unwrap();
             let other = if n == 3 { ratio(1, 16) } else { ratio(1, 4) };
             assert_eq!(part.poly[0].coeff(0), other, "{n}");
@@ -365,12 +296,12 @@ mod tests {
     #[test]
     fn every_valence_of_the_classical_schemes() {
         for (rule, from) in [
-            (MeshRule::DooSabin(DualWeights::Original), 3),
-            (MeshRule::DooSabin(DualWeights::CatmullClark), 3),
-            (MeshRule::DooSabin(DualWeights::Midedge), 4),
-            (MeshRule::Loop(LoopWeights::Original), 3),
-            (MeshRule::Loop(LoopWeights::Warren), 4),
-            (MeshRule::CatmullClark(None), 3),
+            (rule("doo-sabin"), 3),
+            (rule("doo-sabin-catmull-clark"), 3),
+            (rule("midedge"), 4),
+            (rule("loop"), 3),
+            (rule("loop-warren"), 4),
+            (rule("catmull-clark"), 3),
         ] {
             let found = every(&rule).unwrap().unwrap();
             let failed: Vec<&Condition> = found.conditions.iter().filter(|c| !c.holds).collect();

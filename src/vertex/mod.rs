@@ -10,6 +10,7 @@ mod factored;
 pub mod field;
 pub mod limit;
 pub mod net;
+mod reason;
 pub mod regular;
 pub mod ring;
 pub mod solve;
@@ -18,6 +19,7 @@ pub mod turning;
 
 pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, at_valence_within, decimal};
 pub use every::{Condition, Every, every, strict_sign};
+pub use reason::{Requirement, VertexReason};
 
 use crate::answer::Verdict;
 

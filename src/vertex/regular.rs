@@ -7,7 +7,7 @@
 use super::factored::{Mask, shrinking};
 use crate::arith::{Integer, Natural, Rational, ratio};
 use crate::linalg::Matrix;
-use crate::scheme::{MeshRule, Sector, SectorStencils, sector_stencils};
+use crate::scheme::{Lattice, MeshRule, Sector, SectorStencils, sector_stencils};
 use malachite_base::num::arithmetic::traits::{Abs, Ceiling, Lcm};
 use malachite_base::num::conversion::traits::RoundingFrom;
 use malachite_base::rounding_modes::RoundingMode;
@@ -108,18 +108,14 @@ impl Regular {
     /// About a thousand products of small matrices at the first call, a comparison afterwards.
     #[must_use]
     pub fn of(rule: &MeshRule) -> Option<Arc<Self>> {
-        static KNOWN: Mutex<Vec<(MeshRule, Option<Arc<Regular>>)>> = Mutex::new(Vec::new());
-        let rule = match rule {
-            MeshRule::Sqrt3(_) => MeshRule::Sqrt3(None),
-            MeshRule::Butterfly { w, .. } => MeshRule::Butterfly { w: w.clone(), modified: false },
-            other => other.clone(),
-        };
+        static KNOWN: Mutex<Vec<(Lattice, Option<Arc<Regular>>)>> = Mutex::new(Vec::new());
+        let lattice = rule.lattice();
         let mut known = KNOWN.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if let Some((_, found)) = known.iter().find(|(r, _)| *r == rule) {
+        if let Some((_, found)) = known.iter().find(|(l, _)| *l == lattice) {
             return found.clone();
         }
-        let found = Self::build(&rule).map(Arc::new);
-        known.push((rule, found.clone()));
+        let found = Self::build(&rule.regular()).map(Arc::new);
+        known.push((lattice, found.clone()));
         found
     }
 
@@ -245,7 +241,7 @@ pub fn place((corner, sign): &Cell, point: Place) -> Place {
 /// The mask, read from the stencils around a regular vertex; whether the mesh has triangles, and `N`.
 fn mask(rule: &MeshRule) -> Option<(bool, i64, Mask)> {
     let triangles = rule.sector() == Sector::Triangles;
-    let factor = if matches!(rule, MeshRule::Sqrt3(_)) { 3 } else { 2 };
+    let factor = rule.info().split.factor();
     let stencils = sector_stencils(rule, if triangles { 6 } else { 4 }, RINGS).ok()?;
     let mut mask = Mask::new();
     let mut seen = BTreeSet::new();
@@ -534,14 +530,19 @@ fn round_up(x: &Rational) -> Option<i128> {
 mod tests {
     use super::*;
     use crate::arith::parse_rational;
+    use crate::scheme::mesh_rule;
     use crate::vertex::limit::ring_cells;
 
+    fn rule(name: &str, given: &[(&str, Rational)]) -> MeshRule {
+        mesh_rule(name, &given.iter().map(|(k, x)| ((*k).to_owned(), x.clone())).collect()).unwrap()
+    }
+
     fn butterfly(w: Rational) -> MeshRule {
-        MeshRule::Butterfly { w, modified: true }
+        rule("butterfly-modified", &[("w", w)])
     }
 
     fn rules() -> [MeshRule; 3] {
-        [butterfly(ratio(1, 16)), MeshRule::Sqrt3(Some(ratio(1, 3))), MeshRule::FourEight]
+        [butterfly(ratio(1, 16)), rule("sqrt3-variant", &[("alpha", ratio(1, 3))]), rule("four-eight", &[])]
     }
 
     fn matrix(r: &Regular, step: usize) -> Matrix {
@@ -557,7 +558,7 @@ mod tests {
     #[test]
     fn bounds_are_those_of_the_theory() {
         for (rule, points, parts, slope) in
-            [(butterfly(ratio(1, 16)), 27, 4, 5), (MeshRule::Sqrt3(None), 27, 9, 3), (MeshRule::FourEight, 32, 4, 3)]
+            [(butterfly(ratio(1, 16)), 27, 4, 5), (rule("sqrt3", &[]), 27, 9, 3), (rule("four-eight", &[]), 32, 4, 3)]
         {
             let r = Regular::of(&rule).unwrap();
             assert_eq!((r.points.len(), r.parts.len()), (points, parts), "{rule:?}");
@@ -639,13 +640,15 @@ mod tests {
         let (bounds, _) = of(&butterfly(ratio(1, 16)));
         let first = [(1, 1), (1, 1), (7, 8), (11, 16), (1, 2), (11, 32)].map(|(p, q)| ratio(p, q));
         assert_eq!(bounds.unwrap()[..6], first);
-        assert!(of(&MeshRule::Sqrt3(None)).0.is_none());
+        assert!(of(&rule("sqrt3", &[])).0.is_none());
         let mut state = 7_u64;
         let mut random = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             i128::from((state >> 44) as u32) << 24
         };
-        for rule in [butterfly(ratio(1, 16)), butterfly(ratio(1, 100)), butterfly(ratio(1, 10)), MeshRule::FourEight] {
+        for rule in
+            [butterfly(ratio(1, 16)), butterfly(ratio(1, 100)), butterfly(ratio(1, 10)), rule("four-eight", &[])]
+        {
             let (bounds, r) = of(&rule);
             let bounds = bounds.unwrap();
             for _ in 0..10 {
@@ -704,8 +707,8 @@ mod tests {
     #[test]
     fn far_stencils_do_not_know_the_centre() {
         let sets = [
-            (MeshRule::Sqrt3(Some(ratio(0, 1))), MeshRule::Sqrt3(Some(ratio(1, 1)))),
-            (butterfly(ratio(1, 16)), MeshRule::Butterfly { w: ratio(1, 16), modified: false }),
+            (rule("sqrt3-variant", &[("alpha", ratio(0, 1))]), rule("sqrt3-variant", &[("alpha", ratio(1, 1))])),
+            (butterfly(ratio(1, 16)), rule("butterfly", &[])),
         ];
         for n in [3, 4] {
             for (a, b) in &sets {

@@ -9,7 +9,7 @@ use super::field::Field;
 use super::net::Net;
 use super::turning::{Rotation, Turning};
 use crate::arith::{Rational, ratio};
-use crate::scheme::{DualWeights, MeshRule, Sector};
+use crate::scheme::{MeshRule, Sector, Spline};
 
 /// The values of one orbit each, for sector 0, and at the centre.
 #[derive(Debug, Clone)]
@@ -18,32 +18,6 @@ pub struct Values<E> {
     pub centre: Turning<E>,
     /// By orbit.
     pub orbits: Vec<Turning<E>>,
-}
-
-/// The spline that a scheme is away from the vertex.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Spline {
-    /// Bicubic.
-    Bicubic,
-    /// Biquadratic.
-    Biquadratic,
-    /// Loop's quartic box spline on triangles.
-    Quartic,
-    /// Zwart's and Powell's quadratic box spline, four triangles in a square.
-    Quadratic,
-}
-
-/// The spline of a rule, where it has one.
-#[must_use]
-pub fn spline(rule: &MeshRule) -> Option<Spline> {
-    match rule {
-        // Of the mixed rule only quadrangles are around a vertex here.
-        MeshRule::CatmullClark(_) | MeshRule::QuadTriangle => Some(Spline::Bicubic),
-        MeshRule::DooSabin(DualWeights::Midedge) => Some(Spline::Quadratic),
-        MeshRule::DooSabin(_) => Some(Spline::Biquadratic),
-        MeshRule::Loop(_) => Some(Spline::Quartic),
-        MeshRule::Sqrt3(_) | MeshRule::Butterfly { .. } | MeshRule::FourEight => None,
-    }
 }
 
 /// Rings of points on which the patches depend.
@@ -160,7 +134,7 @@ impl<F: Field> Control<'_, F> {
 #[must_use]
 pub fn patches<F: Field>(vertex: &Vertex, field: &F, values: &Values<F::E>) -> Option<Vec<Net<Turning<F::E>>>> {
     let control = Control { vertex, field, values };
-    match spline(&vertex.rule)? {
+    match vertex.rule.info().spline? {
         Spline::Bicubic => {
             let masks: [&[i64]; 4] = [&[1, 4, 1, 0], &[0, 4, 2, 0], &[0, 2, 4, 0], &[0, 1, 4, 1]];
             CELLS.iter().map(|c| control.tensor(*c, &masks, 6)).collect()
@@ -183,7 +157,7 @@ pub fn boundary<E: Clone>(rule: &MeshRule, patches: &[Net<E>]) -> Option<Vec<Net
     let last = |net: &Net<E>| net.rows.iter().map(|row| row[row.len() - 1].clone()).collect::<Vec<E>>();
     let top = |net: &Net<E>| net.rows[net.rows.len() - 1].clone();
     let first = |net: &Net<E>| net.rows[0].clone();
-    let curves = match (spline(rule)?, patches) {
+    let curves = match (rule.info().spline?, patches) {
         (Spline::Bicubic | Spline::Biquadratic, [a, b, c]) => vec![last(a), last(b), top(b), top(c)],
         // The last points of the rows of a triangle lie on the edge from the second corner to the third.
         (Spline::Quartic, [a, _, c]) => vec![last(a), last(c)],
@@ -206,7 +180,7 @@ pub fn jacobian<F: Field>(field: &F, patch: &Net<Turning<F::E>>) -> Net<F::E> {
 #[must_use]
 pub fn lattice_point(rule: &MeshRule, patch: usize, spot: &(Rational, Rational)) -> Option<(Rational, Rational)> {
     let integer = |x: i64| Rational::from(x);
-    match spline(rule)? {
+    match rule.info().spline? {
         Spline::Bicubic | Spline::Biquadratic => {
             let (i, j) = *CELLS.get(patch)?;
             Some((integer(i) + &spot.0, integer(j) + &spot.1))
@@ -253,7 +227,7 @@ const QUARTIC: [[i64; 12]; 15] = [
 mod tests {
     use super::*;
     use crate::ring::{Field as _, Ordered as _};
-    use crate::scheme::LoopWeights;
+    use crate::scheme::mesh_rule;
     use crate::vertex::field::Enclosures;
 
     /// The refinement equation: on the smaller ring of a fixed net the patches of the refined net must be the polynomials
@@ -262,13 +236,14 @@ mod tests {
     #[test]
     fn regular_vertices_give_the_identity() {
         let rules = [
-            (MeshRule::CatmullClark(None), 4, 0),
-            (MeshRule::QuadTriangle, 4, 0),
-            (MeshRule::DooSabin(DualWeights::CatmullClark), 4, 1),
-            (MeshRule::DooSabin(DualWeights::Midedge), 4, 1),
-            (MeshRule::Loop(LoopWeights::Warren), 6, 0),
+            ("catmull-clark", 4, 0),
+            ("quad-triangle", 4, 0),
+            ("doo-sabin-catmull-clark", 4, 1),
+            ("midedge", 4, 1),
+            ("loop-warren", 6, 0),
         ];
-        for (rule, n, dual) in rules {
+        for (name, n, dual) in rules {
+            let rule = mesh_rule(name, &[].into()).unwrap();
             let vertex = Vertex::new(&rule, n, RINGS).unwrap();
             let field = Enclosures::of_angle(1, n, 96);
             let rotation = Rotation(&field);

@@ -4,6 +4,7 @@
 use super::block::{Block, Vertex};
 use super::cosine::{gcd, minimal_polynomial, twice_cosine};
 use super::field::{Enclosures, Field, Fixed, NumberField};
+use super::reason::VertexReason;
 use super::ring::Values;
 use super::solve::{eigenvector, leading_vector, longest_blocks};
 use super::turning::Turning;
@@ -47,8 +48,8 @@ pub struct Top {
 pub enum TopError {
     /// The blocks cannot be built.
     Scheme(SchemeError),
-    /// Nothing was proved, with the reason.
-    Open(String),
+    /// Nothing was proved.
+    Open(VertexReason),
 }
 
 impl From<SchemeError> for TopError {
@@ -99,7 +100,7 @@ pub fn top(vertex: &Vertex, blocks: &[Block], bits: u64) -> Result<Top, TopError
     let pieces = pieces(blocks);
     let mut guesses = guess(vertex, blocks, &pieces);
     guesses.sort_by(|a, b| b.modulus.total_cmp(&a.modulus));
-    let Some(first) = guesses.first() else { return Err(TopError::Open("there is no second eigenvalue".to_owned())) };
+    let Some(first) = guesses.first() else { return Err(TopError::Open(VertexReason::NoSecond)) };
     let next = guesses.get(1).map_or(0.0, |g| g.modulus);
     #[allow(clippy::float_arithmetic, reason = "proposes which proof to try")]
     let apart = first.modulus - next > 1e-12 && first.im.abs() < 1e-9;
@@ -355,12 +356,8 @@ fn tied(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], guesses: &[Guess], 
     let next = guesses.iter().find(|g| largest - g.modulus >= 1e-4).map_or(0.0, |g| g.modulus);
     let mean = class.iter().map(|g| g.modulus).sum::<f64>() / class.len() as f64;
     let open = || {
-        let list: Vec<String> =
-            class.iter().map(|g| format!("{:.6} (block {})", g.re, blocks[pieces[g.piece].block].frequency)).collect();
-        TopError::Open(format!(
-            "the largest eigenvalues have nearly equal moduli and were not separated: {}",
-            list.join(", ")
-        ))
+        let place = |g: &&Guess| (g.re, blocks[pieces[g.piece].block].frequency);
+        TopError::Open(VertexReason::Close(class.iter().map(place).collect()))
     };
     let value = simplest_near(&from_float(mean), &ratio(1, 100_000));
     let others = from_float(f64::midpoint(mean, next));

@@ -23,7 +23,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     let Some(result) = &found.everywhere else { return Vec::new() };
     let mut blocks = vec![Block::heading(2, "Every point")];
     if let Some(cone) = &result.cone {
-        let statement = every::theorem(cone);
+        let statement = cone.statement();
         if statement == Statement::Theorem6Slow {
             // Theorem 6′ refers to Theorem 6.
             blocks.extend(seen.once_id(Statement::Theorem6));

@@ -9,6 +9,7 @@ mod evidence;
 mod frames;
 mod functionals;
 mod many;
+mod orders;
 mod points;
 mod product;
 mod results;
@@ -18,18 +19,18 @@ mod surface;
 mod surface_cycle;
 mod vertex;
 
+pub(super) use results::parameter;
 pub use vertex::vertex_document;
 
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
-use super::summary::{claim_line, shape_line};
-use super::words::mark;
+use super::summary::{claim_line, overall_line, shape_line};
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, Spaces};
 use crate::statement::Statement;
-use crate::theorem::{BranchReport, Certified, Verdict};
+use crate::theorem::{BranchReport, Certified, Required, Verdict};
 
 /// Matrices with more rows or columns than this are folded.
 const LARGE: usize = 8;
@@ -92,6 +93,7 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     }
     blocks.extend(dense::section(case, found, &mut seen));
     blocks.extend(every::section(case, found, &mut seen));
+    blocks.extend(orders::section(case, found, &mut seen));
     blocks.extend(references(&seen));
     let blocks = if level == Level::Full { unfolded(blocks) } else { blocks };
     let mut document = Document { title: case.title.clone(), blocks };
@@ -172,7 +174,7 @@ fn definitions(start: CellKind, parametrised: bool) -> Vec<Block> {
     }
     if start == CellKind::Edge {
         items.push(
-            "**Kinds of points** of a curve with a tangent line: at an end, a half-tangent (one limit ray); inside, regular (one ray on each side, opposite to \
+            "**Kinds of points** of a curve with a tangent line: a smooth end (one limit ray); of a set, a half-tangent (the same); inside, regular (one ray on each side, opposite to \
              one another), a cusp (one ray on each side, the same), oscillating (both rays on a side). A corner has one ray on each side, on different lines.",
         );
     }
@@ -191,12 +193,13 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
         blocks.push(Block::Paragraph(words(format!("Source of the case: {source}."))));
     }
     blocks.push(Block::List(found.claims.iter().map(|c| claim_line(case, found, c)).collect()));
-    let mut verdict = words("Verdict on all claims together: ");
-    verdict.push(mark(found.verdict));
-    verdict.extend(words(match found.verdict {
-        Verdict::Proved => ". Every number below is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
-        Verdict::Refuted => ". The witness is given below. Every number is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
-        Verdict::Undetermined => ". What was established, and where the proof stopped, is given below.",
+    let required = Required::default();
+    let mut verdict = words("Verdict: ");
+    verdict.extend(overall_line(found, &required));
+    verdict.extend(words(match required.verdict(&found.claims) {
+        Verdict::Proved => " Every number below is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
+        Verdict::Refuted => " The witness is given below. Every number is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
+        Verdict::Undetermined => " What was established, and where the proof stopped, is given below.",
     }));
     if has_long_numbers(case) {
         verdict.extend(words(

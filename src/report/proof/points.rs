@@ -7,6 +7,7 @@ use super::evidence::Evidence;
 use super::{Quoted, cycles, matrix};
 use crate::case::Case;
 use crate::report::figures;
+use crate::report::reasons;
 use crate::shape::{CellKind, word_text};
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
@@ -152,10 +153,13 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
             blocks.push(Block::text("On this branch $\\dim D^*≥@$.", [Math::count(*dimension)]))
         }
         Outcome::NoGerm { reason } => {
-            blocks.push(Block::Paragraph(words(format!("There are no secants to look at: {reason}."))));
+            blocks.push(Block::Paragraph(words(format!(
+                "There are no secants to look at: {}.",
+                reasons::no_germ(*reason)
+            ))));
         }
         Outcome::Open { reason, at_least, direction: known, .. } => {
-            let mut text = words(format!("Not decided: {reason}."));
+            let mut text = words(format!("Not decided: {}.", reasons::branch(*reason)));
             if let Some(d) = known.as_ref().filter(|_| *at_least > 0) {
                 text.extend(line(" The tangent subspace contains the direction ", []));
                 text.extend(direction(d));
@@ -257,7 +261,7 @@ fn conclusion(point: &PointReport) -> Line {
         out.extend(words(if point.role == Role::SetPoint { "; limit rays: " } else { "; limit rays by side: " }));
         out.extend(rays);
     }
-    if let Some(reason) = &point.reason {
+    if let Some(reason) = reasons::point(point) {
         out.extend(words(format!("; {reason}")));
     }
     out.extend(words("."));

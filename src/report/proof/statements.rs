@@ -11,6 +11,7 @@ use crate::algebraic::{Elem, Root};
 use crate::case::Case;
 use crate::jordan::Factor;
 use crate::report::figures;
+use crate::report::reasons;
 use crate::shape::CellKind;
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Outcome, Position, Rate, RingProof};
@@ -31,13 +32,14 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
             } else {
                 ""
             };
+            let reason = reasons::no_germ(*reason);
             vec![Block::text(&format!("There is no germ here: {reason}.{why}"), [])]
         }
         Outcome::Open { reason, place, at_least, .. } => {
             let mut blocks = Vec::new();
             let place =
                 place.as_ref().map_or_else(String::new, |p| format!(" The cell in which it failed is {}.", cell(p)));
-            let mut text = format!("**Not decided**: {reason}.{place}");
+            let mut text = format!("**Not decided**: {}.{place}", reasons::branch(*reason));
             if *at_least > 0 {
                 blocks.push(seen.once(Statement::Corollary));
                 blocks.push(nilpotent_check(Statement::Corollary, branch).block());

@@ -14,6 +14,7 @@ use crate::arith::Rational;
 use crate::case::Case;
 use crate::jordan::Spectrum;
 use crate::report::figures;
+use crate::report::reasons;
 use crate::shape::{Address, word_text};
 use crate::statement::Statement;
 use crate::theorem::surface::{SurfaceBranch, SurfaceOutcome, SurfaceWitness, Winding, leading_functionals};
@@ -74,7 +75,7 @@ fn conclusion(o: &SurfaceOutcome) -> Line {
         out.extend(line(" and $\\dim D^*≤@$", [Math::count(most)]));
     }
     if let Some((reason, place)) = &o.open {
-        out.extend(words(format!("; not decided: {reason}")));
+        out.extend(words(format!("; not decided: {}", reasons::surface_branch(*reason))));
         if let Some(place) = place {
             out.extend(line(&format!(" (cell {})", cell(place)), []));
         }
@@ -204,7 +205,7 @@ fn main_evidence(branch: &SurfaceBranch, statement: Statement) -> Evidence {
     let top = |text: &str| {
         let mut out = line(text, [Math::count(block)]);
         out.extend(names(&branch.spectrum, &eigenvalues));
-        out.extend(words(format!(": {}.", o.row)));
+        out.extend(words(format!(": {}.", reasons::top_row(o.row))));
         out
     };
     let mut evidence = Evidence::of(statement);

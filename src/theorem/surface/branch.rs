@@ -12,7 +12,7 @@ use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex};
 use crate::theorem::branch::{Context, Local, isolation_functionals, krylov, power, restrict};
 use crate::theorem::ring::{Functional, Part, Ring, RingAnswer, RingPiece, RingProof, Witness};
-use crate::theorem::{Dimension, Statement};
+use crate::theorem::{BranchGap, Dimension, Statement, TopRow};
 
 /// Cells of a piece of the ring on which a change of sign is looked for.
 const SIGN_CELLS: usize = 80;
@@ -51,14 +51,14 @@ pub fn examine(setting: &Setting, address: &Address) -> Option<SurfaceBranch> {
         view,
         spectrum,
         ring,
-        outcome: nothing("no eigenvalue"),
+        outcome: nothing(TopRow::Empty),
     };
     let seen: Vec<RingPiece> = branch.ring.iter().filter(|p| !p.collapses).cloned().collect();
     branch.outcome = Analysis { setting, branch: &branch, seen: &seen }.outcome();
     Some(branch)
 }
 
-fn nothing(row: &'static str) -> SurfaceOutcome {
+fn nothing(row: TopRow) -> SurfaceOutcome {
     SurfaceOutcome {
         statement: None,
         row,
@@ -106,19 +106,19 @@ fn top(spectrum: &Spectrum) -> Option<Top> {
 }
 
 /// The row of the table that describes the top of the spectrum.
-fn row(spectrum: &Spectrum, top: &Top) -> &'static str {
+fn row(spectrum: &Spectrum, top: &Top) -> TopRow {
     let class = &spectrum.classes[0];
     let complex = class.members.iter().any(|m| !spectrum.root(*m).is_real());
     match (top.block, top.dimension, complex) {
-        (1, 1, _) => "one real simple eigenvalue alone in its modulus",
-        (1, 2, true) => "one complex pair, semisimple",
-        (1, 2, false) if class.members.len() == 1 => "a double real eigenvalue with two eigenvectors",
-        (1, 2, false) => "λ and −λ, both simple",
-        (1, ..) => "more than two eigenvectors of the largest modulus",
-        (_, 1, _) => "one longest Jordan block, of a real eigenvalue",
-        (_, 2, true) => "a complex pair with one longest Jordan block each",
-        (_, 2, false) => "two longest Jordan blocks",
-        _ => "more than two longest Jordan blocks",
+        (1, 1, _) => TopRow::Simple,
+        (1, 2, true) => TopRow::Pair,
+        (1, 2, false) if class.members.len() == 1 => TopRow::Double,
+        (1, 2, false) => TopRow::Opposite,
+        (1, ..) => TopRow::ManyVectors,
+        (_, 1, _) => TopRow::Block,
+        (_, 2, true) => TopRow::PairBlocks,
+        (_, 2, false) => TopRow::TwoBlocks,
+        _ => TopRow::ManyBlocks,
     }
 }
 
@@ -197,13 +197,13 @@ impl Analysis<'_> {
             return SurfaceOutcome {
                 dimension: Dimension { at_least: 0, exact: true },
                 at_most: Some(0),
-                ..nothing("the cell is a single point")
+                ..nothing(TopRow::SinglePoint)
             };
         }
-        let Some(top) = top(self.spectrum()) else { return nothing("no eigenvalue") };
+        let Some(top) = top(self.spectrum()) else { return nothing(TopRow::Empty) };
         if self.spectrum().root(self.spectrum().classes[0].members[0]).is_zero() {
-            let reason = "L is nilpotent: the cells of this branch shrink to the point after finitely many turns";
-            return SurfaceOutcome { open: Some((reason.to_owned(), None)), ..nothing("nilpotent") };
+            let open = Some((BranchGap::NilpotentCells, None));
+            return SurfaceOutcome { open, ..nothing(TopRow::Nilpotent) };
         }
         let contains = self.leading_directions(&top);
         let rank = contains.rank();
@@ -212,7 +212,7 @@ impl Analysis<'_> {
             row: row(self.spectrum(), &top),
             dimension: Dimension { at_least: rank.at_least, exact: false },
             contains,
-            ..nothing("")
+            ..nothing(TopRow::Empty)
         };
         if rank.at_least >= 3 {
             return base;
@@ -258,8 +258,7 @@ impl Analysis<'_> {
             found.dimension = Dimension { at_least: top.dimension, exact: true };
             found.at_most = Some(top.dimension);
         } else {
-            let reason = "the control points fold the directions of the largest modulus";
-            found.open = Some((reason.to_owned(), None));
+            found.open = Some((BranchGap::Folded, None));
         }
         found
     }
@@ -272,20 +271,16 @@ impl Analysis<'_> {
         answer: RingAnswer,
         witness: Option<SurfaceWitness>,
     ) -> SurfaceOutcome {
-        let open = |base: SurfaceOutcome, reason: &str, place| SurfaceOutcome {
-            open: Some((reason.to_owned(), place)),
-            ..base
-        };
+        let open = |base: SurfaceOutcome, reason, place| SurfaceOutcome { open: Some((reason, place)), ..base };
         let letters = |a: Address| -> Vec<usize> { a.prefix.into_iter().chain(a.cycle).collect() };
         let isolation = match self.decide(&isolation_functionals(&self.branch.linear)) {
             RingAnswer::Holds(proof) => proof,
             RingAnswer::Fails(Witness::Point { address, .. }) => {
-                let reason = "the branch is not isolated: a point of the ring falls into the generalised kernel";
-                return open(base, reason, Some(letters(address)));
+                return open(base, BranchGap::KernelPoint, Some(letters(address)));
             }
-            RingAnswer::Fails(_) => return open(base, "the branch is not isolated", None),
+            RingAnswer::Fails(_) => return open(base, BranchGap::NotIsolated, None),
             RingAnswer::Open { place } => {
-                return open(base, "it is not decided whether the branch is isolated", Some(place));
+                return open(base, BranchGap::IsolationOpen, Some(place));
             }
         };
         let Some(witness) = witness else {
@@ -293,7 +288,7 @@ impl Analysis<'_> {
                 RingAnswer::Open { place } => Some(place),
                 _ => None,
             };
-            return open(base, "the ring condition is not decided in this cell", place);
+            return open(base, BranchGap::RingOpen, place);
         };
         let mut found = SurfaceOutcome { isolation: Some(isolation), ..base };
         found.statement = Some(Statement::Theorem4);
@@ -312,8 +307,7 @@ impl Analysis<'_> {
         self.turned(top, &mut found, &witness);
         found.witness = Some(witness);
         if !found.dimension.exact && found.dimension.at_least < 3 && found.open.is_none() {
-            let reason = "the ring condition fails, but what follows for the tangent plane is not decided";
-            found.open = Some((reason.to_owned(), None));
+            found.open = Some((BranchGap::RingFails, None));
         }
         found
     }

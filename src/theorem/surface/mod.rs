@@ -18,8 +18,8 @@ pub use verdict::{
 };
 
 use super::{
-    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, Reason, Statement, Verdict, Viewpoint,
-    decide_contraction, state_report, without_contraction,
+    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Statement, Verdict,
+    Viewpoint, decide_contraction, state_report, without_contraction,
 };
 use crate::budget::Budget;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};
@@ -88,7 +88,7 @@ pub fn certify_complex_within(
         points: Vec::new(),
         dense: None,
         factors: None,
-        unparametrised: chart.as_ref().err().cloned(),
+        unparametrised: chart.as_ref().err().copied(),
         simplex: balls.in_simplex(),
     };
     let start_is_face = shape.states[shape.start].kind == CellKind::Face;
@@ -227,27 +227,19 @@ fn conclude(setting: &Setting, spot: Spot, parameter: Option<Param>, addresses: 
     Some(point)
 }
 
-fn verdict(point: &SurfacePoint, known: bool) -> (Verdict, Option<String>) {
+fn verdict(point: &SurfacePoint, known: bool) -> (Verdict, Option<PlaneGap>) {
     let Dimension { at_least, exact } = point.dimension;
-    if at_least >= 3 {
-        return (Verdict::Refuted, Some("the tangent subspace has more than two dimensions".to_owned()));
-    }
+    let refuted = |gap| (Verdict::Refuted, Some(gap));
     match (exact, at_least) {
+        (_, 3..) => return refuted(PlaneGap::Dimension),
         (true, 2) => return (Verdict::Proved, None),
-        (true, 0) => return (Verdict::Refuted, Some("the surface is a single point near this one".to_owned())),
-        (true, _) => {
-            return (Verdict::Refuted, Some("the tangent subspace is a line: dimension 1, not a surface".to_owned()));
-        }
-        _ => {}
+        (true, 0) => return refuted(PlaneGap::SinglePoint),
+        (true, _) => return refuted(PlaneGap::Line),
+        (false, _) => {}
     }
     if known {
-        let reason = "the tangent subspaces of the branches are known, but it is not decided whether they agree";
-        return (Verdict::Undetermined, Some(reason.to_owned()));
+        return (Verdict::Undetermined, Some(PlaneGap::Agreement));
     }
-    let open = point.branches.iter().find(|b| !b.outcome.dimension.exact);
-    let reason = open.map(|b| match &b.outcome.open {
-        Some((reason, _)) => format!("branch {}: {reason}", b.address),
-        None => format!("branch {} is not decided", b.address),
-    });
-    (Verdict::Undetermined, reason)
+    let open = point.branches.iter().position(|b| !b.outcome.dimension.exact);
+    (Verdict::Undetermined, open.map(PlaneGap::Branch))
 }

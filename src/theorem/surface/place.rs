@@ -6,6 +6,7 @@
 
 use crate::arith::Rational;
 use crate::shape::{Address, CellKind, Complex, Layout};
+use crate::theorem::NoChart;
 
 /// Parameters of a point.
 pub type Param = [Rational; 2];
@@ -112,8 +113,8 @@ impl<'a> Chart<'a> {
     /// faces, and every piece is placed by a symmetry of its subcell; a reason where not. The identities are taken as checked.
     ///
     /// # Errors
-    /// The reason in words.
-    pub fn new(complex: &'a Complex) -> Result<Self, String> {
+    /// What is not so.
+    pub fn new(complex: &'a Complex) -> Result<Self, NoChart> {
         let shape = &complex.shape;
         let chart = Self { complex };
         for e in shape.reachable() {
@@ -122,10 +123,10 @@ impl<'a> Chart<'a> {
                 continue;
             }
             let Some(face) = complex.faces.get(&e) else {
-                return Err(format!("the sides of the face `{}` are not given", state.name));
+                return Err(NoChart::Sides { state: e });
             };
             if matches!(face.layout, Layout::Quad { columns, rows } if columns.min(rows) < 2) {
-                return Err(format!("the cells of the face `{}` do not shrink in both directions", state.name));
+                return Err(NoChart::Shrinking { state: e });
             }
             for letter in 0..state.pieces.len() {
                 let target = state.pieces[letter].target;
@@ -133,7 +134,7 @@ impl<'a> Chart<'a> {
                     inside.layout.corners() == face.layout.corners() && chart.is_symmetry(e, letter)
                 });
                 if !fits {
-                    return Err(format!("piece {letter} of state `{}` is not placed by a symmetry", state.name));
+                    return Err(NoChart::Symmetry { state: e, letter });
                 }
             }
         }
@@ -277,11 +278,11 @@ fn cross(a: &Param, b: &Param, p: &Param) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scheme::{MeshRule, bspline, patch, tensor};
+    use crate::scheme::{bspline, mesh_rule, patch, tensor};
 
     #[test]
     fn a_vertex_of_a_quadrangle_has_a_branch_in_each_patch() {
-        let complex = patch(&MeshRule::CatmullClark(None), 4).unwrap();
+        let complex = patch(&mesh_rule("catmull-clark", &[].into()).unwrap(), 4).unwrap();
         let chart = Chart::new(&complex).unwrap();
         let start = complex.shape.start;
         let half = Rational::from(1) / Rational::from(2);
@@ -300,7 +301,7 @@ mod tests {
 
     #[test]
     fn a_vertex_of_triangles_has_six_branches() {
-        let complex = patch(&MeshRule::Loop(crate::scheme::LoopWeights::Original), 6).unwrap();
+        let complex = patch(&mesh_rule("loop", &[].into()).unwrap(), 6).unwrap();
         let chart = Chart::new(&complex).unwrap();
         let start = complex.shape.start;
         let inner = chart.inner_nodes(start);

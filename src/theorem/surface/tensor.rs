@@ -9,7 +9,7 @@ use crate::budget::Budget;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
-    Context, Dimension, Direction, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
+    Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
 };
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -213,8 +213,7 @@ pub fn add(point: &mut SurfacePoint, product: &Product, setting: &Setting) {
     };
     if !agree {
         point.verdict = Verdict::Undetermined;
-        point.reason =
-            Some("the theorem on tensor products and the general one disagree: a mistake in secant".to_owned());
+        point.reason = Some(PlaneGap::Contradiction);
     } else if !decided(point.verdict) && decided(evidence.verdict) {
         point.verdict = evidence.verdict;
         point.statement = Some(Statement::TensorProduct);
@@ -224,7 +223,7 @@ pub fn add(point: &mut SurfacePoint, product: &Product, setting: &Setting) {
             point.tangent.clone_from(&evidence.tangent);
         } else {
             point.dimension.at_least = point.dimension.at_least.max(3);
-            point.reason = Some("one of the two curves has no tangent line there".to_owned());
+            point.reason = Some(PlaneGap::ProductCurve);
         }
     }
     point.product = Some(evidence);

@@ -6,7 +6,10 @@ use crate::arith::Rational;
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
-use crate::theorem::{Dimension, Discharged, PointReport, RingPiece, RingProof, Statement, Verdict, Witness};
+use crate::theorem::{
+    BranchGap, Dimension, Discharged, NoChart, PlaneGap, PointReport, RingPiece, RingProof, Statement, TopRow, Verdict,
+    Witness,
+};
 
 /// A proof that a pair of functionals has a common zero on a cell of the ring: the image of its boundary winds around 0.
 #[derive(Debug, Clone)]
@@ -37,7 +40,7 @@ pub struct SurfaceOutcome {
     /// The statement applied.
     pub statement: Option<Statement>,
     /// The row of the table of theory §5 that describes the top of the spectrum.
-    pub row: &'static str,
+    pub row: TopRow,
     /// A subspace that `D*` is proved to contain, in the space where the surface is looked at.
     pub contains: Subspace,
     /// The dimension of `D*`; where it is exact, `D*` is the subspace above.
@@ -53,7 +56,7 @@ pub struct SurfaceOutcome {
     /// Why the leading functionals have a zero on the ring, where they do.
     pub witness: Option<SurfaceWitness>,
     /// What is not decided, and the smallest cell in which it failed.
-    pub open: Option<(String, Option<Vec<usize>>)>,
+    pub open: Option<(BranchGap, Option<Vec<usize>>)>,
 }
 
 /// One branch `u w^ω` of a point of a surface, and all that was computed for it.
@@ -134,8 +137,8 @@ pub struct SurfacePoint {
     pub product: Option<ProductEvidence>,
     /// The statement that gives the verdict.
     pub statement: Option<Statement>,
-    /// Why, in words, where the verdict is not `Proved`.
-    pub reason: Option<String>,
+    /// Why the verdict is not `Proved`.
+    pub reason: Option<PlaneGap>,
 }
 
 /// The hypotheses of Theorem 5″ as found.
@@ -175,7 +178,7 @@ pub struct Surface {
     /// The curves that it is the product of, where it is one.
     pub factors: Option<[ProductFactor; 2]>,
     /// Why the parameters of the surface are not used, where they are not.
-    pub unparametrised: Option<String>,
+    pub unparametrised: Option<NoChart>,
     /// Whether cells were enclosed by the simplex of the coordinates instead of balls: all operators are nonnegative.
     pub simplex: bool,
 }

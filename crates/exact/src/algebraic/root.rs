@@ -52,6 +52,15 @@ pub struct Root {
 ///
 /// Source: Bini, *Numerical computation of polynomial zeros by means of Aberth's method*, for the proposals; the
 /// enclosures are proved as described in the module.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{algebraic::roots, arith::ratio, poly::Poly};
+/// let f = Poly::new([1, 1, 1].map(|c| ratio(c, 1)).to_vec()); // x² + x + 1
+/// let found = roots(&f);
+/// assert_eq!(found.len(), 2);
+/// assert!(found.iter().all(|r| !r.is_real() && r.cmp_modulus_rational(&ratio(1, 1)).is_eq()));
+/// ```
 #[must_use]
 pub fn roots(minpoly: &Poly) -> Vec<Root> {
     let set = Arc::new(RootSet::new(&minpoly.monic()));
@@ -278,6 +287,13 @@ impl Root {
     /// # Cost
     /// Numerical separation first; what does not separate is decided by an algebraic relation (see
     /// [`Root::cmp_modulus_rational`] and the module), in the last resort by the polynomial of the products of two roots.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{algebraic::roots, arith::ratio, poly::Poly};
+    /// let golden = roots(&Poly::new([-1, -1, 1].map(|c| ratio(c, 1)).to_vec()));
+    /// assert!(golden[0].cmp_modulus(&golden[1]).is_ne());
+    /// ```
     #[must_use]
     pub fn cmp_modulus(&self, other: &Self) -> Ordering {
         modulus::compare(self, other)

@@ -46,6 +46,13 @@ impl Interval {
     }
 
     /// `1` or `-1` when every member has that sign, `0` for the point 0, `None` otherwise.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::arith::{Interval, ratio};
+    /// assert_eq!(Interval::new(ratio(1, 3), ratio(1, 2)).sign(), Some(1));
+    /// assert_eq!(Interval::symmetric(ratio(1, 2)).sign(), None);
+    /// ```
     #[must_use]
     pub fn sign(&self) -> Option<i32> {
         if self.lo > 0 {

@@ -14,12 +14,24 @@ pub use parse::{MAX_DIGITS, ParseNumberError, parse_rational};
 ///
 /// # Panics
 /// If `q` is 0.
+///
+/// # Examples
+/// ```
+/// use secant_exact::arith::ratio;
+/// assert_eq!(ratio(2, -4).to_string(), "-1/2");
+/// ```
 #[must_use]
 pub fn ratio(p: i64, q: i64) -> Rational {
     Rational::from_signeds(p, q)
 }
 
 /// The sign of a rational as `-1`, `0` or `1`.
+///
+/// # Examples
+/// ```
+/// use secant_exact::arith::{ratio, sign};
+/// assert_eq!([-2, 0, 5].map(|p| sign(&ratio(p, 3))), [-1, 0, 1]);
+/// ```
 #[must_use]
 pub fn sign(x: &Rational) -> i32 {
     use malachite_base::num::arithmetic::traits::Sign;

@@ -27,6 +27,14 @@ pub enum ParseNumberError {
 ///
 /// # Cost
 /// Quasi-linear in the number of digits.
+///
+/// # Examples
+/// ```
+/// use secant_exact::arith::{parse_rational, ratio};
+/// assert_eq!(parse_rational("-3/12"), Ok(ratio(-1, 4)));
+/// assert_eq!(parse_rational("0.125"), Ok(ratio(1, 8)));
+/// assert!(parse_rational("1/0").is_err());
+/// ```
 pub fn parse_rational(text: &str) -> Result<Rational, ParseNumberError> {
     let trimmed = text.trim();
     if trimmed.len() > MAX_DIGITS + 8 {

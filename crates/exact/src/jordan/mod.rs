@@ -83,6 +83,17 @@ impl Spectrum {
     ///
     /// # Panics
     /// If the matrix is not square.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{arith::ratio, jordan::Spectrum, linalg::Matrix};
+    /// // A block of size 2 for 1/2, and −1/2 beside it: one class of equal modulus.
+    /// let a = Matrix::from_fn(3, 3, |i, j| ratio([[1, 2, 0], [0, 1, 0], [0, 0, -1]][i][j], 2));
+    /// let spectrum = Spectrum::of(&a);
+    /// assert_eq!(spectrum.classes.len(), 1);
+    /// let blocks: Vec<_> = spectrum.factors.iter().map(|f| f.blocks.clone()).collect();
+    /// assert!(blocks.contains(&vec![2]) && blocks.contains(&vec![1]));
+    /// ```
     #[must_use]
     pub fn of(a: &Matrix) -> Self {
         assert_eq!(a.rows(), a.cols(), "square matrix");
@@ -126,6 +137,13 @@ impl Spectrum {
     }
 
     /// The minimal polynomial, monic.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{arith::ratio, jordan::Spectrum, linalg::Matrix};
+    /// let a = Matrix::identity(3).scale(&ratio(2, 1));
+    /// assert_eq!(Spectrum::of(&a).min_poly().display("x"), "x - 2");
+    /// ```
     #[must_use]
     pub fn min_poly(&self) -> Poly {
         let one = Poly::new(vec![1.into()]);
@@ -198,6 +216,13 @@ pub fn estimated_work(a: &Matrix) -> u64 {
 ///
 /// # Panics
 /// If the matrix is not square.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{arith::ratio, jordan::modulus_classes, linalg::Matrix};
+/// let turn = Matrix::from_fn(2, 2, |i, j| ratio([[0, -1], [1, 0]][i][j], 1));
+/// assert_eq!(modulus_classes(&turn)[0].len(), 2);
+/// ```
 #[must_use]
 pub fn modulus_classes(a: &Matrix) -> Vec<Vec<Root>> {
     assert_eq!(a.rows(), a.cols(), "square matrix");

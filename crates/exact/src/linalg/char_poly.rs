@@ -19,6 +19,13 @@ use malachite_base::num::logic::traits::SignificantBits;
 /// inequality; Schur's for the eigenvalues of `d A`); the primes are shared among the threads.
 ///
 /// Source: Cohen, *A Course in Computational Algebraic Number Theory*, algorithm 2.2.9, for the Hessenberg method.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{arith::ratio, linalg::{Matrix, char_poly}};
+/// let a = Matrix::from_fn(2, 2, |i, j| ratio([[1, 1], [1, 0]][i][j], 1));
+/// assert_eq!(char_poly(&a).display("x"), "x^2 - x - 1");
+/// ```
 #[must_use]
 pub fn char_poly(a: &Matrix) -> Poly {
     let product = char_poly_blocks(a).iter().fold(vec![Integer::from(1)], |acc, f| ints::mul(&acc, f));

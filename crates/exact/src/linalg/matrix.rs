@@ -316,6 +316,15 @@ impl Matrix {
     ///
     /// # Panics
     /// If the heights differ.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    /// let a = Matrix::from_fn(2, 2, |i, j| ratio([[2, 0], [0, 4]][i][j], 1));
+    /// let b = Matrix::from_columns(2, &[vec![ratio(1, 1), ratio(1, 1)]]);
+    /// assert_eq!(a.solve(&b).expect("invertible").column(0), [ratio(1, 2), ratio(1, 4)]);
+    /// assert_eq!(Matrix::zero(2, 2).solve(&b), None);
+    /// ```
     #[must_use]
     pub fn solve(&self, right: &Self) -> Option<Self> {
         self.solve_over(&Rationals, right).expect("rationals are told from 0")

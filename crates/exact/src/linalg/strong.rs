@@ -4,6 +4,15 @@ use super::matrix::Matrix;
 /// each ascending. The characteristic polynomial is the product of those of the diagonal blocks.
 ///
 /// Source: Tarjan 1972, without recursion.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{arith::ratio, linalg::{Matrix, strong_components}};
+/// let a = Matrix::from_fn(3, 3, |i, j| ratio([[0, 1, 1], [1, 0, 0], [0, 0, 1]][i][j], 1));
+/// let mut parts = strong_components(&a);
+/// parts.sort();
+/// assert_eq!(parts, [vec![0, 1], vec![2]]);
+/// ```
 pub fn strong_components(a: &Matrix) -> Vec<Vec<usize>> {
     let n = a.rows();
     let edges: Vec<Vec<usize>> = (0..n).map(|i| (0..n).filter(|&j| a[(i, j)] != 0).collect()).collect();

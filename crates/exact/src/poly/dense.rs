@@ -12,6 +12,13 @@ pub struct Poly {
 
 impl Poly {
     /// The polynomial with these coefficients, low degree first; trailing zeros are dropped.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{arith::ratio, poly::Poly};
+    /// let f = Poly::new(vec![ratio(1, 16), ratio(-5, 8), ratio(1, 1), ratio(0, 1)]);
+    /// assert_eq!((f.degree(), f.display("x").as_str()), (Some(2), "x^2 - 5/8x + 1/16"));
+    /// ```
     #[must_use]
     pub fn new(mut coeffs: Vec<Rational>) -> Self {
         while coeffs.last().is_some_and(|c| *c == 0) {
@@ -112,6 +119,14 @@ impl Poly {
     ///
     /// # Panics
     /// If `divisor` is zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{arith::ratio, poly::Poly};
+    /// let f = Poly::new([-1, 0, 0, 1].map(|c| ratio(c, 1)).to_vec()); // x³ − 1
+    /// let (quotient, rest) = f.div_rem(&Poly::linear(&ratio(1, 1)));
+    /// assert_eq!((quotient.display("x").as_str(), rest.is_zero()), ("x^2 + x + 1", true));
+    /// ```
     #[must_use]
     pub fn div_rem(&self, divisor: &Self) -> (Self, Self) {
         let lead = divisor.leading().expect("division by the zero polynomial");
@@ -136,6 +151,13 @@ impl Poly {
     ///
     /// # Cost
     /// Modular (primes of 62 bits until the result divides both): quasi-quadratic in the degree.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{arith::ratio, poly::Poly};
+    /// let [a, b, c] = [1, 2, 3].map(|root| Poly::linear(&ratio(root, 1)));
+    /// assert_eq!((&a * &b).gcd(&(&b * &c)), b);
+    /// ```
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Self {
         Self::from_ints(&ints::gcd(&self.primitive(), &other.primitive())).monic()

@@ -16,6 +16,14 @@ use malachite_base::num::logic::traits::SignificantBits;
 /// lifting, recombination, which is exponential in the number of modular factors of one irreducible factor.
 ///
 /// Source: von zur Gathen and Gerhard, *Modern Computer Algebra*, chapters 14 and 15.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{arith::ratio, poly::{Poly, factor}};
+/// let f = Poly::new([4, 0, -4, 0, 1].map(|c| ratio(c, 1)).to_vec()); // (x² − 2)²
+/// let factors = factor(&f);
+/// assert_eq!((factors[0].0.display("x").as_str(), factors[0].1, factors.len()), ("x^2 - 2", 2, 1));
+/// ```
 #[must_use]
 pub fn factor(f: &Poly) -> Vec<(Poly, usize)> {
     let f = f.primitive();
@@ -224,6 +232,13 @@ fn try_subset(
 }
 
 /// The different rational roots, ascending.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{arith::ratio, poly::{Poly, rational_roots}};
+/// let f = Poly::new([1, -3, 2].map(|c| ratio(c, 1)).to_vec()); // (x − 1)(2x − 1)
+/// assert_eq!(rational_roots(&f), [ratio(1, 2), ratio(1, 1)]);
+/// ```
 #[must_use]
 pub fn rational_roots(f: &Poly) -> Vec<crate::arith::Rational> {
     let mut roots: Vec<_> =

@@ -283,6 +283,18 @@ impl FieldBuilder {
     ///
     /// # Errors
     /// [`FieldError::Degree`] for denominators over `MAX_ANGLE` or fields that become too large.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{algebraic::field::FieldBuilder, arith::ratio};
+    /// let mut builder = FieldBuilder::new();
+    /// let cosine = builder.cos(&ratio(1, 5))?;
+    /// let twice = builder.add(&cosine, &cosine);
+    /// // 2cos(2π/5) = (√5 − 1)/2 is a root of x² + x − 1.
+    /// let value = builder.add(&builder.mul(&twice, &twice), &twice);
+    /// assert_eq!(builder.is_rational(&value), Some(ratio(1, 1)));
+    /// # Ok::<(), secant_exact::algebraic::field::FieldError>(())
+    /// ```
     pub fn cos(&mut self, turns: &Rational) -> Result<Number, FieldError> {
         let too_large = || FieldError::Degree(MAX_ANGLE);
         let n = usize::try_from(turns.denominator_ref()).ok().filter(|n| *n <= MAX_ANGLE).ok_or_else(too_large)?;

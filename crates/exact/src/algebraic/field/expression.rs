@@ -561,6 +561,16 @@ impl FieldBuilder {
     ///
     /// # Errors
     /// An [`ExpressionError`] with the place and a way to mend it.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::{algebraic::field::FieldBuilder, arith::ratio};
+    /// let mut builder = FieldBuilder::new();
+    /// let x = builder.parse("(1+sqrt(5))/2").expect("a number");
+    /// let square = builder.mul(&x, &x);
+    /// assert_eq!(builder.is_rational(&builder.sub(&square, &x)), Some(ratio(1, 1)));
+    /// assert!(builder.parse("sqrt(").is_err());
+    /// ```
     pub fn parse(&mut self, text: &str) -> Result<Number, ExpressionError> {
         if text.len() > 2 * MAX_DIGITS + 64 {
             return Err(error("number-too-long", 0, format!("an expression of {} characters is too long", text.len()))
@@ -598,6 +608,13 @@ impl NumberField {
     ///
     /// # Errors
     /// The first [`ExpressionError`], with the position of its text in the list.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant_exact::algebraic::field::NumberField;
+    /// let (field, entries) = NumberField::read(&["sqrt(2)", "sqrt(8)", "1/2"]).expect("numbers");
+    /// assert_eq!((field.degree(), entries.len()), (2, 3));
+    /// ```
     pub fn read(texts: &[&str]) -> Result<(Self, Vec<Elem>), (usize, ExpressionError)> {
         let mut builder = FieldBuilder::new();
         let numbers: Result<Vec<Number>, _> =
