@@ -2,7 +2,7 @@
 
 use super::evidence::{self, Evidence, independent};
 use super::refuted::undone;
-use super::{Model, NoTheorem};
+use super::{Model, NoTheorem, place};
 use crate::arith::{Rational, sign};
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, End};
@@ -63,7 +63,7 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
 }
 
 fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
-    let place = point.place();
+    let place = place(point);
     let none = |what: &str| NoTheorem { what: what.to_owned(), place: place.clone() };
     let (Role::Joint { path, state, left, right }, [before, after]) = (&point.role, &point.branches[..]) else {
         return Err(none("a joint without two branches"));

@@ -11,7 +11,7 @@ mod write;
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
-use crate::shape::{Address, CellKind, Contraction, Shape};
+use crate::shape::{Address, CellKind, Contraction, Shape, word_text};
 use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict, primitive};
 use evidence::{Balls, Evidence, independent};
 use refuted::Refuted;
@@ -146,8 +146,24 @@ fn name(point: &PointReport, index: usize) -> String {
     }
 }
 
+/// Where a point lies, for comments and refusals.
+fn place(point: &PointReport) -> String {
+    match (&point.role, point.branches.first()) {
+        (Role::LeftEnd, _) => "the left end".to_owned(),
+        (Role::RightEnd, _) => "the right end".to_owned(),
+        (Role::Joint { path, left, right, .. }, _) if path.is_empty() => {
+            format!("the joint of pieces {left} and {right}")
+        }
+        (Role::Joint { path, left, right, .. }, _) => {
+            format!("the joint of pieces {left} and {right} in cell {}", word_text(path))
+        }
+        (_, Some(branch)) => format!("the point with the address {}", branch.address),
+        (_, None) => "a point".to_owned(),
+    }
+}
+
 fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated, NoTheorem> {
-    let place = point.place();
+    let place = place(point);
     let image = point.image.clone().unwrap_or_else(|| point.position.clone());
     let ray = |rays: &[Direction]| -> Result<Vec<Rational>, NoTheorem> {
         match rays {
