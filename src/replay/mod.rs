@@ -175,7 +175,7 @@ fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated
         }
     };
     let statement = match (point.kind, &point.branches[..]) {
-        (Kind::HalfTangent, [branch]) => {
+        (Kind::SmoothEnd | Kind::HalfTangent, [branch]) => {
             let rays = if point.left.is_empty() { &point.right } else { &point.left };
             Statement::Ray { branch: replayed(model, branch, ray(rays)?, &place)? }
         }
