@@ -53,7 +53,7 @@ fn what_has_no_formal_theorem_is_refused_and_nothing_is_written() {
         ("cases/contraction/long-words.toml", "Lemma 1"),
         ("cases/classical/levy.toml", "refutation other than"),
         ("cases/surfaces/bicubic-space.toml", "surface"),
-        ("cases/two-parameter/sign-change.toml", "refutation other than"),
+        ("cases/two-parameter/sign-change.toml", "ring condition that takes too many cells"),
     ] {
         if !root().join(case).exists() {
             panic!("{case} is gone");
