@@ -74,6 +74,7 @@ pub mod mesh;
 pub mod picture;
 pub mod prove;
 pub mod radius;
+pub mod replay;
 pub mod report;
 pub mod scheme;
 pub mod shape;

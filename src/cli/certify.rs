@@ -130,19 +130,19 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         return Err(Problem::new("secant::usage", format!("{} is for a mesh", option.1))
             .with_help("a mesh is a file that ends in .obj or .off"));
     }
-    let files = [&args.report, &args.svg, &args.png, &args.certificate];
+    let files = [&args.report, &args.svg, &args.png, &args.certificate, &args.coq];
     let of_one_case = args.json || files.iter().any(|f| f.is_some());
     if (args.cases.len() > 1 || args.shard.is_some()) && of_one_case {
         return Err(Problem::new(
             "secant::usage",
-            "--json, --report, --svg, --png and --certificate are for a single case",
+            "--json, --report, --svg, --png, --certificate and --coq are for a single case",
         )
         .with_help("use --jsonl for many cases, and write the reports one by one"));
     }
     if args.resume.is_some() && of_one_case {
         return Err(Problem::new(
             "secant::usage",
-            "--json, --report, --svg, --png and --certificate do not go with --resume",
+            "--json, --report, --svg, --png, --certificate and --coq do not go with --resume",
         )
         .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
@@ -192,7 +192,8 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
     let svg = args.svg.as_deref().map(|path| Ok((path, answered.picture(args.draw == Drawn::Cones)?))).transpose()?;
     let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap()?))).transpose()?;
     let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
-    for (path, content) in report.into_iter().chain(svg) {
+    let coq = args.coq.as_deref().map(|path| Ok((path, replay(&answered.findings)?))).transpose()?;
+    for (path, content) in report.into_iter().chain(svg).chain(coq) {
         write_file(path, &content)?;
     }
     if let Some((path, content)) = proof {
@@ -206,6 +207,19 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         write_file(path, &image)?;
     }
     Ok(())
+}
+
+/// The file for Coq.
+fn replay(findings: &Findings) -> Result<String, Problem> {
+    let help = "see proofs/README.md, “What is not formalised”; nothing was written";
+    match findings {
+        Findings::Tangents { case, found } => crate::replay::coq(case, found)
+            .map_err(|missing| Problem::new("secant::coq::none", missing.to_string()).with_help(help)),
+        Findings::Vertices { case, .. } => {
+            let message = format!("no formal theorem of proofs/ covers the vertices of a mesh ({})", case.name);
+            Err(Problem::new("secant::coq::none", message).with_help(help))
+        }
+    }
 }
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {

@@ -168,6 +168,10 @@ struct CertifyArgs {
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+    /// Write a file for Coq that states what was found at the points of a curve about its own matrices, and proves it by
+    /// the formal theorems of proofs/.
+    #[arg(long, value_name = "FILE.v")]
+    coq: Option<PathBuf>,
     /// Do not have the verdict proved again by the checker before it is printed.
     #[arg(long)]
     no_check: bool,
@@ -192,7 +196,7 @@ struct CertifyArgs {
     #[arg(long, value_name = "COUNT")]
     words: Option<usize>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate", "coq"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
