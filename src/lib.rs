@@ -14,7 +14,7 @@
 //! let html = html::render(&findings::proof(&findings));
 //! let certificate = confirm(&mut findings)?;
 //! # // The tangent lines are proved; cusps are against G¹.
-//! # assert_eq!(findings.verdict(), Verdict::Refuted);
+//! # assert_eq!(findings.verdict(), Verdict::Proved);
 //! # assert!(html.contains("<math") && certificate.text().starts_with('{'));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

@@ -190,9 +190,9 @@ fn laid_out(junction: &Junction, found: &[Rational], known: &[(usize, Vec<Ration
     let mut targets = vec![Vec::new(); junction.rows()];
     for pair in fixed.windows(2) {
         let ((from, low), (to, high)) = (&pair[0], &pair[1]);
-        for r in *from..=*to {
+        for (r, target) in targets.iter_mut().enumerate().take(to + 1).skip(*from) {
             let share = Rational::from(r - from) / Rational::from(to - from);
-            targets[r] = vec![Rational::from(1), low + (high - low) * share];
+            *target = vec![Rational::from(1), low + (high - low) * share];
         }
     }
     let values = Matrix::from_rows(n, vec![vec![Rational::from(1); n], positions]);

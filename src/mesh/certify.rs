@@ -260,7 +260,10 @@ impl Work<'_> {
             let own: Vec<Option<Point>> = points.iter().map(|v| exact.get(*v as usize).cloned().flatten()).collect();
             let found =
                 if *k < budget { regular_exactly(&space, &bezier(&space, self.triangles, &own), DEPTH) } else { None };
-            found.map_or_else(|| Regular::Open(spot.clone()), |found| found)
+            match found {
+                Some(found) => found,
+                None => Regular::Open(spot.clone()),
+            }
         };
         let open: Vec<(usize, (usize, Vec<u32>, Parameter))> = open.into_iter().enumerate().collect();
         let found = super::each(&open, test);

@@ -136,7 +136,8 @@ impl Stencil {
             })
             .collect();
         // Scaled exactly first: coordinates may be very large or very small.
-        let size = values.iter().map(crate::arith::abs).max().map_or_else(|| Rational::from(1), |m| m);
+        let size = values.iter().map(crate::arith::abs).max().filter(|m| *m != 0);
+        let Some(size) = size else { return [f64::NAN; 3] };
         let v: Vec<f64> = values.iter().map(|x| crate::arith::to_f64(&(x / &size))).collect();
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         std::array::from_fn(|k| v[k] / length)

@@ -267,7 +267,7 @@ pub fn regular_exactly(space: &Exact, net: &Net<Option<Point3>>, depth: usize) -
             // A turned piece keeps the orientation of a triangle and exchanges the variables of a square.
             let mirrored = !piece.0.triangle && level % 2 == 1;
             let index = usize::from((sign > 0) != mirrored);
-            signs[index].get_or_insert_with(|| spot);
+            signs[index].get_or_insert(spot);
             if let [Some(a), Some(b)] = &signs {
                 return Some(Regular::Folded(a.clone(), b.clone()));
             }

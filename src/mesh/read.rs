@@ -314,7 +314,8 @@ impl<'a> Reader<'a> {
 fn exponent(word: &str) -> usize {
     let digits = word.split_once(['e', 'E']).map(|(_, e)| e.trim_start_matches(['+', '-']));
     match digits {
-        Some(e) => e.parse().unwrap_or(usize::MAX / 2),
+        // More digits than a number has room for are too many in any case.
+        Some(e) => e.parse().map_or(usize::MAX / 2, |e: usize| e.min(usize::MAX / 2)),
         None => 0,
     }
 }

@@ -125,10 +125,10 @@ impl Tail {
         };
         tail.functionals(&turns, omega, floats);
         // The coefficient of the eigenvector itself, by which it is divided.
-        for s in 0..valence {
+        for (s, turn) in turns.iter().enumerate().take(valence) {
             for (o, v) in own.iter().enumerate() {
                 let at = tail.index(s as i64, o);
-                tail.map[at] = times(*v, turns[s]).map(|x| x.times(2));
+                tail.map[at] = times(*v, *turn).map(|x| x.times(2));
             }
         }
         let unit = tail
@@ -158,8 +158,8 @@ impl Tail {
         let n = self.valence as i64;
         let Some(e) = self.orbit((1, 0)) else { return };
         let one = Float::point(1.0);
-        for s in 0..self.valence {
-            let (at, back) = (self.index(s as i64, e), conjugate(turns[s]));
+        for (s, turn) in turns.iter().enumerate().take(self.valence) {
+            let (at, back) = (self.index(s as i64, e), conjugate(*turn));
             if self.triangles {
                 let w = floats.weight(self.valence).times(8);
                 self.mean[0] = Float::point(3.0).over(w + Float::point(3.0));

@@ -48,7 +48,7 @@ pub(super) struct Cones {
 pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoTheorem> {
     let none = |what: &str| NoTheorem { what: what.to_owned(), place: "the joints of all levels".to_owned() };
     let dense = found.dense.as_ref().ok_or_else(|| none("a shape that is no curve"))?;
-    if !found.dense_claim().is_some_and(|c| c.verdict() == Verdict::Proved) {
+    if found.dense_claim().is_none_or(|c| c.verdict() != Verdict::Proved) {
         return Err(none("joints that are not all proved to have tangents"));
     }
     let net = undone(&model.net).ok_or_else(|| none("control points that are not injective"))?;

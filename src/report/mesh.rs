@@ -218,7 +218,7 @@ fn limits(found: &Found, most: usize) -> Table {
     };
     let row = |v: &AtVertex| {
         let limit = v.limit.as_ref();
-        let exact = limit.and_then(|l| l.point.as_ref()).map(|p| tuple(p));
+        let exact = limit.and_then(|l| l.point.as_ref()).map(tuple);
         vec![
             words(place(v)),
             words(decimals(limit.map(|l| l.near.map(crate::mesh::Float::mid)))),
