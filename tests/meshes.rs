@@ -128,8 +128,8 @@ impl Naive {
         for (f, face) in self.faces.iter().enumerate() {
             let n = face.len();
             let edge = |k: usize| number[&(face[k % n].min(face[(k + 1) % n]), face[k % n].max(face[(k + 1) % n]))];
-            for k in 0..n {
-                let corner = [face[k], edge(k), edge(k + n - 1)];
+            for (k, v) in face.iter().enumerate() {
+                let corner = [*v, edge(k), edge(k + n - 1)];
                 faces.push(if triangles {
                     corner.to_vec()
                 } else {

@@ -1,7 +1,7 @@
 //! Meshes as people have them: the limit surface of these very points, at every vertex and on every patch
 //! (docs/theory.md, “Meshes”).
 //!
-//! [`Model`] reads a file, [`certify`] proves what holds of it.
+//! [`Model`] reads a file, [`certify()`] proves what holds of it.
 //!
 //! ```
 //! use secant::{answer::Verdict, budget::Budget, diagnostic::SourceText, mesh};

@@ -32,9 +32,9 @@ pub struct Topology {
     pub face: Vec<u32>,
     /// The edge from each corner to the next.
     pub edge: Vec<u32>,
-    /// The corners from which an edge starts in its two faces; the second is [`NONE`] where there is one face only.
+    /// The corners from which an edge starts in its two faces; the second is `u32::MAX` where there is one face only.
     pub edges: Vec<[u32; 2]>,
-    /// A corner of each vertex, [`NONE`] where no face has it.
+    /// A corner of each vertex, `u32::MAX` where no face has it.
     pub corner: Vec<u32>,
 }
 

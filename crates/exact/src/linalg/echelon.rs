@@ -179,9 +179,9 @@ mod tests {
             let (i, j) = (index(), index());
             if i != j {
                 let f = field.from_u64(next_random(&mut seed) % 5);
-                for k in 0..n {
-                    let y = m[j][k];
-                    add(&mut m[i][k], f, y);
+                let from = m[j].clone();
+                for (entry, y) in m[i].iter_mut().zip(from) {
+                    add(entry, f, y);
                 }
                 for row in &mut m {
                     let y = row[i];
