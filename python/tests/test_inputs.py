@@ -133,11 +133,10 @@ def test_radicals_of_sympy():
 
 SLOW = """
 import secant, time
-m = [[[(5 * i + 3 * j * k + i * j) % 7 - 3 for j in range(7)] for i in range(7)] for k in range(1, 4)]
 print("ready", flush=True)
 started = time.time()
 try:
-    secant.jsr(m, seconds=90)
+    secant.certify({"name": "long", "vertex": {"mesh": "sqrt3", "valence": "3..250"}})
 except KeyboardInterrupt:
     print("interrupted", flush=True)
     time.sleep(3)
