@@ -281,7 +281,7 @@ fn reports_of_one_case_of_each_kind_are_as_approved() {
         ("cases/classical/levy.toml", 1),
         ("cases/two-parameter/corner-34-100.toml", 1),
         ("cases/counterexamples/null-witness.toml", 1),
-        ("cases/counterexamples/own-end-point.toml", 3),
+        ("cases/counterexamples/own-end-point.toml", 1),
         ("cases/control/bezier-cusp.toml", 0),
         ("cases/irrational/cusp-sqrt-2.toml", 0),
     ] {
