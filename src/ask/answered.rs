@@ -88,6 +88,7 @@ fn is_proved_again(claim: &Claim, certificate: &Certificate, orders: &[Assertion
     }
     match &claim.what {
         Assertion::G1 => certificate.decides_every_point(claim.verdict()),
+        what if what.is_of_dense_joints() => !certificate.leaves_out_joints(),
         what if what.is_of_parameter() => orders.contains(what),
         _ => true,
     }
@@ -226,4 +227,19 @@ fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {
         }
     }
     counted.into_iter().map(|(w, n)| if n == 1 { w.to_owned() } else { format!("{n} {w}") }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_certificate_leaves_out_is_not_proved_again() {
+        let whole = Certificate::new("certify", "case", "proved", serde_json::json!({"answers": []}));
+        let part = whole.clone().without([Unsupported { what: "this theorem".to_owned(), place: "joints".to_owned() }]);
+        let claim = Claim::proved(Assertion::SeenJoints, None);
+        assert!(is_proved_again(&claim, &whole, &[]) && !is_proved_again(&claim, &part, &[]));
+        let ends = Claim::proved(Assertion::TangentAtEnds, None);
+        assert!(is_proved_again(&ends, &part, &[]));
+    }
 }
