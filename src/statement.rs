@@ -127,6 +127,7 @@ statements! {
     ConeExponent = "cone-exponent",
     Graph = "theorem-12",
     Components = "theorem-13",
+    TensorEveryPoint = "tensor-every-point",
     Radius = "radius",
     Smoothness = "smoothness",
     Theorem10 = "theorem-10",

@@ -91,6 +91,20 @@ pub enum EveryGap {
     NoCone,
 }
 
+/// Why it is open whether a surface is G¹.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum EverySurfaceGap {
+    /// It is no tensor product of two curves of one state each, none of whose pieces is a point.
+    NoProduct,
+    /// It is a tensor product that is seen through control points that are not injective on its relevant space.
+    Folded,
+    /// One of the two curves of a product, 0 or 1, of which it is not decided whether it is G¹.
+    Curve(usize),
+    /// The theorem on tensor products proves it, and at a point there is no tangent plane.
+    Contradiction,
+}
+
 /// What is wrong with the leading eigenvalues of a cycle, so that it has no strictly invariant cone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]

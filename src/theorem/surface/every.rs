@@ -1,0 +1,93 @@
+//! Every point of a surface: tensor products of curves that are G¹ (theory §11).
+
+use super::branch::Setting;
+use super::place::Spot;
+use super::tensor::Product;
+use super::verdict::Surface;
+use crate::answer::Answer;
+use crate::statement::Statement;
+use crate::theorem::{Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict};
+
+/// Whether a surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously.
+pub type EverySurface = Answer<EverySurfaceProof, EverySurfaceBreak, Vec<EverySurfaceGap>>;
+
+/// Why a surface is G¹.
+#[derive(Debug, Clone)]
+pub enum EverySurfaceProof {
+    /// It is the tensor product of these curves, which are G¹.
+    Product(Box<[Certified; 2]>),
+}
+
+/// Why it is not.
+#[derive(Debug, Clone)]
+pub enum EverySurfaceBreak {
+    /// There is no tangent plane at a point, by its index in [`Surface::points`].
+    Point(usize),
+    /// It is the tensor product of two curves, one of which breaks.
+    Curve {
+        /// The two curves.
+        curves: Box<[Certified; 2]>,
+        /// Which of them: 0 or 1.
+        curve: usize,
+        /// The index in [`Certified::points`] of the point of that curve.
+        point: usize,
+    },
+}
+
+/// The claim on every point, and what it rests on.
+pub fn claim(setting: &Setting, product: Option<&Product>, surface: &Surface) -> (EverySurface, Claim) {
+    let every = decide(setting, product, surface);
+    let by = match &every {
+        Answer::Proved(EverySurfaceProof::Product(_)) | Answer::Refuted(EverySurfaceBreak::Curve { .. }) => {
+            Some(Statement::TensorEveryPoint)
+        }
+        Answer::Refuted(EverySurfaceBreak::Point(k)) => surface.points[*k].statement,
+        Answer::Open(_) => None,
+    };
+    let claim = Claim::as_found(Assertion::PlaneEverywhere, every.verdict(), by, Reason::EverySurfacePoint);
+    (every, claim)
+}
+
+fn decide(setting: &Setting, product: Option<&Product>, surface: &Surface) -> EverySurface {
+    let by_product = match product {
+        Some(product) => of_product(setting, product),
+        None => Answer::Open(vec![EverySurfaceGap::NoProduct]),
+    };
+    let whole = |k: &usize| surface.points[*k].spot != Spot::Branch || surface.points[*k].dimension.at_least > 2;
+    let refuted = |k: &usize| surface.points[*k].verdict == Verdict::Refuted;
+    match (by_product, (0..surface.points.len()).filter(refuted).find(whole)) {
+        (Answer::Proved(_), Some(_)) => Answer::Open(vec![EverySurfaceGap::Contradiction]),
+        (Answer::Open(_), Some(k)) => Answer::Refuted(EverySurfaceBreak::Point(k)),
+        (answer, _) => answer,
+    }
+}
+
+/// The theorem on tensor products at every point.
+fn of_product(setting: &Setting, product: &Product) -> EverySurface {
+    let cx = &setting.cx;
+    let basis = &cx.spaces.of(cx.from.root()).basis;
+    if (cx.from.map() * basis).rank() != basis.cols() {
+        return Answer::Open(vec![EverySurfaceGap::Folded]);
+    }
+    let Some(curves) = product.everywhere() else { return Answer::Open(vec![EverySurfaceGap::NoProduct]) };
+    let broken = (0..2).find_map(|k| Some((k, witness(&curves[k])?)));
+    if let Some((curve, point)) = broken {
+        return Answer::Refuted(EverySurfaceBreak::Curve { curves: Box::new(curves), curve, point });
+    }
+    let smooth = |c: &Certified| c.everywhere.as_ref().is_some_and(|e| e.verdict == Verdict::Proved);
+    match curves.iter().position(|c| !smooth(c)) {
+        Some(k) => Answer::Open(vec![EverySurfaceGap::Curve(k)]),
+        None => Answer::Proved(EverySurfaceProof::Product(Box::new(curves))),
+    }
+}
+
+/// A point at which a curve that is refuted to be G¹ has more than a line, a cusp, or is oscillating.
+fn witness(curve: &Certified) -> Option<usize> {
+    let every = curve.everywhere.as_ref().filter(|e| e.verdict == Verdict::Refuted)?;
+    every.witness.filter(|&k| breaks(&curve.points[k]))
+}
+
+fn breaks(point: &PointReport) -> bool {
+    let turned = point.verdict == Verdict::Proved && matches!(point.kind, Kind::Cusp | Kind::Oscillating);
+    turned || matches!(point.dimension, Dimension { at_least: 2.., .. }) && point.verdict == Verdict::Refuted
+}
