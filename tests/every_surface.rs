@@ -84,7 +84,8 @@ fn what_is_not_decided_says_why() {
 
 #[test]
 fn discs_around_a_vertex_are_open() {
-    for text in ["mesh = \"catmull-clark\"\nvalence = 5", "mesh = \"doo-sabin-frequency\"\nfrequency = 2\nvalence = 6"] {
+    for text in ["mesh = \"catmull-clark\"\nvalence = 5", "mesh = \"doo-sabin-frequency\"\nfrequency = 2\nvalence = 6"]
+    {
         let case = parse(&format!("[scheme]\n{text}\ncell = \"disc\""));
         let found = found(&case);
         assert_ne!(surface(&found).every.verdict(), Verdict::Proved, "{text}");

@@ -9,7 +9,8 @@ use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
 use crate::theorem::surface::{
-    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness,
+    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint,
+    SurfaceWitness,
 };
 use crate::theorem::{Assertion, Certified, Direction, Functional, PointReport, RingProof, Statement, Verdict};
 use serde_json::{Value, json};
@@ -186,7 +187,9 @@ impl Product<'_> {
     }
 
     fn json(&self) -> Result<Value, Unsupported> {
-        let Some(factors) = self.factors.filter(|_| self.needed || !self.points[0].is_empty()) else { return Ok(Value::Null) };
+        let Some(factors) = self.factors.filter(|_| self.needed || !self.points[0].is_empty()) else {
+            return Ok(Value::Null);
+        };
         let curve = |k: usize| {
             let ProductFactor { shape, contraction: found, states, polygons } = &factors[k];
             let rows = |m: &Matrix| -> Value { (0..m.rows()).map(|i| numbers(m.row(i))).collect() };

@@ -221,9 +221,7 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
             }
             _ => unknown(),
         },
-        Reason::EverySurfacePoint => {
-            found.surface.as_ref().and_then(reasons::every_surface).unwrap_or_else(unknown)
-        }
+        Reason::EverySurfacePoint => found.surface.as_ref().and_then(reasons::every_surface).unwrap_or_else(unknown),
         Reason::TooManyCells => "there are too many cells around a vertex".to_owned(),
         Reason::SurfaceNotInjective { .. } => "an operator is not injective on the visible relevant space".to_owned(),
         Reason::SurfacePoint(_) | Reason::SurfaceVertex(_) | Reason::VertexInside(_) => {

@@ -9,8 +9,7 @@ use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface};
 use serde_json::{Value, json};
 
 /// What is claimed, in a few words.
-pub const CLAIM: &str =
-    "G¹: immersed, with a tangent plane at every point, up to the border, which turns continuously";
+pub const CLAIM: &str = "G¹: immersed, with a tangent plane at every point, up to the border, which turns continuously";
 
 /// What proves it, in one sentence; `None` where it is not proved.
 fn proof(surface: &Surface) -> Option<String> {

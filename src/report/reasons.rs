@@ -1,11 +1,11 @@
 //! The words of why branches, points, curves and surfaces are refuted or open.
 
-use crate::shape::word_text;
 use crate::answer::Answer;
+use crate::shape::word_text;
 use crate::theorem::surface::{EverySurfaceBreak, Surface, SurfaceBranch, SurfacePoint};
 use crate::theorem::{
-    BranchGap, BranchReport, Certified, Defect, EveryGap, EverySurfaceGap, Everywhere, Hodograph, Kind, NoGerm, Outcome, PlaneGap,
-    PointGap, PointReport, Role, TopRow, Turn,
+    BranchGap, BranchReport, Certified, Defect, EveryGap, EverySurfaceGap, Everywhere, Hodograph, Kind, NoGerm,
+    Outcome, PlaneGap, PointGap, PointReport, Role, TopRow, Turn,
 };
 
 /// Why there are no points of the shape near the point of a branch.
@@ -181,6 +181,9 @@ fn ordinal(curve: usize) -> &'static str {
 
 fn every_surface_gap(gap: EverySurfaceGap) -> String {
     match gap {
+        EverySurfaceGap::Unparametrised => {
+            "the shape has no parameters: it starts at no face, or its faces are not divided evenly".to_owned()
+        }
         EverySurfaceGap::NoProduct => {
             "the patch is no tensor product of two curves of one state, none of whose pieces is a point".to_owned()
         }
@@ -191,7 +194,8 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
             format!("it is not decided whether {} curve of the product is G¹", ordinal(curve))
         }
         EverySurfaceGap::Contradiction => {
-            "the theorem on tensor products and the tangent subspace of a point disagree: a mistake in secant".to_owned()
+            "the theorem on tensor products and the tangent subspace of a point disagree: a mistake in secant"
+                .to_owned()
         }
     }
 }

@@ -95,6 +95,8 @@ pub enum EveryGap {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum EverySurfaceGap {
+    /// It has no parameters: it starts at no face, or its parts are not placed evenly.
+    Unparametrised,
     /// It is no tensor product of two curves of one state each, none of whose pieces is a point.
     NoProduct,
     /// It is a tensor product that is seen through control points that are not injective on its relevant space.

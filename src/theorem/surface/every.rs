@@ -1,9 +1,9 @@
 //! Every point of a surface: tensor products of curves that are G¹ (theory §11).
 
 use super::branch::Setting;
-use super::place::Spot;
+use super::place::{Chart, Spot};
 use super::tensor::Product;
-use super::verdict::Surface;
+use super::verdict::{Surface, SurfacePoint};
 use crate::answer::Answer;
 use crate::statement::Statement;
 use crate::theorem::{Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict};
@@ -34,9 +34,17 @@ pub enum EverySurfaceBreak {
     },
 }
 
-/// The claim on every point, and what it rests on.
-pub fn claim(setting: &Setting, product: Option<&Product>, surface: &Surface) -> (EverySurface, Claim) {
-    let every = decide(setting, product, surface);
+/// The claim on every point, and what it rests on; of a surface without parameters nothing is decided.
+pub fn claim(
+    setting: &Setting,
+    chart: Option<&Chart>,
+    product: Option<&Product>,
+    surface: &Surface,
+) -> (EverySurface, Claim) {
+    let every = match chart {
+        Some(_) => decide(setting, product, surface),
+        None => Answer::Open(vec![EverySurfaceGap::Unparametrised]),
+    };
     let by = match &every {
         Answer::Proved(EverySurfaceProof::Product(_)) | Answer::Refuted(EverySurfaceBreak::Curve { .. }) => {
             Some(Statement::TensorEveryPoint)
@@ -53,9 +61,9 @@ fn decide(setting: &Setting, product: Option<&Product>, surface: &Surface) -> Ev
         Some(product) => of_product(setting, product),
         None => Answer::Open(vec![EverySurfaceGap::NoProduct]),
     };
-    let whole = |k: &usize| surface.points[*k].spot != Spot::Branch || surface.points[*k].dimension.at_least > 2;
-    let refuted = |k: &usize| surface.points[*k].verdict == Verdict::Refuted;
-    match (by_product, (0..surface.points.len()).filter(refuted).find(whole)) {
+    // Of a branch alone it is not known what else comes to its point.
+    let broken = |p: &SurfacePoint| p.verdict == Verdict::Refuted && p.spot != Spot::Branch;
+    match (by_product, surface.points.iter().position(broken)) {
         (Answer::Proved(_), Some(_)) => Answer::Open(vec![EverySurfaceGap::Contradiction]),
         (Answer::Open(_), Some(k)) => Answer::Refuted(EverySurfaceBreak::Point(k)),
         (answer, _) => answer,

@@ -96,12 +96,12 @@ pub fn certify_complex_within(
         every: Answer::Open(Vec::new()),
     };
     let start_is_face = shape.states[shape.start].kind == CellKind::Face;
-    if start_is_face && let Ok(chart) = &chart {
-        parametrised(&setting, chart, product.as_ref(), &asked, &mut surface, &mut found.claims);
-    } else {
-        branches_only(&setting, &asked, &mut surface, &mut found.claims);
+    let chart = chart.as_ref().ok().filter(|_| start_is_face);
+    match chart {
+        Some(chart) => parametrised(&setting, chart, product.as_ref(), &asked, &mut surface, &mut found.claims),
+        None => branches_only(&setting, &asked, &mut surface, &mut found.claims),
     }
-    let (every, claim) = every::claim(&setting, product.as_ref(), &surface);
+    let (every, claim) = every::claim(&setting, chart, product.as_ref(), &surface);
     surface.every = every;
     found.claims.push(claim);
     found.claims.sort_by_key(|c| c.what.topic());

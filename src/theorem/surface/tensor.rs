@@ -9,7 +9,8 @@ use crate::budget::Budget;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
-    Certified, Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
+    Certified, Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction,
+    point,
 };
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
