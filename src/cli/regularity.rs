@@ -4,7 +4,7 @@ use super::output::{complain, print, settle, write_certificate};
 use super::{BAD_INPUT, PROVED, RegularityArgs, UNDETERMINED};
 use crate::arith::{Rational, parse_rational};
 use crate::case::{Case, Origin};
-use crate::diagnostic::Problem;
+use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
 use crate::report::regularity::Meaning;
@@ -53,10 +53,10 @@ fn inputs(args: &RegularityArgs) -> Vec<(String, Vec<String>)> {
     let mut list = vec![(args.what.trim().to_owned(), Vec::new())];
     for text in &args.more {
         let text = text.trim();
-        let name =
-            text.split_once('=').is_some_and(|(key, _)| key.trim().chars().all(|c| c.is_alphanumeric() || c == '_'));
         match list.last_mut() {
-            Some((_, parameters)) if name && !Path::new(text).exists() => parameters.push(text.to_owned()),
+            Some((_, parameters)) if super::is_parameter(text) && !Path::new(text).exists() => {
+                parameters.push(text.to_owned())
+            }
             _ => list.push((text.to_owned(), Vec::new())),
         }
     }
@@ -207,6 +207,18 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
         return Err(wrong(format!("{what} is not known"))
             .with_help(format!("known are {}", scheme::wavelet_names().join(", "))));
     }
+    if what == "-" {
+        let source = SourceText::read(Path::new("-"))?;
+        let is_case = source.text.contains("name") && source.text.contains('=');
+        return if is_case {
+            of_case(Case::parse(&source.name, &source.text)?)
+        } else {
+            subject(source.text.trim(), &[], arity)
+        };
+    }
+    if what.starts_with("[[[") {
+        return of_case(Case::ask(what)?);
+    }
     if what.ends_with(".toml") || Path::new(what).is_file() {
         return case(Path::new(what));
     }
@@ -215,11 +227,13 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
         return mask(&symbol_texts(&symbol), arity, None);
     }
     let inner = what.trim_start_matches('[').trim_end_matches(']');
-    let texts: Vec<String> = inner.split(',').map(|t| t.trim().to_owned()).collect();
+    let blanks = !inner.contains([',', '(', '*', '+']);
+    let parts: Vec<&str> = if blanks { inner.split_whitespace().collect() } else { inner.split(',').collect() };
+    let texts: Vec<String> = parts.iter().map(|t| t.trim().replace("//", "/")).collect();
     if let [word] = texts.as_slice()
         && word.chars().any(char::is_alphabetic)
     {
-        return Err(wrong(format!("`{word}` is no file, no scheme and no wavelet that is known")));
+        return Err(crate::case::nothing(what));
     }
     mask(&texts, arity, None)
 }
@@ -257,7 +271,10 @@ fn case(path: &Path) -> Result<Subject, Problem> {
             .map(Subject::Mask)
             .map_err(|e| wrong(format!("{}: {e}", path.display())));
     }
-    let case = Case::read(path)?;
+    of_case(Case::read(path)?)
+}
+
+fn of_case(case: Case) -> Result<Subject, Problem> {
     if let Some(Origin::Mask(mask)) = &case.scheme {
         return Ok(Subject::Mask(given(mask)));
     }

@@ -8,7 +8,7 @@ use crate::approx::{ApproxSpectrum, approximate_spectrum};
 use crate::case::matrix_file::{self, Format};
 use crate::case::{Case, FieldCase};
 use crate::certificate::{self, Doubt, Operator};
-use crate::diagnostic::Problem;
+use crate::diagnostic::{Problem, SourceText};
 use crate::jordan::{BUDGET, FieldSpectrum, Spectrum, estimated_field_work, estimated_work};
 use crate::linalg::Matrix;
 use crate::report::{field_spectrum, spectrum as report};
@@ -41,10 +41,32 @@ impl From<FieldMatrix> for Entries {
 /// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
 pub fn run(args: &SpectrumArgs) -> u8 {
     let code = if args.approx { UNDETERMINED } else { PROVED };
-    deliver(matrices(&args.file).and_then(|input| rendered(args, &input)).map(|text| (text, code)))
+    deliver(all(args).map(|text| (text, code)))
 }
 
-fn rendered(args: &SpectrumArgs, input: &Input) -> Result<String, Problem> {
+/// The spectra of all files; of several matrices a list in JSON.
+fn all(args: &SpectrumArgs) -> Result<String, Problem> {
+    if args.certificate.is_some() && args.files.len() > 1 {
+        return Err(Problem::new("secant::usage", "--certificate is for a single file")
+            .with_help("write the certificates one by one"));
+    }
+    let mut parts = Vec::new();
+    for path in &args.files {
+        let input = matrices(path)?;
+        let found = rendered(args, &input)?;
+        if args.files.len() > 1 && !args.json {
+            parts.push(format!("== {}\n", path.display()));
+        }
+        parts.extend(found.iter().zip(&input.matrices).map(|(f, (name, ..))| f.render(args, path, name)));
+    }
+    Ok(match (args.json, parts.as_slice()) {
+        (true, [one]) => one.clone(),
+        (true, _) => format!("[{}]\n", parts.iter().map(|p| p.trim_end()).collect::<Vec<_>>().join(",\n")),
+        _ => parts.join("\n"),
+    })
+}
+
+fn rendered(args: &SpectrumArgs, input: &Input) -> Result<Vec<Found>, Problem> {
     let waiting = Waiting::with("computing the spectrum …", false);
     let found: Result<Vec<Found>, Problem> = input.matrices.iter().map(|(n, m, _)| find(args, n, m)).collect();
     waiting.finish();
@@ -52,8 +74,7 @@ fn rendered(args: &SpectrumArgs, input: &Input) -> Result<String, Problem> {
     if let Some(path) = args.certificate.as_deref() {
         write_certificate(path, input, &found)?;
     }
-    let parts: Vec<String> = found.iter().zip(&input.matrices).map(|(f, (name, ..))| f.render(args, name)).collect();
-    Ok(parts.join("\n"))
+    Ok(found)
 }
 
 /// The operators of a case over a number field.
@@ -68,9 +89,28 @@ fn field_operators(path: &Path) -> Result<Input, Problem> {
     Ok(Input { matrices, about: None, beside: None })
 }
 
+/// Whether a text is the literal of a matrix.
+fn is_literal(text: &str) -> bool {
+    let start = text.trim_start();
+    let list = start.starts_with(['[', '{']) && !start.starts_with("[[[");
+    list && text.contains(['[', '{', ';']) && (start.starts_with("[[") || start.starts_with("{{") || text.contains(';'))
+        || text.contains("atrix(")
+        || text.contains("\\begin{")
+}
+
 fn matrices(path: &Path) -> Result<Input, Problem> {
-    if path.extension().is_some_and(|e| e == "toml") {
-        let case = match Case::read(path) {
+    let word = path.to_string_lossy();
+    let there = path.exists() || word == "-";
+    let source = match (there, is_literal(&word)) {
+        (true, _) if path.extension().is_none_or(|e| e != "toml") => Some(SourceText::read(path)?),
+        (false, true) => Some(SourceText::new("the matrix", &*word)),
+        _ => None,
+    };
+    // What comes from a pipe may be a case.
+    let case_text = source.as_ref().filter(|s| word == "-" && s.text.contains("name") && s.text.contains('='));
+    if source.is_none() || case_text.is_some() {
+        let read = || case_text.map_or_else(|| Case::ask(&word), |s| Case::parse(&s.name, &s.text));
+        let case = match read() {
             Err(p) if matches!(p.id(), "secant::case::irrational-entry" | "secant::case::expression") => {
                 return field_operators(path);
             }
@@ -86,17 +126,15 @@ fn matrices(path: &Path) -> Result<Input, Problem> {
         let (text, beside) = (case.checked_text().to_string(), case.beside());
         return Ok(Input { matrices, about: Some((text, case.name)), beside });
     }
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| {
-        Problem::new("secant::input", format!("{name} cannot be read: {error}"))
-            .with_help("name a text file with a matrix, or a case file")
-    })?;
+    let Some(SourceText { name, text }) = source else {
+        return Err(Problem::new("secant::input", format!("{word} is no matrix")).with_help("name a file or a case"));
+    };
     let file = matrix_file::parse_field(&name, &text)?;
     if file.decimals > 0 {
         eprintln!("note: {} decimals were read as the exact fractions that they write", file.decimals);
     }
     let checked = matches!(file.format, Format::Plain | Format::NestedBrackets | Format::NestedBraces);
-    let about = checked.then(|| (text, "matrix".to_owned()));
+    let about = checked.then(|| (text.to_string(), "matrix".to_owned()));
     Ok(Input { matrices: vec![(name, file.matrix.into(), None)], about, beside: None })
 }
 
@@ -149,13 +187,18 @@ fn approximate(matrix: &Matrix) -> Result<Found, Problem> {
 }
 
 impl Found {
-    fn render(&self, args: &SpectrumArgs, name: &str) -> String {
+    fn render(&self, args: &SpectrumArgs, path: &Path, name: &str) -> String {
+        let data = |mut value: serde_json::Value| {
+            value["path"] = path.display().to_string().into();
+            value["name"] = name.into();
+            format!("{value:#}\n")
+        };
         match self {
             Self::Approximate(spectrum) => report::approximate_text(spectrum),
-            Self::Exact(spectrum) if args.json => format!("{:#}\n", report::json(spectrum)),
+            Self::Exact(spectrum) if args.json => data(report::json(spectrum)),
             Self::Exact(spectrum) if args.latex => report::latex(spectrum),
             Self::Exact(spectrum) => format!("{name}\n{}", report::text(spectrum)),
-            Self::Field(spectrum) if args.json => format!("{:#}\n", field_spectrum::json(spectrum)),
+            Self::Field(spectrum) if args.json => data(field_spectrum::json(spectrum)),
             Self::Field(spectrum) if args.latex => field_spectrum::latex(spectrum),
             Self::Field(spectrum) => format!("{name}\n{}", field_spectrum::text(spectrum)),
         }
