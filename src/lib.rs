@@ -67,6 +67,7 @@ pub mod diagnostic;
 pub mod escape;
 pub mod glossary;
 pub mod guard;
+pub mod junction;
 pub mod laws;
 pub mod picture;
 pub mod prove;

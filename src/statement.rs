@@ -123,9 +123,12 @@ statements! {
     Theorem6Polynomial = "theorem-6-polynomial",
     ConeExponent = "cone-exponent",
     Graph = "theorem-12",
+    Components = "theorem-13",
     Radius = "radius",
     Smoothness = "smoothness",
     Theorem10 = "theorem-10",
+    JunctionFamily = "junction",
+    Refinement = "refinement",
 }
 
 impl Statement {

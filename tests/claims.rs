@@ -7,6 +7,7 @@ use secant::report::reasons;
 use secant::shape::cell_text;
 use secant::theorem::surface::certify_complex;
 use secant::theorem::{About, Assertion, Certified, Kind, Outcome, PointReport, Reason, Statement, Verdict, Witness};
+use serde_json::{Value, json};
 use std::path::Path;
 
 fn certified(name: &str) -> Certified {
@@ -162,8 +163,43 @@ fn polynomial_curves_are_decided_at_every_point() {
         } else {
             assert_eq!(verdict, Verdict::Proved, "{control}");
         }
-        confirm(&case, &found).unwrap_or_else(|doubt| panic!("{control}: {doubt}"));
+        let certificate = confirm(&case, &found).unwrap_or_else(|doubt| panic!("{control}: {doubt}"));
+        // The format has no rule for zeros of derivatives; the certificate names what it leaves out.
+        let derivative = every.hodograph.is_some() && every.witness.is_none();
+        assert_eq!(certificate.left_out().len(), usize::from(derivative), "{control}");
     }
+}
+
+/// A dense set beside a joint without a tangent has an answer of its own, and every part of it is needed.
+#[test]
+fn joints_that_are_not_killed_are_proved_again_beside_one_that_is() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/control/killed-deep-joint.toml");
+    let case = Case::read(&path).unwrap();
+    let found = certify_complex(&case.complex(), &case.examine).unwrap();
+    let certificate = confirm(&case, &found).unwrap();
+    assert!(certificate.left_out().is_empty(), "{:?}", certificate.left_out());
+    let answers = certificate.json()["proof"]["answers"].as_array().unwrap();
+    assert_eq!(answers[1]["verdict"], "refuted");
+    let k = answers.iter().position(|a| a["question"] == "joints not killed").unwrap();
+    let rule = |change: &dyn Fn(&mut Vec<Value>)| {
+        let mut forged = certificate.json().clone();
+        change(forged["proof"]["answers"].as_array_mut().unwrap());
+        secant_check::check(&case.text.text, &forged.to_string()).unwrap_err().rule
+    };
+    assert_eq!(rule(&|a| a[k]["upstairs"] = json!([])), "joints");
+    assert_eq!(rule(&|a| a[k]["theorem"] = json!("5")), "joints");
+    assert_eq!(rule(&|a| a[k]["theorem"] = json!("none")), "joints");
+    assert_eq!(rule(&|a| a[k]["theorem"] = json!("11'")), "format");
+    assert_eq!(rule(&|a| a[k]["verdict"] = json!("refuted")), "answers");
+    assert_eq!(rule(&|a| a[k]["upstairs"][0]["point"]["place"]["at"] = json!("left end")), "format");
+    let twice = |a: &mut Vec<Value>| {
+        let again = a[k]["upstairs"][0].clone();
+        a[k]["upstairs"].as_array_mut().unwrap().push(again);
+    };
+    assert_eq!(rule(&twice), "joints");
+    assert_eq!(rule(&|a| a.push(a[k].clone())), "format");
+    // What is true of these joints is not true of all.
+    assert_eq!(rule(&|a| a[1]["verdict"] = json!("proved")), "answers");
 }
 
 #[test]

@@ -1,10 +1,11 @@
 //! Curves that are G¹ because they are graphs over their uniform parameter (Theorem 12).
 
+use secant::arith::Rational;
 use secant::case::Case;
 use secant::certificate::confirm;
 use secant::radius::Options;
 use secant::shape::Spaces;
-use secant::theorem::smoothness::graph_over_parameter;
+use secant::theorem::graph::graph_over_parameter;
 use secant::theorem::{Verdict, certify};
 use serde_json::{Value, json};
 
@@ -56,4 +57,74 @@ fn the_four_point_scheme_is_smooth_everywhere_with_a_certificate() {
     // The certificate of one member of the family proves nothing of another.
     let other = scheme("four-point", "w = \"1/5\"", "");
     assert!(secant_check::check(&other.checked_text(), &certificate.to_string()).is_err());
+}
+
+fn file(name: &str) -> Case {
+    Case::read(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name)).unwrap()
+}
+
+#[test]
+fn a_joined_curve_is_a_graph_over_shares_of_its_parameter_with_a_certificate() {
+    let case = file("junction/chaikin-four-point.toml");
+    let found = certify(&case.shape, &[]).unwrap();
+    let order = found.everywhere.as_ref().unwrap().derivative.as_ref().expect("Theorem 12");
+    assert!(order.shares.as_ref().unwrap().iter().all(|s| s.iter().sum::<Rational>() == 1));
+    let (text, certificate) = (case.checked_text(), confirm(&case, &found).unwrap().json().clone());
+    let forged = |change: &dyn Fn(&mut Value)| {
+        let mut value = certificate.clone();
+        let answers = value["proof"]["answers"].as_array_mut().unwrap();
+        change(answers.iter_mut().find(|a| a["question"] == "every point by its derivative in shares").unwrap());
+        secant_check::check(&text, &value.to_string())
+    };
+    assert!(forged(&|_| ()).is_ok());
+    assert!(forged(&|a| a["radius"] = Value::Null).is_err());
+    assert!(forged(&|a| a["radius"]["upper"] = json!("1/100")).is_err());
+    assert!(forged(&|a| a["radius"]["upper"] = json!("1")).is_err());
+    assert!(forged(&|a| a["verdict"] = json!("refuted")).is_err());
+    assert!(forged(&|a| a["shares"] = json!([])).is_err());
+    assert!(forged(&|a| drop(a["shares"].as_array_mut().unwrap().pop())).is_err());
+    // Other shares of sum 1, a sum that is not 1, and shares that are not positive.
+    for shares in [["1/5", "2/5", "2/5"], ["1/5", "3/5", "1/2"], ["0", "1/2", "1/2"], ["-1/5", "3/5", "3/5"]] {
+        assert!(forged(&|a| a["shares"][0] = json!(shares)).is_err(), "{shares:?}");
+    }
+}
+
+#[test]
+fn loops_turn_towards_their_fixed_points() {
+    for name in ["m1-4", "m1-4-joined", "m1-4-in-the-plane"] {
+        let case = file(&format!("junction/{name}.toml"));
+        let found = certify(&case.shape, &[]).unwrap();
+        let every = found.everywhere.as_ref().unwrap();
+        assert_eq!(every.verdict, Verdict::Proved, "{name}");
+        assert!(every.components.is_some(), "{name}");
+        // The claims of the case have a certificate; this answer has none and is left out.
+        let certificate = confirm(&case, &found).unwrap();
+        assert!(!certificate.text().contains("every point"), "{name}");
+    }
+    let smooth = file("junction/m1-5-smooth.toml");
+    let found = certify(&smooth.shape, &[]).unwrap();
+    assert_eq!(found.everywhere.as_ref().unwrap().verdict, Verdict::Proved);
+    confirm(&smooth, &found).unwrap();
+}
+
+/// A loop with the piece `diag(1/2, 1/4)` and an exit: the tangents of a straight exit are kept along the orbit.
+fn one_exit(direction: &str) -> Case {
+    let text = format!(
+        "name = \"exit\"\nsource = \"test\"\nconvention = \"columns\"\nstart = \"I\"\n\
+         [[state]]\nname = \"I\"\ndimension = 3\n\
+         [[state.piece]]\nto = \"I\"\nmatrix = [[1, \"1/2\", \"3/4\"], [0, \"1/2\", 0], [0, 0, \"1/4\"]]\n\
+         [[state.piece]]\nto = \"s\"\nmatrix = {direction}\n\
+         [[state]]\nname = \"s\"\ndimension = 2\n\
+         [[state.piece]]\nto = \"s\"\nmatrix = [[1, \"1/2\"], [0, \"1/2\"]]\n\
+         [[state.piece]]\nto = \"s\"\nmatrix = [[\"1/2\", 0], [\"1/2\", 1]]\n"
+    );
+    Case::parse("exit.toml", &text).unwrap()
+}
+
+#[test]
+fn a_tangent_that_is_not_pulled_along_is_not_claimed() {
+    // From (1/2, 1/4) to (1, 1): the loop is regular where its pieces meet only if the exit has the direction of its image.
+    let steep = one_exit("[[\"1/4\", -1], [\"1/2\", 1], [\"1/4\", 1]]");
+    let found = certify(&steep.shape, &[]).unwrap();
+    assert!(found.everywhere.is_none_or(|e| e.verdict != Verdict::Proved));
 }

@@ -4,7 +4,7 @@ mod corpus;
 
 use secant::arith::{Interval, Rational, ratio, to_f64};
 use secant::case::{Valences, VertexCase};
-use secant::certificate::confirm_vertices;
+use secant::certificate::{Doubt, confirm_vertices};
 use secant::scheme::{MeshRule, mesh_rule};
 use secant::theorem::Verdict;
 use secant::vertex::{Again, AtValence, VertexReason, at_valence};
@@ -44,8 +44,12 @@ fn the_checker_proves_the_verdicts_again() {
         let case = VertexCase::read(&path).unwrap();
         let mut found: Vec<AtValence> = case.expect.iter().map(|(n, _)| at(&case.rule, *n)).collect();
         found.retain(|f| f.polynomial && f.smooth != Verdict::Undetermined);
-        let certificate = confirm_vertices(&case, &mut found).unwrap_or_else(|doubt| panic!("{}: {doubt}", case.name));
-        assert_eq!(certificate.is_some(), found.iter().any(|f| f.again == Again::Proved), "{}", case.name);
+        let written = match confirm_vertices(&case, &mut found) {
+            Ok(_) => true,
+            Err(Doubt::Unsupported(_)) => false,
+            Err(doubt) => panic!("{}: {doubt}", case.name),
+        };
+        assert_eq!(written, found.iter().any(|f| f.again == Again::Proved), "{}", case.name);
         again += found.iter().filter(|f| f.again == Again::Proved).count();
         once.extend(found.iter().filter(|f| f.again != Again::Proved).map(|f| (case.name.clone(), f.valence)));
     }

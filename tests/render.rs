@@ -133,3 +133,19 @@ fn imports_state_their_convention_and_give_cases() {
     let (out, _) = secant(&["expand", "cases/faces/bicubic-tensor.toml"], 0);
     assert_eq!(Case::parse("t.toml", &out).unwrap().faces.len(), 1);
 }
+
+#[test]
+fn a_drawing_within_an_error_says_so() {
+    let file = std::env::temp_dir().join(format!("secant-error-{}.svg", std::process::id()));
+    let path = file.to_str().unwrap();
+    let (out, _) = secant(&["render", "cases/control/two-spans.toml", "--svg", path, "--error", "1/50"], 0);
+    assert!(out.contains("none of its points is farther than 1/50"), "{out}");
+    let (coarse, _) = secant(&["render", "cases/control/two-spans.toml", "--svg", path, "--error", "1"], 0);
+    assert_ne!(out, coarse);
+    for wrong in ["0", "-1", "many", "1/1000000000000"] {
+        let (_, err) =
+            secant(&["render", "cases/control/two-spans.toml", "--svg", path, &format!("--error={wrong}")], 2);
+        assert!(err.contains("--error") && !err.contains("internal"), "{err}");
+    }
+    std::fs::remove_file(file).unwrap();
+}

@@ -998,6 +998,8 @@ def envelope(value):
 
 
 DERIVATIVE = "every point by its derivative"
+SHARES = "every point by its derivative in shares"
+NOT_KILLED = "joints not killed"
 
 
 class Certificate:
@@ -1032,8 +1034,8 @@ class Certificate:
         need(len(answers) >= len(asked), "answers")
         for k in range(len(asked), len(answers)):
             question = answers[k].get("question")
-            if question in ("every point", DERIVATIVE):
-                need(question not in asked, "answers")
+            if question in ("every point", DERIVATIVE, SHARES, NOT_KILLED):
+                need(question not in asked and (question != NOT_KILLED or kind == "edge"), "answers")
             elif k + 1 < len(answers) or question != "any point":
                 question = address(answers[k].get("address"))
                 normal = self.model.normalise(question, self.case.start)
@@ -1057,11 +1059,22 @@ class Certificate:
             need(verdict == Cones(self.model, self.points, self.used).check(*rest), "answers")
             self.lines.append(f"{verdict}: every point")
             return None
-        elif question == DERIVATIVE:
-            what, verdict, radius = fields(value, "question", "verdict", "radius")
+        elif question == NOT_KILLED:
+            what, verdict, theorem, upstairs = fields(value, "question", "verdict", "theorem", "upstairs")
+            need(verdict == "proved" and theorem in ("5'", "11'") and upstairs != [], "joints")
+            if theorem == "11'":
+                Frames(self.model, False).check(upstairs)
+            else:
+                self.injective()
+                self.upstairs(upstairs)
+            self.lines.append("proved: joints not killed, theorem " + theorem)
+            return None
+        elif question in (DERIVATIVE, SHARES):
+            keys = ("shares", "radius") if question == SHARES else ("radius",)
+            what, verdict, *shares, radius = fields(value, "question", "verdict", *keys)
             import check_radii
             try:
-                check_radii.graph(self.model, radius)
+                check_radii.graph(self.model, radius, *shares)
             except Exception:  # that module has its own copy of this one, and of its exceptions
                 need(False, "graph")
             need(verdict == "proved", "answers")
@@ -1098,16 +1111,26 @@ class Certificate:
         if theorem in ("11", "11'"):
             Frames(model, theorem == "11").check(upstairs)
             return "proved"
-        required = {(e, *pair) for e in model.reachable for pair in model.joints(e)}
-        need(required == {(model.path(start, p["path"])[-1], p["left"], p["right"]) for p, *_ in chosen}, "joints")
-        for e in model.reachable:
-            for piece in model.states[e][1]:
-                rows, width = model.on_visible(e, piece)
-                need(len(echelon(rows)[1]) == width, "joints")
+        need(self.required() == {(model.path(start, p["path"])[-1], p["left"], p["right"]) for p, *_ in chosen}, "joints")
+        self.injective()
         if theorem == "5":
             on_v = mul(self.case.view, transpose(model.basis[start], len(self.case.view[0])))
             need(len(echelon(on_v)[1]) == len(model.visible[start]), "joints")
             return "proved"
+        self.upstairs(upstairs)
+        return "proved"
+
+    def required(self):
+        return {(e, *pair) for e in self.model.reachable for pair in self.model.joints(e)}
+
+    def injective(self):
+        for e in self.model.reachable:
+            for piece in self.model.states[e][1]:
+                rows, width = self.model.on_visible(e, piece)
+                need(len(echelon(rows)[1]) == width, "joints")
+
+    def upstairs(self, upstairs):
+        model, required = self.model, self.required()
         listed, spans = [], {e: [] for e in model.reachable}
         for item in upstairs:
             e, point = fields(item, "state", "point")
@@ -1125,7 +1148,6 @@ class Certificate:
                         spans[e] = spans[e] + mul(spans[piece[0]], transpose(model.on_visible(e, piece)[0]))
                 spans[e] = echelon(spans[e])[0]
         need(all(len(spans[e]) == len(model.visible[e]) for e in model.reachable), "joints")
-        return "proved"
 
     def similarities(self, products):
         model = self.model

@@ -286,13 +286,17 @@ class Smoothness:
             last = last or not smooth
             self.lines.append(f"{'proved' if smooth else 'refuted'}: the curve is C^{k}; radius from {low} to {high}")
 
-    def first(self, model):
-        """The spaces and the chords of the curves themselves."""
+    def first(self, model, shares=None):
+        """The spaces and the chords of the curves themselves; shares are what pieces take of the parameter, where not alike."""
         self.model, start = model, model.case.start
-        self.n = len(model.states[start][1])
-        for e in model.reachable:
-            kind, pieces = model.states[e]
-            need(kind == "edge" and len(pieces) == self.n >= 2, "orders")
+        need(all(model.states[e][0] == "edge" for e in model.reachable), "orders")
+        counts = {e: len(model.states[e][1]) for e in model.reachable}
+        self.own = shares is not None
+        self.shares = shares if self.own else {e: [Q(1, n)] * n for e, n in counts.items()}
+        if not self.own:
+            back = [n for e, n in counts.items() if any(e in check_reached(model, p[0]) for p in model.states[e][1])]
+            self.n = back[0] if back else 0
+            need(self.n >= 2 and set(back) == {self.n}, "orders")
         self.dim = {e: len(model.visible[e]) for e in model.reachable}
         self.maps = {e: [model.on_visible(e, p)[0] for p in model.states[e][1]] for e in model.reachable}
         need(self.dim[start] > 0, "orders")
@@ -304,20 +308,21 @@ class Smoothness:
 
     def pieces(self):
         for e in self.model.reachable:
-            for (target, _, backwards), matrix in zip(self.model.states[e][1], self.maps[e]):
-                yield e, target, backwards, matrix
+            for letter, ((target, _, _), matrix) in enumerate(zip(self.model.states[e][1], self.maps[e])):
+                yield e, letter, target, matrix
 
-    def scaled(self, k, backwards, v):
-        factor = (-self.n if backwards else self.n) ** k
+    def scaled(self, k, e, letter, v):
+        backwards = self.model.states[e][1][letter][2]
+        factor = ((-1 if backwards else 1) / self.shares[e][letter]) ** k
         return [factor * x for x in v]
 
     def differences(self, k, chord):
         rows = {e: [] for e in self.model.reachable}
-        for e, target, backwards, matrix in self.pieces():
-            rows[e].append(sub(self.scaled(k, backwards, apply(matrix, chord[target])), chord[e]))
+        for e, letter, target, matrix in self.pieces():
+            rows[e].append(sub(self.scaled(k, e, letter, apply(matrix, chord[target])), chord[e]))
         rows, size = {e: echelon(r)[0] for e, r in rows.items()}, None
         while size != (size := [len(r) for r in rows.values()]):
-            for e, target, _, matrix in self.pieces():
+            for e, _, target, matrix in self.pieces():
                 rows[e] = echelon(rows[e] + [apply(matrix, v) for v in rows[target]])[0]
         return rows
 
@@ -326,11 +331,14 @@ class Smoothness:
         if value is None:
             need(not any(space.values()), "orders")
             return Q(0), Q(0)
-        for e, target, _, matrix in self.pieces():
+        for e, letter, target, matrix in self.pieces():
             images, pivots = [apply(matrix, v) for v in space[target]], echelon(space[e])[1]
             coordinates = [[v[p] for p in pivots] for v in images]
             for c, v in zip(coordinates, images):
                 need([sum(x * row[j] for x, row in zip(c, space[e])) for j in range(self.dim[e])] == v, "orders")
+            # With shares it is the scaled operators whose radius is bounded.
+            scale = 1 / self.shares[e][letter] if self.own else 1
+            coordinates = [[scale * x for x in c] for c in coordinates]
             arrows.append((place[e], place[target], transpose(coordinates, len(pivots))))
         return System([len(space[e]) for e in self.model.reachable], arrows).bounds(value)
 
@@ -352,14 +360,14 @@ class Smoothness:
     def along(self, k, e, letters, v):
         states = self.model.path(e, letters)
         for letter, state in reversed(list(zip(letters, states))):
-            v = self.scaled(k, self.model.states[state][1][letter][2], apply(self.maps[state][letter], v))
+            v = self.scaled(k, state, letter, apply(self.maps[state][letter], v))
         return v
 
     def agree(self, k, ends):
         for e in self.model.reachable:
             values = []
             for letter, (target, _, backwards) in enumerate(self.model.states[e][1]):
-                start, finish = (self.scaled(k, backwards, apply(self.maps[e][letter], ends[target][side]))
+                start, finish = (self.scaled(k, e, letter, apply(self.maps[e][letter], ends[target][side]))
                                  for side in (backwards, not backwards))
                 values.append((start, finish))
             if any(a[1] != b[0] for a, b in zip(values, values[1:])):
@@ -372,12 +380,17 @@ class Smoothness:
         return bool(before[e]) and closed and len(echelon(space[e] + [chord[e]])[0]) == len(space[e])
 
 
-def graph(model, value):
-    """The curve is a graph over its uniform parameter (Theorem 12)."""
-    curve, start = Smoothness.__new__(Smoothness), model.case.start
-    _, chord = curve.first(model)
+def graph(model, value, given=None):
+    """The curve is a graph over its uniform parameter, or over the one with the given shares (Theorem 12)."""
+    curve, start, shares = Smoothness.__new__(Smoothness), model.case.start, None
+    if given is not None:
+        need(isinstance(given, list) and len(given) == len(model.reachable), "graph")
+        shares = {e: [rational(x) for x in row] for e, row in zip(model.reachable, given)}
+        for e, row in shares.items():
+            need(len(row) == len(model.states[e][1]) and all(x > 0 for x in row) and sum(row) == 1, "graph")
+    _, chord = curve.first(model, shares)
     space = curve.differences(1, chord)
-    need(curve.radius(space, value)[1] * curve.n < 1, "graph")
+    need(curve.radius(space, value)[1] * (1 if curve.own else curve.n) < 1, "graph")
     need(curve.agree(1, {e: [curve.limit(1, e, side, space, chord) for side in (False, True)] for e in model.reachable}),
          "graph")
     outside = lambda rows, v: len(echelon(rows + [v])[0]) > len(echelon(rows)[0])

@@ -26,6 +26,8 @@ pub enum Joints {
     Seen,
     /// The joints listed, and every joint whose line before the projection is not killed, a dense set (Theorem 5′).
     NotKilled,
+    /// Every joint whose line is not killed, a dense set, whatever holds at the joints listed (Theorems 5′ and 11′).
+    OnlyNotKilled,
 }
 
 /// A claim; its letters, states and pieces are numbered as in the case.
@@ -223,6 +225,9 @@ impl Display for Claim {
             Self::TangentAtJoints(Joints::NotKilled) => f.write_str(
                 "the curve has a tangent line at the joints listed and at every joint whose line the projection does not kill, \
                  a dense set",
+            ),
+            Self::TangentAtJoints(Joints::OnlyNotKilled) => f.write_str(
+                "the curve has a tangent line at every joint whose line the projection does not kill, a dense set",
             ),
             Self::TangentAt { address, of: Subject::Curve } => {
                 write!(f, "the curve has a tangent line at the parameter {address}")

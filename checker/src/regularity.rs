@@ -1,11 +1,11 @@
 //! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, whole};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, total, whole};
 use crate::claim::Claim;
 use crate::curve::{Case, End, Kind, Model, Piece, Shape, Spaces, Way, close};
 use crate::jsr::{System, bounds};
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 
 /// Most orders of one certificate.
 const MAX_ORDERS: usize = 32;
@@ -16,6 +16,8 @@ struct Level<'a> {
     spaces: &'a Spaces,
     /// `N`, the number of pieces of every state that comes back to itself.
     pieces: usize,
+    /// By state and letter, what pieces take of the parameter, where that is not `1/N`.
+    shares: Option<Vec<Vec<Q>>>,
     /// The order `k`.
     order: usize,
     /// By state: the differences of the derivatives of this order as rows in echelon form.
@@ -29,7 +31,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let [contraction, orders] = node.fields("contraction orders")?;
     let model = Model::read(&case.shape, &contraction)?;
     contraction.at(case.shape.check_curves())?;
-    let mut level = node.at(Level::first(&model))?;
+    let mut level = node.at(Level::uniform(&model))?;
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
     let (mut exponent, mut least) = (None, Q::zero());
@@ -90,11 +92,17 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
 }
 
-/// Theorem 12: the curve is C¹ in the uniform parameter, and a graph over it in its visible quotients and as it is seen.
-pub fn graph(model: &Model<'_>, radius: &Node<'_>) -> Checked<()> {
-    let level = Level::first(model)?.next()?;
+/// Theorem 12: the curve is C¹ in the uniform parameter, or in the one with the given shares, and a graph over it in its visible
+/// quotients and as it is seen.
+pub fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
+    let first = match shares {
+        None => Level::uniform(model)?,
+        Some(node) => Level::first(model, 1, Some(node.at(read_shares(model, node))?))?,
+    };
+    let level = first.next()?;
     let (_, high) = level.radius(radius)?;
-    radius.need(&high * &level.power(1) < Q::one(), "graph", "the radius is not below 1/N")?;
+    let bound = if shares.is_some() { high } else { &high * &level.power(1) };
+    radius.need(bound < Q::one(), "graph", "the radius is not below 1/N, or below 1 where shares are given")?;
     need(level.joined(&level.ends()?)?, "graph", "the derivatives at a joint are not equal")?;
     let outside = |rows: &Matrix, chord: &Matrix| Ok(rows.stack(&chord.transpose()).rank()? > rows.rank()?);
     for &e in &level.shape.reachable {
@@ -107,6 +115,19 @@ pub fn graph(model: &Model<'_>, radius: &Node<'_>) -> Checked<()> {
     let seen = level.families[shape.start].times(&view.transpose())?;
     let seen = outside(&seen, &view.times(&level.chords[shape.start])?)?;
     need(seen, "graph", "the projection of the chord lies among those of the differences of the derivative")
+}
+
+/// Positive shares of the pieces of every reachable state, of sum 1.
+fn read_shares(model: &Model<'_>, node: &Node<'_>) -> Checked<Vec<Vec<Q>>> {
+    let shape = model.shape;
+    let mut all = vec![Vec::new(); shape.states.len()];
+    for (item, &e) in node.exactly(shape.reachable.len(), "graph")?.iter().zip(&shape.reachable) {
+        let shares = item.vector(shape.states[e].pieces.len())?;
+        let whole = shares.iter().all(Signed::is_positive) && total(shares.iter().cloned())? == Q::one();
+        item.need(whole, "graph", "the shares of the pieces of a state are positive and sum to 1")?;
+        all[e] = shares;
+    }
+    Ok(all)
 }
 
 /// The states that can be reached from one, itself among them.
@@ -124,17 +145,23 @@ fn reached(shape: &Shape, from: usize) -> Vec<usize> {
 }
 
 impl<'a> Level<'a> {
-    /// The curve itself: every reachable state is an edge, those that come back to themselves have the same number of pieces, and
-    /// more than a point is seen.
-    fn first(model: &'a Model<'a>) -> Checked<Self> {
-        let (shape, spaces) = (model.shape, &model.spaces);
+    /// The curve itself, where the states that come back to themselves have the same number of pieces.
+    fn uniform(model: &'a Model<'a>) -> Checked<Self> {
+        let shape = model.shape;
         let returning = |e: &&usize| shape.states[**e].pieces.iter().any(|p| reached(shape, p.target).contains(*e));
         let counts: Vec<usize> =
             shape.reachable.iter().filter(returning).map(|&e| shape.states[e].pieces.len()).collect();
-        let edges = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
         let pieces = *some(counts.first(), "orders", "no state comes back to itself")?;
-        let uniform = edges && counts.iter().all(|n| *n == pieces);
+        let uniform = counts.iter().all(|n| *n == pieces);
         need(uniform && pieces >= 2, "orders", "a curve of one number of pieces is needed")?;
+        Self::first(model, pieces, None)
+    }
+
+    /// The curve itself: every reachable state is an edge, and more than a point is seen.
+    fn first(model: &'a Model<'a>, pieces: usize, shares: Option<Vec<Vec<Q>>>) -> Checked<Self> {
+        let (shape, spaces) = (model.shape, &model.spaces);
+        let edges = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
+        need(edges, "orders", "a curve is needed")?;
         let mut families = shape.no_rows();
         let mut chords = shape.no_rows();
         for &e in &shape.reachable {
@@ -144,7 +171,7 @@ impl<'a> Level<'a> {
             chords[e] = space.visible.times(&space.reading.times(&chord)?)?;
         }
         need(families[shape.start].rows > 0, "orders", "the curve is a point")?;
-        Ok(Self { shape, spaces, pieces, order: 0, families, chords })
+        Ok(Self { shape, spaces, pieces, shares, order: 0, families, chords })
     }
 
     /// `N^k`.
@@ -152,11 +179,18 @@ impl<'a> Level<'a> {
         num_traits::pow(whole(self.pieces as i64), k)
     }
 
+    /// `N_e^k`, or `s^-k` for a piece with the share `s`.
+    fn stretch(&self, e: usize, piece: &Piece) -> Checked<Q> {
+        let pieces = &self.shape.states[e].pieces;
+        let Some(shares) = &self.shares else { return Ok(num_traits::pow(whole(pieces.len() as i64), self.order)) };
+        let letter = some(pieces.iter().position(|p| std::ptr::eq(p, piece)), "graph", "a piece of another state")?;
+        Ok(num_traits::pow(shares[e][letter].recip(), self.order))
+    }
+
     /// `(ε N_e)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece of a state.
     fn scaled(&self, e: usize, piece: &Piece) -> Checked<Matrix> {
-        let count = whole(self.shape.states[e].pieces.len() as i64);
-        let step = if piece.reversed { -count } else { count };
-        Ok(self.spaces.on_visible(e, piece)?.scaled(&num_traits::pow(step, self.order)))
+        let one = if piece.reversed && self.order % 2 == 1 { -Q::one() } else { Q::one() };
+        Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.stretch(e, piece)?)))
     }
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
@@ -175,7 +209,9 @@ impl<'a> Level<'a> {
             let matrix = images.columns(&pivots);
             let closed = matrix.times(&self.families[e])? == images;
             need(closed, "orders", "an operator does not act on the differences")?;
-            arrows.push((place(e)?, place(piece.target)?, matrix.transpose()));
+            // With shares it is the scaled operators whose radius is bounded.
+            let stretch = if self.shares.is_some() { self.stretch(e, piece)? } else { Q::one() };
+            arrows.push((place(e)?, place(piece.target)?, matrix.transpose().scaled(&stretch)));
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
         let found = bounds(&System { name: String::new(), dims, arrows }, node)?;

@@ -30,6 +30,7 @@ pub struct ApproxEigenvalue {
 
 /// Why there is no approximate spectrum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum ApproxError {
     /// An entry is outside the range of double precision.
     #[error("an entry of the matrix is outside the range of double precision")]

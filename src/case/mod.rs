@@ -3,6 +3,7 @@
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
 mod asked;
+mod chain;
 mod expect;
 mod faces;
 mod field;
@@ -111,6 +112,8 @@ pub enum Origin {
     Polygon,
     /// The tensor product of two curves.
     Tensor,
+    /// An automaton, some of whose states name a scheme or are chains.
+    States,
     /// The neighbourhood of a vertex of a mesh.
     Mesh {
         /// The rule.
@@ -183,7 +186,7 @@ impl Case {
     /// States that nothing leads to: neither a piece of a state that the start reaches, nor a boundary or reversal of one.
     #[must_use]
     pub fn dangling(&self) -> Vec<usize> {
-        if self.scheme.is_some() {
+        if !matches!(self.scheme, None | Some(Origin::States)) {
             return Vec::new();
         }
         let mut reached = vec![self.shape.start];
@@ -245,11 +248,11 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh or a polygon of several spans, which the checker does not
-    /// build: a certificate is about this text, and it is written beside it.
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
+    /// chains, which the checker does not build: a certificate is about this text, and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon)).then(|| self.expanded())
+        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon | Origin::States)).then(|| self.expanded())
     }
 
     /// A problem of one operator, shown at its matrix in the file.

@@ -157,7 +157,7 @@ fn form(table: &Table<'_>) -> Result<&'static str, Problem> {
 }
 
 /// The parameters of a named scheme: every other key.
-fn parameters(table: &Table<'_>, but: &[&str]) -> Result<BTreeMap<String, Rational>, Problem> {
+pub(super) fn parameters(table: &Table<'_>, but: &[&str]) -> Result<BTreeMap<String, Rational>, Problem> {
     let keys = table.keys().into_iter().filter(|k| !but.contains(&k.as_str()));
     keys.filter_map(|key| table.get(&key).map(|node| Ok((key, node.number()?)))).collect()
 }
@@ -267,7 +267,7 @@ fn mesh(table: &Table<'_>) -> Result<(Complex, Origin), Problem> {
 }
 
 /// What the library refuses, shown at the value of the table that it concerns.
-fn refused(table: &Table<'_>, node: &Node<'_>, error: &SchemeError, known: &[&str]) -> Problem {
+pub(super) fn refused(table: &Table<'_>, node: &Node<'_>, error: &SchemeError, known: &[&str]) -> Problem {
     let at = |key: &str, code: &str, help: &str| {
         let span = table.key_span(key).unwrap_or_else(|| node.span());
         table.file.problem(code, error.to_string(), span, "here").with_help(help)

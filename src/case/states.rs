@@ -1,7 +1,8 @@
+use super::chain;
 use super::faces;
 use super::matrix::{Hole, Operator, Written};
 use super::node::{Node, Table, clipped, suggest};
-use super::{Convention, MAX_COORDINATES, MAX_PIECES, MAX_STATES, Model, Places, StatePlace, Unknown};
+use super::{Convention, MAX_COORDINATES, MAX_PIECES, MAX_STATES, Model, Origin, Places, StatePlace, Unknown};
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
 use crate::shape::{Boundary, CellKind, Complex, Frame, OpName, Piece, Reversal, Shape, State};
@@ -79,6 +80,8 @@ pub(super) struct Draft<'a> {
     pub kind: CellKind,
     pub dim: usize,
     pub pieces: Vec<Table<'a>>,
+    /// The scheme that it names, or the states that it is a chain of.
+    pub built: chain::Built,
 }
 
 /// All states of an automaton, and the entries left open that were met so far.
@@ -125,6 +128,7 @@ pub(super) fn automaton(
         }
         drafts.push(draft);
     }
+    chain::measure(&mut drafts)?;
     let start = match case.get("start") {
         Some(node) => state_index(&node, &drafts)?,
         None if drafts.len() == 1 => 0,
@@ -148,7 +152,8 @@ pub(super) fn automaton(
         complex.shape.states.push(state);
         places.states.push(place);
     }
-    Ok(Model { complex, places, unknown: automaton.unknown, scheme: None })
+    let built = automaton.drafts.iter().any(|d| !matches!(d.built, chain::Built::No));
+    Ok(Model { complex, places, unknown: automaton.unknown, scheme: built.then_some(Origin::States) })
 }
 
 fn draft<'a>(mut table: Table<'a>, default_kind: CellKind, convention: Convention) -> Result<Draft<'a>, Problem> {
@@ -169,6 +174,9 @@ fn draft<'a>(mut table: Table<'a>, default_kind: CellKind, convention: Conventio
         Some(_) => CellKind::Edge,
         None => default_kind,
     };
+    if let Some(built) = chain::read(&table, kind)? {
+        return Ok(Draft { dim: built.dim(), table, name, kind, pieces: Vec::new(), built });
+    }
     if kind == CellKind::Face {
         table.only(&faces::KEYS)?;
     } else {
@@ -205,7 +213,7 @@ fn draft<'a>(mut table: Table<'a>, default_kind: CellKind, convention: Conventio
             if convention == Convention::Rows { written.width() } else { written.height() }
         }
     };
-    Ok(Draft { table, name, kind, dim, pieces })
+    Ok(Draft { table, name, kind, dim, pieces, built: chain::Built::No })
 }
 
 fn matrix_node<'a>(piece: &Table<'a>) -> Result<Node<'a>, Problem> {
@@ -214,7 +222,7 @@ fn matrix_node<'a>(piece: &Table<'a>) -> Result<Node<'a>, Problem> {
     Ok(node)
 }
 
-fn state_index(node: &Node<'_>, drafts: &[Draft<'_>]) -> Result<usize, Problem> {
+pub(super) fn state_index(node: &Node<'_>, drafts: &[Draft<'_>]) -> Result<usize, Problem> {
     let name = node.text()?;
     drafts.iter().position(|d| d.name == name).ok_or_else(|| {
         let names: Vec<&str> = drafts.iter().map(|d| d.name.as_str()).collect();
@@ -227,7 +235,8 @@ impl Automaton<'_> {
     fn finish(&mut self, index: usize) -> Result<(State, StatePlace), Problem> {
         let name_span = self.drafts[index].table.need("name", "\"A\"")?.span();
         let mut place = StatePlace { name: name_span, ..StatePlace::default() };
-        let mut pieces = Vec::new();
+        let mut pieces = chain::pieces(&self.drafts, index);
+        place.pieces = vec![place.name.clone(); pieces.len()];
         for letter in 0..self.drafts[index].pieces.len() {
             let (read, span) = self.piece(index, letter)?;
             pieces.push(read);

@@ -26,7 +26,7 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
                 let (Some(first), Some(second)) = (line(a), line(b)) else {
                     return unsupported("a branch without a line", branch_name(a));
                 };
-                common = algebraic(&[first, second]);
+                common = algebraic(&[first, second], &branch_name(a))?;
             }
             "line"
         }
@@ -56,7 +56,7 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
     }))
 }
 
-fn branch_name(b: &BranchReport) -> String {
+pub fn branch_name(b: &BranchReport) -> String {
     format!("branch {}", b.address)
 }
 
@@ -69,14 +69,16 @@ fn line(b: &BranchReport) -> Option<&Direction> {
 
 /// The coordinates of one line that several directions have in common, as algebraic numbers with the elements of the fields
 /// of the directions that they are.
-fn algebraic(directions: &[&Direction]) -> Value {
+fn algebraic(directions: &[&Direction], place: &str) -> Result<Value, Unsupported> {
     // The first coordinate that is not 0 becomes 1.
     let unit = |d: &&Direction| {
         let d = d.normalised();
-        let lead = d.coords.iter().find(|c| !c.is_zero()).map_or(1, |c| c.sign(&d.root));
-        d.times(lead)
+        match d.coords.iter().find(|c| !c.is_zero()) {
+            Some(lead) => Ok(d.times(lead.sign(&d.root))),
+            None => unsupported("a line without a direction", place),
+        }
     };
-    let normal: Vec<Direction> = directions.iter().map(unit).collect();
+    let normal: Vec<Direction> = directions.iter().map(unit).collect::<Result<_, _>>()?;
     let number = |k: usize| {
         let x = locate(&normal[0].coords[k], &normal[0].root);
         let interval = x.enclosure(100).0;
@@ -86,7 +88,7 @@ fn algebraic(directions: &[&Direction]) -> Value {
             "elements": normal.iter().map(|d| element(&d.coords[k])).collect::<Value>(),
         })
     };
-    (0..normal[0].coords.len()).map(number).collect()
+    Ok((0..normal[0].coords.len()).map(number).collect())
 }
 
 fn eigenvalue(pair: &(usize, usize)) -> Eigenvalue {

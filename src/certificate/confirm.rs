@@ -38,7 +38,7 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
         return Err(Doubt::Differs(accepted.verdict.word()));
     }
     if found.surface.is_none() {
-        same_claims(found, &accepted)?;
+        same_claims(found, &certificate, &accepted)?;
     }
     Ok(certificate)
 }
@@ -46,10 +46,11 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
 /// Whether the checker's claims about curves and sets say of what secant's claims are said: the verdicts are those of the
 /// certificate, which it has compared.
 ///
-/// A certificate has one answer about joints. Where the joints that were examined are not all proved it is about these, and a
-/// dense set of others that is claimed besides has no certificate.
-fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
-    let examined = found.claims.iter().any(|c| c.what == Assertion::ExaminedJoints);
+/// Of the joints that were examined only a refutation is a claim of its own; what is proved of them is in the list of points.
+fn same_claims(found: &Certified, certificate: &Certificate, accepted: &Accepted) -> Result<(), Doubt> {
+    let alone = secant_check::Claim::TangentAtJoints(Joints::OnlyNotKilled);
+    let beside = accepted.claims.iter().any(|d| d.claim == alone);
+    let left_out = certificate.left_out().iter().any(|why| why.place == "joints");
     for claim in found.claims.iter().filter(|c| c.verdict() != Verdict::Undetermined) {
         let expected = match &claim.what {
             Assertion::TangentAt { address, about, .. } => {
@@ -65,13 +66,16 @@ fn same_claims(found: &Certified, accepted: &Accepted) -> Result<(), Doubt> {
             Assertion::ExaminedJoints if claim.verdict() == Verdict::Refuted => {
                 secant_check::Claim::TangentAtJoints(Joints::All)
             }
-            what if what.is_of_joints() && examined => continue,
+            Assertion::ExaminedJoints => continue,
+            what if what.is_of_dense_joints() && left_out => continue,
+            Assertion::UnkilledJoints | Assertion::ProjectedJoints if beside => alone.clone(),
             Assertion::DenseJoints => secant_check::Claim::TangentAtJoints(Joints::All),
             Assertion::SeenJoints => secant_check::Claim::TangentAtJoints(Joints::Seen),
             Assertion::UnkilledJoints | Assertion::ProjectedJoints => {
                 secant_check::Claim::TangentAtJoints(Joints::NotKilled)
             }
-            // The certificate's answers about single points and about all of them carry these.
+            Assertion::SomePoint => secant_check::Claim::TangentSomewhere,
+            // The certificate's answers about single points carry these.
             _ => continue,
         };
         let known = |d: &Decided| d.claim == expected && same_verdict(claim.verdict(), d.verdict);

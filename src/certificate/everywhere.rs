@@ -2,7 +2,7 @@
 
 use super::branch::point;
 use super::top::{elements, top};
-use super::{Unsupported, number, numbers};
+use super::{Unsupported, number, numbers, unsupported};
 use crate::arith::{Integer, Interval, Rational};
 use crate::linalg::Matrix;
 use crate::shape::Shape;
@@ -11,27 +11,45 @@ use crate::theorem::{Certified, EveryJoint, Everywhere, PointReport, Role, SlowC
 use serde_json::{Value, json};
 
 /// The answer to "every point", where there is something to prove; `position` says where a point stands in the certificate.
-pub fn answer(shape: &Shape, found: &Certified, position: impl Fn(&PointReport) -> Option<usize>) -> Option<Value> {
-    let every = found.everywhere.as_ref()?;
-    let witness: Vec<usize> = every.witness.and_then(|k| position(&found.points[k])).into_iter().collect();
-    // The format has no rule for derivatives of polynomial curves.
-    let left_out = every.witness.is_some() || every.hodograph.is_some();
-    if left_out && witness.is_empty() {
-        return None;
+///
+/// # Errors
+/// [`Unsupported`] where the format cannot express what was found. It is no question of the case, so that the certificate of the
+/// others stands.
+pub fn answer(
+    shape: &Shape,
+    found: &Certified,
+    position: impl Fn(&PointReport) -> Result<usize, Unsupported>,
+) -> Result<Option<Value>, Unsupported> {
+    let Some(every) = &found.everywhere else { return Ok(None) };
+    let witness = match every.witness {
+        Some(k) => vec![position(&found.points[k])?],
+        None => Vec::new(),
+    };
+    if every.hodograph.is_some() && witness.is_empty() {
+        return unsupported("zeros of the derivative of a polynomial curve", "every point");
+    }
+    if every.components.is_some() {
+        return unsupported("components of the curve, one after the other", "every point");
     }
     if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
-        // What has no certificate is left out: it is no claim of the case.
-        let radius = super::regularity::order(order).ok()?["radius"].take();
-        return Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}));
+        let radius = super::regularity::order(order)?["radius"].take();
+        return Ok(Some(match &order.shares {
+            None => json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius}),
+            Some(shares) => {
+                let shares: Value = shares.iter().map(|s| numbers(s)).collect();
+                json!({"question": "every point by its derivative in shares", "verdict": "proved", "shares": shares,
+                       "radius": radius})
+            }
+        }));
     }
     match &every.cone {
-        // What the format cannot express is left out: it is no claim of the case.
-        Some(cone) => with_cone(shape, found, every, cone, &witness, &position).ok(),
-        None if !witness.is_empty() => Some(json!({
+        Some(cone) => with_cone(shape, found, every, cone, &witness, &position).map(Some),
+        None if !witness.is_empty() => Ok(Some(json!({
             "question": "every point", "verdict": "refuted", "cones": [], "maps": [], "view": null, "window": 0,
             "slow": [], "rate": null, "joints": [], "witness": witness,
-        })),
-        None => None,
+        }))),
+        None if every.verdict == Verdict::Undetermined => Ok(None),
+        None => unsupported("this evidence", "every point"),
     }
 }
 
@@ -45,13 +63,16 @@ fn with_cone(
     every: &Everywhere,
     cone: &CommonCone,
     witness: &[usize],
-    position: &dyn Fn(&PointReport) -> Option<usize>,
+    position: &dyn Fn(&PointReport) -> Result<usize, Unsupported>,
 ) -> Result<Value, Unsupported> {
     let states = shape.reachable();
     let own = |e: usize| cone.cones.iter().find(|c| c.state == e);
-    let cones = states.iter().filter_map(|&e| own(e)).map(|c| {
-        json!({"rays": matrix(&c.rays.transpose()), "functional": numbers(&c.functional), "chord": numbers(&c.chord)})
-    });
+    let mut cones = Vec::new();
+    for &e in &states {
+        let Some(c) = own(e) else { return unsupported("a state without a cone", shape.states[e].name.clone()) };
+        let rays = matrix(&c.rays.transpose());
+        cones.push(json!({"rays": rays, "functional": numbers(&c.functional), "chord": numbers(&c.chord)}));
+    }
     let maps = states.iter().map(|&e| {
         let images = cone.maps.iter().filter(|m| m.state == e);
         images.map(|m| matrix(&m.matrix)).collect::<Value>()
@@ -65,10 +86,12 @@ fn with_cone(
     if every.verdict == Verdict::Proved {
         for joint in &every.joints {
             let report = joint.report(found);
-            let Role::Joint { state, left, right, .. } = &report.role else { continue };
+            let Role::Joint { state, left, right, .. } = &report.role else {
+                return unsupported("a point that is no joint", "every point");
+            };
             let place = json!({"at": "joint", "path": [], "left": left, "right": right});
             joints.push(match joint {
-                EveryJoint::Listed(_) => json!({"state": state, "listed": position(report)}),
+                EveryJoint::Listed(_) => json!({"state": state, "listed": position(report)?}),
                 EveryJoint::Own(_) => json!({"state": state, "point": point(shape, report, &place)?}),
             });
         }
@@ -77,7 +100,7 @@ fn with_cone(
     Ok(json!({
         "question": "every point",
         "verdict": every.verdict.word(),
-        "cones": cones.collect::<Value>(),
+        "cones": cones,
         "maps": maps.collect::<Value>(),
         "view": seen.map(numbers),
         "window": cone.window,

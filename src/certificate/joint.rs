@@ -48,6 +48,9 @@ pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value
         upper = upper.max(bound.clone());
         blocks.push(json!({"dims": dims, "bound": number(&bound), "norm": norm}));
     }
+    if proofs.next().is_some() {
+        return unsupported("a proof without a block", "blocks");
+    }
     Ok(json!({"lower": lower, "upper": number(&upper), "bases": bases, "blocks": blocks}))
 }
 

@@ -38,6 +38,7 @@ pub use spectrum::{Operator, spectra};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Certificate {
     json: Value,
+    left_out: Vec<Unsupported>,
 }
 
 /// Why there is no certificate: something in the verdict has no rule in the format.
@@ -66,7 +67,20 @@ impl Certificate {
             "verdict": verdict,
             "proof": proof,
         });
-        Self { json }
+        Self { json, left_out: Vec::new() }
+    }
+
+    /// The same certificate, of which is said that something that was found is not in it.
+    #[must_use]
+    pub fn without(mut self, left_out: impl IntoIterator<Item = Unsupported>) -> Self {
+        self.left_out.extend(left_out);
+        self
+    }
+
+    /// What was found besides and could not be written: it is proved once only.
+    #[must_use]
+    pub fn left_out(&self) -> &[Unsupported] {
+        &self.left_out
     }
 
     /// The certificate as JSON.
@@ -129,9 +143,10 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     for point in &found.points {
         points.add(point)?;
     }
-    let answers = answers(case, found, &points)?;
+    let mut left_out = Vec::new();
+    let answers = answers(case, found, &points, &mut left_out)?;
     let proof = json!({"contraction": states, "points": points.json, "answers": answers});
-    Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof))
+    Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof).without(left_out))
 }
 
 /// Why a system contracts, and what encloses its attractors, by reachable state.
@@ -204,28 +219,42 @@ impl Points<'_> {
         Ok(())
     }
 
+    /// The index of a decided point.
+    fn index(&self, point: &PointReport) -> Result<usize, Unsupported> {
+        let place = place_json(point);
+        match self.places.iter().position(|p| *p == place) {
+            Some(index) => Ok(index),
+            None => unsupported("a point that is not decided", branch::branch_name(&point.branches[0])),
+        }
+    }
+
     /// The indices of the decided points among those for which `wanted` holds.
-    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Vec<usize> {
-        let places = found.points.iter().filter(|p| wanted(p)).map(place_json);
-        let mut indices: Vec<usize> = places.filter_map(|place| self.places.iter().position(|p| *p == place)).collect();
+    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Result<Vec<usize>, Unsupported> {
+        let decided = found.points.iter().filter(|p| wanted(p) && p.verdict != Verdict::Undetermined);
+        let mut indices = decided.map(|p| self.index(p)).collect::<Result<Vec<_>, _>>()?;
         indices.sort_unstable();
         indices.dedup();
-        indices
+        Ok(indices)
     }
 }
 
-/// The answers to the questions of the case, in their order.
-fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Value>, Unsupported> {
+/// The answers to the questions of the case, in their order; what is no question of the case and has no rule is left out, and
+/// named.
+fn answers(
+    case: &Case,
+    found: &Certified,
+    points: &Points<'_>,
+    left_out: &mut Vec<Unsupported>,
+) -> Result<Vec<Value>, Unsupported> {
     let shape = &case.shape;
     let curve = shape.states[shape.start].kind == CellKind::Edge;
     let mut answers = Vec::new();
     if curve {
-        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd));
-        let verdict = found
-            .claims
-            .iter()
-            .find(|c| c.what == Assertion::TangentAtEnds)
-            .map_or(Verdict::Undetermined, Claim::verdict);
+        let ends = points.indices(found, |p| matches!(p.role, Role::LeftEnd | Role::RightEnd))?;
+        let verdict = match found.claims.iter().find(|c| c.what == Assertion::TangentAtEnds) {
+            Some(claim) => claim.verdict(),
+            None => Verdict::Undetermined,
+        };
         answers.push(json!({"question": "ends", "verdict": verdict.word(), "points": ends}));
         answers.push(joints(case, found, points)?);
     }
@@ -249,17 +278,24 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
         }
     }
     for address in &asked {
-        let claim = claims.iter().find(|(_, (a, _))| *a == address);
-        let (verdict, place) = match claim {
-            Some((verdict, (_, k))) => (*verdict, k.and_then(|k| found.points.get(k)).map(place_json)),
+        let (verdict, point) = match claims.iter().find(|(_, (a, _))| *a == address) {
+            Some((verdict, (_, k))) => (*verdict, k.map(|k| &found.points[k])),
             None => (Verdict::Undetermined, None),
         };
-        let index: Vec<usize> = points.places.iter().position(|p| Some(p) == place.as_ref()).into_iter().collect();
+        let index = match point.filter(|p| p.verdict != Verdict::Undetermined) {
+            Some(point) => vec![points.index(point)?],
+            None if verdict == Verdict::Undetermined => Vec::new(),
+            None => return unsupported("an answer without a decided point", address.to_string()),
+        };
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
-    let place_of = |point: &PointReport| points.places.iter().position(|p| *p == place_json(point));
-    answers.extend(everywhere::answer(shape, found, place_of));
+    for further in [not_killed(case, found), everywhere::answer(shape, found, |point| points.index(point))] {
+        match further {
+            Ok(answer) => answers.extend(answer),
+            Err(why) => left_out.push(why),
+        }
+    }
     if let Some(similarities) = &found.similarities {
         let gram = &similarities.gram;
         let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();
@@ -268,38 +304,23 @@ fn answers(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Vec<Va
     Ok(answers)
 }
 
-fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
-    let claims: Vec<&Claim> = found.claims.iter().filter(|c| c.what.is_of_joints()).collect();
-    let mut verdict = Verdict::all(claims.len(), claims.iter().map(|c| c.verdict()));
-    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }));
-    let mut upstairs = json!([]);
-    let by_frames = found.dense_claim().and_then(Claim::statement).filter(|s| s.uses_frames());
-    let theorem = match (verdict, found.dense_claim().map(|c| &c.what)) {
-        (Verdict::Proved, Some(what)) if by_frames.is_some() => {
-            let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
-                return unsupported("frames that are not there", "joints");
-            };
-            upstairs = frames::frames(&case.shape, frames)?;
-            if *what == Assertion::UnkilledJoints { "11'" } else { "11" }
-        }
-        (Verdict::Proved, Some(Assertion::DenseJoints)) => "5",
-        (Verdict::Proved, Some(Assertion::ProjectedJoints)) => {
-            let mut joints = Vec::new();
-            for point in found.dense.iter().flat_map(|d| &d.upstairs) {
-                let Role::Joint { state, left, right, .. } = &point.role else { continue };
-                let place = json!({"at": "joint", "path": [], "left": left, "right": right});
-                let point = branch::point(&case.shape, point, &place)?;
-                joints.push(json!({"state": state, "point": point}));
-            }
-            upstairs = Value::Array(joints);
-            "5'"
-        }
-        (Verdict::Proved, _) => return unsupported("this theorem", "joints"),
-        _ => "none",
-    };
-    if found.points.iter().any(|p| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted) {
-        verdict = Verdict::Refuted;
+/// The verdict on the joints: of those examined, and of a dense set where that is claimed.
+fn joints_verdict(found: &Certified) -> Verdict {
+    let refuted = |p: &PointReport| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted;
+    if found.points.iter().any(refuted) {
+        return Verdict::Refuted;
     }
+    let claims: Vec<Verdict> = found.claims.iter().filter(|c| c.what.is_of_joints()).map(Claim::verdict).collect();
+    Verdict::all(claims.len(), claims)
+}
+
+fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
+    let verdict = joints_verdict(found);
+    let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }))?;
+    let (theorem, upstairs) = match verdict {
+        Verdict::Proved => dense(case, found)?,
+        _ => ("none", json!([])),
+    };
     Ok(json!({
         "question": "joints",
         "verdict": verdict.word(),
@@ -307,4 +328,49 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
         "points": listed,
         "upstairs": upstairs,
     }))
+}
+
+/// The theorem on a dense set of joints, with what it needs of joints seen from their own states.
+fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupported> {
+    let Some(claim) = found.dense_claim() else { return unsupported("this theorem", "joints") };
+    if claim.statement().is_some_and(|s| s.uses_frames()) {
+        let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
+            return unsupported("frames that are not there", "joints");
+        };
+        let theorem = if claim.what == Assertion::UnkilledJoints { "11'" } else { "11" };
+        return Ok((theorem, frames::frames(&case.shape, frames)?));
+    }
+    match claim.what {
+        Assertion::DenseJoints => Ok(("5", json!([]))),
+        Assertion::ProjectedJoints => {
+            let mut joints = Vec::new();
+            for point in found.dense.iter().flat_map(|d| &d.upstairs) {
+                let Role::Joint { state, left, right, .. } = &point.role else {
+                    return unsupported("a point that is no joint", "joints");
+                };
+                let place = json!({"at": "joint", "path": [], "left": left, "right": right});
+                let point = branch::point(&case.shape, point, &place)?;
+                joints.push(json!({"state": state, "point": point}));
+            }
+            Ok(("5'", Value::Array(joints)))
+        }
+        _ => unsupported("this theorem", "joints"),
+    }
+}
+
+/// Theorem 5′ or 11′ beside joints that are not all proved.
+fn not_killed(case: &Case, found: &Certified) -> Result<Option<Value>, Unsupported> {
+    let proved = found.dense_claim().is_some_and(|c| c.verdict() == Verdict::Proved);
+    if !proved || joints_verdict(found) == Verdict::Proved {
+        return Ok(None);
+    }
+    match dense(case, found)? {
+        (theorem @ ("5'" | "11'"), upstairs) => Ok(Some(json!({
+            "question": "joints not killed",
+            "verdict": "proved",
+            "theorem": theorem,
+            "upstairs": upstairs,
+        }))),
+        _ => unsupported("this theorem beside joints that are not all proved", "joints"),
+    }
 }

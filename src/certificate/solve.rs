@@ -1,7 +1,6 @@
 //! Certificates of the solutions of cases with unknown entries.
 
 use super::{Certificate, Unsupported, number, unsupported};
-use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{OpName, Problem, Solution, Source};
@@ -42,9 +41,12 @@ pub fn solve_certificate(case: &Case, problem: &Problem, solution: &Solution) ->
             places.push(*place);
         }
     }
-    let values = |of: &dyn Fn(OpName) -> Option<Matrix>| -> Value {
-        let value = |(op, i, j): &(OpName, usize, usize)| of(*op).map_or(Rational::from(0), |m| m[(*i, *j)].clone());
-        places.iter().map(|place| number(&value(place))).collect()
+    let values = |of: &dyn Fn(OpName) -> Option<Matrix>| -> Result<Value, Unsupported> {
+        let value = |(op, i, j): &(OpName, usize, usize)| match of(*op) {
+            Some(m) => Ok(number(&m[(*i, *j)])),
+            None => unsupported("an operator without a solution", format!("{op:?}")),
+        };
+        places.iter().map(value).collect()
     };
     let (kind, verdict, point, directions, conflict): (_, _, Value, Vec<Value>, Vec<usize>) = match solution {
         Solution::None(sources) => {
@@ -63,11 +65,11 @@ pub fn solve_certificate(case: &Case, problem: &Problem, solution: &Solution) ->
             conflict.sort_unstable();
             ("none", "refuted", Value::Null, Vec::new(), conflict)
         }
-        Solution::One(solved) => ("one", "proved", values(&|op| solved.operator(op).cloned()), Vec::new(), Vec::new()),
+        Solution::One(solved) => ("one", "proved", values(&|op| solved.operator(op).cloned())?, Vec::new(), Vec::new()),
         Solution::Family(family) => {
             let along = |k: usize| values(&|op| family.derivatives(op).into_iter().nth(k));
-            let directions = (0..family.parameters.len()).map(along).collect();
-            ("family", "proved", values(&|op| family.origin.operator(op).cloned()), directions, Vec::new())
+            let directions = (0..family.parameters.len()).map(along).collect::<Result<_, _>>()?;
+            ("family", "proved", values(&|op| family.origin.operator(op).cloned())?, directions, Vec::new())
         }
     };
     let proof = json!({"solutions": kind, "values": point, "directions": directions, "conflict": conflict});

@@ -49,7 +49,7 @@ fn of_operator(operator: &Operator<'_>) -> Result<Value, Unsupported> {
         Some((state, piece)) => json!({"state": state, "piece": piece}),
         None => Value::Null,
     };
-    let bits = precision(spectrum);
+    let bits = precision(spectrum)?;
     let mut factors = Vec::new();
     let mut position = Vec::new();
     for (k, factor) in spectrum.factors.iter().enumerate() {
@@ -64,16 +64,16 @@ fn of_operator(operator: &Operator<'_>) -> Result<Value, Unsupported> {
         let members = position.iter().enumerate().filter(|(_, e)| class.members.contains(e));
         let (indices, members): (Vec<usize>, Vec<Eigenvalue>) = members.map(|(i, e)| (i, *e)).unzip();
         let below = match spectrum.classes.get(k + 1) {
-            Some(next) => number(&between(spectrum.root(class.members[0]), spectrum.root(next.members[0]))),
+            Some(next) => number(&between(spectrum.root(class.members[0]), spectrum.root(next.members[0]))?),
             None => Value::Null,
         };
         classes.push(json!({"members": indices, "square": square(spectrum, &members)?, "below": below}));
     }
-    Ok(json!({"operator": place, "factors": factors, "modulus": modulus(spectrum), "classes": classes}))
+    Ok(json!({"operator": place, "factors": factors, "modulus": modulus(spectrum)?, "classes": classes}))
 }
 
 /// How fine the discs must be: finer than a part of the distance of any two roots, and of any two moduli.
-fn precision(spectrum: &Spectrum) -> u64 {
+fn precision(spectrum: &Spectrum) -> Result<u64, Unsupported> {
     let roots: Vec<&Root> = spectrum.factors.iter().flat_map(|f| &f.roots).collect();
     let mut bits = 64;
     let apart = |bits: u64| {
@@ -86,10 +86,13 @@ fn precision(spectrum: &Spectrum) -> u64 {
         let lo = |e: &Eigenvalue| spectrum.root(*e).modulus(bits / 2);
         pairs.into_iter().all(|w| lo(&w[0].members[0]).lo > lo(&w[1].members[0]).hi)
     };
-    while bits < MAX_BITS && !(apart(bits) && moduli(bits)) {
+    while !(apart(bits) && moduli(bits)) {
+        if bits >= MAX_BITS {
+            return unsupported("eigenvalues this close", format!("{MAX_BITS} bits"));
+        }
         bits *= 2;
     }
-    2 * bits
+    Ok(2 * bits)
 }
 
 /// A disc around a short centre near the root.
@@ -105,12 +108,15 @@ fn disc(root: &Root, bits: u64) -> Value {
 }
 
 /// A short rational between two moduli.
-fn between(upper: &Root, lower: &Root) -> Rational {
+fn between(upper: &Root, lower: &Root) -> Result<Rational, Unsupported> {
     let mut bits = 32;
     loop {
         let (hi, lo) = (upper.modulus(bits).lo, lower.modulus(bits).hi);
-        if lo < hi || bits > MAX_BITS {
-            return (hi + lo) / Rational::from(2);
+        if lo < hi {
+            return Ok((hi + lo) / Rational::from(2));
+        }
+        if bits > MAX_BITS {
+            return unsupported("moduli this close", format!("{MAX_BITS} bits"));
         }
         bits *= 2;
     }
@@ -160,7 +166,7 @@ fn square(spectrum: &Spectrum, members: &[Eigenvalue]) -> Result<Value, Unsuppor
 }
 
 /// A prime at which the determinant of the chains does not vanish.
-fn modulus(spectrum: &Spectrum) -> u64 {
+fn modulus(spectrum: &Spectrum) -> Result<u64, Unsupported> {
     let mut rows: Vec<Vec<Rational>> = Vec::new();
     for factor in &spectrum.factors {
         let degree = degree_of(&factor.poly);
@@ -168,8 +174,10 @@ fn modulus(spectrum: &Spectrum) -> u64 {
             rows.extend((0..degree).map(|k| v.iter().map(|e| e.0.coeff(k)).collect()));
         }
     }
-    let mut primes = primes_above(FIRST_PRIME).take(64);
-    primes.find(|&p| is_regular(&rows, &PrimeField::new(p))).map_or(FIRST_PRIME, |p| p)
+    match primes_above(FIRST_PRIME).take(64).find(|&p| is_regular(&rows, &PrimeField::new(p))) {
+        Some(prime) => Ok(prime),
+        None => unsupported("chains that are dependent at all primes tried", "modulus"),
+    }
 }
 
 fn is_regular(rows: &[Vec<Rational>], field: &PrimeField) -> bool {

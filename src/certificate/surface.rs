@@ -42,7 +42,8 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
         if found.polygons.is_some() {
             return unsupported("two kinds of enclosures", "contraction");
         }
-        states.as_array_mut().into_iter().flatten().for_each(|state| state["hull"] = json!("simplex"));
+        let Some(list) = states.as_array_mut() else { return unsupported("a system without states", "contraction") };
+        list.iter_mut().for_each(|state| state["hull"] = json!("simplex"));
     }
     let parameters = surface.points.first().is_some_and(|p| p.parameter.is_some());
     if surface.points.iter().any(|p| parameters && p.spot == Spot::Branch) {
@@ -69,7 +70,11 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     if parameters && surface.dense.is_none() {
         return unsupported("a patch without vertices inside", "dense");
     }
-    let own: Vec<Address> = case.examine.iter().filter_map(|a| a.normalise(shape, shape.start).ok()).collect();
+    let own = case.examine.iter().map(|a| match a.normalise(shape, shape.start) {
+        Ok(address) => Ok(address),
+        Err(error) => unsupported(error.to_string(), "examine"),
+    });
+    let own: Vec<Address> = own.collect::<Result<_, _>>()?;
     let pieces = &shape.states[shape.start].pieces;
     let fixed = |a: &Address| {
         !parameters && a.prefix.is_empty() && a.cycle.len() == 1 && pieces[a.cycle[0]].target == shape.start

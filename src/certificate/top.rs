@@ -33,7 +33,7 @@ pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) 
     }
     let one_block = |m: &Eigenvalue| spectrum.factor(*m).blocks.len() == 1;
     if members.len() == 2 && members.iter().all(one_block) && !spectrum.root(members[0]).is_real() {
-        return Ok(pair(spectrum, &radius));
+        return pair(spectrum, &radius, place);
     }
     match conformal(linear, spectrum, &radius) {
         Some(value) => Ok(value),
@@ -71,24 +71,26 @@ pub fn mirrored(v: &[Elem], same: bool) -> Vec<Elem> {
     v.iter().map(|e| if same { e.clone() } else { flip(e) }).collect()
 }
 
-fn pair(spectrum: &Spectrum, radius: &Rational) -> Value {
+fn pair(spectrum: &Spectrum, radius: &Rational, place: &str) -> Result<Value, Unsupported> {
     let members = &spectrum.classes[0].members;
     let upper = |root: &&Root| root.enclosure(64).1.lo > 0;
     let roots = [spectrum.root(members[0]), spectrum.root(members[1])];
-    let root = roots.into_iter().find(upper).map_or(roots[0], |root| root);
+    let Some(root) = roots.into_iter().find(upper) else {
+        return unsupported("a pair none of whose roots is seen above the real axis", place);
+    };
     let vectors: Value =
         spectrum.factor(members[0]).right.iter().flat_map(|c| &c.vectors).map(|v| elements(v)).collect();
     let (re, im) = root.enclosure(200);
     let centre = |x: &Interval| number(&Interval::point(x.mid()).outward(200).lo);
     let error = Rational::from(1) / Rational::from(Integer::from(1) << 120u64);
-    json!({
+    Ok(json!({
         "top": "pair",
         "radius": number(radius),
         "polynomial": numbers(root.minpoly().coeffs()),
         "centre": [centre(&re), centre(&im)],
         "error": number(&error),
         "vectors": vectors,
-    })
+    }))
 }
 
 /// A rational invariant space with a scalar product that `L` stretches, where all eigenvalues are semisimple and the square

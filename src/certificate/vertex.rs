@@ -1,7 +1,7 @@
 //! Certificates of a scheme at the vertices of a mesh.
 
 use super::confirm::{accepted, same_verdict};
-use super::{Certificate, Doubt, number};
+use super::{Certificate, Doubt, Unsupported, number, unsupported};
 use crate::algebraic::sqrt_down;
 use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};
@@ -58,7 +58,7 @@ fn unity(k: usize, n: usize) -> Complex {
 }
 
 /// The values on the first two rings, in the order of the format, without their constant part in block 0.
-fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Vec<Complex> {
+fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
     let inside = |&(i, j): &(usize, usize)| match (case.rule.dual(), case.rule.sector()) {
         (true, _) => i < 2 && j < 2,
         (false, Sector::Quads) => i > 0,
@@ -67,13 +67,20 @@ fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Vec<Complex> {
     let turn = unity(vector.frequency, n);
     let value = |(x, y): &Complex| (x + y * &turn.0, y * &turn.1);
     let places = (0..=2).flat_map(|i| (0..=2).map(move |j| (i, j))).filter(inside);
-    let known = places.filter_map(|place| vector.points.iter().find(|(p, _)| *p == place));
-    let mut all: Vec<Complex> = known.map(|(_, v)| value(v)).collect();
+    let known = places.map(|place| match vector.points.iter().find(|(p, _)| *p == place) {
+        Some((_, v)) => Ok(value(v)),
+        None => unsupported(format!("an eigenvector without a value at {place:?}"), valence(n)),
+    });
+    let mut all: Vec<Complex> = known.collect::<Result<_, _>>()?;
     if vector.frequency == 0 {
         let own = if case.rule.dual() { all.remove(0) } else { value(&vector.centre) };
         all.iter_mut().for_each(|v| *v = (&v.0 - &own.0, &v.1 - &own.1));
     }
-    all
+    Ok(all)
+}
+
+fn valence(n: usize) -> String {
+    format!("valence {n}")
 }
 
 /// Whether the leading eigenvalue is so far from all others that the checker sees it in some forty squarings.
@@ -82,13 +89,20 @@ fn apart(top: &Top) -> bool {
     (&size - &top.others) << 24 > size
 }
 
-/// The evidence for one valence; `None` where the format has no rule for it.
-fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
-    let (n, top) = (found.valence, found.top.as_ref()?);
-    let (ground, vector) = (found.ground?, found.eigenvector.as_ref()?);
-    let simple = matches!(top.members.as_slice(), [only] if only.blocks == [1]);
-    if !simple || !found.polynomial || !apart(top) {
-        return None;
+/// The evidence for one valence.
+fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> {
+    let n = found.valence;
+    let (Some(top), Some(ground), Some(vector)) = (&found.top, found.ground, &found.eigenvector) else {
+        return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
+    };
+    if !matches!(top.members.as_slice(), [only] if only.blocks == [1]) {
+        return unsupported("leading eigenvalues in several blocks, or with Jordan blocks", valence(n));
+    }
+    if !found.polynomial {
+        return unsupported("a ring without polynomial patches", valence(n));
+    }
+    if !apart(top) {
+        return unsupported("eigenvalues this close", valence(n));
     }
     let rule = match ground {
         Ground::Regular => "theorem-7",
@@ -96,10 +110,12 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
         Ground::Fold => "theorem-8-fold",
         Ground::Line => "theorem-2",
         Ground::Path => "theorem-8-path",
-        Ground::Sectors | Ground::Span | Ground::NoLimit => return None,
+        Ground::Sectors | Ground::Span | Ground::NoLimit => return unsupported("this evidence", valence(n)),
     };
-    let values = values(case, vector, n);
-    let largest = values.iter().max_by_key(|v| square(v))?;
+    let values = values(case, vector, n)?;
+    let Some(largest) = values.iter().max_by_key(|v| square(v)).filter(|v| square(v) > 0) else {
+        return unsupported("an eigenvector that is 0", valence(n));
+    };
     let inverse = scaled(&conjugate(largest), &(Rational::from(1) / square(largest)));
     let half_plane = found.half_plane.as_ref().map(|(a, b)| {
         // a x + b y = Re(conj(h) (x + yω)); the vector is divided by its largest entry.
@@ -109,7 +125,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Option<Value> {
         let unit = Rational::from(1) / sqrt_down(&size, SHORT).max(Rational::from(1) >> SHORT);
         written(&scaled(&h, &unit), SHORT)
     });
-    Some(json!({
+    Ok(json!({
         "valence": n,
         "rule": rule,
         "frequency": vector.frequency,
@@ -127,43 +143,54 @@ struct Covered {
     verdict: Verdict,
 }
 
-fn covered(case: &VertexCase, found: &[AtValence]) -> Option<Covered> {
-    let (mut claims, mut valences) = (Vec::new(), Vec::new());
+fn covered(case: &VertexCase, found: &[AtValence]) -> Result<Covered, Unsupported> {
+    if !case.declared {
+        return unsupported("vertices without a [vertex] table", case.name.clone());
+    }
+    let (mut claims, mut valences, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     for f in found {
-        // A valence without a rule is not claimed to be proved again.
-        if let Some(evidence) = evidence(case, f) {
-            claims.push((f.valence, f.smooth));
-            valences.push(evidence);
+        let decided = f.smooth != Verdict::Undetermined || f.plane != Verdict::Undetermined;
+        match evidence(case, f) {
+            Ok(evidence) => {
+                claims.push((f.valence, f.smooth));
+                valences.push(evidence);
+            }
+            Err(why) if decided => left_out.push(why),
+            Err(_) => {}
         }
     }
-    if claims.is_empty() || !case.declared {
-        return None;
+    if claims.is_empty() {
+        return match left_out.into_iter().next() {
+            Some(why) => Err(why),
+            None => unsupported("vertices at which nothing is decided", case.name.clone()),
+        };
     }
     let verdict = together(case, &claims);
     let certificate = Certificate::new("vertex", &case.name, verdict.word(), json!({ "valences": valences }));
-    Some(Covered { certificate, listed: claims.into_iter().map(|(n, _)| n).collect(), verdict })
+    let certificate = certificate.without(left_out);
+    Ok(Covered { certificate, listed: claims.into_iter().map(|(n, _)| n).collect(), verdict })
 }
 
-/// The certificate of the valences for which the format has a rule; `None` where there is none of them.
-#[must_use]
-pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Option<Certificate> {
+/// The certificate of the valences for which the format has a rule; the others are left out.
+///
+/// # Errors
+/// [`Unsupported`] where there is none of them.
+pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Result<Certificate, Unsupported> {
     covered(case, found).map(|c| c.certificate)
 }
 
 /// Has the verdicts at the valences for which the format has a rule checked by `secant-check`, and marks them as checked.
 ///
 /// # Errors
-/// [`Doubt`] where the checker does not accept the certificate, or comes to other verdicts.
+/// [`Doubt::Unsupported`] where the format has a rule for none of them; the other doubts where the checker does not accept the
+/// certificate, or comes to other verdicts.
 ///
 /// # Cost
 /// That of [`secant_check::check`].
-pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Option<Certificate>, Doubt> {
+pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Certificate, Doubt> {
     found.iter_mut().for_each(|f| f.again = Again::NoRule);
-    let Some(Covered { certificate, listed, verdict }) = covered(case, found) else { return Ok(None) };
-    let accepted = match accepted(&case.text.text, &certificate) {
-        Err(Doubt::Unsupported(_)) => return Ok(None),
-        answer => answer?,
-    };
+    let Covered { certificate, listed, verdict } = covered(case, found)?;
+    let accepted = accepted(&case.text.text, &certificate)?;
     // Both claims about each valence that the certificate lists, in its order, and nothing else.
     let mut claims = accepted.claims.iter();
     let mut said = |claim: Claim, verdict: Verdict| {
@@ -179,7 +206,7 @@ pub fn confirm_vertices(case: &VertexCase, found: &mut [AtValence]) -> Result<Op
     if claims.next().is_some() || !same_verdict(verdict, accepted.verdict) {
         return Err(Doubt::Differs(accepted.verdict.word()));
     }
-    Ok(Some(certificate))
+    Ok(certificate)
 }
 
 /// The verdict of the certificate: about the valences that the case names, or about all where it names none.

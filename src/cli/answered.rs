@@ -156,7 +156,11 @@ impl Answered {
             Some(Ok(_)) if !self.once.is_empty() => Some(format!("{ONCE} {}", listed(&self.once))),
             Some(Ok(_)) => Some("some of the verdicts have no rule in the certificate format".to_owned()),
         };
-        report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why});
+        let left_out: Vec<String> = match &self.evidence {
+            Some(Ok(certificate)) => certificate.left_out().iter().map(ToString::to_string).collect(),
+            _ => Vec::new(),
+        };
+        report["certificate"] = serde_json::json!({"checked": why.is_none(), "why": why, "left_out": left_out});
         report
     }
 

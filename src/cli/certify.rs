@@ -89,10 +89,16 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 /// Says so where the verdict was not proved again, or a state plays no part.
 fn note(answered: &Answered) {
     let Findings::Tangents { case, .. } = &answered.findings else { return };
-    if let Some(Err(unsupported)) = &answered.evidence {
-        note_unconfirmed(&unsupported.to_string());
-    } else if !answered.once.is_empty() {
-        note_unconfirmed(&format!("{ONCE} {}", listed(&answered.once)));
+    let mut why = match &answered.evidence {
+        Some(Err(unsupported)) => vec![unsupported.to_string()],
+        Some(Ok(certificate)) => certificate.left_out().iter().map(ToString::to_string).collect(),
+        None => Vec::new(),
+    };
+    if !answered.once.is_empty() {
+        why.insert(0, format!("{ONCE} {}", listed(&answered.once)));
+    }
+    if !why.is_empty() {
+        note_unconfirmed(&why.join("; "));
     }
     note_dangling(case);
 }
@@ -136,12 +142,26 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
             return Err(mistaken(option, path, other));
         }
     }
-    let known = |path: &Path| matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex");
-    if let Some(path) = args.report.as_deref().filter(|p| !known(p)) {
-        return Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
-            .with_help("the ending of --report says the format: .html, .md or .tex"));
+    args.report.as_deref().map_or(Ok(()), known_format)
+}
+
+/// Refuses a report whose ending names no format.
+pub(super) fn known_format(path: &Path) -> Result<(), Problem> {
+    if matches!(extension(path).as_str(), "md" | "html" | "htm" | "tex") {
+        return Ok(());
     }
-    Ok(())
+    Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
+        .with_help("the ending of --report says the format: .html, .md or .tex"))
+}
+
+/// A proof in the format that the ending of the path names.
+pub(super) fn rendered(path: &Path, of: &Findings, level: Level) -> String {
+    let document = findings::proof_at(of, level);
+    match extension(path).as_str() {
+        "md" => markdown::render(&document),
+        "tex" => latex::render(&document),
+        _ => html::render(&document),
+    }
 }
 
 /// An option of one format with a file of another.
@@ -162,12 +182,7 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
             ReportLevel::Proof => Level::Proof,
             ReportLevel::Full => Level::Full,
         };
-        let document = findings::proof_at(&answered.findings, level);
-        let written = match extension(path).as_str() {
-            "md" => markdown::render(&document),
-            "tex" => latex::render(&document),
-            _ => html::render(&document),
-        };
+        let written = rendered(path, &answered.findings, level);
         (path, written)
     });
     let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args.draw)?))).transpose()?;

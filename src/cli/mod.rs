@@ -13,9 +13,11 @@ mod import;
 mod init;
 mod irrational;
 mod jsr;
+mod junction;
 mod many;
 mod output;
 mod progress;
+mod refine;
 mod regularity;
 mod render;
 mod resume;
@@ -99,6 +101,10 @@ enum Command {
     Render(RenderArgs),
     /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
     Solve(SolveArgs),
+    /// Join two curve schemes by an intermediate curve, and write the joined shape as a case. Exit code 1: no member passes.
+    Junction(junction::JunctionArgs),
+    /// Refine a curve: its cells on points of their own, glued where they meet, as a case with the control points carried over.
+    Refine(refine::RefineArgs),
     /// Print a statement with its proof and reference.
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
@@ -172,7 +178,7 @@ struct CertifyArgs {
     resume: Option<PathBuf>,
     /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
     /// first four; with `?` behind it a claim decides only where it is refuted.
-    #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,g1?", hide_default_value = false)]
+    #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,inside?", hide_default_value = false)]
     require: Required,
     /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
     #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
@@ -282,6 +288,9 @@ struct RenderArgs {
     /// Letters of the words whose cells are drawn; by default as many as give about 20 000 points.
     #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
     depth: Option<usize>,
+    /// Draw so many letters that no point of the shape is farther than this from a drawn one; the bound is proved and printed.
+    #[arg(long, value_name = "DISTANCE", conflicts_with_all = ["chaos", "depth"])]
+    error: Option<String>,
     /// Draw this many points with random addresses instead (the chaos game).
     #[arg(long, value_name = "POINTS")]
     chaos: Option<usize>,
@@ -425,6 +434,8 @@ fn run(command: Command) -> u8 {
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
         Command::Render(args) => render::run(&RenderArgs { cases: joined(args.cases), ..args }),
         Command::Solve(args) => solve::run(&args),
+        Command::Junction(args) => junction::run(&args),
+        Command::Refine(args) => refine::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
         Command::Schema => {
             output::print(&format!("{:#}\n", crate::case::schema()));

@@ -4,12 +4,14 @@ use super::certify::{extension, mistaken};
 use super::output::{deliver, write_file};
 use super::progress::Progress;
 use super::{PROVED, RenderArgs};
-use crate::arith::to_f64;
+use crate::arith::{parse_rational, to_f64};
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::Plot;
-use crate::shape::{CellKind, MAX_SAMPLES, Sample, Shape, contraction, random_sample, sample};
+use crate::shape::{
+    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, level, random_sample, sample,
+};
 use std::path::Path;
 
 /// Longest words.
@@ -38,8 +40,10 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
             .with_help("parameters follow the name of a scheme, as in `four-point w=1/16`"));
     };
     let case = Case::ask(&path.to_string_lossy())?;
-    let (found, how) = points(&case, args)?;
-    let contracts = contraction(&case.shape, |_| false).is_proved();
+    let contracts = contraction(&case.shape, |_| false);
+    let proved = args.error.as_deref().map(|text| bounded(&case, &contracts, text)).transpose()?;
+    let (found, how) = points(&case, args, proved)?;
+    let contracts = contracts.is_proved();
     let note = if contracts { "" } else { "; contraction is not proved, so there may be no attractor" };
     let curve = case.shape.states[case.shape.start].kind == CellKind::Edge && args.chaos.is_none();
     let plot = Plot::new(&case.shape, &found, curve).ok_or_else(|| {
@@ -66,10 +70,27 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
         write_file(path, content)?;
     }
     let faces = if found.faces.is_empty() { String::new() } else { format!(" and {} polygons", found.faces.len()) };
-    Ok(format!("{}: {} exact points{faces}, {how}{note}\n", case.name, found.points.len()))
+    let near = args.error.as_ref().filter(|_| proved.is_some()).map_or_else(String::new, |distance| {
+        format!("; they are points of the shape, and none of its points is farther than {distance} from all of them")
+    });
+    Ok(format!("{}: {} exact points{faces}, {how}{near}{note}\n", case.name, found.points.len()))
 }
 
-fn points(case: &Case, args: &RenderArgs) -> Result<(Sample, String), Problem> {
+/// The depth at which no cell is larger than was asked.
+fn bounded(case: &Case, contracts: &Contraction, text: &str) -> Result<usize, Problem> {
+    let error = parse_rational(text).ok().filter(|x| *x > 0).ok_or_else(|| {
+        Problem::new("secant::usage::error", format!("--error {text}: a positive number is needed"))
+            .with_help("write --error 1/1000 or --error 0.001")
+    })?;
+    let found = level(&case.shape, contracts, &error);
+    found.map(|(depth, _)| depth).ok_or_else(|| {
+        Problem::new("secant::render", format!("{} cannot be drawn with that error", case.name)).with_help(format!(
+            "contraction must be proved, and there may be {MAX_CELLS} cells at most; take a larger --error"
+        ))
+    })
+}
+
+fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Sample, String), Problem> {
     let failed = |help: &str| {
         Problem::new("secant::render", format!("no points of {} can be computed", case.name)).with_help(help)
     };
@@ -87,7 +108,7 @@ fn points(case: &Case, args: &RenderArgs) -> Result<(Sample, String), Problem> {
         return Ok((found.ok_or_else(|| failed("the shape must contract"))?, how));
     }
     let complex = case.complex();
-    let depth = args.depth.unwrap_or_else(|| depth(&case.shape));
+    let depth = proved.or(args.depth).unwrap_or_else(|| depth(&case.shape));
     if depth > MAX_DEPTH {
         return Err(failed(&format!("a depth of at most {MAX_DEPTH} is drawn")));
     }

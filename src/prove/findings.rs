@@ -105,8 +105,8 @@ impl Findings {
 pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
     match findings {
         Findings::Tangents { case, found } => certificate::confirm(case, found),
-        Findings::Vertices { case, found, .. } => {
-            certificate::confirm_vertices(case, found)?.ok_or_else(|| none().into())
+        Findings::Vertices { case, found, every } => {
+            Ok(certificate::confirm_vertices(case, found)?.without(all_at_once(every.as_ref())))
         }
     }
 }
@@ -118,10 +118,14 @@ pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
 pub fn unconfirmed(findings: &Findings) -> Result<Certificate, Unsupported> {
     match findings {
         Findings::Tangents { case, found } => certificate::certificate(case, found),
-        Findings::Vertices { case, found, .. } => certificate::vertex_certificate(case, found).ok_or_else(none),
+        Findings::Vertices { case, found, every } => {
+            Ok(certificate::vertex_certificate(case, found)?.without(all_at_once(every.as_ref())))
+        }
     }
 }
 
-fn none() -> Unsupported {
-    Unsupported { what: "these vertices".to_owned(), place: "valences".to_owned() }
+/// The proof for all valences at once, which has no rule.
+fn all_at_once(every: Option<&Every>) -> Option<Unsupported> {
+    let proved = every.filter(|e| e.proved())?;
+    Some(Unsupported { what: "all valences at once".to_owned(), place: format!("valences from {}", proved.from) })
 }

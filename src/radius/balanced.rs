@@ -60,6 +60,10 @@ impl Balanced {
     /// `e_j = Σ d_k q_k + s_j` and `K = max Σ|d| / (1 − max ‖s_j‖_1)`, `T p ∈ (Σ|c| + K ‖e‖_1) Q`.
     #[must_use]
     pub fn bound(&self, system: &System) -> Option<Rational> {
+        let fits = |p: &ComplexPoint| system.dims.get(p.state) == Some(&p.coordinates.len());
+        if !self.points.iter().all(fits) {
+            return None;
+        }
         let scale: Vec<Rational> = (0..system.dims.len()).map(|s| self.interior(system, s)).collect::<Option<_>>()?;
         let mut seen = std::collections::BTreeSet::new();
         let mut bound = Rational::from(0);

@@ -165,7 +165,7 @@ enum Split {
 /// Looks for a common invariant family of subspaces (Norton's criterion on random elements of the algebra of a state).
 fn split(part: &Part) -> Split {
     let system = &part.system;
-    let home = (0..system.dims.len()).min_by_key(|s| system.dims[*s]).unwrap_or(0);
+    let Some(home) = (0..system.dims.len()).min_by_key(|s| system.dims[*s]) else { return Split::Unknown };
     let whole = Matrix::identity(system.dims[home]);
     // What one state generates, and what never returns to it.
     for (left, family) in [(false, spin(system, home, &whole, false)), (true, spin(system, home, &whole, true))] {
@@ -211,9 +211,10 @@ fn split(part: &Part) -> Split {
 struct Random(u64);
 
 impl Random {
+    /// Below `n`, which is not 0.
     fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        usize::try_from((self.0 >> 33) % n.max(1) as u64).unwrap_or(0)
+        usize::try_from((self.0 >> 33) % n as u64).expect("31 bits")
     }
 }
 

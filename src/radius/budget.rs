@@ -35,7 +35,10 @@ impl Options {
     #[must_use]
     pub fn work_for(&self, dim: usize) -> u64 {
         let extra = dim.saturating_sub(8).min(18) as u64;
-        self.work.unwrap_or(3_000_000_000 + 400_000_000 * extra)
+        match self.work {
+            Some(work) => work,
+            None => 3_000_000_000 + 400_000_000 * extra,
+        }
     }
 
     /// The options for a number of seconds: the work of about that time, and the clock as a guard.

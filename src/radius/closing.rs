@@ -29,7 +29,7 @@ pub(super) struct Closing<'a> {
 impl Closing<'_> {
     /// Whether all images of the true vertices, divided by the radius, lie in the hull of the true vertices.
     pub fn holds(&self) -> bool {
-        self.check().unwrap_or(false)
+        self.check() == Some(true)
     }
 
     fn check(&self) -> Option<bool> {

@@ -21,7 +21,7 @@ use std::cmp::Ordering;
 /// Bounded by the options; small sets take milliseconds.
 pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, SystemError> {
     let system = system.clone().checked()?;
-    let dim = system.dims.iter().copied().max().map_or(1, |d| d);
+    let dim = system.widest();
     let budget = Budget::new(options, dim);
     let work = options.work_for(dim);
     let flag = flag(&system);

@@ -15,7 +15,7 @@ const ROOMS: [f64; 4] = [0.25, 1.0, 4.0, 24.0];
 const ROUNDS: usize = 200;
 const DIRECTIONS: usize = 24;
 /// Binary places of the centres.
-const CENTRE_BITS: u64 = 8;
+const CENTRE_BITS: u32 = 8;
 
 /// Polytopes that all pieces shrink, where `value < 1` is about the joint spectral radius of the linear parts of the operators;
 /// `None` where none with few points was found.
@@ -51,9 +51,10 @@ struct Search<'a> {
 /// Points along the axes on both sides of the centre of a state lie this far from it, a power of 2.
 struct Scale {
     steps: Vec<f64>,
+    exact: Vec<Rational>,
     /// Binary places of points and of weights.
-    points: u64,
-    weights: u64,
+    points: u32,
+    weights: u32,
 }
 
 impl<'a> Search<'a> {
@@ -84,7 +85,7 @@ impl<'a> Search<'a> {
     }
 
     fn attempt(&self, room: f64) -> Option<Polytopes> {
-        let scale = self.scale(room);
+        let scale = self.scale(room)?;
         let mut points: Vec<Vec<Vec<f64>>> =
             (0..self.clouds.len()).map(|e| self.seeds(e, room, scale.steps[e])).collect();
         self.grow(&mut points)?;
@@ -103,11 +104,12 @@ impl<'a> Search<'a> {
     }
 
     /// What is lost by rounding is made up along the axes from half of the share of the centre.
-    fn scale(&self, room: f64) -> Scale {
+    fn scale(&self, room: f64) -> Option<Scale> {
         let steps: Vec<f64> = (0..self.clouds.len()).map(|e| self.step(e, room)).collect();
         let share = to_bits(self.share);
-        let smallest = self.reachable.iter().map(|e| to_bits(steps[*e])).max().unwrap_or(0);
-        Scale { steps, points: share + smallest + 6, weights: share + 12 }
+        let smallest = self.reachable.iter().map(|e| to_bits(steps[*e])).fold(0, u32::max);
+        let exact = steps.iter().map(|x| Rational::try_from(*x).ok()).collect::<Option<_>>()?;
+        Some(Scale { steps, exact, points: share + smallest + 6, weights: share + 12 })
     }
 
     /// How far the points along the axes lie from the centre: a power of 2.
@@ -162,14 +164,14 @@ impl<'a> Search<'a> {
     /// The points as rationals of sum 1; those along the axes exactly on both sides of the centre.
     fn exact(&self, e: usize, scale: &Scale, points: &[Vec<f64>]) -> Vec<Vec<Rational>> {
         let centre = &self.centres[e];
-        let step = exact_power(scale.steps[e]);
+        let step = &scale.exact[e];
         let along = 2 * (centre.len().saturating_sub(1));
         let point = |(k, p): (usize, &Vec<f64>)| {
             if k >= along {
                 return if along == 0 { centre.clone() } else { affine(p, scale.points) };
             }
             let mut point = centre.clone();
-            let moved = if k % 2 == 0 { step.clone() } else { -step.clone() };
+            let moved = if k % 2 == 0 { step.clone() } else { -step };
             point[1 + k / 2] += &moved;
             point[0] -= moved;
             point
@@ -201,9 +203,9 @@ impl<'a> Search<'a> {
             rest.iter_mut().zip(v).for_each(|(r, a)| *r -= w * a);
         }
         // What rounding leaves is made up along the axes, at the cost of the centre.
-        let step = exact_power(scale.steps[e]);
+        let step = &scale.exact[e];
         for (axis, r) in rest.iter().enumerate().skip(1) {
-            let w = abs(r) / &step;
+            let w = abs(r) / step;
             centre -= &w;
             weights[2 * (axis - 1) + usize::from(*r < 0)] += w;
         }
@@ -215,13 +217,12 @@ impl<'a> Search<'a> {
 }
 
 /// Binary places at which a number is seen.
-fn to_bits(x: f64) -> u64 {
-    (0..40_u8).find(|k| x * f64::from(*k).exp2() > 1.0).map_or(40, u64::from)
-}
-
-/// A power of 2 exactly.
-fn exact_power(x: f64) -> Rational {
-    Rational::try_from(x).unwrap_or_else(|_| Rational::from(1))
+fn to_bits(x: f64) -> u32 {
+    let mut bits = 0;
+    while bits < 40 && x * f64::from(bits).exp2() <= 1.0 {
+        bits += 1;
+    }
+    bits
 }
 
 /// The average of the images of the points under the pieces of a state.
@@ -238,7 +239,7 @@ fn average(maps: &[Map], points: &[Vec<f64>], e: usize) -> Vec<f64> {
 }
 
 /// A rational point of sum 1 near a float one.
-fn affine(p: &[f64], bits: u64) -> Vec<Rational> {
+fn affine(p: &[f64], bits: u32) -> Vec<Rational> {
     let mut point: Vec<Rational> = p.iter().map(|x| grid_of(*x, bits)).collect();
     let sum = point.iter().fold(Rational::from(0), |s, x| s + x);
     if let Some(first) = point.first_mut() {

@@ -30,18 +30,24 @@ pub(super) fn grid(x: f64) -> Rational {
     grid_of(x, 50)
 }
 
-/// The exact number nearest to a float on the grid of some binary places; 0 for floats that are too large.
+/// The exact number nearest to a float on the grid of some binary places; what is no number or too large proposes 0.
 #[allow(clippy::float_arithmetic, reason = "rounds a proposal to an exact number")]
-pub(super) fn grid_of(x: f64, bits: u64) -> Rational {
-    let scaled = (x * 2f64.powi(i32::try_from(bits).unwrap_or(0))).round();
-    if !scaled.is_finite() || scaled.abs() > 1e30 {
-        return Rational::from(0);
+pub(super) fn grid_of(x: f64, bits: u32) -> Rational {
+    let scaled = (x * f64::from(bits).exp2()).round();
+    match Rational::try_from(scaled) {
+        Ok(whole) if scaled.abs() <= 1e30 => whole / Rational::from(Integer::from(1) << bits),
+        _ => Rational::from(0),
     }
-    Rational::try_from(scaled).unwrap_or_default() / Rational::from(Integer::from(1) << bits)
 }
 
 /// The rational polytope with matrices divided by about `radius`; `exact` holds exact points where the radius is rational.
-pub(super) fn rational(system: &System, grown: &Grown, radius: &Rational, exact: Option<&[Vec<Rational>]>) -> Polytope {
+/// `None` where a symmetric body has no interior.
+pub(super) fn rational(
+    system: &System,
+    grown: &Grown,
+    radius: &Rational,
+    exact: Option<&[Vec<Rational>]>,
+) -> Option<Polytope> {
     let point = |k: usize| match exact {
         Some(points) => points[k].clone(),
         None => grown.vertices[k].point.iter().map(|x| grid(*x)).collect(),
@@ -64,12 +70,12 @@ pub(super) fn rational(system: &System, grown: &Grown, radius: &Rational, exact:
         let terms = solved.unwrap_or_else(|| inside.combination.terms.iter().map(|(k, c)| (*k, short(*c))).collect());
         inclusions.push(Inclusion { point, arrow, terms });
     }
-    let axes = if grown.body == Body::Symmetric { axis_terms(system, grown, &points) } else { Vec::new() };
+    let axes = if grown.body == Body::Symmetric { axis_terms(system, grown, &points)? } else { Vec::new() };
     let mut polytope = Polytope { body: grown.body, points, inclusions, axes };
     if grown.body == Body::Monotone {
         dominate(system, &mut polytope, bits);
     }
-    polytope
+    Some(polytope)
 }
 
 /// Binary places of coefficients, about `2^-50` of the radius.
@@ -101,7 +107,7 @@ const FINE: u64 = 128;
 
 /// The same symmetric polytope with points and coefficients in many places: points follow their words from exact eigenvectors,
 /// coefficients solve for the points that the floats chose.
-pub(super) fn polished(system: &System, grown: &Grown, roots: &[LeadingVector], radius: &Lower) -> Polytope {
+pub(super) fn polished(system: &System, grown: &Grown, roots: &[LeadingVector], radius: &Lower) -> Option<Polytope> {
     let fine = |x: &Rational| Interval::point(x.clone()).outward(FINE).lo;
     let radius = fine(&radius.enclosure(FINE).hi) + Rational::from(1) / Rational::from(Integer::from(1) << FINE);
     let mut points: Vec<Point> = Vec::new();
@@ -130,12 +136,11 @@ pub(super) fn polished(system: &System, grown: &Grown, roots: &[LeadingVector], 
         inclusions.push(Inclusion { point: inside.vertex, arrow: inside.arrow, terms });
     }
     let axes = system.dims.iter().enumerate().map(|(state, &dim)| {
-        let solved = solved_axes(grown, &points, state, dim).unwrap_or_default();
         let short = |unit: Vec<(usize, Rational)>| unit.into_iter().map(|(k, c)| (k, fine(&c))).collect();
-        solved.into_iter().map(short).collect()
+        Some(solved_axes(grown, &points, state, dim)?.into_iter().map(short).collect())
     });
-    let axes = axes.collect();
-    Polytope { body: grown.body, points, inclusions, axes }
+    let axes = axes.collect::<Option<_>>()?;
+    Some(Polytope { body: grown.body, points, inclusions, axes })
 }
 
 /// The combination of the points that floats chose which comes nearest to the image; they may be fewer than coordinates.
@@ -161,10 +166,11 @@ fn solve(body: Body, points: &[Point], image: &[Rational], found: &Combination) 
     (body == Body::Symmetric || terms.iter().all(|t| t.1 > 0)).then_some(terms)
 }
 
-fn axis_terms(system: &System, grown: &Grown, points: &[Point]) -> Vec<Vec<Vec<(usize, Rational)>>> {
+/// By state and axis: coefficients of the unit vector.
+fn axis_terms(system: &System, grown: &Grown, points: &[Point]) -> Option<Vec<Vec<Vec<(usize, Rational)>>>> {
     let of_state = |(state, &dim): (usize, &usize)| {
         let proposed: Option<Vec<_>> = (0..dim).map(|axis| unit_terms(grown, state, dim, axis)).collect();
-        proposed.or_else(|| solved_axes(grown, points, state, dim)).unwrap_or_default()
+        proposed.or_else(|| solved_axes(grown, points, state, dim))
     };
     system.dims.iter().enumerate().map(of_state).collect()
 }

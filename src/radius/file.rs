@@ -24,6 +24,7 @@ pub struct FileError {
 
 /// Why a file is not a system of matrices.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum FileProblem {
     /// Not TOML.
     #[error("not valid TOML: {0}")]
@@ -93,7 +94,7 @@ pub struct File {
 /// # Errors
 /// [`FileError`].
 pub fn parse(text: &str) -> Result<File, FileError> {
-    let start = text.find(|c: char| !c.is_whitespace()).unwrap_or(text.len());
+    let start = text.len() - text.trim_start().len();
     let (toml, shift) = match text[start..].chars().next() {
         Some('{') => (Cow::Owned(json_object(text)), 0),
         Some('[') => (Cow::Owned(format!("{LIST}{}{}", " ".repeat(start), &text[start..])), LIST.len()),
@@ -134,7 +135,13 @@ fn json_object(text: &str) -> String {
 }
 
 fn read(text: &str) -> Result<File, FileError> {
-    let wrong = |e: &toml::de::Error| FileProblem::Toml(e.message().to_owned()).at(e.span().unwrap_or(0..0));
+    let wrong = |e: &toml::de::Error| {
+        let place = match e.span() {
+            Some(span) => span,
+            None => 0..text.len(),
+        };
+        FileProblem::Toml(e.message().to_owned()).at(place)
+    };
     let parsed = DeTable::parse(text).map_err(|e| wrong(&e))?;
     let table = parsed.get_ref();
     let known = ["name", "matrices", "states", "arrows"];
@@ -204,11 +211,10 @@ fn matrix(index: usize, value: &Value) -> Result<Matrix, FileError> {
 }
 
 fn rectangular(index: usize, rows: Vec<Vec<Rational>>, span: Range<usize>) -> Result<Matrix, FileError> {
-    let cols = rows.first().map_or(0, Vec::len);
-    if cols == 0 || rows.iter().any(|r| r.len() != cols) {
-        return Err(FileProblem::Ragged(index).at(span));
+    match rows.first().map(Vec::len) {
+        Some(cols) if cols > 0 && rows.iter().all(|r| r.len() == cols) => Ok(Matrix::from_rows(cols, rows)),
+        _ => Err(FileProblem::Ragged(index).at(span)),
     }
-    Ok(Matrix::from_rows(cols, rows))
 }
 
 fn entry(matrix: usize, value: &Value) -> Result<Rational, FileError> {
@@ -222,7 +228,10 @@ fn entry(matrix: usize, value: &Value) -> Result<Rational, FileError> {
 }
 
 fn uncommented(line: &str) -> &str {
-    line.split(['#', '%']).next().map_or("", |l| l)
+    match line.split_once(['#', '%']) {
+        Some((before, _)) => before,
+        None => line,
+    }
 }
 
 /// Matrices as plain text. A matrix may begin with its size on a line of its own.

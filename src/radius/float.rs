@@ -24,8 +24,8 @@ impl Floats {
         system.arrows.iter().map(|a| Self::of(&a.matrix)).collect()
     }
 
-    /// The product along a path, divided by its norm at every step.
-    pub fn product(system: &System, path: &[usize]) -> Self {
+    /// The product along a path, divided by its norm at every step; `None` of the empty path.
+    pub fn product(system: &System, path: &[usize]) -> Option<Self> {
         let mut product: Option<Self> = None;
         for &a in path {
             let m = Self::of(&system.arrows[a].matrix);
@@ -33,7 +33,7 @@ impl Floats {
             let norm = next.norm();
             product = Some(if norm > 0.0 && norm.is_finite() { next.scaled(1.0 / norm) } else { next });
         }
-        product.unwrap_or(Self { rows: 0, cols: 0, data: Vec::new() })
+        product
     }
 
     pub fn scaled(mut self, factor: f64) -> Self {

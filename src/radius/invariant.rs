@@ -8,6 +8,7 @@ use super::exact::{LeadingVector, axis_point, checking, exact_points, grid, poli
 use super::float::Floats;
 use super::grow::{Grown, Origin, Task, Vertex, grow, missing_axes};
 use super::leading::{Eigenvector, Lower};
+use super::polytope::Polytope;
 use super::simplex::Body;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use super::system::System;
@@ -82,8 +83,7 @@ impl Strategy for AtRadius {
 
 /// The longest cyclic word that is looked at as a better one: products of large matrices are dear.
 fn longest(target: &Target) -> usize {
-    let dim = target.block.system.dims.iter().copied().max().map_or(1, |d| d);
-    target.options.longest * if dim <= 4 { 8 } else { 3 }
+    target.options.longest * if target.block.system.widest() <= 4 { 8 } else { 3 }
 }
 
 /// Relative excess of a bound over the radius up to which the data of a polytope are not computed again with more places.
@@ -97,23 +97,25 @@ fn settle(target: &Target, grown: &Grown, roots: &[LeadingVector], best: &Lower,
     let value = best.rational();
     let exact = value.as_ref().and_then(|r| exact_points(system, grown, roots, r));
     let radius = value.clone().unwrap_or_else(|| best.enclosure(64).hi);
-    let mut polytope = rational(system, grown, &radius, exact.as_deref());
-    let mut bound = polytope.bound(system);
+    let bounded = |polytope: Polytope| polytope.bound(system).map(|bound| (bound, polytope));
+    let mut found = rational(system, grown, &radius, exact.as_deref()).and_then(bounded);
     let closed = grown.excess <= 1.0;
-    let proved = value.as_ref().is_some_and(|r| bound.as_ref().is_some_and(|b| b <= r));
-    let closing = Closing { system, grown, polytope: &polytope, roots, radius: best, budget };
-    let attains = closed && bound.is_some() && (proved || closing.holds());
-    let sharp = bound.as_ref().is_some_and(|b| to_f64(b) <= target.best.float * (1.0 + SHARP));
+    let attains = closed
+        && found.as_ref().is_some_and(|(bound, polytope)| {
+            let proved = value.as_ref().is_some_and(|r| bound <= r);
+            proved || Closing { system, grown, polytope, roots, radius: best, budget }.holds()
+        });
+    let sharp = found.as_ref().is_some_and(|(b, _)| to_f64(b) <= target.best.float * (1.0 + SHARP));
     if closed && !sharp && grown.body == Body::Symmetric && budget.spend(20 * checking(system, grown)) {
         // In a thin polytope the rounding of floats costs much.
-        let finer = polished(system, grown, roots, best);
-        let again = finer.bound(system);
-        if again.is_some() && (bound.is_none() || again < bound) {
-            (bound, polytope) = (again, finer);
-        }
+        let finer = polished(system, grown, roots, best).and_then(bounded);
+        found = match (found, finer) {
+            (Some(first), Some(finer)) if finer.0 >= first.0 => Some(first),
+            (first, finer) => finer.or(first),
+        };
     }
-    match bound {
-        Some(bound) => {
+    match found {
+        Some((bound, polytope)) => {
             Outcome::Found(Box::new(Found { bound, proof: Proof::Polytope(polytope), attains, roots: roots.to_vec() }))
         }
         None => Outcome::Nothing,
@@ -218,7 +220,7 @@ fn invariant(target: &Target, radius: f64, vertices: usize, budget: &Budget) -> 
         if !budget.spend(checking(system, &grown)) {
             return Outcome::Nothing;
         }
-        let polytope = rational(system, &grown, &grid_near(radius), None);
+        let Some(polytope) = rational(system, &grown, &grid_near(radius), None) else { return Outcome::Nothing };
         let Some(bound) = polytope.bound(system) else { return Outcome::Nothing };
         let found = Found { bound, proof: Proof::Polytope(polytope), attains: false, roots: Vec::new() };
         return Outcome::Found(Box::new(found));
@@ -310,7 +312,7 @@ fn root_seeds(system: &System, roots: &[LeadingVector]) -> Vec<Vertex> {
 fn float_seeds(system: &System, target: &Target) -> Vec<Vertex> {
     let mut seeds: Vec<Vertex> = Vec::new();
     for candidate in target.near.iter().filter(|c| c.value >= target.value() * (1.0 - 1e-9)).take(4) {
-        let product = Floats::product(system, &candidate.path);
+        let Some(product) = Floats::product(system, &candidate.path) else { continue };
         let Some((re, im)) = product.eigenvalue() else { continue };
         if im != 0.0 {
             continue;

@@ -1,6 +1,7 @@
 //! The joint spectral radius of finite sets and automata of rational matrices (theory §11), with exact proofs.
 //!
 //! Floats propose words, polytopes and coefficients; exact arithmetic decides every bound.
+#![deny(clippy::disallowed_methods)]
 
 mod answer;
 mod balanced;

@@ -48,6 +48,10 @@ impl Polytope {
     /// nonnegative, some point of the state is positive at every coordinate, and `T p <= Σ c q` gives `r = Σ c`.
     #[must_use]
     pub fn bound(&self, system: &System) -> Option<Rational> {
+        let fits = |p: &Point| system.dims.get(p.state) == Some(&p.coordinates.len());
+        if !self.points.iter().all(fits) {
+            return None;
+        }
         let scale: Vec<Rational> = match self.body {
             Body::Symmetric => (0..system.dims.len()).map(|s| self.axis_bound(system, s)).collect::<Option<_>>()?,
             Body::Monotone => self.monotone_interior(system)?,

@@ -21,7 +21,11 @@ impl Quadratic {
     #[must_use]
     pub fn holds(&self, system: &System) -> bool {
         self.forms.len() == system.dims.len()
-            && self.forms.iter().zip(&system.dims).all(|(f, d)| f.rows() == *d && definite(f, true))
+            && self
+                .forms
+                .iter()
+                .zip(&system.dims)
+                .all(|(f, d)| (f.rows(), f.cols()) == (*d, *d) && *f == f.transpose() && definite(f, true))
             && system.arrows.iter().all(|a| {
                 let image = &(&a.matrix.transpose() * &self.forms[a.from]) * &a.matrix;
                 definite(&(&self.forms[a.to].scale(&self.square) - &image), false)
@@ -59,8 +63,10 @@ impl Strategy for QuadraticNorm {
         }
         let letters: Vec<usize> = target.own.iter().filter(|l| l.length == 1).map(|l| l.path[0]).collect();
         let Some(proof) = Quadratic::find(system, &square, &letters) else { return Outcome::Nothing };
-        let bound = super::square_root(&square, 64).hi;
-        let bound = target.best.lower.as_ref().and_then(super::Lower::rational).unwrap_or(bound);
+        let bound = match target.best.lower.as_ref().and_then(super::Lower::rational) {
+            Some(radius) => radius,
+            None => super::square_root(&square, 64).hi,
+        };
         Outcome::Found(Box::new(Found { bound, proof: Proof::Quadratic(proof), attains: true, roots: Vec::new() }))
     }
 }

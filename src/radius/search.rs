@@ -29,7 +29,7 @@ pub(super) fn candidates(system: &System, longest: usize, tolerance: f64, budget
     let arrows = system.arrows.len();
     let mut layer: Vec<Partial> =
         (0..arrows).map(|a| Partial { path: vec![a], product: floats[a].clone(), value: 0.0 }).collect();
-    let cube = floats.iter().map(Floats::cube).max().map_or(1, |c| c);
+    let cube = floats.iter().map(Floats::cube).fold(1, u64::max);
     // As wide as a quarter of the budget allows.
     let width =
         (budget.left() / 4 / (longest.max(1) as u64 * arrows.max(1) as u64 * cube)).clamp(4, BEAM as u64) as usize;
@@ -38,7 +38,7 @@ pub(super) fn candidates(system: &System, longest: usize, tolerance: f64, budget
             if !budget.spend(cube) && length > 1 {
                 break;
             }
-            let power = 1.0 / f64::from(u32::try_from(length).unwrap_or(u32::MAX));
+            let power = 1.0 / length as f64;
             let norm = partial.product.norm().powf(power);
             partial.value = norm;
             let closed = system.arrows[partial.path[0]].from == system.arrows[partial.path[length - 1]].to;
@@ -190,12 +190,14 @@ fn insert(best: &mut Vec<Candidate>, path: &[usize], value: f64, tolerance: f64)
     best.push(Candidate { path: word, value });
 }
 
-/// The primitive root of a cyclic word in its least rotation.
+/// The primitive root of a cyclic word in its least rotation; the empty word is its own.
 pub(super) fn canonical(path: &[usize]) -> Vec<usize> {
     let n = path.len();
-    let period = (1..=n).find(|&p| n.is_multiple_of(p) && (0..n).all(|k| path[k] == path[(k + p) % n])).unwrap_or(n);
-    (0..period)
-        .map(|shift| (0..period).map(|k| path[(k + shift) % period]).collect::<Vec<_>>())
-        .min()
-        .unwrap_or_default()
+    let mut period = 1;
+    while period < n && !(n.is_multiple_of(period) && (0..n).all(|k| path[k] == path[(k + period) % n])) {
+        period += 1;
+    }
+    let root = &path[..period.min(n)];
+    let rotation = |shift: usize| [&root[shift..], &root[..shift]].concat();
+    (1..root.len()).map(rotation).fold(root.to_vec(), Vec::min)
 }

@@ -27,6 +27,7 @@ pub struct System {
 
 /// Why matrices are not a system.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum SystemError {
     /// No matrix at all.
     #[error("a joint spectral radius needs at least one matrix")]
@@ -111,6 +112,12 @@ impl System {
     #[must_use]
     pub fn is_nonnegative(&self) -> bool {
         self.arrows.iter().all(|a| (0..a.matrix.rows()).all(|i| a.matrix.row(i).iter().all(|x| *x >= 0)))
+    }
+
+    /// The dimension of the largest space, at least 1: for budgets.
+    #[must_use]
+    pub(super) fn widest(&self) -> usize {
+        self.dims.iter().fold(1, |widest, d| widest.max(*d))
     }
 
     /// The labels along a path of positions.

@@ -111,7 +111,7 @@ pub fn label(what: &Assertion) -> String {
         (_, Some(Topic::Ends)) => "ends".to_owned(),
         (_, Some(Topic::Joints)) => "joints".to_owned(),
         (_, Some(Topic::Dense)) => "dense set".to_owned(),
-        (_, Some(Topic::G1)) => "every point (G¹)".to_owned(),
+        (_, Some(Topic::G1 | Topic::Inside)) => "every point (G¹)".to_owned(),
         (_, Some(Topic::C(order))) => format!("C^{order}"),
         (_, Some(Topic::Exponent)) => "Hölder exponent".to_owned(),
         (_, Some(Topic::Points)) => match what.asked() {
@@ -201,7 +201,7 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
         Reason::Similarities => {
             "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
         }
-        Reason::EveryPoint => {
+        Reason::EveryPoint | Reason::InsidePoint => {
             let every = found.everywhere.as_ref();
             every.and_then(|e| reasons::everywhere(found, e)).unwrap_or_else(unknown)
         }

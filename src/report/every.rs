@@ -8,7 +8,7 @@ use super::words::{count, listed, mark, point_name};
 use crate::case::Case;
 use crate::shape::word_text;
 use crate::theorem::cone::{CommonCone, ConeObstacle};
-use crate::theorem::{Certified, Everywhere, Hodograph, Kind, PointReport, Turn, Verdict};
+use crate::theorem::{Certified, Component, Components, Everywhere, Hodograph, Kind, PointReport, Turn, Verdict};
 use serde_json::{Value, json};
 
 /// Places of an exponent.
@@ -38,9 +38,17 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
         verdict.extend(words(format!("; {reason}")));
     }
     let mut facts = vec![("smoothness".to_owned(), verdict)];
-    if every.derivative.is_some() {
-        let text = "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)";
+    if let Some(order) = &every.derivative {
+        let text = match order.shares {
+            None => "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)",
+            Some(_) => {
+                "the curve is a graph over a parameter of which each piece takes its share, with a continuous derivative (Theorem 12)"
+            }
+        };
         facts.push(("derivative".to_owned(), words(text)));
+    }
+    if let Some(parts) = &every.components {
+        facts.push(("components".to_owned(), components(case, parts)));
     }
     if let Some(cone) = &every.cone {
         facts.push(("cones".to_owned(), cones(case, cone)));
@@ -99,6 +107,23 @@ pub fn obstacle(case: &Case, o: &ConeObstacle) -> Line {
 
 fn state_place(case: &Case, state: usize) -> String {
     if case.shape.states.len() > 1 { format!(" of state {}", case.shape.states[state].name) } else { String::new() }
+}
+
+/// Why each state is G¹ (Theorem 13).
+fn components(case: &Case, found: &Components) -> Line {
+    let name = |state: usize| &case.shape.states[state].name;
+    let part = |p: &Component| match p {
+        Component::Cones { state, .. } => format!("{} has cones", name(*state)),
+        Component::Loop { state, letter, .. } => {
+            format!("{} is a loop by piece {letter}, towards whose fixed point all tangents turn", name(*state))
+        }
+        Component::Transient { state, .. } => format!("{} is passed once", name(*state)),
+    };
+    let mut text = format!("{} (Theorem 13)", listed(&found.parts.iter().map(part).collect::<Vec<_>>()));
+    if let Some(code) = found.code {
+        text += &format!("; nothing is lost in the projection, by functionals behind {}", count(code, "word"));
+    }
+    words(text)
 }
 
 fn cones(case: &Case, cone: &CommonCone) -> Line {
@@ -163,7 +188,7 @@ pub fn value(found: &Certified) -> Value {
     json!({
         "verdict": every.verdict.word(),
         "claim": claim(every),
-        "half_tangents": every.seen && every.cone.is_some() || every.derivative.is_some(),
+        "half_tangents": every.seen && every.cone.is_some() || every.derivative.is_some() || every.components.is_some(),
         "exponent": every.exponent.as_ref().map(|e| decimal(e, false, PLACES)),
         "cone": cone,
         "witness": every.witness.and_then(|k| found.points.get(k)).map(super::words::addresses),

@@ -256,10 +256,11 @@ fn exact_exponent(h: &Holder) -> Option<Rational> {
     pairs.into_iter().find(fits).map(|(a, b)| Rational::from(a) / Rational::from(b))
 }
 
-/// What a kind of point means, in brackets after its name.
+/// What a kind of point means, in brackets after its name; a set that is no curve has no sides.
 #[must_use]
-pub fn kind_meaning(kind: Kind) -> &'static str {
+pub fn kind_meaning(kind: Kind, set: bool) -> &'static str {
     match kind {
+        Kind::Oscillating if set => "the tangent line exists, and both of its rays are limit rays",
         Kind::SmoothEnd | Kind::HalfTangent => "one limit ray",
         Kind::Regular => "one ray on each side, opposite to one another",
         Kind::Cusp => "one ray on each side, the same",

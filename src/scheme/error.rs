@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// Why a scheme could not be built.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum SchemeError {
     /// No scheme of that name.
     #[error("there is no scheme `{name}`{}", near.as_ref().map_or_else(String::new, |near| format!("; did you mean `{near}`?")))]

@@ -307,6 +307,7 @@ impl MeshRule {
     }
 
     /// The name of its family, used in messages.
+    #[allow(clippy::misnamed_getters, reason = "rows of one family have one name in messages")]
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.info.family

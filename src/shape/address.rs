@@ -14,6 +14,7 @@ pub struct Address {
 
 /// Why an address cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum AddressError {
     /// Not of the form `01(10)`.
     #[error(

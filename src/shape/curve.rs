@@ -36,6 +36,7 @@ impl End {
 
 /// Why the pieces of a curve do not make a curve.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum CurveError {
     /// Two neighbouring pieces do not meet.
     #[error("piece {piece} of state `{state}` begins at {begins:?}, but the piece before it ends at {ends:?}")]

@@ -154,6 +154,7 @@ pub struct Failure {
 
 /// Why the identities cannot be written down.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum ComplexError {
     /// The number of pieces does not fit the layout.
     #[error("state `{state}`: {message}")]

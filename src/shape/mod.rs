@@ -11,6 +11,7 @@ mod links;
 mod model;
 mod own;
 mod polytope;
+mod resolution;
 mod sample;
 mod space;
 mod unknown;
@@ -26,6 +27,7 @@ pub use identities::{Complex, ComplexError, Face, Failure, Identity, IdentityKin
 pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
 pub use own::OwnPoints;
 pub use polytope::{Polytopes, Weights};
+pub use resolution::{MAX_CELLS, Resolution, level};
 pub use sample::{MAX_SAMPLES, Sample, random_sample, sample};
 pub use space::{Spaces, StateSpace, difference};
 pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError};

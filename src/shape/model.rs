@@ -76,6 +76,7 @@ pub struct Shape {
 
 /// Why a shape is not a model in the sense of theory §1.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum ShapeError {
     /// A state without pieces.
     #[error("state `{state}` has no piece")]

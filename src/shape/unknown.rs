@@ -27,6 +27,7 @@ pub enum Source {
 
 /// Why a problem cannot be solved as a linear one.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum UnknownError {
     /// The identities cannot be written down.
     #[error(transparent)]

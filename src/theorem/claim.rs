@@ -269,6 +269,8 @@ pub enum Reason {
     Similarities,
     /// What was found about every point of the curve ([`super::Certified::everywhere`]).
     EveryPoint,
+    /// The same, where it is refuted at a point that is neither an end nor a joint, so that no other claim speaks of it.
+    InsidePoint,
     /// What was found about an order of smoothness in the uniform parameter.
     Order(usize),
     /// Nothing is known in the uniform parameter ([`super::Certified::parameter`]).

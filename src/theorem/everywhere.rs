@@ -1,17 +1,19 @@
 //! Theorem 6 for a whole curve: a tangent that turns continuously, half-tangents at every point, or a point without a tangent.
 
 use super::branch::Context;
+use super::components::{Components, components};
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
 use super::gap::EveryGap;
+use super::graph::{graph_over_parameter, graph_over_shares};
 use super::hodograph::{Hodograph, hodograph};
 use super::parameter::Parameter;
-use super::smoothness::{CurveOrder, graph_over_parameter};
+use super::smoothness::CurveOrder;
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
 use crate::radius::Options;
-use crate::shape::{Address, CellKind};
+use crate::shape::{Address, CellKind, Shape, Spaces};
 use crate::statement::Statement;
 
 /// What is known of every point of a curve, not only of a dense set.
@@ -36,8 +38,10 @@ pub struct Everywhere {
     pub witness: Option<usize>,
     /// The derivative of a polynomial curve, where it decides.
     pub hodograph: Option<Hodograph>,
-    /// Order 1 of a curve that is a graph over its parameter (Theorem 12), where nothing else decides.
+    /// Order 1 of a curve that is a graph over a parameter (Theorem 12), where nothing else decides.
     pub derivative: Option<Box<CurveOrder>>,
+    /// A proof by components (Theorem 13), where nothing else decides.
+    pub components: Option<Box<Components>>,
     /// Why the verdict is not `Proved`.
     pub reason: Option<EveryGap>,
 }
@@ -51,6 +55,7 @@ impl Everywhere {
             (_, Some(_), ..) => Some(Statement::Theorem6Polynomial),
             (Verdict::Refuted, ..) => None,
             (_, _, Some(_), _) => Some(Statement::Graph),
+            _ if self.components.is_some() => Some(Statement::Components),
             (_, _, _, cone) => cone.as_ref().map(CommonCone::statement),
         }
     }
@@ -96,8 +101,21 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
         ConeAnswer::Undetermined => without_cone(cx, found, None),
     };
     let every = if every.verdict == Verdict::Undetermined { by_derivative(cx, found, every) } else { every };
-    let open = every.verdict == Verdict::Undetermined && !found.parameter.as_ref().is_some_and(Parameter::is_not_c1);
-    Some(if open { as_graph(cx, every) } else { every })
+    let open = |every: &Everywhere| every.verdict == Verdict::Undetermined;
+    let rough = found.parameter.as_ref().is_some_and(Parameter::is_not_c1);
+    let every = if open(&every) && !rough { as_graph(cx, every, graph_over_parameter) } else { every };
+    let every = if open(&every) { as_graph(cx, every, graph_over_shares) } else { every };
+    Some(if open(&every) { by_components(cx, every) } else { every })
+}
+
+/// Proves G¹ of a curve state by state.
+fn by_components(cx: &Context, every: Everywhere) -> Everywhere {
+    match components(cx, every.cone.is_none()) {
+        Some(parts) if every.witness.is_none() => {
+            Everywhere { verdict: Verdict::Proved, reason: None, components: Some(Box::new(parts)), ..every }
+        }
+        _ => every,
+    }
 }
 
 /// Decides G¹ of a polynomial curve by the zeros of its derivative.
@@ -120,11 +138,14 @@ fn by_derivative(cx: &Context, found: &mut Certified, every: Everywhere) -> Ever
 /// Largest number of coordinates of a state, and most states, for which this is tried.
 const MAX_GRAPH: (usize, usize) = (12, 6);
 
-/// Proves G¹ of a curve that is a graph over its uniform parameter.
-fn as_graph(cx: &Context, every: Everywhere) -> Everywhere {
+/// A way of looking for a parameter.
+type Graph = fn(&Shape, &Spaces, &Options) -> Option<CurveOrder>;
+
+/// Proves G¹ of a curve that is a graph over a parameter.
+fn as_graph(cx: &Context, every: Everywhere, graph: Graph) -> Everywhere {
     let states = cx.shape.reachable();
     let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
-    let order = if small { graph_over_parameter(cx.shape, cx.spaces, &Options::default()) } else { None };
+    let order = if small { graph(cx.shape, cx.spaces, &Options::default()) } else { None };
     match order {
         Some(order) if every.witness.is_none() => {
             Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(order)), ..every }
@@ -172,6 +193,7 @@ fn with_cone(cx: &Context, found: &Certified, cone: CommonCone) -> Everywhere {
         witness,
         hodograph: None,
         derivative: None,
+        components: None,
         reason,
     }
 }
@@ -222,6 +244,7 @@ fn without_cone(cx: &Context, found: &mut Certified, obstacle: Option<ConeObstac
         witness,
         hodograph: None,
         derivative: None,
+        components: None,
         reason,
     }
 }

@@ -71,6 +71,7 @@ pub enum Remark {
 
 /// Why coefficients are no mask.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum FilterError {
     /// A coefficient that cannot be read.
     #[error("coefficient {place} cannot be read: {message}")]

@@ -12,8 +12,8 @@ use crate::shape::{CellKind, Shape, Spaces};
 /// Most frames that are followed.
 const MAX_FRAMES: usize = 64;
 /// Longest words of a code below which all cones are seen, and most of them.
-const MAX_CODE_LENGTH: usize = 6;
-const MAX_CODE: usize = 128;
+pub(super) const MAX_CODE_LENGTH: usize = 6;
+pub(super) const MAX_CODE: usize = 128;
 
 /// A state with the map through which it is seen there.
 #[derive(Debug, Clone, PartialEq, Eq)]

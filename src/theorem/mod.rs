@@ -3,6 +3,7 @@
 
 mod branch;
 pub mod claim;
+mod components;
 pub mod cone;
 mod cone_search;
 mod dense;
@@ -12,6 +13,7 @@ mod everywhere;
 pub mod filter;
 mod frames;
 pub mod gap;
+pub mod graph;
 mod hodograph;
 pub mod parameter;
 mod point;
@@ -30,6 +32,7 @@ pub mod wavelet;
 pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
 pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
+pub use components::{Component, Components};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
@@ -61,6 +64,7 @@ use thiserror::Error;
 
 /// Why a shape cannot be certified at all.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum ModelError {
     /// Sizes or sums are wrong.
     #[error(transparent)]

@@ -2,8 +2,9 @@
 
 use super::branch::Context;
 use super::claim::{Assertion, Claim, Reason};
+use super::everywhere::Everywhere;
 use super::smoothness::{CurveRegularity, CurveRegularityError, Outcome, curve_regularity};
-use super::verdict::{Certified, Verdict};
+use super::verdict::{Certified, Role, Verdict};
 use crate::statement::Statement;
 
 /// Largest number of coordinates of all visible quotients together for which this is tried.
@@ -74,17 +75,30 @@ impl Parameter {
 pub(super) fn add_claims(found: &mut Certified) {
     let mut claims = Vec::new();
     if let Some(every) = &found.everywhere {
-        claims.push(Claim::as_found(Assertion::G1, every.verdict, every.statement(), Reason::EveryPoint));
+        let reason = if breaks_inside(found, every) { Reason::InsidePoint } else { Reason::EveryPoint };
+        claims.push(Claim::as_found(Assertion::G1, every.verdict, every.statement(), reason));
     }
     claims.extend(found.parameter.iter().flat_map(Parameter::claims));
     found.claims.extend(claims);
     found.claims.sort_by_key(|c| c.what.topic());
 }
 
+/// Whether G¹ is refuted at a point that is neither an end nor a joint.
+fn breaks_inside(found: &Certified, every: &Everywhere) -> bool {
+    let turns = every.hodograph.as_ref().is_some_and(|h| !h.turns.is_empty());
+    every.verdict == Verdict::Refuted
+        && match every.witness.and_then(|k| found.points.get(k)) {
+            Some(point) => point.role == Role::Interior,
+            // Where a polynomial turns back at a joint, that joint is the witness.
+            None => turns,
+        }
+}
+
 /// The order 1 that was proved with a larger budget takes the place of one that is open.
 pub(super) fn adopt_derivative(found: &mut Certified) {
     let proved = found.everywhere.as_ref().filter(|e| e.verdict == Verdict::Proved);
-    let Some(order) = proved.and_then(|e| e.derivative.as_deref()) else { return };
+    let uniform = proved.and_then(|e| e.derivative.as_deref()).filter(|order| order.shares.is_none());
+    let Some(order) = uniform else { return };
     if let Some(Parameter::Orders(orders)) = &mut found.parameter
         && let [_, first] = orders.orders.as_mut_slice()
         && first.outcome == Outcome::Open

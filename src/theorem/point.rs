@@ -205,7 +205,7 @@ fn along(tangent: &Direction, report: &PointReport) -> Direction {
         ([before], []) => tangent.same_line(before).map(|s| -s),
         _ => None,
     };
-    tangent.times(sign.unwrap_or(1))
+    sign.map_or_else(|| tangent.clone(), |s| tangent.times(s))
 }
 
 /// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.

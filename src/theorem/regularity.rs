@@ -14,6 +14,7 @@ use thiserror::Error;
 
 /// Why a mask has no regularity.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum MaskError {
     /// An arity below 2.
     #[error("the arity is {0}, but must be at least 2")]

@@ -1,6 +1,6 @@
 //! Which claims decide: the topics of claims, and a list of those that are required.
 
-use super::claim::{Assertion, Claim};
+use super::claim::{Assertion, Claim, Reason};
 use crate::answer::Verdict;
 use std::fmt;
 use thiserror::Error;
@@ -15,6 +15,8 @@ pub enum Topic {
     Joints,
     /// A dense set of points.
     Dense,
+    /// The points of a curve that are neither ends nor joints: refuted where one of them refutes G¹.
+    Inside,
     /// Every point of a curve: G¹.
     G1,
     /// `C^k` in the uniform parameter.
@@ -26,13 +28,14 @@ pub enum Topic {
 }
 
 impl Topic {
-    /// Reads `ends`, `joints`, `dense`, `g1`, `c1`, `c2`, …, or `points`.
+    /// Reads `ends`, `joints`, `dense`, `inside`, `g1`, `c1`, `c2`, …, or `points`.
     #[must_use]
     pub fn parse(word: &str) -> Option<Self> {
         Some(match word {
             "ends" => Self::Ends,
             "joints" => Self::Joints,
             "dense" => Self::Dense,
+            "inside" => Self::Inside,
             "g1" => Self::G1,
             "points" => Self::Points,
             _ => {
@@ -49,6 +52,7 @@ impl fmt::Display for Topic {
             Self::Ends => f.write_str("ends"),
             Self::Joints => f.write_str("joints"),
             Self::Dense => f.write_str("dense"),
+            Self::Inside => f.write_str("inside"),
             Self::G1 => f.write_str("g1"),
             Self::C(k) => write!(f, "c{k}"),
             Self::Exponent => f.write_str("exponent"),
@@ -97,7 +101,7 @@ impl Assertion {
 
 /// A word that names no claim.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("`{0}` is no claim: name ends, joints, dense, points, g1, c1, c2, …, or tangents")]
+#[error("`{0}` is no claim: name ends, joints, dense, points, inside, g1, c1, c2, …, or tangents")]
 pub struct UnknownTopic(String);
 
 /// The claims that decide about a case, and with it about the exit code.
@@ -108,15 +112,15 @@ pub struct Required {
 }
 
 impl Default for Required {
-    /// The tangents at the ends, the joints, a dense set and the points asked for, as far as a shape has them; and G¹ where it
-    /// is refuted.
+    /// The tangents at the ends, the joints, a dense set and the points asked for, as far as a shape has them; and a cusp or a
+    /// corner inside, of which none of these claims speaks.
     fn default() -> Self {
         let topics = vec![
             (Topic::Ends, true),
             (Topic::Joints, true),
             (Topic::Dense, true),
             (Topic::Points, true),
-            (Topic::G1, false),
+            (Topic::Inside, false),
         ];
         Self { topics, named: false }
     }
@@ -141,7 +145,7 @@ impl Required {
         }
         if text.trim() == "tangents" {
             let mut topics = Self::default().topics;
-            topics.retain(|(topic, _)| *topic != Topic::G1);
+            topics.retain(|(topic, _)| *topic != Topic::Inside);
             return Ok(Self { topics, named: false });
         }
         let mut topics = Vec::new();
@@ -177,7 +181,9 @@ impl Required {
         let topic = claim.what.topic();
         topic.is_none()
             || self.topics.iter().any(|(t, strict)| {
-                let same = Some(*t) == topic || *t == Topic::Joints && topic == Some(Topic::Dense);
+                let same = Some(*t) == topic
+                    || *t == Topic::Joints && topic == Some(Topic::Dense)
+                    || *t == Topic::Inside && topic == Some(Topic::G1) && breaks_inside(claim);
                 same && (*strict || claim.verdict() == Verdict::Refuted)
             })
     }
@@ -188,12 +194,30 @@ fn about(claims: &[Claim], topic: Topic) -> Option<Verdict> {
     if let Topic::C(order) = topic {
         return of_order(claims, order);
     }
+    if topic == Topic::Inside {
+        return of_inside(claims);
+    }
     let of = |wanted: Topic| {
         let own: Vec<Verdict> = claims.iter().filter(|c| c.what.topic() == Some(wanted)).map(Claim::verdict).collect();
         (!own.is_empty()).then(|| Verdict::all(own.len(), own))
     };
     // Where all joints are decided together, they are the dense set.
     of(topic).or_else(|| if topic == Topic::Joints { of(Topic::Dense) } else { None })
+}
+
+/// Whether a claim refutes G¹ at a point that is neither an end nor a joint.
+fn breaks_inside(claim: &Claim) -> bool {
+    claim.verdict() == Verdict::Refuted && claim.reason() == Some(&Reason::InsidePoint)
+}
+
+/// What is known of the points that are neither ends nor joints: refuted at one of them, or G¹ at all.
+fn of_inside(claims: &[Claim]) -> Option<Verdict> {
+    let claim = claims.iter().find(|c| c.what == Assertion::G1)?;
+    Some(match claim.verdict() {
+        Verdict::Proved => Verdict::Proved,
+        Verdict::Refuted if breaks_inside(claim) => Verdict::Refuted,
+        _ => Verdict::Undetermined,
+    })
 }
 
 /// Whether the curve is `C^order`, by what is claimed of smaller and larger orders.
@@ -228,7 +252,6 @@ impl fmt::Display for Required {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::theorem::Reason;
 
     fn claims() -> Vec<Claim> {
         let order = |order| Assertion::Smooth { order };
@@ -276,7 +299,12 @@ mod tests {
     fn nothing_claimed_is_no_success() {
         assert_eq!(Required::default().verdict(&[]), Verdict::Undetermined);
         assert_eq!(verdict("g1?", &claims()), Verdict::Undetermined);
-        let refuted = [Claim::refuted(Assertion::G1, None, Reason::EveryPoint)];
-        assert_eq!(Required::default().verdict(&refuted), Verdict::Refuted);
+        let tangents = Claim::proved(Assertion::TangentAtEnds, None);
+        for (reason, expected) in [(Reason::InsidePoint, Verdict::Refuted), (Reason::EveryPoint, Verdict::Proved)] {
+            let claims = [tangents.clone(), Claim::refuted(Assertion::G1, None, reason)];
+            assert_eq!(Required::default().verdict(&claims), expected);
+            assert_eq!(verdict("tangents", &claims), Verdict::Proved);
+            assert_eq!(verdict("ends,g1?", &claims), Verdict::Refuted);
+        }
     }
 }

@@ -161,6 +161,34 @@ impl SlowCycle {
         None
     }
 
+    /// The evidence for a piece from a state to itself and rays in coordinates of its relevant space: the functional is positive on
+    /// all of them, or negative on all of them and then turned round.
+    pub(super) fn of_rays(
+        shape: &Shape,
+        spaces: &Spaces,
+        (state, letter): (usize, usize),
+        rays: &Matrix,
+    ) -> Option<Self> {
+        let word = vec![letter];
+        let linear = signed_product(shape, spaces, state, &word)?;
+        let spectrum = Spectrum::of(&linear);
+        let lead = leading(&spectrum)?;
+        let functional =
+            longest_chain(&spectrum.factor(lead).left, spectrum.factor(lead).blocks[0])?.vectors[0].clone();
+        let root = spectrum.root(lead).clone();
+        let zero = || Elem::from_rational(&Rational::from(0));
+        let value = |j: usize| {
+            let column = rays.column(j);
+            functional.iter().zip(&column).fold(zero(), |s, (g, x)| s.add(&g.scale(x))).sign(&root)
+        };
+        let sign = (rays.cols() > 0).then(|| value(0)).filter(|s| *s != 0)?;
+        if (1..rays.cols()).any(|j| value(j) != sign) {
+            return None;
+        }
+        let functional = functional.iter().map(|x| x.scale(&Rational::from(sign))).collect();
+        Some(Self { state, word, linear, spectrum, lead, functional })
+    }
+
     /// Whether the cycle belongs to the shape, and every ray has a positive leading coefficient or is the one to which the
     /// others are pulled.
     #[must_use]

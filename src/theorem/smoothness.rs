@@ -3,7 +3,7 @@
 
 use super::frames::component;
 use super::regularity::minus_log;
-use crate::arith::{Interval, Rational};
+use crate::arith::{Interval, Rational, abs};
 use crate::linalg::{Matrix, closures};
 use crate::radius::{Arrow, Growth, JointRadius, Options, System, joint_radius};
 use crate::shape::{CellKind, End, Piece, Shape, Spaces, difference};
@@ -12,6 +12,7 @@ use thiserror::Error;
 
 /// Why a curve has no table of orders.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum CurveRegularityError {
     /// The uniform parameter needs the same number of pieces in all states that come back to themselves.
     #[error(
@@ -75,8 +76,10 @@ pub struct Seen {
 pub struct CurveOrder {
     /// `k`.
     pub order: usize,
-    /// `N^−k`.
+    /// `N^−k`, or 1 where the parameter has shares of its own, by which the operators are divided.
     pub threshold: Rational,
+    /// By reachable state and letter, the part of the parameter that a piece takes, where these are not all `1/N`.
+    pub shares: Option<Shares>,
     /// Dimensions of the spaces `F_e ⊂ W_e` of the differences of derivatives of order `k`.
     pub dims: Vec<usize>,
     /// The operators on them, arrows by state and letter; `None` where all are 0 (a polynomial).
@@ -192,7 +195,7 @@ pub fn curve_regularity(
 }
 
 impl CurveOrder {
-    fn is_below(&self) -> bool {
+    pub(super) fn is_below(&self) -> bool {
         self.enclosure.as_ref().is_some_and(|e| e.hi < self.threshold)
     }
 
@@ -216,37 +219,6 @@ impl CurveOrder {
     }
 }
 
-/// The order 1 of a curve that is a graph over its uniform parameter, as it is seen (Theorem 12); `None` where its hypotheses are
-/// not all proved.
-///
-/// # Cost
-/// One joint spectral radius where the chords allow it, otherwise some linear algebra.
-#[must_use]
-pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
-    let curve = Curve::new(shape, spaces).ok()?;
-    let (_, chords) = curve.first().ok()?;
-    let families = curve.differences(1, &chords);
-    let outside = |family: &Matrix, chord: &[Rational]| {
-        family.stack(&Matrix::from_rows(chord.len(), vec![chord.to_vec()])).rank() > family.rank()
-    };
-    // Any lift of a vector of the visible quotient is seen as the same vector.
-    let start = spaces.of(shape.start);
-    let pivots = start.visible.echelon().pivots;
-    let view = &shape.view() * &start.basis;
-    let view = Matrix::from_fn(view.rows(), pivots.len(), |i, j| view[(i, pivots[j])].clone());
-    let home = curve.position(shape.start);
-    let seen = outside(&(&families[home] * &view.transpose()), &view.apply(&chords[home]));
-    if !seen || !families.iter().zip(&chords).all(|(f, c)| outside(f, c)) {
-        return None;
-    }
-    let mut order = curve.order(1, &families, options);
-    if !order.is_below() || curve.joints(1, &curve.ends(1, &families, &chords)?).is_some() {
-        return None;
-    }
-    order.outcome = Outcome::Holds;
-    Some(order)
-}
-
 fn power(base: &Rational, exponent: usize) -> Rational {
     (0..exponent).fold(Rational::from(1), |p, _| p * base)
 }
@@ -263,8 +235,11 @@ fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>
     (Some(radius), enclosure)
 }
 
+/// By reachable state and letter, the part of the parameter that a piece takes.
+pub type Shares = Vec<Vec<Rational>>;
+
 /// A curve in its visible quotients. Families and chords go by the position of a state among the reachable ones.
-struct Curve<'a> {
+pub(super) struct Curve<'a> {
     shape: &'a Shape,
     spaces: &'a Spaces,
     states: Vec<usize>,
@@ -272,24 +247,38 @@ struct Curve<'a> {
     positions: Vec<Option<usize>>,
     /// `N`, the number of pieces of the states that come back to themselves.
     pieces: usize,
+    /// Where the pieces of a state do not take equal shares of the parameter, what they take.
+    shares: Option<Shares>,
     /// By position and letter: the map `W_to -> W_from`.
     operators: Vec<Vec<Matrix>>,
 }
 
-type Families = Vec<Matrix>;
-type Chords = Vec<Vec<Rational>>;
-type Ends = Vec<[Vec<Rational>; 2]>;
+pub(super) type Families = Vec<Matrix>;
+pub(super) type Chords = Vec<Vec<Rational>>;
+pub(super) type Ends = Vec<[Vec<Rational>; 2]>;
 
 impl<'a> Curve<'a> {
-    fn new(shape: &'a Shape, spaces: &'a Spaces) -> Result<Self, CurveRegularityError> {
-        let states = shape.reachable();
+    pub(super) fn new(shape: &'a Shape, spaces: &'a Spaces) -> Result<Self, CurveRegularityError> {
         let count = |e: &usize| shape.states[*e].pieces.len();
+        let states = shape.reachable();
         let returning: Vec<usize> = states.iter().filter(|e| !component(shape, **e).is_empty()).map(count).collect();
-        let edges = states.iter().all(|e| shape.states[*e].kind == CellKind::Edge && count(e) > 0);
-        let pieces = match returning.first() {
-            Some(&first) if first >= 2 && edges && returning.iter().all(|n| *n == first) => first,
-            _ => return Err(CurveRegularityError::Pieces),
-        };
+        match returning.first() {
+            Some(&first) if first >= 2 && returning.iter().all(|n| *n == first) => Self::of(shape, spaces, first, None),
+            _ => Err(CurveRegularityError::Pieces),
+        }
+    }
+
+    /// The curve with equal shares of the parameter, or with given ones, of which `pieces` says nothing.
+    pub(super) fn of(
+        shape: &'a Shape,
+        spaces: &'a Spaces,
+        pieces: usize,
+        shares: Option<Shares>,
+    ) -> Result<Self, CurveRegularityError> {
+        let states = shape.reachable();
+        if states.iter().any(|e| shape.states[*e].kind != CellKind::Edge || shape.states[*e].pieces.is_empty()) {
+            return Err(CurveRegularityError::Pieces);
+        }
         if spaces.of(shape.start).visible.rows() == 0 {
             return Err(CurveRegularityError::Point);
         }
@@ -300,11 +289,11 @@ impl<'a> Curve<'a> {
         let of = |e: usize| shape.states[e].pieces.iter().map(|p| spaces.on_visible(&p.op, e, p.target)).collect();
         let operators: Option<Vec<Vec<Matrix>>> = states.iter().map(|&e| of(e)).collect();
         let operators = operators.ok_or_else(|| CurveRegularityError::Ends(shape.states[shape.start].name.clone()))?;
-        Ok(Self { shape, spaces, states, positions, pieces, operators })
+        Ok(Self { shape, spaces, states, positions, pieces, shares, operators })
     }
 
     /// The whole spaces `W_e` and the chords of the curves in them.
-    fn first(&self) -> Result<(Families, Chords), CurveRegularityError> {
+    pub(super) fn first(&self) -> Result<(Families, Chords), CurveRegularityError> {
         let families = (0..self.states.len()).map(|e| Matrix::identity(self.dim(e))).collect();
         let chord = |&e: &usize| {
             let end = |end| self.shape.end_point(e, end);
@@ -316,7 +305,7 @@ impl<'a> Curve<'a> {
     }
 
     /// The position of a state that is reached.
-    fn position(&self, state: usize) -> usize {
+    pub(super) fn position(&self, state: usize) -> usize {
         self.positions[state].expect("a piece of a reachable state leads to a reachable state")
     }
 
@@ -333,23 +322,30 @@ impl<'a> Curve<'a> {
         })
     }
 
-    /// `(ε N_e)^k`: what derivatives of order `k` are multiplied with on a piece of a state.
-    fn factor(&self, k: usize, from: usize, reversed: bool) -> Rational {
-        let count = Rational::from(self.shape.states[self.states[from]].pieces.len());
-        power(&if reversed { -count } else { count }, k)
+    /// `(ε N_e)^k`, or `(ε/s)^k` for a piece with the share `s`: what derivatives of order `k` are multiplied with on it.
+    fn factor(&self, k: usize, from: usize, letter: usize) -> Rational {
+        let pieces = &self.shape.states[self.states[from]].pieces;
+        let one = match &self.shares {
+            Some(shares) => Rational::from(1) / &shares[from][letter],
+            None => Rational::from(pieces.len()),
+        };
+        power(&if pieces[letter].reversed { -one } else { one }, k)
     }
 
-    fn order(&self, k: usize, families: &[Matrix], options: &Options) -> CurveOrder {
-        let system = self.system(families);
+    pub(super) fn order(&self, k: usize, families: &[Matrix], options: &Options) -> CurveOrder {
+        let system = self.system(k, families);
         let (radius, enclosure) = radius_of(system.as_ref(), options);
         let dims = families.iter().map(Matrix::rows).collect();
-        let threshold = Rational::from(1) / power(&Rational::from(self.pieces), k);
+        let threshold = match self.shares {
+            Some(_) => Rational::from(1),
+            None => Rational::from(1) / power(&Rational::from(self.pieces), k),
+        };
         let outcome = if k == 0 { Outcome::Curve } else { Outcome::Open };
-        CurveOrder { order: k, threshold, dims, system, radius, enclosure, outcome }
+        CurveOrder { order: k, threshold, shares: self.shares.clone(), dims, system, radius, enclosure, outcome }
     }
 
-    /// The operators on the families, not scaled.
-    fn system(&self, families: &[Matrix]) -> Option<System> {
+    /// The operators on the families; with shares, those of the derivatives of order `k`, but for signs.
+    fn system(&self, k: usize, families: &[Matrix]) -> Option<System> {
         if families.iter().all(|f| f.rows() == 0) {
             return None;
         }
@@ -359,6 +355,8 @@ impl<'a> Curve<'a> {
             let images = &families[to] * &self.operators[from][letter].transpose();
             let matrix =
                 Matrix::from_fn(pivots[from].len(), images.rows(), |i, j| images[(j, pivots[from][i])].clone());
+            let scale = self.shares.is_some().then(|| abs(&self.factor(k, from, letter)));
+            let matrix = scale.map_or(matrix.clone(), |factor| matrix.scale(&factor));
             arrows.push(Arrow { from, to, matrix, label: arrows.len() });
         }
         Some(System { dims: pivots.iter().map(Vec::len).collect(), arrows })
@@ -366,10 +364,10 @@ impl<'a> Curve<'a> {
 
     /// The differences of the derivatives of order `k`: the smallest families with `(ε N)^k T_i c_δ − c_e ∈ F_e` for the chords
     /// of order `k−1`, and `T_i F_δ ⊂ F_e`. Rows in echelon form.
-    fn differences(&self, k: usize, chords: &Chords) -> Families {
+    pub(super) fn differences(&self, k: usize, chords: &Chords) -> Families {
         let mut families: Vec<Matrix> = chords.iter().map(|c| Matrix::zero(0, c.len())).collect();
-        for (from, letter, piece, to) in self.arrows() {
-            let image = self.operators[from][letter].scale(&self.factor(k, from, piece.reversed)).apply(&chords[to]);
+        for (from, letter, _, to) in self.arrows() {
+            let image = self.operators[from][letter].scale(&self.factor(k, from, letter)).apply(&chords[to]);
             let offset = Matrix::from_rows(image.len(), vec![difference(&image, &chords[from])]);
             families[from] = families[from].stack(&offset).echelon().rows;
         }
@@ -380,7 +378,7 @@ impl<'a> Curve<'a> {
     }
 
     /// The values of the derivative of order `k` at the two ends of every curve.
-    fn ends(&self, k: usize, families: &[Matrix], chords: &Chords) -> Option<Ends> {
+    pub(super) fn ends(&self, k: usize, families: &[Matrix], chords: &Chords) -> Option<Ends> {
         let both = |&e: &usize| {
             Some([self.limit(k, e, End::Start, families, chords)?, self.limit(k, e, End::Finish, families, chords)?])
         };
@@ -407,20 +405,20 @@ impl<'a> Curve<'a> {
         let start = Matrix::identity(self.dim(from));
         word.iter().fold((start, from), |(product, at), &letter| {
             let piece = &self.shape.states[self.states[at]].pieces[letter];
-            let step = self.operators[at][letter].scale(&self.factor(k, at, piece.reversed));
+            let step = self.operators[at][letter].scale(&self.factor(k, at, letter));
             (&product * &step, self.position(piece.target))
         })
     }
 
     /// The first joint of the first level at which the derivative of order `k` has two values.
-    fn joints(&self, k: usize, ends: &Ends) -> Option<Jump> {
+    pub(super) fn joints(&self, k: usize, ends: &Ends) -> Option<Jump> {
         for (from, &state) in self.states.iter().enumerate() {
             let value = |letter: usize, end: End| {
                 let piece = &self.shape.states[state].pieces[letter];
                 let own = &ends[self.position(piece.target)][usize::from(end.in_piece(piece) == End::Finish)];
-                self.operators[from][letter].scale(&self.factor(k, from, piece.reversed)).apply(own)
+                self.operators[from][letter].scale(&self.factor(k, from, letter)).apply(own)
             };
-            for right in 1..self.shape.states[state].pieces.len() {
+            for right in 1..self.operators[from].len() {
                 let (before, after) = (value(right - 1, End::Finish), value(right, End::Start));
                 if before != after {
                     return Some(Jump { state, right, seen: self.seen(k, from, [before, after]) });

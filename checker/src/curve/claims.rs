@@ -8,6 +8,11 @@ use num_traits::Signed;
 
 /// The question whether the curve is G¹, answered by Theorem 12.
 const DERIVATIVE: &str = "every point by its derivative";
+/// The same in a parameter of which the pieces take given shares.
+const SHARES: &str = "every point by its derivative in shares";
+
+/// The question about the joints whose lines are not killed, beside joints that are not all proved.
+const NOT_KILLED: &str = "joints not killed";
 
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
 type Question = (&'static str, Option<Address>);
@@ -37,6 +42,12 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
         DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
+        SHARES if asked.iter().all(|(what, _)| *what != SHARES) => return Ok((SHARES, None)),
+        NOT_KILLED
+            if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) =>
+        {
+            return Ok((NOT_KILLED, None));
+        }
         "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
         _ => {}
     }
@@ -70,7 +81,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, "every point" | DERIVATIVE)).then_some(verdict));
+        found.extend((!matches!(question.0, "every point" | DERIVATIVE | SHARES | NOT_KILLED)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -118,6 +129,11 @@ impl<'a> Claims<'a> {
                 let (found, places) = self.joints([&theorem, &points, &upstairs])?;
                 (stated, found, Claim::TangentAtJoints(places))
             }
+            (what, None) if *what == NOT_KILLED => {
+                let [_, stated, theorem, upstairs] = node.fields("question verdict theorem upstairs")?;
+                self.not_killed(&theorem, &upstairs)?;
+                (stated, Verdict::Proved, Claim::TangentAtJoints(Joints::OnlyNotKilled))
+            }
             ("every point", _) => {
                 let mut found = everywhere::check(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
@@ -127,7 +143,12 @@ impl<'a> Claims<'a> {
             }
             (what, None) if *what == DERIVATIVE => {
                 let [_, stated, radius] = node.fields("question verdict radius")?;
-                radius.at(crate::regularity::graph(self.model, &radius))?;
+                radius.at(crate::regularity::graph(self.model, None, &radius))?;
+                (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
+            }
+            (what, None) if *what == SHARES => {
+                let [_, stated, shares, radius] = node.fields("question verdict shares radius")?;
+                radius.at(crate::regularity::graph(self.model, Some(&shares), &radius))?;
                 (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
             }
             (_, None) => {
@@ -218,6 +239,21 @@ impl<'a> Claims<'a> {
         }
         self.upstairs(&items, upstairs)?;
         Ok((Verdict::Proved, Joints::NotKilled))
+    }
+
+    /// Theorem 5′ or 11′ by itself: what is needed of the joints is upstairs, in the states where they are.
+    fn not_killed(&self, theorem: &Node<'_>, upstairs: &Node<'_>) -> Checked<()> {
+        let (name, items) = (theorem.text()?, upstairs.list()?);
+        theorem.need(
+            matches!(name, "5'" | "11'") && !items.is_empty(),
+            "joints",
+            "Theorem 5' or 11', with its joints",
+        )?;
+        if name == "11'" {
+            return frames::check(self.model, upstairs, false).map(drop);
+        }
+        theorem.at(self.injective(false))?;
+        self.upstairs(&items, upstairs)
     }
 
     /// The hypotheses of Theorem 5 (with the view) or 5′ (without it) on injectivity.

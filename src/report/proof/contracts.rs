@@ -173,7 +173,7 @@ pub(super) fn enclosures(
                         let text = format!(
                             "for all code words{of} the right side is at most $@$, and the radius given is not smaller."
                         );
-                        (Tone::Good, line(&text, [bounded(&sum)]))
+                        (Tone::Good, line(&text, [short_bound(&sum)]))
                     }
                     _ => (Tone::Bad, words(format!("the radius{of} is not confirmed by the code words."))),
                 };

@@ -7,7 +7,7 @@ use super::super::radius::decimal;
 use super::super::values::{elem_math, lambda_math};
 use super::super::words::{count, listed, mark, point_name, root_of, tone};
 use super::evidence::Evidence;
-use super::{Quoted, matrix};
+use super::{Quoted, components, matrix};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::case::Case;
@@ -36,6 +36,12 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     if let Some(order) = &result.derivative {
         blocks.extend(seen.once_id(Statement::Graph));
         blocks.push(Block::Checks(derivative(order)));
+    }
+    if let Some(parts) = &result.components {
+        blocks.extend(seen.once_id(Statement::Theorem6));
+        blocks.extend(seen.once_id(Statement::Components));
+        blocks.push(components::evidence(case, parts).block());
+        blocks.extend(components::loops(case, parts));
     }
     let checks = result.joints.iter().map(|joint| {
         let point = joint.report(found);
@@ -82,11 +88,22 @@ fn derivative(order: &crate::theorem::smoothness::CurveOrder) -> Vec<Check> {
     )];
     if let Some(bound) = &order.enclosure {
         let hi = decimal(&bound.hi, true, 6);
-        texts.push(format!("the joint spectral radius of the $T_i$ on $F$ is at most {hi}, which is below $1/N=@$"));
+        texts.push(match order.shares {
+            None => format!("the joint spectral radius of the $T_i$ on $F$ is at most {hi}, which is below $1/N=@$"),
+            Some(_) => format!("the joint spectral radius of the $T_i/s_i$ on $F$ is at most {hi}, which is below $@$"),
+        });
+    }
+    if let Some(shares) = &order.shares {
+        let each: Vec<String> = shares.iter().map(|s| crate::report::words::listed(&texts_of(s))).collect();
+        texts.insert(0, format!("the pieces take the shares {} of the parameter, state by state", each.join("; ")));
     }
     texts.push("the derivatives of the two sides are equal at every first-level joint".to_owned());
     let threshold = || std::iter::once(Math::number(&order.threshold));
     texts.into_iter().map(|text| Check { tone: Tone::Good, text: line(&text, threshold()) }).collect()
+}
+
+fn texts_of(numbers: &[crate::arith::Rational]) -> Vec<String> {
+    numbers.iter().map(ToString::to_string).collect()
 }
 
 /// Most rays that are printed.

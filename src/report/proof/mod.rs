@@ -1,6 +1,7 @@
 //! The proof-style report: every statement applied, with every number that it needs, in an order in which it can be
 //! checked by hand.
 
+mod components;
 mod contracts;
 mod cycles;
 mod dense;
@@ -247,6 +248,8 @@ fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
                     [],
                 ),
             ));
+            let once = certificate.left_out().iter().map(|why| words(format!("{why}.")));
+            facts.extend(once.map(|why| ("proved once only".to_owned(), why)));
         }
         Err(unsupported) => facts.push(("certificate".to_owned(), words(format!("none: {unsupported}.")))),
     }

@@ -181,18 +181,19 @@ fn together(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
         text.extend(direction(left));
         text.extend(words(" and "));
         text.extend(direction(right));
-        text.extend(words(if agree {
-            ", which are multiples of one another."
-        } else {
-            ", which are no multiples of one another."
-        }));
+        text.extend(words("; neither is killed."));
         let mut evidence = Evidence::of(Statement::Joint).holds(
             "branches",
             "$D^*$ of both branches is a line, as shown with their cycles.",
             [],
         );
-        evidence.push("transported", if agree { Tone::Good } else { Tone::Bad }, text);
+        evidence.push("transported", Tone::Good, text);
         blocks.push(evidence.block());
+        blocks.push(Block::Paragraph(words(if agree {
+            "The two lines agree."
+        } else {
+            "The two lines are different, so that there is no tangent line."
+        })));
         return blocks;
     }
     let known: Vec<&Direction> = point.branches.iter().filter_map(contained).collect();
@@ -244,7 +245,7 @@ fn conclusion(point: &PointReport) -> Line {
         out.extend(words(": "));
         out.push(Inline::Strong(kind.to_owned()));
     }
-    let meaning = kind_meaning(point.kind);
+    let meaning = kind_meaning(point.kind, point.role == Role::SetPoint);
     if !meaning.is_empty() {
         out.extend(words(format!(" ({meaning})")));
     }

@@ -69,11 +69,11 @@ fn certificate(case: &VertexCase, found: &[AtValence]) -> Vec<Block> {
     let mut facts =
         vec![("case file, SHA-256".to_owned(), code(crate::certificate::sha256(case.text.text.as_bytes())))];
     match crate::certificate::vertex_certificate(case, found) {
-        Some(certificate) => {
+        Ok(certificate) => {
             facts.push(("certificate, SHA-256".to_owned(), code(crate::certificate::sha256(certificate.text()))));
             facts.push(("checker".to_owned(), words(format!("{}.", twice(found)))));
         }
-        None => facts.push(("certificate".to_owned(), words(format!("none: {}.", twice(found))))),
+        Err(why) => facts.push(("certificate".to_owned(), words(format!("none: {why}; {}.", twice(found))))),
     }
     vec![Block::heading(2, "Certificate"), Block::Facts(facts)]
 }

@@ -16,6 +16,7 @@ const MAX_POWER_BITS: u64 = 100_000;
 
 /// Why a number cannot be built.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum FieldError {
     /// A field of this degree over the rationals, or the norm that is needed to find it, is over the limit.
     #[error("the field of these numbers needs polynomials of degree {0}, which is over the limit")]

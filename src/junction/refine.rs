@@ -1,0 +1,166 @@
+//! Refinement of a curve (thesis, §5.1.3): its first-level cells on points of their own, glued where they meet.
+
+use super::JunctionError;
+use crate::arith::Rational;
+use crate::linalg::Matrix;
+use crate::shape::{CellKind, Complex, Piece, State};
+
+/// A refined curve, and how it lies in the one before.
+#[derive(Debug, Clone)]
+pub struct Refined {
+    /// The shape; its start state has the cells of the first level as pieces, by selections of its points.
+    pub complex: Complex,
+    /// `E`: the points of the refined start state as combinations of those of the start state before.
+    pub embedding: Matrix,
+}
+
+/// A cell of the refined curve: its state, its operator from the old start state, whether it runs backwards.
+struct Cell {
+    target: usize,
+    op: Matrix,
+    reversed: bool,
+}
+
+/// Refines the start state of a curve once. With `E` the embedding, `E T'_{ij} = T_i T_j` for all cells `ij`, so that control points
+/// `P E` give the same curve; other control points give a larger family, in which a point moves only the cells that use it.
+///
+/// # Errors
+/// [`JunctionError::Refinement`] where the start is no curve, or it is not known on which points neighbouring cells meet.
+///
+/// # Examples
+/// ```
+/// use secant::junction::refine;
+/// use secant::scheme::bspline;
+/// use secant::shape::Complex;
+///
+/// let cubic = Complex::of_curves(bspline(3, 2)?.curve()?);
+/// let refined = refine(&cubic)?;
+/// assert_eq!((refined.embedding.rows(), refined.embedding.cols()), (4, 7));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn refine(complex: &Complex) -> Result<Refined, JunctionError> {
+    let shape = &complex.shape;
+    let wrong = |why: &str| JunctionError::Refinement(why.to_owned());
+    if shape.states[shape.start].kind != CellKind::Edge {
+        return Err(wrong("only curves are refined"));
+    }
+    let cells = cells(complex);
+    let mut places: Vec<Vec<usize>> = Vec::new();
+    let mut columns: Vec<Vec<Rational>> = Vec::new();
+    for (k, cell) in cells.iter().enumerate() {
+        let mut own: Vec<Option<usize>> = vec![None; cell.op.cols()];
+        if k > 0 {
+            let meet = meet(complex, &cells[k - 1], cell);
+            let pairs =
+                meet.ok_or_else(|| wrong("neighbouring cells share no points; give `left` and `right` of the states"))?;
+            pairs.into_iter().for_each(|(before, after)| own[after] = Some(places[k - 1][before]));
+        }
+        let mut order: Vec<usize> = (0..own.len()).collect();
+        if cell.reversed {
+            order.reverse();
+        }
+        for j in order {
+            if own[j].is_none() {
+                columns.push(cell.op.column(j));
+                own[j] = Some(columns.len() - 1);
+            }
+        }
+        places.push(own.into_iter().flatten().collect());
+    }
+    let embedding = Matrix::from_columns(shape.states[shape.start].dim, &columns);
+    Ok(Refined { complex: glued(complex, &cells, &places, &embedding), embedding })
+}
+
+/// The cells of the first level in the order of the parameter.
+fn cells(complex: &Complex) -> Vec<Cell> {
+    let states = &complex.shape.states;
+    let mut cells = Vec::new();
+    for outer in &states[complex.shape.start].pieces {
+        let inner = states[outer.target].pieces.iter().map(|p| Cell {
+            target: p.target,
+            op: &outer.op * &p.op,
+            reversed: p.reversed != outer.reversed,
+        });
+        if outer.reversed { cells.extend(inner.rev()) } else { cells.extend(inner) }
+    }
+    cells
+}
+
+/// The points that two neighbouring cells share, as pairs of their coordinates.
+fn meet(complex: &Complex, before: &Cell, after: &Cell) -> Option<Vec<(usize, usize)>> {
+    let states = &complex.shape.states;
+    let same = |pairs: &[(usize, usize)]| pairs.iter().all(|(i, j)| before.op.column(*i) == after.op.column(*j));
+    let ends = if before.reversed { &states[before.target].left } else { &states[before.target].right };
+    let begins = if after.reversed { &states[after.target].right } else { &states[after.target].left };
+    if let (Some(a), Some(b)) = (ends, begins)
+        && a.vertex == b.vertex
+        && let (Some(a), Some(b)) = (picked(&a.op), picked(&b.op))
+    {
+        let pairs: Vec<(usize, usize)> = a.into_iter().zip(b).collect();
+        return same(&pairs).then_some(pairs);
+    }
+    if before.reversed || after.reversed {
+        return None;
+    }
+    // Without vertices: the last points of one cell are the first of the next, or the other way round as masks list them.
+    let (n, m) = (before.op.cols(), after.op.cols());
+    let onward = |p: usize| (0..p).map(|i| (n - p + i, i)).collect::<Vec<_>>();
+    let backwards = |p: usize| (0..p).map(|i| (i, m - p + i)).collect::<Vec<_>>();
+    let (end, begin) = (end_point(complex, before, true)?, end_point(complex, after, false)?);
+    let holds = |pairs: &Vec<(usize, usize)>| {
+        let outside = |x: &[Rational], used: &dyn Fn(usize) -> bool| (0..x.len()).any(|i| x[i] != 0 && !used(i));
+        let agree = pairs.iter().all(|(i, j)| end[*i] == begin[*j]);
+        let inside = !outside(&end, &|i| pairs.iter().any(|p| p.0 == i))
+            && !outside(&begin, &|j| pairs.iter().any(|p| p.1 == j));
+        same(pairs) && agree && inside
+    };
+    (1..n.min(m)).rev().flat_map(|p| [onward(p), backwards(p)]).find(holds)
+}
+
+fn end_point(complex: &Complex, cell: &Cell, finish: bool) -> Option<Vec<Rational>> {
+    let end = if finish { crate::shape::End::Finish } else { crate::shape::End::Start };
+    complex.shape.end_point(cell.target, end)
+}
+
+/// The coordinates that a boundary picks.
+fn picked(op: &Matrix) -> Option<Vec<usize>> {
+    (0..op.cols())
+        .map(|j| {
+            let mut used = (0..op.rows()).filter(|&i| op[(i, j)] != 0);
+            let at = used.next().filter(|&i| op[(i, j)] == 1)?;
+            used.next().is_none().then_some(at)
+        })
+        .collect()
+}
+
+/// The shape with a new start state in place of the old one, which stays only where another state leads to it.
+fn glued(complex: &Complex, cells: &[Cell], places: &[Vec<usize>], embedding: &Matrix) -> Complex {
+    let mut out = complex.clone();
+    let size = embedding.cols();
+    let select = |own: &[usize]| Matrix::from_fn(size, own.len(), |i, j| Rational::from(u8::from(own[j] == i)));
+    let pieces: Vec<Piece> = cells
+        .iter()
+        .zip(places)
+        .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed })
+        .collect();
+    let (start, old) = (complex.shape.start, &complex.shape.states[complex.shape.start]);
+    let again =
+        complex.shape.states.iter().enumerate().any(|(k, s)| k != start && s.pieces.iter().any(|p| p.target == start))
+            || pieces.iter().any(|p| p.target == start);
+    let base = old.name.split('\'').next().unwrap_or("W");
+    let mut name = format!("{}'", old.name);
+    while complex.shape.states.iter().any(|s| s.name == name) {
+        name = format!("{name}'");
+    }
+    let name = if again { name } else { base.to_owned() };
+    let state = State { name, kind: CellKind::Edge, dim: size, pieces, left: None, right: None };
+    if again {
+        out.shape.states.push(state);
+        out.shape.start = out.shape.states.len() - 1;
+    } else {
+        out.reversals.remove(&start);
+        out.shape.states[start] = state;
+    }
+    out.shape.control = complex.shape.control.as_ref().map(|p| p * embedding);
+    out
+}
