@@ -175,6 +175,9 @@ fn vertex() -> Value {
         let entry = json!({"$ref": "#/$defs/number", "description": parameter.summary});
         all.entry(parameter.name).or_insert(entry);
     }
+    for key in scheme::mesh_rules().iter().flat_map(|s| s.rest.iter().chain(&s.list)) {
+        all.entry(*key).or_insert(json!({"description": "weights"}));
+    }
     json!({"type": "object", "properties": all, "additionalProperties": false})
 }
 
