@@ -27,6 +27,42 @@ const SETS: &[(&str, &str)] = &[
     ),
 ];
 
+/// Sets without a comparison: exact ties, binary partitions, signs, nonnegative sets of large dimension.
+fn rows() -> Vec<(String, String)> {
+    let mut list = vec![
+        ("complex pair".to_owned(), "[[[6,-4],[1,3]],[[-3,1],[-2,-6]]]".to_owned()),
+        ("A, B/5".to_owned(), "[[[1,1],[0,1]],[[\"1/5\",0],[\"1/5\",\"1/5\"]]]".to_owned()),
+    ];
+    for digits in [9, 15, 17] {
+        list.push((format!("Euler {digits}"), euler(digits)));
+    }
+    let mut seed = 1u64;
+    let mut random = |below: u64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        ((seed >> 33) % below) as i64
+    };
+    for (name, count, dim, low, below, step) in
+        [("signs", 3, 6, -1, 2, 2), ("integers", 3, 8, -3, 7, 1), ("nonnegative", 2, 50, 0, 4, 1)]
+    {
+        let mut row = || (0..dim).map(|_| (low + step * random(below)).to_string()).collect::<Vec<_>>().join(",");
+        let mut matrix = || (0..dim).map(|_| format!("[{}]", row())).collect::<Vec<_>>().join(",");
+        let set = (0..count).map(|_| format!("[{}]", matrix())).collect::<Vec<_>>().join(",");
+        list.push((format!("{name} {dim}"), format!("[{set}]")));
+    }
+    list
+}
+
+/// Binary partitions with the digits `0 … r − 1`, `r` odd: the matrices of Protasov.
+fn euler(r: i64) -> String {
+    let n = r - 1;
+    let matrix = |e: i64| {
+        let entry = |i: i64, j: i64| i64::from((0..r).contains(&(2 * i + e - j)));
+        let row = |i: i64| format!("[{}]", (0..n).map(|j| entry(i, j).to_string()).collect::<Vec<_>>().join(","));
+        format!("[{}]", (0..n).map(row).collect::<Vec<_>>().join(","))
+    };
+    format!("[{},{}]", matrix(0), matrix(1))
+}
+
 type Dense = nalgebra::DMatrix<f64>;
 
 fn radius(m: &Dense) -> f64 {
@@ -80,5 +116,15 @@ fn benches(c: &mut Criterion) {
     }
 }
 
-criterion_group!(group_of_benches, benches);
+fn alone(c: &mut Criterion) {
+    let mut group = c.benchmark_group("alone");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
+    for (name, text) in rows() {
+        let system = file::parse(&format!("matrices = {text}")).expect("a set").system;
+        group.bench_function(name, |b| b.iter(|| black_box(joint_radius(&system, &Options::default()))));
+    }
+    group.finish();
+}
+
+criterion_group!(group_of_benches, benches, alone);
 criterion_main!(group_of_benches);

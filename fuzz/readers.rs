@@ -93,8 +93,18 @@ pub fn differ(text: &str) -> Option<String> {
         // What is no curve has no certificate.
         (Err(_), Ok((_, false))) => None,
         (Err(id), Ok(_)) => {
-            let unused =
-                ["expect", "identity", "value", "too-large", "limit", "face", "unknown-key", "side", "reversal"];
+            let unused = [
+                "expect",
+                "identity",
+                "value",
+                "too-large",
+                "limit",
+                "face",
+                "unknown-key",
+                "side",
+                "reversal",
+                "layout",
+            ];
             (!unused.iter().any(|u| id.contains(u))).then(|| format!("secant refuses: {id}"))
         }
         (Err(_), Err(_)) => None,

@@ -63,6 +63,9 @@ impl Problem {
     /// The code of a defect of the program itself (see [`crate::guard`]).
     pub const INTERNAL: &str = "secant::internal";
 
+    /// The code of work that was told to stop (see [`crate::stop`]).
+    pub const STOPPED: &str = "secant::stopped";
+
     /// A problem with a code such as `secant::case::sum` and one sentence saying what is wrong.
     #[must_use]
     pub fn new(code: impl Into<String>, message: impl AsRef<str>) -> Self {

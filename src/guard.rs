@@ -1,6 +1,7 @@
 //! Defects of the program itself, caught at the door: they cost the one result that they spoil, not all of them.
 
 use crate::diagnostic::Problem;
+use crate::stop::Stopped;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -17,6 +18,9 @@ pub fn guarded<T>(work: impl FnOnce() -> Result<T, Problem>) -> Result<T, Proble
 }
 
 fn defect(payload: &(dyn Any + Send)) -> Problem {
+    if payload.is::<Stopped>() {
+        return Problem::new(Problem::STOPPED, "stopped before there was a result").with_help("ask again");
+    }
     let said = payload.downcast_ref::<&str>().map(|s| (*s).to_owned()).or_else(|| payload.downcast_ref().cloned());
     let said: String = said.unwrap_or_else(|| "no reason was given".to_owned());
     Problem::new(Problem::INTERNAL, format!("internal error, no verdict: {said}"))
@@ -33,6 +37,16 @@ mod tests {
         assert!(problem.is_internal() && problem.message().ends_with("at 7"), "{problem:?}");
         let problem = guarded(|| -> Result<(), Problem> { panic!("plain") }).expect_err("it panics");
         assert!(problem.is_internal() && problem.message().ends_with("plain"), "{problem:?}");
+    }
+
+    #[test]
+    fn work_that_was_told_to_stop_is_no_defect() {
+        let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
+        let case = crate::case::Question::ask("four-point").expect("a scheme");
+        let proved = || crate::prove(&case, &crate::budget::Budget::default());
+        let problem = guarded(|| crate::stop::stoppable(Some(flag), proved)).expect_err("it stops");
+        assert!(problem.id() == Problem::STOPPED && !problem.is_internal(), "{problem:?}");
+        assert!(guarded(proved).is_ok());
     }
 
     #[test]

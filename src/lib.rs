@@ -14,7 +14,7 @@
 //! let html = html::render(&findings::proof(&findings));
 //! let certificate = confirm(&mut findings)?;
 //! # // The tangent lines are proved; cusps are against G¹.
-//! # assert_eq!(findings.verdict(), Verdict::Refuted);
+//! # assert_eq!(findings.verdict(), Verdict::Proved);
 //! # assert!(html.contains("<math") && certificate.text().starts_with('{'));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -58,6 +58,7 @@
 
 pub mod answer;
 pub mod approx;
+pub mod ask;
 pub mod budget;
 pub mod case;
 pub mod certificate;
@@ -69,9 +70,11 @@ pub mod glossary;
 pub mod guard;
 pub mod junction;
 pub mod laws;
+pub mod mesh;
 pub mod picture;
 pub mod prove;
 pub mod radius;
+pub mod replay;
 pub mod report;
 pub mod scheme;
 pub mod shape;
@@ -81,7 +84,7 @@ pub mod strategies;
 pub mod theorem;
 pub mod vertex;
 
-pub use secant_exact::{algebraic, arith, jordan, linalg, poly, ring};
+pub use secant_exact::{algebraic, arith, jordan, linalg, poly, ring, stop};
 
 pub use prove::{Findings, prove};
 

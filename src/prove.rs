@@ -10,6 +10,7 @@ use crate::budget::Budget;
 use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
 use crate::scheme::mesh_rules;
+use crate::stop;
 use crate::theorem::surface::certify_complex_within;
 use crate::vertex::{AtValence, Every, at_valence_within, every};
 use std::sync::Arc;
@@ -91,8 +92,9 @@ fn examine(
     budget: &Budget,
     step: &(dyn Fn() + Sync),
 ) -> Result<Vec<AtValence>, Problem> {
+    let flag = stop::flag();
     let one = |&n: &usize| {
-        let found = at_valence_within(&case.rule, n, budget);
+        let found = stop::stoppable(flag.clone(), || at_valence_within(&case.rule, n, budget));
         step();
         found.map_err(|error| {
             Problem::new("secant::scheme", format!("{} at valence {n}: {error}", case.name)).with_source(&case.text)

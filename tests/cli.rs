@@ -281,7 +281,7 @@ fn reports_of_one_case_of_each_kind_are_as_approved() {
         ("cases/classical/levy.toml", 1),
         ("cases/two-parameter/corner-34-100.toml", 1),
         ("cases/counterexamples/null-witness.toml", 1),
-        ("cases/counterexamples/own-end-point.toml", 3),
+        ("cases/counterexamples/own-end-point.toml", 1),
         ("cases/control/bezier-cusp.toml", 0),
         ("cases/irrational/cusp-sqrt-2.toml", 0),
     ] {
@@ -568,4 +568,65 @@ fn regularity_of_several_cases() {
     let list: serde_json::Value = serde_json::from_str(&out).unwrap();
     assert_eq!((list.as_array().unwrap().len(), &list[1]["converges"]), (2, &false.into()));
     assert!(output(&["regularity", "db2", "haar"], 0).0.contains("== haar\n"));
+}
+
+/// A set whose polytope takes many points.
+const OPEN: &str = r#"matrices = [
+  [[0, 0, 2, 2, -2, 2], [0, -2, 0, 0, 0, 1], [0, -1, 1, 1, -1, -2], [0, -2, 0, 1, -2, 2], [1, 0, 1, 2, -2, 1], [-2, -1, 2, -1, -2, -1]],
+  [[1, 0, 2, 0, 2, 0], [1, -2, 2, 0, 0, -2], [1, -2, -1, 0, 2, 2], [0, -1, 0, 0, 2, -2], [0, 0, 0, -1, -2, -1], [0, 1, -1, -2, -2, 2]],
+  [[2, 1, -2, -1, 2, 0], [0, 1, 1, -1, -2, -2], [1, 0, -1, -1, 2, -1], [1, -2, -1, 1, 0, -1], [-2, 1, 0, -1, 1, 2], [-1, 2, 1, 1, 0, 1]],
+]"#;
+
+/// The answer of `secant jsr --json` about [`OPEN`].
+fn radius(options: &[&str]) -> Value {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("open.toml");
+    std::fs::write(&file, OPEN).unwrap();
+    let (out, _) = output(&[&["jsr", file.to_str().unwrap(), "--json"], options].concat(), 0);
+    serde_json::from_str(&out).unwrap()
+}
+
+fn bounds(answer: &Value) -> (f64, f64) {
+    let number = |key: &str| answer[key].as_str().expect("a decimal").parse().expect("a number");
+    (number("lower"), number("upper"))
+}
+
+#[test]
+fn radii_are_sought_within_the_options() {
+    let exact = radius(&[]);
+    assert_eq!((&exact["exact"], &exact["ended"]), (&true.into(), &"done".into()));
+    let (lo, hi) = bounds(&exact);
+    assert!(hi - lo < 1e-12);
+    let contains = |answer: &Value| bounds(answer).0 <= hi && lo <= bounds(answer).1;
+
+    // Bounds that are close enough end the search: wider than asked for by no more.
+    let wide = radius(&["--width", "0.3"]);
+    assert_eq!((&wide["exact"], &wide["ended"]), (&false.into(), &"done".into()));
+    let (low, high) = bounds(&wide);
+    assert!(contains(&wide) && high - low > 1e-3 && high <= 1.3 * low, "{wide}");
+
+    // No time at all: the norms of the letters, and what stopped the search.
+    let short = radius(&["--time", "0.000001", "--longest", "2"]);
+    assert!(contains(&short) && bounds(&short).1 > high, "{short}");
+    assert!(["work", "clock"].contains(&short["ended"].as_str().unwrap()), "{short}");
+    assert!(short["word"]["length"].as_u64().unwrap() <= 2);
+    assert!(contains(&radius(&["--longest", "1"])));
+}
+
+#[test]
+fn options_of_radii_are_checked() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("open.toml");
+    std::fs::write(&file, OPEN).unwrap();
+    for [option, value] in [
+        ["--time", "0"],
+        ["--time", "inf"],
+        ["--time", "soon"],
+        ["--longest", "0"],
+        ["--longest", "201"],
+        ["--width", "1"],
+    ] {
+        let (out, err) = output(&["jsr", file.to_str().unwrap(), option, value], 2);
+        assert!(out.is_empty() && err.contains(option), "{option} {value}\n{err}");
+    }
 }

@@ -18,6 +18,20 @@ fn run(args: &[&str], input: &str, code: i32) -> (String, String) {
 
 const CHAIKIN: &str = "name = \"c\"\n[scheme]\nmask = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"]\n";
 
+/// What would be written instead of a file may come from a pipe.
+#[test]
+fn a_line_from_a_pipe_is_what_it_would_be_as_an_argument() {
+    for line in ["1/4,3/4,3/4,1/4\n", "bspline degree=2\n", "(1+z)^3/4\n"] {
+        for head in ["certify", "regularity", "expand"] {
+            let (piped, _) = run(&[head, "-"], line, 0);
+            let (given, _) = run(&[head, line.trim()], "", 0);
+            assert_eq!(piped, given, "{head} {line}");
+        }
+    }
+    let (out, _) = run(&["spectrum", "-"], "[[1, 0], [1/2, 1/2]]\n", 0);
+    assert!(out.contains("1/2"), "{out}");
+}
+
 /// One curve in all ways to write it down, for all commands.
 #[test]
 fn every_command_takes_every_way_to_write_a_curve() {
@@ -30,14 +44,16 @@ fn every_command_takes_every_way_to_write_a_curve() {
         vec!["[[[3/4, 1/4, 0], [1/4, 3/4, 3/4], [0, 0, 1/4]], [[1/4, 0, 0], [3/4, 3/4, 1/4], [0, 1/4, 3/4]]]"],
         vec!["-"],
     ];
-    let svg = tempfile::tempdir().unwrap().path().join("c.svg").display().to_string();
-    std::fs::create_dir_all(std::path::Path::new(&svg).parent().unwrap()).unwrap();
+    let directory = tempfile::tempdir().unwrap();
+    let svg = directory.path().join("c.svg").display().to_string();
     let mut spectra = Vec::new();
     for way in &ways {
-        let with = |head: &[&'static str]| [head, way].concat();
+        let with = |head: &[&'static str]| -> Vec<&str> { head.iter().chain(way).copied().collect() };
         assert!(run(&with(&["certify", "-q", "--require", "g1,c1"]), CHAIKIN, 0).0.is_empty(), "{way:?}");
         assert!(run(&with(&["expand"]), CHAIKIN, 0).0.contains("pieces"), "{way:?}");
-        run(&with(&["render", "--depth", "3", "--svg", &svg]), CHAIKIN, 0);
+        let head = ["render", "--depth", "3", "--svg", &svg];
+        let draw: Vec<&str> = head.iter().chain(way).copied().collect();
+        run(&draw, CHAIKIN, 0);
         assert!(run(&with(&["regularity"]), CHAIKIN, 0).0.contains("1"), "{way:?}");
         spectra.push(run(&with(&["spectrum"]), CHAIKIN, 0).0);
     }

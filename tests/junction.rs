@@ -226,7 +226,7 @@ fn quadratic_to_a_koch_like_curve() {
     let centre = found.points.iter().find(|p| p.role == Role::Interior).unwrap();
     assert_eq!((centre.kind, centre.verdict), (Kind::Regular, Verdict::Proved));
     assert_eq!(centre.position, row("0,0,1/2,1/2,0,0"));
-    assert_eq!(centre.tangent.as_ref().unwrap().rational().unwrap(), row("0,0,1,-1,0,0").as_slice());
+    assert_eq!(centre.tangent.as_ref().unwrap().rational().unwrap(), row("0,0,-1,1,0,0").as_slice());
     let right = found.points.iter().find(|p| p.role == Role::RightEnd).unwrap();
     assert_eq!(right.verdict, Verdict::Refuted);
 }

@@ -90,7 +90,7 @@ proptest! {
         other[(0, moved)] += Rational::from(1);
         for piece in &refined.complex.shape.states[refined.complex.shape.start].pieces {
             let uses = (0..piece.op.cols()).any(|j| piece.op[(moved, j)] != 0);
-            prop_assert_eq!(&(&control * &piece.op) != &(&other * &piece.op), uses);
+            prop_assert_eq!((&control * &piece.op) != (&other * &piece.op), uses);
         }
     }
 }

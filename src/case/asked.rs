@@ -3,7 +3,7 @@
 use super::node::clipped;
 use super::{Case, Question, VertexCase};
 use crate::arith::{Rational, parse_rational};
-use crate::diagnostic::Problem;
+use crate::diagnostic::{Problem, SourceText};
 use crate::scheme;
 use std::path::Path;
 
@@ -117,10 +117,34 @@ fn sums_to_one(rows: &[Vec<Rational>]) -> bool {
     (0..width).all(|j| rows.iter().filter_map(|r| r.get(j)).fold(Rational::from(0), |s, x| s + x) == 1)
 }
 
-/// Whether a text is taken for a file.
-fn is_file(text: &str) -> bool {
+/// The text of the case that somebody means: that of a file; from the standard input (`-`) a case, or what stands for one, in a
+/// line; what is written instead of a file becomes a case.
+///
+/// # Errors
+/// A [`Problem`] where a file cannot be read, or a text is none of these, with what is near.
+pub fn asked(text: &str) -> Result<SourceText, Problem> {
     let path = Path::new(text);
-    text == "-" || path.exists() || path.extension().is_some_and(|e| e == "toml")
+    if text == "-" {
+        let source = SourceText::read(path)?;
+        let line = Some(source.text.trim()).filter(|line| !is_case(line) && !line.contains('\n'));
+        return match line.and_then(text_of) {
+            Some(case) => Ok(SourceText::new(&source.name, case?)),
+            None => Ok(source),
+        };
+    }
+    if path.exists() || path.extension().is_some_and(|e| e == "toml") {
+        return SourceText::read(path);
+    }
+    match text_of(text) {
+        Some(case) => Ok(SourceText::new(text, case?)),
+        None => Err(nothing(text)),
+    }
+}
+
+/// Whether a text is meant to be a case.
+#[must_use]
+pub fn is_case(text: &str) -> bool {
+    text.contains("name") && text.contains('=')
 }
 
 impl Question {
@@ -140,13 +164,8 @@ impl Question {
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn ask(text: &str) -> Result<Self, Problem> {
-        if is_file(text) {
-            return Self::read(Path::new(text));
-        }
-        match text_of(text) {
-            Some(case) => Self::parse(text, &case?),
-            None => Err(nothing(text)),
-        }
+        let source = asked(text)?;
+        Self::parse(&source.name, &source.text)
     }
 }
 
@@ -156,13 +175,8 @@ impl Case {
     /// # Errors
     /// As [`Case::read`]; what is none of these is told so.
     pub fn ask(text: &str) -> Result<Self, Problem> {
-        if is_file(text) {
-            return Self::read(Path::new(text));
-        }
-        match text_of(text) {
-            Some(case) => Self::parse(text, &case?),
-            None => Err(nothing(text)),
-        }
+        let source = asked(text)?;
+        Self::parse(&source.name, &source.text)
     }
 }
 

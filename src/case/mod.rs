@@ -19,7 +19,7 @@ mod source;
 mod states;
 mod vertex;
 
-pub use asked::nothing;
+pub use asked::{asked, is_case, nothing};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
 pub use question::{Question, Subject};

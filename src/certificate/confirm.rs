@@ -50,7 +50,6 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
 fn same_claims(found: &Certified, certificate: &Certificate, accepted: &Accepted) -> Result<(), Doubt> {
     let alone = secant_check::Claim::TangentAtJoints(Joints::OnlyNotKilled);
     let beside = accepted.claims.iter().any(|d| d.claim == alone);
-    let left_out = certificate.left_out().iter().any(|why| why.place == "joints");
     for claim in found.claims.iter().filter(|c| c.verdict() != Verdict::Undetermined) {
         let expected = match &claim.what {
             Assertion::TangentAt { address, about, .. } => {
@@ -67,7 +66,7 @@ fn same_claims(found: &Certified, certificate: &Certificate, accepted: &Accepted
                 secant_check::Claim::TangentAtJoints(Joints::All)
             }
             Assertion::ExaminedJoints => continue,
-            what if what.is_of_dense_joints() && left_out => continue,
+            what if what.is_of_dense_joints() && certificate.leaves_out_joints() => continue,
             Assertion::UnkilledJoints | Assertion::ProjectedJoints if beside => alone.clone(),
             Assertion::DenseJoints => secant_check::Claim::TangentAtJoints(Joints::All),
             Assertion::SeenJoints => secant_check::Claim::TangentAtJoints(Joints::Seen),

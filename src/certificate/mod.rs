@@ -51,6 +51,9 @@ pub struct Unsupported {
     pub place: String,
 }
 
+/// The place of what is found of a dense set of joints.
+const JOINTS: &str = "joints";
+
 fn unsupported<T>(what: impl Into<String>, place: impl Into<String>) -> Result<T, Unsupported> {
     Err(Unsupported { what: what.into(), place: place.into() })
 }
@@ -81,6 +84,12 @@ impl Certificate {
     #[must_use]
     pub fn left_out(&self) -> &[Unsupported] {
         &self.left_out
+    }
+
+    /// Whether what was found of a dense set of joints is among that.
+    #[must_use]
+    pub fn leaves_out_joints(&self) -> bool {
+        self.left_out.iter().any(|why| why.place == JOINTS)
     }
 
     /// The certificate as JSON.
@@ -332,10 +341,10 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
 
 /// The theorem on a dense set of joints, with what it needs of joints seen from their own states.
 fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupported> {
-    let Some(claim) = found.dense_claim() else { return unsupported("this theorem", "joints") };
+    let Some(claim) = found.dense_claim() else { return unsupported("this theorem", JOINTS) };
     if claim.statement().is_some_and(|s| s.uses_frames()) {
         let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
-            return unsupported("frames that are not there", "joints");
+            return unsupported("frames that are not there", JOINTS);
         };
         let theorem = if claim.what == Assertion::UnkilledJoints { "11'" } else { "11" };
         return Ok((theorem, frames::frames(&case.shape, frames)?));
@@ -346,7 +355,7 @@ fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupp
             let mut joints = Vec::new();
             for point in found.dense.iter().flat_map(|d| &d.upstairs) {
                 let Role::Joint { state, left, right, .. } = &point.role else {
-                    return unsupported("a point that is no joint", "joints");
+                    return unsupported("a point that is no joint", JOINTS);
                 };
                 let place = json!({"at": "joint", "path": [], "left": left, "right": right});
                 let point = branch::point(&case.shape, point, &place)?;
@@ -354,7 +363,7 @@ fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupp
             }
             Ok(("5'", Value::Array(joints)))
         }
-        _ => unsupported("this theorem", "joints"),
+        _ => unsupported("this theorem", JOINTS),
     }
 }
 
@@ -364,13 +373,18 @@ fn not_killed(case: &Case, found: &Certified) -> Result<Option<Value>, Unsupport
     if !proved || joints_verdict(found) == Verdict::Proved {
         return Ok(None);
     }
-    match dense(case, found)? {
+    // Whatever stands in the way, it is the dense set that is left out.
+    let written = dense(case, found).map_err(|why| match why.place.as_str() {
+        JOINTS => why,
+        place => Unsupported { what: format!("{} at {place}", why.what), place: JOINTS.to_owned() },
+    })?;
+    match written {
         (theorem @ ("5'" | "11'"), upstairs) => Ok(Some(json!({
             "question": "joints not killed",
             "verdict": "proved",
             "theorem": theorem,
             "upstairs": upstairs,
         }))),
-        _ => unsupported("this theorem beside joints that are not all proved", "joints"),
+        _ => unsupported("this theorem beside joints that are not all proved", JOINTS),
     }
 }

@@ -32,7 +32,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
 }
 
 fn one(path: &Path, args: &CertifyArgs) -> Result<(Arc<Case>, Vec<PointLook>), Problem> {
-    let Question::Tangents { case, further } = super::answered::question(path, args)? else {
+    let Question::Tangents { case, further } = super::question::question(path, args)? else {
         return Err(Problem::new("secant::usage", "--approx is not for vertices of a mesh")
             .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
     };

@@ -1,8 +1,8 @@
 //! The cards of the gallery: a shape with its verdict, a scheme at extraordinary vertices, a case with open entries, a
 //! case that is refused.
 
-use super::answered::answered;
 use crate::answer::Verdict;
+use crate::ask::{answered, unsolvable};
 use crate::budget::Budget;
 use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
@@ -167,8 +167,8 @@ fn vertices(found: &[AtValence], every: Option<&Every>) -> (Option<String>, Stri
 
 /// A case with unknown entries: what its identities force.
 fn open(case: &Case, name: &str) -> Result<Made, Problem> {
-    let unknowns = case.unknowns().map_err(|e| super::solve::refused(case, &e))?;
-    let solution = unknowns.solve().map_err(|e| super::solve::refused(case, &e))?;
+    let unknowns = case.unknowns().map_err(|e| unsolvable(case, &e))?;
+    let solution = unknowns.solve().map_err(|e| unsolvable(case, &e))?;
     let what = match solution {
         Solution::None(_) => "no solution".to_owned(),
         Solution::One(_) => "exactly one solution".to_owned(),

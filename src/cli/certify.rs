@@ -1,19 +1,19 @@
 //! `secant certify` of a single case.
 
-use super::answered::{Answered, ONCE, answered, question};
-use super::output::{complain, print, problem_code, stdout_colour, write_certificate, write_file};
+use super::output::{complain, print, problem_code, settle, stdout_colour, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
-use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many};
+use super::question::question;
+use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many, mesh};
 use crate::answer::Verdict;
+use crate::ask::{Answered, ONCE, answered};
 use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
-use crate::picture::characteristic::sheet;
+use crate::mesh::is_mesh;
 use crate::prove::Findings;
-use crate::report::document::Block;
 use crate::report::proof::Level;
-use crate::report::words::listed;
-use crate::report::{figures, findings, html, json, latex, markdown, text, vertex as at_vertices};
+use crate::report::words::{self, listed};
+use crate::report::{findings, html, json, latex, markdown, text};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -32,11 +32,16 @@ pub fn run(args: &CertifyArgs) -> u8 {
         complain(&problem);
         return BAD_INPUT;
     }
+    if let [path] = args.cases.as_slice()
+        && is_mesh(path)
+    {
+        return settle(guarded(|| mesh::run(path, args)));
+    }
     if args.approx {
         return approximate::run(args);
     }
     let path = match args.cases.as_slice() {
-        [path] if args.resume.is_none() => path,
+        [path] if args.resume.is_none() && args.shard.is_none() => path,
         _ => return many::run(args),
     };
     let done = guarded(|| {
@@ -121,19 +126,30 @@ fn note_unconfirmed(why: &str) {
 }
 
 fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
-    let files = [&args.report, &args.svg, &args.png, &args.certificate];
+    let mesh = args.cases.iter().any(|path| is_mesh(path));
+    if mesh && args.cases.len() > 1 {
+        return Err(Problem::new("secant::usage", "a mesh is certified by itself")
+            .with_help("give one mesh at a time, with its --scheme"));
+    }
+    if let Some(option) =
+        [(args.scheme.is_some(), "--scheme"), (args.ply.is_some(), "--ply")].iter().find(|o| o.0 && !mesh)
+    {
+        return Err(Problem::new("secant::usage", format!("{} is for a mesh", option.1))
+            .with_help("a mesh is a file that ends in .obj or .off"));
+    }
+    let files = [&args.report, &args.svg, &args.png, &args.certificate, &args.coq];
     let of_one_case = args.json || files.iter().any(|f| f.is_some());
-    if args.cases.len() > 1 && of_one_case {
+    if (args.cases.len() > 1 || args.shard.is_some()) && of_one_case {
         return Err(Problem::new(
             "secant::usage",
-            "--json, --report, --svg, --png and --certificate are for a single case",
+            "--json, --report, --svg, --png, --certificate and --coq are for a single case",
         )
         .with_help("use --jsonl for many cases, and write the reports one by one"));
     }
     if args.resume.is_some() && of_one_case {
         return Err(Problem::new(
             "secant::usage",
-            "--json, --report, --svg, --png and --certificate do not go with --resume",
+            "--json, --report, --svg, --png, --certificate and --coq do not go with --resume",
         )
         .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
@@ -141,6 +157,12 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         if let Some(path) = path.as_deref().filter(|p| extension(p) == other) {
             return Err(mistaken(option, path, other));
         }
+    }
+    if let Some((_, parts)) = args.shard.filter(|(_, parts)| *parts > args.cases.len()) {
+        let message = format!("--shard: {parts} parts of {}", words::count(args.cases.len(), "case"));
+        return Err(
+            Problem::new("secant::usage::shard", message).with_help("a part has one case at least: take fewer parts")
+        );
     }
     args.report.as_deref().map_or(Ok(()), known_format)
 }
@@ -185,10 +207,11 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         let written = rendered(path, &answered.findings, level);
         (path, written)
     });
-    let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args.draw)?))).transpose()?;
-    let png = args.png.as_deref().map(|path| Ok((path, png(answered)?))).transpose()?;
+    let svg = args.svg.as_deref().map(|path| Ok((path, answered.picture(args.draw == Drawn::Cones)?))).transpose()?;
+    let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap()?))).transpose()?;
     let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
-    for (path, content) in report.into_iter().chain(svg) {
+    let coq = args.coq.as_deref().map(|path| Ok((path, replay(&answered.findings)?))).transpose()?;
+    for (path, content) in report.into_iter().chain(svg).chain(coq) {
         write_file(path, &content)?;
     }
     if let Some((path, content)) = proof {
@@ -204,38 +227,17 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
     Ok(())
 }
 
-fn picture(answered: &Answered, what: Drawn) -> Result<String, Problem> {
-    let (case, found) = match &answered.findings {
-        Findings::Tangents { case, found } => (case, found),
-        Findings::Vertices { case, found, .. } => {
-            let panels: Vec<_> = found.iter().filter_map(at_vertices::panel).collect();
-            return Ok(sheet(&panels, &case.title));
-        }
-    };
-    match (what, figures::cones(case, found)) {
-        (Drawn::Shape, _) => figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(&case.name)),
-        (Drawn::Cones, Some(Block::Figure { svg, .. })) => Ok(svg),
-        (Drawn::Cones, _) => {
-            let message = format!("there are no cones to be drawn for {}", case.name);
-            Err(Problem::new("secant::picture", message)
-                .with_help("cones are found for curves that are G¹ or have corners only (Theorem 6); leave out --draw"))
+/// The file for Coq.
+fn replay(findings: &Findings) -> Result<String, Problem> {
+    let help = "see proofs/README.md, “What is not formalised”; nothing was written";
+    match findings {
+        Findings::Tangents { case, found } => crate::replay::coq(case, found)
+            .map_err(|missing| Problem::new("secant::coq::none", missing.to_string()).with_help(help)),
+        Findings::Vertices { case, .. } => {
+            let message = format!("no formal theorem of proofs/ covers the vertices of a mesh ({})", case.name);
+            Err(Problem::new("secant::coq::none", message).with_help(help))
         }
     }
-}
-
-fn png(answered: &Answered) -> Result<Vec<u8>, Problem> {
-    match &answered.findings {
-        Findings::Tangents { case, found } => figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name)),
-        Findings::Vertices { .. } => {
-            Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
-                .with_help("--svg draws their characteristic maps"))
-        }
-    }
-}
-
-fn undrawn(name: &str) -> Problem {
-    Problem::new("secant::picture", format!("{name} cannot be drawn"))
-        .with_help("no point of the shape can be computed, because contraction is not decided")
 }
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {

@@ -1,6 +1,5 @@
 //! The command line: arguments, one file for each command, exit codes.
 
-mod answered;
 mod approximate;
 mod cards;
 mod certify;
@@ -15,8 +14,10 @@ mod irrational;
 mod jsr;
 mod junction;
 mod many;
+mod mesh;
 mod output;
 mod progress;
+mod question;
 mod refine;
 mod regularity;
 mod render;
@@ -131,7 +132,7 @@ enum Command {
     Man,
 }
 
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 struct CertifyArgs {
     /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
     /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4"), a wavelet with a rational filter (bior2.2), the
@@ -151,6 +152,12 @@ struct CertifyArgs {
     /// For a case with a `[vertex]` table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
+    /// For a mesh (.obj, .off): the scheme of its limit surface, catmull-clark, loop or loop-warren.
+    #[arg(long, value_name = "NAME")]
+    scheme: Option<String>,
+    /// For a mesh: write it as PLY, its vertices coloured by verdict.
+    #[arg(long, value_name = "FILE")]
+    ply: Option<PathBuf>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -169,6 +176,10 @@ struct CertifyArgs {
     /// Write a certificate that secant-check proves again (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
+    /// Write a file for Coq that states what was found at the points of a curve about its own matrices, and proves it by
+    /// the formal theorems of proofs/.
+    #[arg(long, value_name = "FILE.v")]
+    coq: Option<PathBuf>,
     /// Do not have the verdict proved again by the checker before it is printed.
     #[arg(long)]
     no_check: bool,
@@ -176,6 +187,9 @@ struct CertifyArgs {
     /// date: same text of the case, same addresses and checks, same program; the checker proves its certificate again.
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
+    /// Take only the I-th of N parts of the cases: tasks 1 … N of a job array do all of them, each once.
+    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with = "approx")]
+    shard: Option<(usize, usize)>,
     /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
     /// first four; with `?` behind it a claim decides only where it is refuted.
     #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,inside?", hide_default_value = false)]
@@ -190,7 +204,7 @@ struct CertifyArgs {
     #[arg(long, value_name = "COUNT")]
     words: Option<usize>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate"])]
+    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate", "coq"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
@@ -236,6 +250,13 @@ fn joined(given: Vec<PathBuf>) -> Vec<PathBuf> {
 fn is_parameter(text: &str) -> bool {
     let name = text.split_once('=').map(|(name, _)| name.trim());
     name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_alphanumeric() || c == '_'))
+}
+
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let (part, parts) = text.split_once('/').ok_or("write I/N, as in 3/16")?;
+    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("`{s}` is no whole number"));
+    let (part, parts) = (number(part)?, number(parts)?);
+    if part == 0 || part > parts { Err(format!("{part} is not from 1 to {parts}")) } else { Ok((part, parts)) }
 }
 
 fn effort(word: &str) -> Result<Effort, String> {

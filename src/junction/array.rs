@@ -139,8 +139,10 @@ impl Junction {
             }
         }
         let mut next = free.iter();
-        let rows = self.forced()?.into_iter().map(|row| row.or_else(|| next.next().cloned()).unwrap_or_default());
-        Ok(Matrix::from_rows(self.points, rows.collect()))
+        let rows = self.forced()?.into_iter().map(|row| row.or_else(|| next.next().cloned()));
+        let rows: Option<Vec<_>> = rows.collect();
+        let rows = rows.ok_or_else(|| JunctionError::Rows("there are fewer free rows than open places".to_owned()))?;
+        Ok(Matrix::from_rows(self.points, rows))
     }
 
     /// The first row and the number of rows of the window of each piece.

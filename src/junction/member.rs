@@ -152,17 +152,17 @@ impl Check {
             kernel.solve(&(own * &kernel)).map(|m| modulus_classes(&m))
         };
         // Columns sum to 1, so that vectors of sum 0 stay such.
-        let differences = rest_of(&all).unwrap_or_default();
+        let differences = rest_of(&all);
         let below = |classes: &[Vec<Root>], bound: &Rational| {
             classes.first().and_then(|c| c.first()).is_none_or(|r| r.cmp_modulus_rational(bound) == Ordering::Less)
         };
-        let contracts = below(&differences, &Rational::from(1));
-        let (rest, threshold) = match placed {
-            Some(p) => match rest_of(&p.up_to(1).values) {
-                Some(rest) => (rest, p.shrinks.clone()),
-                None => (differences.clone(), Rational::from(0)),
-            },
-            None => (differences.clone(), Rational::from(1)),
+        let contracts = differences.as_ref().is_some_and(|d| below(d, &Rational::from(1)));
+        let apart = placed.and_then(|p| Some((rest_of(&p.up_to(1).values)?, p.shrinks.clone())));
+        let (rest, threshold) = match (apart, differences) {
+            (Some(found), _) => found,
+            (None, Some(all)) => (all, Rational::from(u8::from(placed.is_none()))),
+            // No space of differences that is mapped to itself: nothing passes.
+            (None, None) => (Vec::new(), Rational::from(0)),
         };
         let passes = contracts && below(&rest, &threshold);
         let injective = operators.iter().all(|t| t.rank() == t.cols());

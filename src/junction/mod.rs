@@ -2,7 +2,7 @@
 //! another.
 //!
 //! All identities of such a curve are solved by one array of stencils ([`Junction`]): its forced rows are the rules of the two
-//! schemes at their ends, and its other rows are free. [`search`] fills them in: positions that both schemes reproduce, the
+//! schemes at their ends, and its other rows are free. [`search()`] fills them in: positions that both schemes reproduce, the
 //! highest powers of them, the least weighted norm, and a check that nothing else shrinks as slowly as the positions.
 #![deny(clippy::disallowed_methods)]
 

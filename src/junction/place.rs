@@ -4,6 +4,7 @@ use super::side::substituted;
 use super::{Junction, Side, gaps};
 use crate::arith::Rational;
 use crate::linalg::{Matrix, dot};
+use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 
 /// Positions of the points, and for every new point the values that it has to take.
 #[derive(Debug, Clone)]
@@ -190,9 +191,9 @@ fn laid_out(junction: &Junction, found: &[Rational], known: &[(usize, Vec<Ration
     let mut targets = vec![Vec::new(); junction.rows()];
     for pair in fixed.windows(2) {
         let ((from, low), (to, high)) = (&pair[0], &pair[1]);
-        for r in *from..=*to {
+        for (r, target) in targets.iter_mut().enumerate().take(to + 1).skip(*from) {
             let share = Rational::from(r - from) / Rational::from(to - from);
-            targets[r] = vec![Rational::from(1), low + (high - low) * share];
+            *target = vec![Rational::from(1), low + (high - low) * share];
         }
     }
     let values = Matrix::from_rows(n, vec![vec![Rational::from(1); n], positions]);
@@ -205,31 +206,30 @@ pub(super) fn between(a: &Rational, b: &Rational) -> Rational {
     if low == high {
         return low.clone();
     }
-    // Down the tree of Stern and Brocot from 0/1 and 1/0.
-    let (mut left, mut right) = ((0_u64, 1_u64), (1_u64, 0_u64));
-    for _ in 0..10_000 {
-        let middle = (left.0 + right.0, left.1 + right.1);
-        let value = Rational::from(middle.0) / Rational::from(middle.1);
-        if value <= *low {
-            left = middle;
-        } else if value >= *high {
-            right = middle;
-        } else {
-            return value;
-        }
-    }
-    (low + high) / Rational::from(2)
+    Rational::simplest_rational_in_open_interval(low, high)
 }
 
 /// The factors by which the intermediate curve may shrink: between those of its ends.
 pub(super) fn factors(left: &Side, right: &Side) -> Vec<Rational> {
     let own = |side: &Side| side.shrinks().unwrap_or_else(|| Rational::from(1) / Rational::from(side.arity()));
     let (a, b) = (own(left), own(right));
-    let mut all = vec![between(&a, &b)];
-    for x in [a.max(b)] {
-        if !all.contains(&x) {
-            all.push(x);
+    let (middle, largest) = (between(&a, &b), a.max(b));
+    if middle == largest { vec![middle] } else { vec![middle, largest] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fraction_between_two_close_ones() {
+        let (mut low, mut high) = (Rational::from(1) / Rational::from(2), Rational::from(1));
+        assert_eq!(between(&high, &low), Rational::from(2) / Rational::from(3));
+        // Quotients of Fibonacci numbers, on either side of the golden section.
+        for _ in 0..120 {
+            (low, high) = (high.clone(), Rational::from(1) / (Rational::from(1) + high));
         }
+        let found = between(&low, &high);
+        assert!(found > low.clone().min(high.clone()) && found < low.max(high));
     }
-    all
 }

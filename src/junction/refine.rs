@@ -147,7 +147,7 @@ fn glued(complex: &Complex, cells: &[Cell], places: &[Vec<usize>], embedding: &M
     let again =
         complex.shape.states.iter().enumerate().any(|(k, s)| k != start && s.pieces.iter().any(|p| p.target == start))
             || pieces.iter().any(|p| p.target == start);
-    let base = old.name.split('\'').next().unwrap_or("W");
+    let base = old.name.split_once('\'').map_or(old.name.as_str(), |(base, _)| base);
     let mut name = format!("{}'", old.name);
     while complex.shape.states.iter().any(|s| s.name == name) {
         name = format!("{name}'");

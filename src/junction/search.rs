@@ -69,12 +69,18 @@ pub fn search(a: &Side, b: &Side, wish: &Wish) -> Result<Found, JunctionError> {
     // Rows of the designer are about the schemes as they are.
     let several = if wish.rows.is_empty() { same_arity(a, b) } else { None };
     let useful = several.filter(|(left, right)| left.powers().len().min(right.powers().len()) > 1);
-    let (left, right) = useful.unwrap_or_else(|| (a.clone(), b.clone()));
+    let (left, right) = match useful {
+        Some(powers) => powers,
+        None => (a.clone(), b.clone()),
+    };
     let powers = [left.powers(), right.powers()];
     let common = powers[0].len().min(powers[1].len()) - 1;
     let both = [powers[0].as_slice(), powers[1].as_slice()];
     let family = |pattern: Pattern| {
-        let points = wish.points.unwrap_or(left.shared + right.shared);
+        let points = match wish.points {
+            Some(points) => points,
+            None => left.shared + right.shared,
+        };
         Junction::new(left.clone(), right.clone(), pattern, points)
     };
     let equal = left.arity() == right.arity() && common > 0;

@@ -8,6 +8,7 @@ mod field;
 mod frame;
 mod germ;
 mod invariant;
+pub mod mesh;
 mod plot;
 #[cfg(feature = "png")]
 mod png;

@@ -34,11 +34,11 @@ impl Options {
     /// The work for a dimension: three seconds up to 8, ten from 26 on.
     #[must_use]
     pub fn work_for(&self, dim: usize) -> u64 {
-        let extra = dim.saturating_sub(8).min(18) as u64;
-        match self.work {
-            Some(work) => work,
-            None => 3_000_000_000 + 400_000_000 * extra,
+        if let Some(work) = self.work {
+            return work;
         }
+        let extra = dim.saturating_sub(8).min(18) as u64;
+        3_000_000_000 + 400_000_000 * extra
     }
 
     /// The options for a number of seconds: the work of about that time, and the clock as a guard.
@@ -95,6 +95,7 @@ impl<'a> Budget<'a> {
 
     /// Spends work; false where it was not there, and the caller must stop.
     pub fn spend(&self, work: u64) -> bool {
+        crate::stop::check();
         let outer = self.whole.is_none_or(|b| b.spend(work));
         let enough = self.left.get() >= work;
         self.left.set(self.left.get().saturating_sub(work));

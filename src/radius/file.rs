@@ -136,11 +136,9 @@ fn json_object(text: &str) -> String {
 
 fn read(text: &str) -> Result<File, FileError> {
     let wrong = |e: &toml::de::Error| {
-        let place = match e.span() {
-            Some(span) => span,
-            None => 0..text.len(),
-        };
-        FileProblem::Toml(e.message().to_owned()).at(place)
+        let problem = FileProblem::Toml(e.message().to_owned());
+        let Some(place) = e.span() else { return problem.at(0..text.len()) };
+        problem.at(place)
     };
     let parsed = DeTable::parse(text).map_err(|e| wrong(&e))?;
     let table = parsed.get_ref();

@@ -44,6 +44,6 @@ pub use leading::{Eigenvector, Leading, Lower, root_floor, square_root};
 pub use polytope::{Inclusion, Point, Polytope};
 pub use quadratic::Quadratic;
 pub use simplex::Body;
-pub(crate) use simplex::cone_combination;
+pub(crate) use simplex::{ConeBasis, InCone, cone_combination, in_cone, tells_apart};
 pub use system::{Arrow, System, SystemError};
 pub use tree::Tree;

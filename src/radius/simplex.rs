@@ -191,6 +191,44 @@ pub(crate) fn cone_combination(rays: &[&[f64]], x: &[f64]) -> Option<Vec<(usize,
     found.value.is_finite().then_some(found.terms)
 }
 
+/// Why a point seems to lie in a cone or not, in a form that is soon looked at again for other points and rays.
+pub(crate) enum InCone {
+    /// It is combined with these coefficients; `basis` is missing where the rays are none.
+    Inside { terms: Vec<(usize, f64)>, basis: Option<ConeBasis> },
+    /// A functional that is positive at the point, and hardly so on the rays.
+    Outside(Vec<f64>),
+}
+
+/// A basis of rays with the inverse of its matrix, by rows.
+pub(crate) struct ConeBasis {
+    pub rays: Vec<usize>,
+    inverse: Vec<f64>,
+}
+
+impl ConeBasis {
+    /// Whether the rays combine a point.
+    pub fn combines(&self, x: &[f64]) -> bool {
+        self.inverse.chunks(x.len()).all(|row| dot(row, x) >= 0.0)
+    }
+}
+
+/// Whether a unit functional is clearly positive at a unit vector and on none of the rays: they do not combine the vector.
+pub(crate) fn tells_apart(functional: &[f64], rays: &[&[f64]], x: &[f64]) -> bool {
+    dot(functional, x) > 1e-6 && rays.iter().all(|r| dot(functional, r) <= 0.0)
+}
+
+/// As [`cone_combination`], with the reason.
+pub(crate) fn in_cone(rays: &[&[f64]], x: &[f64]) -> InCone {
+    let (tableau, ..) = pivoted(Sign::Nonnegative, &Hull::of(x.len(), rays), x, 0.0, f64::INFINITY);
+    let Combination { terms, value, .. } = tableau.combination();
+    if value.is_finite() {
+        let point = |column: &Column| if let Column::Point(j, _) = column { Some(*j) } else { None };
+        let rays = tableau.basis.iter().map(point).collect::<Option<Vec<_>>>();
+        return InCone::Inside { terms, basis: rays.map(|rays| ConeBasis { rays, inverse: tableau.inverse }) };
+    }
+    InCone::Outside(tableau.dual())
+}
+
 /// Gains below this do not enter.
 const GAIN: f64 = 1e-10;
 
@@ -200,6 +238,20 @@ fn gain(rule: Sign, price: f64) -> (f64, f64) {
 }
 
 fn minimise(rule: Sign, hull: &Hull, x: &[f64], enough: f64, beyond: f64) -> (Combination, u64) {
+    let (tableau, bound, work) = pivoted(rule, hull, x, enough, beyond);
+    if let Some(value) = bound {
+        return (Combination { terms: Vec::new(), value, loose: Vec::new() }, work);
+    }
+    let mut found = tableau.combination();
+    // Where rounding got out of hand, the point counts as one outside.
+    if rule == Sign::Any && found.value.is_finite() && !reaches(hull, x, &found) {
+        found.value = f64::INFINITY;
+    }
+    (found, work)
+}
+
+/// The last tableau, a bound of the value where it is above `beyond`, and the work done.
+fn pivoted(rule: Sign, hull: &Hull, x: &[f64], enough: f64, beyond: f64) -> (Tableau, Option<f64>, u64) {
     let n = x.len();
     let mut tableau = Tableau::start(x);
     let (mut work, mut prices, mut chosen) = (0, Vec::new(), Vec::new());
@@ -215,7 +267,7 @@ fn minimise(rule: Sign, hull: &Hull, x: &[f64], enough: f64, beyond: f64) -> (Co
         // Scaled so that no column gains, the dual solution is a bound of the gauge.
         let low = dot(&y, x) / (1.0 + best);
         if surplus <= 0.0 && low > beyond && low < ARTIFICIAL_COST * 1e-3 {
-            return (Combination { terms: Vec::new(), value: low, loose: Vec::new() }, work);
+            return (tableau, Some(low), work);
         }
         if best.max(surplus) <= GAIN {
             break;
@@ -272,12 +324,7 @@ fn minimise(rule: Sign, hull: &Hull, x: &[f64], enough: f64, beyond: f64) -> (Co
             first = false;
         }
     }
-    let mut found = tableau.combination();
-    // Where rounding got out of hand, the point counts as one outside.
-    if rule == Sign::Any && found.value.is_finite() && !reaches(hull, x, &found) {
-        found.value = f64::INFINITY;
-    }
-    (found, work)
+    (tableau, None, work)
 }
 
 /// Whether a combination is the point, up to rounding.

@@ -92,7 +92,7 @@ fn subspace(space: &Subspace) -> Value {
             None => d.coords.iter().map(|c| math_line(&elem_math(c)).replace('−', "-")).collect(),
         };
         let generator = if rational.is_some() { Value::Null } else { root_value(&d.root) };
-        json!({ "exact": exact, "lambda": generator, "decimals": decimals(d) })
+        json!({ "exact": exact, "lambda": generator, "coordinates": coordinates(d), "decimals": decimals(d) })
     };
     space.generators.iter().map(one).collect()
 }
@@ -320,10 +320,17 @@ pub(super) fn root_value(root: &Root) -> Value {
     let (re_decimal, im_decimal) = root_decimals(root);
     json!({
         "minimal_polynomial": root.minpoly().display("x"),
+        "coefficients": rationals(root.minpoly().coeffs()),
+        "index": root.index(),
         "enclosure": { "re": interval(&re), "im": interval(&im) },
         "decimal": { "re": re_decimal, "im": im_decimal },
         "exact": root.rational().map(|x| x.to_string()),
     })
+}
+
+/// The coordinates of an irrational direction as polynomials in `lambda`, coefficients from the lowest degree up.
+fn coordinates(d: &Direction) -> Value {
+    if d.rational().is_some() { Value::Null } else { d.coords.iter().map(|c| rationals(c.0.coeffs())).collect() }
 }
 
 fn direction(d: &Direction) -> Value {
@@ -332,7 +339,7 @@ fn direction(d: &Direction) -> Value {
         None => d.coords.iter().map(|c| math_line(&elem_math(c)).replace('−', "-")).collect(),
     };
     let generator = if d.rational().is_some() { Value::Null } else { root_value(&d.root) };
-    json!({ "exact": exact, "lambda": generator, "decimal": direction_decimals(d) })
+    json!({ "exact": exact, "lambda": generator, "coordinates": coordinates(d), "decimal": direction_decimals(d) })
 }
 
 fn rate_value(rate: &Rate) -> Value {

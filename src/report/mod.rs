@@ -12,6 +12,7 @@ pub mod latex;
 pub mod markdown;
 pub mod math;
 pub mod mathml;
+pub mod mesh;
 pub mod proof;
 pub mod radius;
 pub mod reasons;

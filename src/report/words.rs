@@ -45,7 +45,7 @@ pub fn listed(items: &[String]) -> String {
 /// `1 piece`, `2 pieces`.
 #[must_use]
 pub fn count(number: usize, noun: &str) -> String {
-    let ending = if noun.ends_with('s') { "es" } else { "s" };
+    let ending = if noun.ends_with('s') || noun.ends_with("ch") { "es" } else { "s" };
     if number == 1 { format!("1 {noun}") } else { format!("{number} {noun}{ending}") }
 }
 

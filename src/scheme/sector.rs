@@ -48,11 +48,16 @@ pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<
     let (mesh, centre) =
         if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
     let mut current = rule.refine(&mesh, centre, 0)?;
+    let mut earlier: Vec<Vec<Row>> = Vec::new();
     for turn in 1..rule.steps() {
         let next = rule.refine(&current.mesh, current.centre, turn)?;
-        let rows = next.rows.iter().map(|row| super::vertex::substitute(row, &current.rows)).collect();
-        current = super::refine::Refined { mesh: next.mesh, centre: next.centre, rows };
+        earlier.push(std::mem::replace(&mut current, next).rows);
     }
+    // Of all steps together only the rows of the new points of one sector are formed.
+    let whole = |v: usize| {
+        let own = current.rows[v].clone();
+        earlier.iter().rev().fold(own, |row, points| super::vertex::substitute(&row, points))
+    };
     let places = places(sector, rule.dual(), rings);
     let mut old: BTreeMap<usize, (usize, i64)> = BTreeMap::new();
     for (turn, view) in views(&mesh, centre).ok_or_else(too_small)?.into_iter().enumerate() {
@@ -71,13 +76,13 @@ pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<
     let mut from_centre = Vec::new();
     for place in &places {
         let v = locate(&current.mesh, current.centre, sector, *place).ok_or_else(too_small)?;
-        let (weights, own) = sort(&current.rows[v])?;
+        let (weights, own) = sort(&whole(v))?;
         rows.push(weights);
         from_centre.push(own);
     }
     let centre = match current.centre {
         Centre::Vertex(v, _) => {
-            let (weights, own) = sort(&current.rows[v])?;
+            let (weights, own) = sort(&whole(v))?;
             let mut sums = vec![Rational::from(0); places.len()];
             weights.iter().for_each(|(orbit, _, w)| sums[*orbit] += w);
             Some((own, sums))

@@ -1,8 +1,9 @@
 //! Whether a system contracts: Dobrushin's coefficient over a finite complete prefix code (theory §1).
 
 use super::{Polytopes, Shape};
-use crate::arith::{Rational, abs};
+use crate::arith::{Natural, Rational, abs};
 use crate::linalg::Matrix;
+use malachite_base::num::arithmetic::traits::UnsignedAbs;
 use std::collections::BinaryHeap;
 
 /// A word with the bound of its operator on differences.
@@ -77,17 +78,19 @@ const SHARP_WORDS: usize = 512;
 /// `O(rows * cols²)`.
 #[must_use]
 pub fn dobrushin(op: &Matrix) -> Rational {
-    let columns: Vec<Vec<Rational>> = (0..op.cols()).map(|j| op.column(j)).collect();
-    let mut largest = Rational::from(0);
-    for (i, a) in columns.iter().enumerate() {
-        for b in &columns[..i] {
-            let distance = norm1(&super::difference(a, b));
+    // Over one denominator, differences and their sums are integers.
+    let (d, scaled) = op.cleared();
+    let mut largest = Natural::from(0u32);
+    for i in 0..op.cols() {
+        for j in 0..i {
+            let terms = (0..op.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
+            let distance = terms.fold(Natural::from(0u32), |s, x| s + x);
             if distance > largest {
                 largest = distance;
             }
         }
     }
-    largest / Rational::from(2)
+    Rational::from_naturals(largest, d << 1u64)
 }
 
 /// The sum of absolute values.
@@ -134,6 +137,7 @@ pub fn contraction_within(
         length += 1;
         let mut next = Vec::new();
         for (from, word, state, product) in open {
+            crate::stop::check();
             if count > budget {
                 return Contraction::Undetermined { length, open: next.len().max(1) };
             }

@@ -1,11 +1,11 @@
 //! Theorems 6 and 6′: invariant cones, and what they say about every point of a curve.
 
-use super::cone_search::{Frame, propose, propose_closed};
+use super::cone_search::{ExactRays, Frame, propose, propose_closed};
 use super::gap::Defect;
 use super::slow::{self, MAX_WINDOW, SlowCycle};
 use crate::algebraic::Root;
 use crate::arith::{Integer, Interval, Rational};
-use crate::jordan::Spectrum;
+use crate::jordan::leading_roots;
 use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 use crate::statement::Statement;
@@ -98,7 +98,7 @@ const MAX_CYCLE: usize = 6;
 /// Returns `None` for shapes that are no curves, or whose end points are not unique. Adjacency is taken as checked.
 ///
 /// # Cost
-/// Some thousand small linear programs; spectra of a few hundred short cycles where no cone is found.
+/// Some thousand small linear programs; leading eigenvalues of a few hundred short cycles where no cone is found.
 #[must_use]
 pub fn common_cone(shape: &Shape, spaces: &Spaces, steps: usize) -> Option<ConeAnswer> {
     let frame = frame(shape, spaces, steps)?;
@@ -176,6 +176,7 @@ fn code(shape: &Shape, cone: &CommonCone, view: &Matrix, (longest, most): (usize
     let mut open: std::collections::VecDeque<Vec<usize>> = [Vec::new()].into();
     let mut found = Vec::new();
     while let Some(word) = open.pop_front() {
+        crate::stop::check();
         let (product, end) = shape.product(shape.start, &word);
         let rays = &cone.cones.iter().find(|c| c.state == end)?.rays;
         let images = &(view * &product) * rays;
@@ -261,20 +262,24 @@ fn exact(
     boundary: bool,
 ) -> Option<CommonCone> {
     let mut cones = Vec::new();
+    let fans: Vec<ExactRays> = rays.iter().map(|r| ExactRays::of(r.clone())).collect();
     for (k, &state) in frame.states.iter().enumerate() {
         let local = Matrix::from_columns(frame.dims[k], &rays[k]);
-        let chord = combine(&rays[k], &frame.chords[k])?;
+        let chord = fans[k].combine(&frame.chords[k])?;
         let functional = super::cone_search::functional(&rays[k])?;
         let functional = spaces.of(state).coordinates.apply_left(&functional);
         cones.push(Cone { state, rays: &spaces.of(state).basis * &local, functional, chord });
     }
+    let sums: Vec<Vec<Rational>> = fans.iter().map(|fan| sum(&fan.rays)).collect();
     let mut maps = Vec::new();
     for (from, letter, to, matrix) in &frame.maps {
-        let column = |r: &Vec<Rational>| {
-            let image = matrix.apply(r);
-            interior(&rays[*from], &image).or_else(|| if boundary { combine(&rays[*from], &image) } else { None })
+        let images = matrix * &Matrix::from_columns(frame.dims[*to], &rays[*to]);
+        let column = |j: usize| {
+            let image = images.column(j);
+            interior(&fans[*from], &sums[*from], &image)
+                .or_else(|| if boundary { fans[*from].combine(&image) } else { None })
         };
-        let columns: Option<Vec<Vec<Rational>>> = rays[*to].iter().map(column).collect();
+        let columns: Option<Vec<Vec<Rational>>> = (0..images.cols()).map(column).collect();
         let b = Matrix::from_columns(rays[*from].len(), &columns?);
         let state = frame.states[*from];
         let sign = if shape.states[state].pieces[*letter].reversed { -1 } else { 1 };
@@ -287,31 +292,19 @@ fn exact(
     Some(CommonCone { cones, maps, view, window: 1, slow: Vec::new(), rate: None })
 }
 
-/// Nonnegative exact coefficients of a vector of the cone.
-pub(super) fn combine(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Vec<Rational>> {
-    let basis = super::cone_search::carrier(rays, x)?;
-    let columns: Vec<Vec<Rational>> = basis.iter().map(|k| rays[*k].clone()).collect();
-    let right = Matrix::from_columns(x.len(), &[x.to_vec()]);
-    let solution = Matrix::from_columns(x.len(), &columns).solve(&right)?.column(0);
-    let mut out = vec![Rational::from(0); rays.len()];
-    for (k, c) in basis.into_iter().zip(solution) {
-        if c < 0 {
-            return None;
-        }
-        out[k] = c;
-    }
-    Some(out)
+/// The sum of vectors.
+fn sum(vectors: &[Vec<Rational>]) -> Vec<Rational> {
+    let mut total = vec![Rational::from(0); vectors.first().map_or(0, Vec::len)];
+    vectors.iter().for_each(|v| total.iter_mut().zip(v).for_each(|(t, x)| *t += x));
+    total
 }
 
 /// Positive exact coefficients of an inner vector of the cone: a small share of every ray, the rest on a basis.
-fn interior(rays: &[Vec<Rational>], x: &[Rational]) -> Option<Vec<Rational>> {
-    let mut share = super::cone_search::share(rays, x)?;
+fn interior(fan: &ExactRays, sum: &[Rational], x: &[Rational]) -> Option<Vec<Rational>> {
+    let mut share = super::cone_search::share(fan.rays.len(), x)?;
     for _ in 0..24 {
-        let mut rest = x.to_vec();
-        for r in rays {
-            rest.iter_mut().zip(r).for_each(|(a, b)| *a -= &share * b);
-        }
-        if let Some(c) = combine(rays, &rest) {
+        let rest: Vec<Rational> = x.iter().zip(sum).map(|(a, b)| a - &share * b).collect();
+        if let Some(c) = fan.combine(&rest) {
             return Some(c.into_iter().map(|v| v + &share).collect());
         }
         share /= Rational::from(2);
@@ -524,17 +517,15 @@ fn obstacle(frame: &Frame) -> Option<ConeObstacle> {
 }
 
 fn defect(product: &Matrix) -> Option<(Vec<Root>, Defect)> {
-    let spectrum = Spectrum::of(product);
-    let members = &spectrum.classes.first()?.members;
-    let leading: Vec<Root> = members.iter().map(|e| spectrum.root(*e).clone()).collect();
-    let first = &leading[0];
+    let (leading, multiplicities): (Vec<Root>, Vec<usize>) = leading_roots(product).into_iter().unzip();
+    let first = leading.first()?;
     let reason = if first.is_zero() {
         Defect::Nilpotent
     } else if leading.iter().any(|r| !r.is_real()) {
         Defect::Complex
     } else if leading.len() > 1 {
         Defect::Several
-    } else if spectrum.factors[members[0].factor].multiplicity > 1 {
+    } else if multiplicities[0] > 1 {
         Defect::Multiple
     } else if first.sign() < 0 {
         Defect::Negative

@@ -119,7 +119,9 @@ impl Search<'_> {
             values.dedup();
             products = products
                 .iter()
-                .flat_map(|p: &Vec<Rational>| values.iter().map(move |v| [p.as_slice(), &[v.clone()]].concat()))
+                .flat_map(|p: &Vec<Rational>| {
+                    values.iter().map(move |v| [p.as_slice(), std::slice::from_ref(v)].concat())
+                })
                 .take(MAX_CHOICES)
                 .collect();
         }

@@ -291,6 +291,7 @@ impl Ring<'_> {
         let mut signs = Signs::default();
         let mut count: usize = 0;
         while let Some(node) = queue.pop_front() {
+            crate::stop::check();
             count += 1;
             let bounds: Vec<Interval> = node
                 .rows

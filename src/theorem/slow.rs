@@ -4,7 +4,7 @@
 use super::cone::CommonCone;
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
-use crate::jordan::{Chain, Eigenvalue, Spectrum};
+use crate::jordan::{Chain, Eigenvalue, Factor, Leading, ModulusClass, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Shape, Spaces};
 use std::collections::BTreeMap;
@@ -239,12 +239,17 @@ fn along(v: &[Elem], ray: &[Rational], root: &Root) -> Option<i32> {
 
 /// The positive eigenvalue of largest modulus with the one longest block.
 fn leading(spectrum: &Spectrum) -> Option<Eigenvalue> {
-    let members = &spectrum.classes.first()?.members;
-    let longest = members.iter().map(|m| spectrum.factor(*m).blocks[0]).max()?;
-    let count = |m: &Eigenvalue| spectrum.factor(*m).blocks.iter().filter(|b| **b == longest).count();
-    let with: Vec<Eigenvalue> = members.iter().copied().filter(|m| count(m) > 0).collect();
+    longest_block(&spectrum.factors, spectrum.classes.first()?)
+}
+
+/// The same from the factors of the eigenvalues of largest modulus.
+fn longest_block(factors: &[Factor], class: &ModulusClass) -> Option<Eigenvalue> {
+    let blocks = |m: &Eigenvalue| &factors[m.factor].blocks;
+    let longest = class.members.iter().map(|m| blocks(m)[0]).max()?;
+    let count = |m: &Eigenvalue| blocks(m).iter().filter(|b| **b == longest).count();
+    let with: Vec<Eigenvalue> = class.members.iter().copied().filter(|m| count(m) > 0).collect();
     let [lead] = with[..] else { return None };
-    let root = spectrum.root(lead);
+    let root = &factors[lead.factor].roots[lead.root];
     (count(&lead) == 1 && root.is_real() && root.sign() > 0).then_some(lead)
 }
 
@@ -266,9 +271,8 @@ fn signed_product(shape: &Shape, spaces: &Spaces, state: usize, word: &[usize]) 
 
 /// The ray to which a cycle pulls most of the space, on the side of `chord`, where it is rational: a proposal.
 pub fn limit_ray(product: &Matrix, chord: &[Rational]) -> Option<Vec<Rational>> {
-    let spectrum = Spectrum::of(product);
-    let lead = leading(&spectrum)?;
-    let factor = spectrum.factor(lead);
+    let top = Leading::of(product)?;
+    let factor = &top.factors[longest_block(&top.factors, &top.class)?.factor];
     let longest = factor.blocks[0];
     let plain = |v: &[Elem]| v.iter().map(Elem::is_rational).collect::<Option<Vec<Rational>>>();
     let right = longest_chain(&factor.right, longest)?;

@@ -113,14 +113,15 @@ impl Vertex {
     fn turning(&self, k: usize) -> Vec<Vec<Symbol>> {
         let size = self.stencils.rows.len();
         let mut entries = vec![vec![Symbol::constant(&ratio(0, 1)); size]; size];
-        for (row, weights) in entries.iter_mut().zip(&self.stencils.rows) {
+        let central = self.central(k);
+        for (own, (row, weights)) in entries.iter_mut().zip(&self.stencils.rows).enumerate() {
+            if let Some((_, weight)) = central.as_ref().filter(|c| c.0 == own) {
+                row[own] = weight.clone();
+                continue;
+            }
             for (orbit, shift, weight) in weights {
                 row[*orbit] = row[*orbit].add(&Symbol::power(*shift, weight));
             }
-        }
-        if let Some((orbit, weight)) = self.central(k) {
-            entries[orbit].fill(Symbol::constant(&ratio(0, 1)));
-            entries[orbit][orbit] = weight;
         }
         if 2 * k == self.valence {
             // ω = −1 and t = −2.
@@ -153,7 +154,9 @@ impl Vertex {
         // The entries are polynomials in the weight of a degree not above the number of steps: interpolate.
         let steps = self.rule.steps();
         let mut samples = Vec::new();
-        for w in 0..=steps {
+        // The own stencils are those of the weight 0.
+        samples.push(self.still_rational(&self.stencils));
+        for w in 1..=steps {
             let stencils = sector_stencils(&stand_in(&self.rule, self.valence, w), self.valence, self.rings)?;
             samples.push(self.still_rational(&stencils));
         }

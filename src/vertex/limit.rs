@@ -186,6 +186,7 @@ impl Ring {
         let mut queue: VecDeque<Piece> = first.into();
         let mut examined = 0;
         while let Some(piece) = queue.pop_front() {
+            crate::stop::check();
             if signs.changes() {
                 break;
             }

@@ -82,12 +82,17 @@ impl<E: Clone> Net<E> {
     /// The halves in the first variable; of a triangle, the parts A M C and M B C with the midpoint M of A B.
     pub fn halves<F: Field<E = E>>(&self, f: &F) -> (Self, Self) {
         let half = ratio(1, 2);
+        self.halves_by(|a, b| f.scale(&f.add(a, b), &half))
+    }
+
+    /// As [`Net::halves`] of values of any kind, of which two have a mean.
+    pub fn halves_by(&self, mean: impl Fn(&E, &E) -> E) -> (Self, Self) {
         let (mut left, mut right) = (Vec::new(), Vec::new());
         for row in &self.rows {
             let mut level = row.clone();
             let (mut first, mut last) = (vec![level[0].clone()], vec![level[level.len() - 1].clone()]);
             while level.len() > 1 {
-                level = level.windows(2).map(|w| f.scale(&f.add(&w[0], &w[1]), &half)).collect();
+                level = level.windows(2).map(|w| mean(&w[0], &w[1])).collect();
                 first.push(level[0].clone());
                 last.push(level[level.len() - 1].clone());
             }

@@ -24,10 +24,10 @@ pub struct Values<E> {
 pub const RINGS: usize = 3;
 
 /// The faces of the ring of a sector of quadrangles, by their lower left corner.
-const CELLS: [(i64, i64); 3] = [(1, 0), (1, 1), (0, 1)];
+pub(crate) const CELLS: [(i64, i64); 3] = [(1, 0), (1, 1), (0, 1)];
 
 /// The triangles of the ring of a sector: a corner, and the lattice vectors to the next two.
-const TRIANGLES: [((i64, i64), i64); 3] = [((1, 0), 1), ((1, 1), -1), ((0, 1), 1)];
+pub(crate) const TRIANGLES: [((i64, i64), i64); 3] = [((1, 0), 1), ((1, 1), -1), ((0, 1), 1)];
 
 /// A net of control points, continued over the spokes of sector 0.
 pub(super) struct Control<'a, F: Field> {
@@ -36,26 +36,33 @@ pub(super) struct Control<'a, F: Field> {
     pub values: &'a Values<F::E>,
 }
 
+/// The place of a point `(i, j)` of the lattice of sector 0, continued over its two spokes, in the sector to which it belongs,
+/// and how many sectors ahead that is; inside, `None` is the centre.
+pub(crate) fn own_place(dual: bool, triangles: bool, i: i64, j: i64) -> Option<Option<((usize, usize), i64)>> {
+    let (place, shift) = match (dual, i, j) {
+        (true, 0.., 0..) => ((i, j), 0),
+        (true, 0.., _) => ((-1 - j, i), -1),
+        (true, _, _) => ((j, -1 - i), 1),
+        (false, 0, 0) => return Some(None),
+        (false, 1.., 0..) => ((i, j), 0),
+        (false, 0, 1..) => ((j, 0), 1),
+        (false, 0.., _) if triangles => ((-j, i + j), -1),
+        (false, 0.., _) => ((-j, i), -1),
+        (false, _, _) if triangles => ((j + i, -i), 1),
+        (false, _, _) => ((j, -i), 1),
+    };
+    // The second axis is the first one of the next sector.
+    let (place, shift) = if !dual && place.0 == 0 { ((place.1, 0), shift + 1) } else { (place, shift) };
+    Some(Some(((usize::try_from(place.0).ok()?, usize::try_from(place.1).ok()?), shift)))
+}
+
 impl<F: Field> Control<'_, F> {
     /// The value at a place of the lattice of sector 0, continued over its two spokes.
     pub fn at(&self, i: i64, j: i64) -> Option<Turning<F::E>> {
-        let dual = self.vertex.rule.dual();
         let triangles = self.vertex.stencils.sector == Sector::Triangles;
-        let (place, shift) = match (dual, i, j) {
-            (true, 0.., 0..) => ((i, j), 0),
-            (true, 0.., _) => ((-1 - j, i), -1),
-            (true, _, _) => ((j, -1 - i), 1),
-            (false, 0, 0) => return Some(self.values.centre.clone()),
-            (false, 1.., 0..) => ((i, j), 0),
-            (false, 0, 1..) => ((j, 0), 1),
-            (false, 0.., _) if triangles => ((-j, i + j), -1),
-            (false, 0.., _) => ((-j, i), -1),
-            (false, _, _) if triangles => ((j + i, -i), 1),
-            (false, _, _) => ((j, -i), 1),
+        let Some((place, shift)) = own_place(self.vertex.rule.dual(), triangles, i, j)? else {
+            return Some(self.values.centre.clone());
         };
-        // The second axis is the first one of the next sector.
-        let (place, shift) = if !dual && place.0 == 0 { ((place.1, 0), shift + 1) } else { (place, shift) };
-        let place = (usize::try_from(place.0).ok()?, usize::try_from(place.1).ok()?);
         let value = &self.values.orbits[self.vertex.orbit(place)?];
         Some(Rotation(self.field).turn(value, shift))
     }
@@ -200,12 +207,13 @@ pub fn lattice_point(rule: &MeshRule, patch: usize, spot: &(Rational, Rational))
     }
 }
 
-const QUARTIC_POINTS: [(i64, i64); 12] =
+/// The control points of a triangle of Loop's box spline, in the lattice of its first corner.
+pub(crate) const QUARTIC_POINTS: [(i64, i64); 12] =
     [(-1, 0), (-1, 1), (-1, 2), (0, -1), (0, 0), (0, 1), (0, 2), (1, -1), (1, 0), (1, 1), (2, -1), (2, 0)];
 
 /// 24 times the Bernstein coefficients of Loop's box spline on the triangle (0,0), (1,0), (0,1), by the weight of the third
 /// corner, then of the second; the refinement equation is tested below.
-const QUARTIC: [[i64; 12]; 15] = [
+pub(crate) const QUARTIC: [[i64; 12]; 15] = [
     [2, 2, 0, 2, 12, 2, 0, 2, 2, 0, 0, 0],
     [0, 1, 0, 1, 12, 3, 0, 3, 4, 0, 0, 0],
     [0, 0, 0, 0, 8, 4, 0, 4, 8, 0, 0, 0],

@@ -14,6 +14,7 @@ use crate::arith::{Interval, Rational, abs, ratio, to_f64};
 use crate::poly::Poly;
 use crate::ring::{Field as _, Ordered as _, Ring as _};
 use crate::scheme::SchemeError;
+use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 
 /// What the largest modulus consists of in one block.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -318,34 +319,7 @@ fn rational_root(vertex: &Vertex, block: &Block, poly: &[Poly], near: f64) -> Op
 
 /// The fraction with the smallest denominator within `error` (Stern and Brocot).
 fn simplest_near(x: &Rational, error: &Rational) -> Rational {
-    use malachite_base::num::arithmetic::traits::Floor;
-    let (mut lo, mut hi) = (x - error, x + error);
-    if lo < 0 && hi > 0 {
-        return Rational::from(0);
-    }
-    let negative = hi <= 0;
-    if negative {
-        (lo, hi) = (-hi, -lo);
-    }
-    // Continued fraction of the lower end, as long as both ends agree.
-    let mut terms = Vec::new();
-    loop {
-        let whole = Rational::from((&lo).floor());
-        if whole == lo || (&hi).floor() != whole {
-            terms.push(if whole == lo { whole } else { whole + Rational::from(1) });
-            break;
-        }
-        terms.push(whole.clone());
-        (lo, hi) = (Rational::from(1) / (hi - &whole), Rational::from(1) / (lo - whole));
-    }
-    let value = terms.iter().rev().fold(None::<Rational>, |v, t| {
-        Some(match v {
-            None => t.clone(),
-            Some(v) => t + Rational::from(1) / v,
-        })
-    });
-    let value = value.expect("at least one term");
-    if negative { -value } else { value }
+    Rational::simplest_rational_in_closed_interval(&(x - error), &(x + error))
 }
 
 /// Eigenvalues of equal modulus, proved equal where they are one rational number or its negative.

@@ -30,3 +30,4 @@ pub mod linalg;
 mod parallel;
 pub mod poly;
 pub mod ring;
+pub mod stop;

@@ -5,7 +5,8 @@ pub(crate) fn map<T: Sync, R: Send>(items: &[T], worth: bool, f: impl Fn(&T) -> 
     #[cfg(feature = "parallel")]
     if worth {
         use rayon::prelude::*;
-        return items.par_iter().map(f).collect();
+        let flag = crate::stop::flag();
+        return items.par_iter().map(|item| crate::stop::stoppable(flag.clone(), || f(item))).collect();
     }
     let _ = worth;
     items.iter().map(f).collect()

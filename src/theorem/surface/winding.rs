@@ -44,6 +44,7 @@ impl Search<'_> {
     fn round(&self, mut queue: VecDeque<Node>, cells: usize, longest: usize) -> Option<Winding> {
         let mut left = cells;
         while let Some(node) = queue.pop_front() {
+            crate::stop::check();
             if self.strict(&node).is_some() || self.complex.shape.states[node.end].kind != CellKind::Face {
                 continue;
             }

@@ -4,7 +4,7 @@ use super::echelon::ModSpan;
 use super::operator::{ModOperator, Operator, make_primitive};
 use crate::arith::Integer;
 use crate::arith::modular::{PrimeField, large_primes};
-use crate::linalg::echelon::ModEchelon;
+use crate::linalg::echelon::{ModEchelon, ModKernel};
 use crate::linalg::lifting::Lifting;
 use crate::linalg::reconstruct::Residues;
 use crate::poly::{IntPoly, Poly, ints};
@@ -63,7 +63,7 @@ fn projected(operator: &Operator, parts: &[Part], which: usize) -> Generator {
     unreachable!("the other factors do not annihilate the space")
 }
 
-/// A kernel vector to reconstruct: the free column of an echelon form of `F(N)^size`.
+/// A kernel vector to reconstruct: a free column of `F(N)^size`.
 struct Pick {
     size: usize,
     column: usize,
@@ -84,9 +84,13 @@ fn from_prime(operator: &Operator, part: &Part, p: u64) -> Option<Vec<Generator>
         let columns: Vec<usize> = picks.iter().filter(|p| p.size == size).map(|p| p.column).collect();
         if !columns.is_empty() {
             let first = (&image.field, &levels[size - 1]);
-            let vectors = match lifted(operator, part, size, &columns, first) {
-                Some(answer) => answer?,
-                None => reconstruct(operator, part, size, &columns, first)?,
+            // Short vectors are known from one prime.
+            let vectors = match verified(operator, part, size, &residues_of(&columns, first)) {
+                Some(vectors) => vectors,
+                None => match lifted(operator, part, size, &columns, first) {
+                    Some(answer) => answer?,
+                    None => reconstruct(operator, part, size, &columns, first)?,
+                },
             };
             found.extend(vectors.into_iter().map(|vector| Generator { vector, size }));
         }
@@ -94,28 +98,30 @@ fn from_prime(operator: &Operator, part: &Part, p: u64) -> Option<Vec<Generator>
     Some(found)
 }
 
-/// Echelon forms of the powers of `F(N)`, until the kernel is the whole component.
-fn levels(image: &ModOperator, poly: &[u64], part: &Part) -> Option<Vec<ModEchelon>> {
+/// Kernels of the powers of `F(N)`, until one is the whole component.
+fn levels(image: &ModOperator, poly: &[u64], part: &Part) -> Option<Vec<ModKernel>> {
     let goal = part.degree() * part.multiplicity;
-    let mut power = image.poly_times(poly, None);
-    let mut levels: Vec<ModEchelon> = Vec::new();
+    let echelon = ModEchelon::new(&image.field, image.poly(poly));
+    let mut kernel = echelon.kernel(&image.field);
+    let mut levels: Vec<ModKernel> = Vec::new();
     loop {
-        let next = (part.multiplicity > levels.len() + 1).then(|| power.clone());
-        let echelon = ModEchelon::new(&image.field, power);
-        let (nullity, before) = (echelon.nullity(), levels.last().map_or(0, ModEchelon::nullity));
+        let (nullity, before) = (kernel.nullity(), levels.last().map_or(0, ModKernel::nullity));
         if nullity > goal || nullity <= before || nullity % part.degree() != 0 {
             return None;
         }
-        levels.push(echelon);
+        levels.push(kernel);
         if nullity == goal {
             return Some(levels);
         }
-        power = image.poly_times(poly, Some(&next?));
+        if levels.len() >= part.multiplicity {
+            return None;
+        }
+        kernel = echelon.next_kernel(&image.field, &levels[levels.len() - 1]);
     }
 }
 
 /// Chooses kernel vectors whose images in the socle are independent over the field.
-fn picks(image: &ModOperator, poly: &[u64], part: &Part, levels: &[ModEchelon]) -> Option<Vec<Pick>> {
+fn picks(image: &ModOperator, poly: &[u64], part: &Part, levels: &[ModKernel]) -> Option<Vec<Pick>> {
     let degree = part.degree();
     let mut picks = Vec::new();
     if levels.len() == 1 && (degree == 1 || levels[0].nullity() == degree) {
@@ -131,7 +137,7 @@ fn picks(image: &ModOperator, poly: &[u64], part: &Part, levels: &[ModEchelon]) 
             if picks.len() == count {
                 break;
             }
-            let mut socle = levels[size - 1].kernel_vector(&image.field, column);
+            let mut socle = levels[size - 1].vector(column).to_vec();
             for _ in 1..size {
                 socle = image.apply_poly(poly, &socle);
             }
@@ -153,10 +159,10 @@ fn lifted(
     part: &Part,
     size: usize,
     columns: &[usize],
-    (field, echelon): (&PrimeField, &ModEchelon),
+    (field, kernel): (&PrimeField, &ModKernel),
 ) -> Option<Option<Vec<Vec<Integer>>>> {
     let rows = operator.power_in_words(&part.poly, size)?;
-    let Some(lifting) = Lifting::new(&rows, *field, &echelon.pivots) else { return Some(None) };
+    let Some(lifting) = Lifting::new(&rows, *field, &kernel.pivots) else { return Some(None) };
     let mut vectors: Vec<_> = columns.iter().map(|c| lifting.start(*c)).collect();
     let (p, mut power) = (Integer::from(field.modulus()), Integer::from(1));
     let mut next_try = 1;
@@ -183,16 +189,10 @@ fn reconstruct(
     part: &Part,
     size: usize,
     columns: &[usize],
-    first: (&PrimeField, &ModEchelon),
+    first: (&PrimeField, &ModKernel),
 ) -> Option<Vec<Vec<Integer>>> {
-    let (first_field, first_echelon) = first;
-    let mut known: Vec<Residues> = columns.iter().map(|_| Residues::default()).collect();
-    let absorb = |known: &mut [Residues], field: &PrimeField, echelon: &ModEchelon| {
-        for (residues, column) in known.iter_mut().zip(columns) {
-            residues.absorb(field, &echelon.kernel_vector(field, *column));
-        }
-    };
-    absorb(&mut known, first_field, first_echelon);
+    let (first_field, first_kernel) = first;
+    let mut known = residues_of(columns, first);
     let (mut count, mut next_try) = (1, 1);
     let mut primes = large_primes().filter(|p| *p != first_field.modulus());
     loop {
@@ -206,28 +206,37 @@ fn reconstruct(
             return None;
         }
         let field = PrimeField::new(primes.next()?);
-        let echelon = kernel_echelon(operator, part, size, &field);
-        if echelon.pivots.len() > first_echelon.pivots.len() {
+        let kernel = kernel_of_power(operator, part, size, &field);
+        if kernel.pivots.len() > first_kernel.pivots.len() {
             return None;
         }
-        if echelon.pivots == first_echelon.pivots {
-            absorb(&mut known, &field, &echelon);
+        if kernel.pivots == first_kernel.pivots {
+            absorb(&mut known, columns, (&field, &kernel));
             count += 1;
-        } else if echelon.pivots < first_echelon.pivots {
+        } else if kernel.pivots < first_kernel.pivots {
             // Pivots can only move right modulo an unlucky prime, so the first one was.
             return None;
         }
     }
 }
 
-fn kernel_echelon(operator: &Operator, part: &Part, size: usize, field: &PrimeField) -> ModEchelon {
-    let image = operator.modulo(field);
-    let poly = residues(part, field);
-    let mut power = image.poly_times(&poly, None);
-    for _ in 1..size {
-        power = image.poly_times(&poly, Some(&power));
+/// The kernel vectors at the given free columns, modulo one prime.
+fn residues_of(columns: &[usize], kernel: (&PrimeField, &ModKernel)) -> Vec<Residues> {
+    let mut known: Vec<Residues> = columns.iter().map(|_| Residues::default()).collect();
+    absorb(&mut known, columns, kernel);
+    known
+}
+
+fn absorb(known: &mut [Residues], columns: &[usize], (field, kernel): (&PrimeField, &ModKernel)) {
+    for (residues, column) in known.iter_mut().zip(columns) {
+        residues.absorb(field, kernel.vector(*column));
     }
-    ModEchelon::new(field, power)
+}
+
+fn kernel_of_power(operator: &Operator, part: &Part, size: usize, field: &PrimeField) -> ModKernel {
+    let image = operator.modulo(field);
+    let echelon = ModEchelon::new(field, image.poly(&residues(part, field)));
+    (1..size).fold(echelon.kernel(field), |kernel, _| echelon.next_kernel(field, &kernel))
 }
 
 /// The reconstructed vectors, when all of them are in the kernel exactly.

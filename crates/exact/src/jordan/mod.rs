@@ -127,11 +127,7 @@ impl Spectrum {
         let parts = summand::decompose(summands);
         let char_poly = summand::product(&parts);
         let found = crate::parallel::map(&parts, size >= PARALLEL, |part| roots(&part.poly));
-        let build = |(part, roots): (summand::Merged, Vec<Root>)| {
-            let summand::Merged { poly, multiplicity, blocks, right, left } = part;
-            Factor { poly, multiplicity, blocks, roots, right, left }
-        };
-        let factors: Vec<Factor> = parts.into_iter().zip(found).map(build).collect();
+        let factors: Vec<Factor> = parts.into_iter().zip(found).map(|(part, roots)| part.with_roots(roots)).collect();
         let classes = classes::modulus_classes(&factors);
         Self { size, char_poly, factors, classes }
     }
@@ -226,8 +222,75 @@ pub fn estimated_work(a: &Matrix) -> u64 {
 #[must_use]
 pub fn modulus_classes(a: &Matrix) -> Vec<Vec<Root>> {
     assert_eq!(a.rows(), a.cols(), "square matrix");
-    let factors: Vec<Vec<Root>> = summand::polynomials(&summand::split(a)).iter().map(|(f, _)| roots(f)).collect();
-    let lists: Vec<&[Root]> = factors.iter().map(Vec::as_slice).collect();
-    let resolve = |e: &Eigenvalue| factors[e.factor][e.root].clone();
-    classes::group(&lists).iter().map(|c| c.members.iter().map(resolve).collect()).collect()
+    let factors = root_lists(&summand::all_factors(&summand::split(a)));
+    let resolve = |e: &Eigenvalue| factors[e.factor].1[e.root].clone();
+    classes_of(&factors).iter().map(|c| c.members.iter().map(resolve).collect()).collect()
+}
+
+/// The eigenvalues of largest modulus, each with its multiplicity: no chains are computed. None where the matrix has no rows.
+///
+/// # Panics
+/// If the matrix is not square.
+///
+/// ```
+/// use secant_exact::{arith::ratio, jordan::leading_roots, linalg::Matrix};
+///
+/// let a = Matrix::from_fn(3, 3, |i, j| ratio(if i == j { [2, -2, 1][i] } else { i64::from(i < j) }, 1));
+/// let found = leading_roots(&a);
+/// assert_eq!(found.iter().map(|(_, multiplicity)| *multiplicity).collect::<Vec<_>>(), [1, 1]);
+/// ```
+#[must_use]
+pub fn leading_roots(a: &Matrix) -> Vec<(Root, usize)> {
+    assert_eq!(a.rows(), a.cols(), "square matrix");
+    let factors = root_lists(&summand::all_factors(&summand::split(a)));
+    let resolve = |e: &Eigenvalue| (factors[e.factor].1[e.root].clone(), factors[e.factor].0.1);
+    classes_of(&factors).first().map_or_else(Vec::new, |c| c.members.iter().map(resolve).collect())
+}
+
+/// The factors that have an eigenvalue of largest modulus, with their chains, and these eigenvalues.
+#[derive(Debug, Clone)]
+pub struct Leading {
+    /// The factors, in the order of those of [`Spectrum`].
+    pub factors: Vec<Factor>,
+    /// The eigenvalues, by position in `factors`.
+    pub class: ModulusClass,
+}
+
+impl Leading {
+    /// What [`Spectrum::of`] says of the eigenvalues of largest modulus; `None` where the matrix has no rows.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    #[must_use]
+    pub fn of(a: &Matrix) -> Option<Self> {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        let summands = summand::split(a);
+        let lists = summand::all_factors(&summands);
+        let all = root_lists(&lists);
+        let first = classes_of(&all).into_iter().next()?;
+        let mut used: Vec<usize> = first.members.iter().map(|m| m.factor).collect();
+        used.dedup();
+        let wanted = |f: &Poly| used.iter().any(|k| all[*k].0.0 == *f);
+        let parts = summand::decompose_some(&summands, &lists, &wanted);
+        let roots = used.iter().map(|k| all[*k].1.clone());
+        let factors = parts.into_iter().zip(roots).map(|(part, roots)| part.with_roots(roots)).collect();
+        let place = |m: &Eigenvalue| Some(Eigenvalue { factor: used.iter().position(|k| *k == m.factor)?, ..*m });
+        let members = first.members.iter().map(place).collect::<Option<_>>()?;
+        Some(Self { factors, class: ModulusClass { members } })
+    }
+}
+
+type Roots = ((Poly, usize), Vec<Root>);
+
+/// The irreducible factors with their multiplicities and roots.
+fn root_lists(lists: &[Vec<(Poly, usize)>]) -> Vec<Roots> {
+    let with_roots = |(f, m): (Poly, usize)| {
+        let found = roots(&f);
+        ((f, m), found)
+    };
+    summand::polynomials(lists).into_iter().map(with_roots).collect()
+}
+
+fn classes_of(factors: &[Roots]) -> Vec<ModulusClass> {
+    classes::group(&factors.iter().map(|(_, roots)| roots.as_slice()).collect::<Vec<_>>())
 }

@@ -151,22 +151,24 @@ impl ModOperator {
         sum
     }
 
-    /// `F(N) M` for a dense matrix `M`; the identity where `M` is absent. The polynomial is monic.
-    pub fn poly_times(&self, poly: &[u64], m: Option<&[Vec<u64>]>) -> Vec<Vec<u64>> {
+    /// `F(N)` as a dense matrix. The polynomial is monic.
+    pub fn poly(&self, poly: &[u64]) -> Vec<Vec<u64>> {
         let (f, n) = (&self.field, self.rows.len());
-        let start = || match m {
-            Some(m) => m.to_vec(),
-            None => (0..n).map(|i| (0..n).map(|j| if i == j { f.one() } else { 0 }).collect()).collect(),
-        };
-        let mut value = start();
-        for c in poly.iter().rev().skip(1) {
-            let mut next: Vec<Vec<u64>> = self.rows.iter().map(|row| self.combine(row, &value)).collect();
-            for (i, row) in next.iter_mut().enumerate() {
-                match m {
-                    Some(m) => row.iter_mut().zip(&m[i]).for_each(|(x, y)| *x = f.add(*x, f.mul(*c, *y))),
-                    None => row[i] = f.add(row[i], *c),
-                }
-            }
+        let mut value: Vec<Vec<u64>> = vec![vec![0; n]; n];
+        value.iter_mut().enumerate().for_each(|(i, row)| row[i] = f.one());
+        for (k, c) in poly.iter().rev().skip(1).enumerate() {
+            let mut next: Vec<Vec<u64>> = if k == 0 {
+                // The matrix itself.
+                let row = |row: &Vec<(usize, u64)>| {
+                    let mut dense = vec![0; n];
+                    row.iter().for_each(|(j, x)| dense[*j] = *x);
+                    dense
+                };
+                self.rows.iter().map(row).collect()
+            } else {
+                self.rows.iter().map(|row| self.combine(row, &value)).collect()
+            };
+            next.iter_mut().enumerate().for_each(|(i, row)| row[i] = f.add(row[i], *c));
             value = next;
         }
         value

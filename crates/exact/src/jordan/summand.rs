@@ -3,8 +3,8 @@
 use super::generators::{Part, generators};
 use super::operator::Operator;
 use super::symmetry::Symmetry;
-use super::{Chain, PARALLEL, chains};
-use crate::algebraic::Elem;
+use super::{Chain, Factor, PARALLEL, chains};
+use crate::algebraic::{Elem, Root};
 use crate::arith::{Integer, Rational};
 use crate::linalg::{Matrix, char_poly_blocks};
 use crate::poly::{IntPoly, Poly, factor};
@@ -47,6 +47,13 @@ pub(super) struct Merged {
     pub left: Vec<Chain>,
 }
 
+impl Merged {
+    pub fn with_roots(self, roots: Vec<Root>) -> Factor {
+        let Self { poly, multiplicity, blocks, right, left } = self;
+        Factor { poly, multiplicity, blocks, roots, right, left }
+    }
+}
+
 /// The monic irreducible factors of the characteristic polynomial of one summand.
 fn factors(summand: &Summand) -> Vec<(Poly, usize)> {
     let blocks = char_poly_blocks(&summand.right.matrix);
@@ -63,15 +70,15 @@ fn factors(summand: &Summand) -> Vec<(Poly, usize)> {
     found.into_iter().collect()
 }
 
-fn all_factors(summands: &[Summand]) -> Vec<Vec<(Poly, usize)>> {
+pub(super) fn all_factors(summands: &[Summand]) -> Vec<Vec<(Poly, usize)>> {
     crate::parallel::map(summands, summands.len() > 1, factors)
 }
 
-/// The irreducible factors of the characteristic polynomial with their exponents, in order.
-pub(super) fn polynomials(summands: &[Summand]) -> Vec<(Poly, usize)> {
+/// The irreducible factors of the characteristic polynomial with their exponents, in order, from those of the summands.
+pub(super) fn polynomials(lists: &[Vec<(Poly, usize)>]) -> Vec<(Poly, usize)> {
     let mut found: BTreeMap<Poly, usize> = BTreeMap::new();
-    for (poly, exponent) in all_factors(summands).into_iter().flatten() {
-        *found.entry(poly).or_default() += exponent;
+    for (poly, exponent) in lists.iter().flatten() {
+        *found.entry(poly.clone()).or_default() += exponent;
     }
     found.into_iter().collect()
 }
@@ -121,13 +128,16 @@ pub(super) fn embed_vector(v: &[Elem], embedding: &[Vec<(usize, Integer)>], size
 
 /// Factors and chains of all summands, equal factors merged, in order.
 pub(super) fn decompose(summands: &[Summand]) -> Vec<Merged> {
-    decompose_some(summands, &|_| true)
+    decompose_some(summands, &all_factors(summands), &|_| true)
 }
 
-/// The same for the factors that are wanted; a factor that is wanted in one summand is so in all.
-pub(super) fn decompose_some(summands: &[Summand], wanted: &dyn Fn(&Poly) -> bool) -> Vec<Merged> {
+/// The same for those of the factors of the summands that are wanted; a factor that is wanted in one summand is so in all.
+pub(super) fn decompose_some(
+    summands: &[Summand],
+    lists: &[Vec<(Poly, usize)>],
+    wanted: &dyn Fn(&Poly) -> bool,
+) -> Vec<Merged> {
     let size: usize = summands.iter().map(|s| s.right.matrix.rows()).sum();
-    let lists = all_factors(summands);
     let sides: Vec<(&Side, usize)> =
         summands.iter().enumerate().flat_map(|(k, s)| [(&s.right, k), (&s.left, k)]).collect();
     let tasks: Vec<Task> = sides.iter().map(|(side, k)| Task::new(side, &lists[*k])).collect();

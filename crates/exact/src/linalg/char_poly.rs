@@ -173,6 +173,7 @@ fn component(cleared: &Cleared) -> IntPoly {
     let mut primes = large_primes();
     // The signed coefficient must be below half the modulus.
     while image.modulus == 0 || image.modulus.significant_bits() < cleared.bound + 2 {
+        crate::stop::check();
         let missing = (cleared.bound + 2).saturating_sub(image.modulus.significant_bits());
         let batch: Vec<u64> = primes.by_ref().take(missing.div_ceil(61).max(1) as usize).collect();
         let compute = |p: &u64| {

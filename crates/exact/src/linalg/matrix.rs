@@ -1,5 +1,7 @@
 use super::elimination;
-use crate::arith::Rational;
+use super::sums::Line;
+use crate::arith::{Integer, Natural, Rational};
+use crate::poly::ints;
 use crate::ring::{Field, Rationals, Ring};
 use std::borrow::Borrow;
 use std::ops::{Add, Index, IndexMut, Mul, Sub};
@@ -116,6 +118,18 @@ impl<E: Clone> Matrix<E> {
         Self { rows: self.rows + below.rows, cols: self.cols, data }
     }
 
+    /// The columns of `self` followed by the columns of `right`.
+    ///
+    /// # Panics
+    /// If the heights differ.
+    #[must_use]
+    pub fn beside(&self, right: &Self) -> Self {
+        assert_eq!(self.rows, right.rows, "matrix height");
+        Self::from_fn(self.rows, self.cols + right.cols, |i, j| {
+            if j < self.cols { self[(i, j)].clone() } else { right[(i, j - self.cols)].clone() }
+        })
+    }
+
     /// `self * other` over a ring.
     ///
     /// # Panics
@@ -154,21 +168,8 @@ impl<E: Clone> Matrix<E> {
     /// If the heights differ.
     #[must_use]
     pub fn solve_over<K: Field<E = E>>(&self, k: &K, right: &Self) -> Option<Option<Self>> {
-        assert_eq!(self.rows, right.rows, "matrix height");
-        let joined = Self::from_fn(self.rows, self.cols + right.cols, |i, j| {
-            if j < self.cols { self[(i, j)].clone() } else { right[(i, j - self.cols)].clone() }
-        });
-        let Echelon { rows, pivots } = joined.echelon_over(k)?;
-        if pivots.iter().any(|&p| p >= self.cols) {
-            return Some(None);
-        }
-        let mut x = Self::from_fn(self.cols, right.cols, |_, _| k.zero());
-        for (r, &p) in pivots.iter().enumerate() {
-            for j in 0..right.cols {
-                x[(p, j)] = rows[(r, self.cols + j)].clone();
-            }
-        }
-        Some(Some(x))
+        let joined = self.beside(right);
+        Some(joined.echelon_over(k)?.solution(self.cols, &k.zero()))
     }
 
     /// The characteristic polynomial `det(x - A)` over a ring, the constant coefficient first.
@@ -207,6 +208,20 @@ impl<E: Clone> Matrix<E> {
 }
 
 impl<E: Clone> Echelon<E> {
+    /// Of `[A | B]` with `cols` columns of `A`: the solution of `A X = B` whose free unknowns are 0, if there is one.
+    fn solution(&self, cols: usize, zero: &E) -> Option<Matrix<E>> {
+        if self.pivots.iter().any(|&p| p >= cols) {
+            return None;
+        }
+        let mut x = Matrix::from_fn(cols, self.rows.cols - cols, |_, _| zero.clone());
+        for (r, &p) in self.pivots.iter().enumerate() {
+            for j in 0..x.cols {
+                x[(p, j)] = self.rows[(r, cols + j)].clone();
+            }
+        }
+        Some(x)
+    }
+
     /// A basis of the vectors that the rows annihilate, as columns.
     #[must_use]
     pub fn kernel<K: Ring<E = E>>(&self, k: &K) -> Matrix<E> {
@@ -250,7 +265,8 @@ impl Matrix {
     #[must_use]
     pub fn apply(&self, v: &[Rational]) -> Vec<Rational> {
         assert_eq!(v.len(), self.cols, "vector length");
-        (0..self.rows).map(|i| dot(self.row(i), v)).collect()
+        let right = Line::of(v.iter());
+        (0..self.rows).map(|i| Line::of(self.row(i).iter()).dot(&right)).collect()
     }
 
     /// `v * self` for a row `v`.
@@ -260,15 +276,32 @@ impl Matrix {
     #[must_use]
     pub fn apply_left(&self, v: &[Rational]) -> Vec<Rational> {
         assert_eq!(v.len(), self.rows, "vector length");
-        let mut out = vec![Rational::from(0); self.cols];
-        for (i, x) in v.iter().enumerate().filter(|(_, x)| **x != 0) {
-            for (o, entry) in out.iter_mut().zip(self.row(i)) {
-                if *entry != 0 {
-                    *o += x * entry;
-                }
+        let used: Vec<usize> = (0..v.len()).filter(|i| v[*i] != 0).collect();
+        match used[..] {
+            [] => vec![Rational::from(0); self.cols],
+            [i] if v[i] == 1 => self.row(i).to_vec(),
+            [i] => self.row(i).iter().map(|x| x * &v[i]).collect(),
+            _ => {
+                let left = Line::of(used.iter().map(|i| &v[*i]));
+                let column = |j: usize| Line::of(used.iter().map(move |i| &self[(*i, j)]));
+                (0..self.cols).map(|j| left.dot(&column(j))).collect()
             }
         }
-        out
+    }
+
+    /// The least common denominator of all entries, and the entries times it.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    ///
+    /// let (d, scaled) = Matrix::from_fn(1, 2, |_, j| ratio(1, [4, 6][j])).cleared();
+    /// assert_eq!((d, scaled.entries()), (12u32.into(), &[3.into(), 2.into()][..]));
+    /// ```
+    #[must_use]
+    pub fn cleared(&self) -> (Natural, Matrix<Integer>) {
+        let d = ints::common_denominator(&self.data);
+        let scaled = self.map(|x| ints::cleared(x, &d));
+        (d, scaled)
     }
 
     /// `factor * self`.
@@ -277,10 +310,10 @@ impl Matrix {
         self.map(|x| x * factor)
     }
 
-    /// The reduced row echelon form (Gauss–Jordan).
+    /// The reduced row echelon form (Gauss–Jordan), by integers without common factors of rows.
     ///
     /// # Cost
-    /// `O(rows * cols * rank)` rational operations; entries may grow.
+    /// `O(rows * cols * rank)` integer operations; entries may grow.
     ///
     /// ```
     /// use secant_exact::{arith::ratio, linalg::Matrix};
@@ -290,13 +323,30 @@ impl Matrix {
     /// ```
     #[must_use]
     pub fn echelon(&self) -> Echelon {
-        self.echelon_over(&Rationals).expect("rationals are told from 0")
+        let (rows, pivots) = elimination::upper(self.cleared_rows(), self.cols);
+        let rows = elimination::divided(elimination::reduced_upper(rows, &pivots), &pivots);
+        Echelon { rows: Self::from_rows(self.cols, rows), pivots }
+    }
+
+    /// The columns of the leading ones of the row echelon form: each that is no combination of those before it.
+    #[must_use]
+    pub fn pivots(&self) -> Vec<usize> {
+        elimination::upper(self.cleared_rows(), self.cols).1
+    }
+
+    /// The rows, each times its common denominator.
+    fn cleared_rows(&self) -> Vec<Vec<Integer>> {
+        let cleared = |row: &[Rational]| {
+            let d = ints::common_denominator(row);
+            row.iter().map(|x| ints::cleared(x, &d)).collect()
+        };
+        (0..self.rows).map(|i| cleared(self.row(i))).collect()
     }
 
     /// The rank.
     #[must_use]
     pub fn rank(&self) -> usize {
-        self.echelon().pivots.len()
+        self.pivots().len()
     }
 
     /// A basis of `{x : self x = 0}`, as the columns of the result.
@@ -327,7 +377,7 @@ impl Matrix {
     /// ```
     #[must_use]
     pub fn solve(&self, right: &Self) -> Option<Self> {
-        self.solve_over(&Rationals, right).expect("rationals are told from 0")
+        self.beside(right).echelon().solution(self.cols, &Rational::from(0))
     }
 
     /// The inverse, or `None` for a singular or non-square matrix.
@@ -340,10 +390,7 @@ impl Matrix {
     /// ```
     #[must_use]
     pub fn inverse(&self) -> Option<Self> {
-        if self.rows != self.cols || self.rank() < self.rows {
-            return None;
-        }
-        self.solve(&Self::identity(self.rows))
+        if self.rows == self.cols { self.solve(&Self::identity(self.rows)) } else { None }
     }
 
     /// The row echelon form of the smallest space of rows that contains those of `self` and with a row `v` every `v m` for
@@ -398,18 +445,6 @@ pub fn closures<M: Borrow<Matrix>>(spaces: Vec<Matrix>, arrows: &[(usize, usize,
     }
 }
 
-/// The sum of the products of corresponding entries.
-#[must_use]
-pub fn dot(a: &[Rational], b: &[Rational]) -> Rational {
-    let mut sum = Rational::from(0);
-    for (x, y) in a.iter().zip(b) {
-        if *x != 0 && *y != 0 {
-            sum += x * y;
-        }
-    }
-    sum
-}
-
 impl<E> Index<(usize, usize)> for Matrix<E> {
     type Output = E;
     fn index(&self, (i, j): (usize, usize)) -> &E {
@@ -427,8 +462,10 @@ impl Mul for &Matrix {
     type Output = Matrix;
     fn mul(self, other: Self) -> Matrix {
         assert_eq!(self.cols, other.rows, "inner dimension");
-        let rows = (0..self.rows).map(|i| other.apply_left(self.row(i))).collect();
-        Matrix::from_rows(other.cols, rows)
+        let left: Vec<Line> = (0..self.rows).map(|i| Line::of(self.row(i).iter())).collect();
+        let right: Vec<Line> =
+            (0..other.cols).map(|j| Line::of((0..other.rows).map(move |i| &other[(i, j)]))).collect();
+        Matrix::from_fn(self.rows, other.cols, |i, j| left[i].dot(&right[j]))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::algebraic::field::{Extension, FieldMatrix, NumberField, place};
 use crate::algebraic::{Elem, Root, roots};
 use crate::arith::Rational;
 use crate::jordan::Chain;
-use crate::jordan::summand::{Merged, Side, Summand, decompose, decompose_some, embed_vector};
+use crate::jordan::summand::{Merged, Side, Summand, all_factors, decompose, decompose_some, embed_vector};
 use crate::jordan::symmetry::Symmetry;
 use crate::linalg::dependency::combination;
 use crate::linalg::{Matrix, char_poly};
@@ -197,7 +197,7 @@ fn field_parts(field: &NumberField, right: &FieldMatrix, left: &FieldMatrix) -> 
     let mut out: Vec<Part> = Vec::new();
     let mut found = 0;
     for s in shifts() {
-        let summand = Summand { right: restricted(right, s), left: restricted(left, s) };
+        let summands = [Summand { right: restricted(right, s), left: restricted(left, s) }];
         let known: Vec<Poly> = out
             .iter()
             .map(|p| {
@@ -206,7 +206,7 @@ fn field_parts(field: &NumberField, right: &FieldMatrix, left: &FieldMatrix) -> 
             })
             .collect();
         let wanted = |m: &Poly| m.degree().is_some_and(|n| n.is_multiple_of(d)) && !known.contains(m);
-        for merged in decompose_some(&[summand], &wanted) {
+        for merged in decompose_some(&summands, &all_factors(&summands), &wanted) {
             if let Some(part) = separated(field, merged, s) {
                 found += part.multiplicity * part.extension.poly.degree().unwrap_or(0) / d;
                 out.push(part);

@@ -1,18 +1,18 @@
-//! A case with its findings and what the checker said: what `certify` of one case, of many and the gallery show.
+//! A case with its findings and what the checker said.
 
-use super::CertifyArgs;
 use crate::answer::Verdict;
 use crate::budget::Budget;
-use crate::case::{Question, Valences};
+use crate::case::Question;
 use crate::certificate::{Certificate, Doubt, Unsupported, confirm_orders};
 use crate::diagnostic::Problem;
+use crate::picture::characteristic::sheet;
 use crate::prove::{Findings, confirm, prove_with, unconfirmed};
+use crate::report::document::Block;
 use crate::report::words::listed;
-use crate::report::{claims, findings};
+use crate::report::{claims, figures, findings, vertex as at_vertices};
 use crate::theorem::{Assertion, Certified, Claim, Required};
 use crate::vertex::Again;
 use serde_json::Value;
-use std::path::Path;
 
 /// The certificate that the checker accepted, or why the format has none.
 pub type Evidence = Result<Certificate, Unsupported>;
@@ -45,25 +45,6 @@ pub const ONCE: &str = "no rule of the certificate format covers";
 
 /// What a report says where there is no evidence.
 pub const NOT_ASKED: &str = "the checker was not asked";
-
-/// The question of a file with the addresses and valences of the command line.
-///
-/// # Errors
-/// The [`Problem`] of the file, or of an option that does not go with it.
-pub fn question(path: &Path, args: &CertifyArgs) -> Result<Question, Problem> {
-    let question = match args.valence.as_deref() {
-        None => Question::ask(&path.to_string_lossy())?,
-        Some(text) => Question::at_valences(path, valences(text)?)?,
-    };
-    args.address.iter().try_fold(question, |question, text| question.with_address(text))
-}
-
-fn valences(text: &str) -> Result<Valences, Problem> {
-    Valences::parse(text).map_err(|error| {
-        Problem::new("secant::usage::valence", error)
-            .with_help("write --valence 5, --valence 3..32 (both ends included), --valence 3,5,8 or --valence all")
-    })
-}
 
 /// Answers a question and has the answer proved again if `check` says so; `step` is called after each valence.
 ///
@@ -107,6 +88,7 @@ fn is_proved_again(claim: &Claim, certificate: &Certificate, orders: &[Assertion
     }
     match &claim.what {
         Assertion::G1 => certificate.decides_every_point(claim.verdict()),
+        what if what.is_of_dense_joints() => !certificate.leaves_out_joints(),
         what if what.is_of_parameter() => orders.contains(what),
         _ => true,
     }
@@ -146,6 +128,50 @@ impl Answered {
         })
     }
 
+    /// The picture, as SVG: the shape with its tangents, or with `cones` the cones of Theorem 6; of vertices their
+    /// characteristic maps.
+    ///
+    /// # Errors
+    /// A [`Problem`] where nothing can be drawn.
+    pub fn picture(&self, cones: bool) -> Result<String, Problem> {
+        let (case, found) = match &self.findings {
+            Findings::Tangents { case, found } => (case, found),
+            Findings::Vertices { case, found, .. } => {
+                let panels: Vec<_> = found.iter().filter_map(at_vertices::panel).collect();
+                return Ok(sheet(&panels, &case.title));
+            }
+        };
+        if !cones {
+            return figures::attractor(case, found).map(|p| p.svg).ok_or_else(|| undrawn(&case.name));
+        }
+        match figures::cones(case, found) {
+            Some(Block::Figure { svg, .. }) => Ok(svg),
+            _ => {
+                let message = format!("there are no cones to be drawn for {}", case.name);
+                Err(Problem::new("secant::picture", message).with_help(
+                    "cones are found for curves that are G¹ or have corners only (Theorem 6); leave out --draw",
+                ))
+            }
+        }
+    }
+
+    /// The picture of the shape with its tangents, as PNG.
+    ///
+    /// # Errors
+    /// A [`Problem`] where nothing can be drawn, and of vertices.
+    #[cfg(feature = "png")]
+    pub fn bitmap(&self) -> Result<Vec<u8>, Problem> {
+        match &self.findings {
+            Findings::Tangents { case, found } => {
+                figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name))
+            }
+            Findings::Vertices { .. } => {
+                Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
+                    .with_help("--svg draws their characteristic maps"))
+            }
+        }
+    }
+
     /// The JSON report, with what the checker said.
     pub fn json(&self, required: &Required) -> Value {
         let mut report = findings::json(&self.findings, required);
@@ -177,6 +203,12 @@ impl Answered {
     }
 }
 
+/// Why a shape has no picture.
+fn undrawn(name: &str) -> Problem {
+    Problem::new("secant::picture", format!("{name} cannot be drawn"))
+        .with_help("no point of the shape can be computed, because contraction is not decided")
+}
+
 fn kinds(found: &Certified) -> Vec<String> {
     let surface = found.surface.iter().flat_map(|s| &s.points).map(|p| match p.verdict {
         Verdict::Proved => "tangent plane",
@@ -195,4 +227,19 @@ fn counted<'a>(items: impl Iterator<Item = &'a str>) -> Vec<String> {
         }
     }
     counted.into_iter().map(|(w, n)| if n == 1 { w.to_owned() } else { format!("{n} {w}") }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_certificate_leaves_out_is_not_proved_again() {
+        let whole = Certificate::new("certify", "case", "proved", serde_json::json!({"answers": []}));
+        let part = whole.clone().without([Unsupported { what: "this theorem".to_owned(), place: "joints".to_owned() }]);
+        let claim = Claim::proved(Assertion::SeenJoints, None);
+        assert!(is_proved_again(&claim, &whole, &[]) && !is_proved_again(&claim, &part, &[]));
+        let ends = Claim::proved(Assertion::TangentAtEnds, None);
+        assert!(is_proved_again(&ends, &part, &[]));
+    }
 }

@@ -1,0 +1,48 @@
+"""Proves, in exact arithmetic, where self-similar shapes have tangents.
+
+>>> import secant
+>>> secant.certify("four-point w=1/16").verdict
+<Verdict.PROVED: 'proved'>
+"""
+
+from ._answers import JointRadius, Regularity, Solution, certify, check, jsr, regularity, solve
+from ._errors import CertificateError, InputError, InternalError, SecantError
+from ._numbers import Algebraic
+from ._results import Certificate, Certified, Checked, Claim, Direction, Point, Verdict
+from ._secant import version as __version__
+from ._spectra import Eigenvalue, JordanForm, Spectrum, jordan_form, spectra, spectrum
+from ._sweep import Folder, Row, iter_sweep, sweep
+
+__all__ = [
+    "Algebraic",
+    "Certificate",
+    "CertificateError",
+    "Certified",
+    "Checked",
+    "Claim",
+    "Direction",
+    "Eigenvalue",
+    "Folder",
+    "InputError",
+    "InternalError",
+    "JointRadius",
+    "JordanForm",
+    "Point",
+    "Regularity",
+    "Row",
+    "SecantError",
+    "Solution",
+    "Spectrum",
+    "Verdict",
+    "__version__",
+    "certify",
+    "check",
+    "iter_sweep",
+    "jordan_form",
+    "jsr",
+    "regularity",
+    "solve",
+    "spectra",
+    "spectrum",
+    "sweep",
+]

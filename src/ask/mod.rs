@@ -1,0 +1,15 @@
+//! What the commands answer, as text and as data: for the program, and for bindings to other languages.
+//!
+//! Each answer comes with its certificate where one is asked for, accepted by the independent checker.
+
+mod answered;
+mod radius;
+mod regularity;
+mod solve;
+mod spectra;
+
+pub use answered::{Answered, Checked, Evidence, NOT_ASKED, ONCE, answered};
+pub use radius::{Radius, radius};
+pub use regularity::{Smooth, certified_regularity, regularity, regularity_of_case};
+pub use solve::{Solved, solve, unsolvable};
+pub use spectra::{Entries, ExactSpectrum, Matrices, Named, exact_spectrum};

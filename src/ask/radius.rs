@@ -1,0 +1,71 @@
+//! Bounds of the joint spectral radius of the matrices of a file.
+
+use crate::certificate::radius_certificate;
+use crate::diagnostic::{Problem, SourceText};
+use crate::radius::{JointRadius, Options, file, joint_radius};
+use crate::report::radius::radius_json;
+use serde_json::Value;
+
+/// The bounds, and what they are about.
+#[derive(Debug, Clone)]
+pub struct Radius {
+    /// The name that the text gives, or that of the file.
+    pub name: String,
+    /// What was found.
+    pub found: JointRadius,
+    file: file::File,
+    text: String,
+}
+
+fn wrong(message: String, help: &str) -> Problem {
+    Problem::new("secant::jsr", message).with_help(help)
+}
+
+/// Bounds the joint spectral radius of the matrices of a text (docs/radius.md); `name` is shown in diagnostics.
+///
+/// # Errors
+/// A [`Problem`] where the text is no set of matrices, or they do not fit together.
+///
+/// # Examples
+/// ```
+/// use secant::{ask, radius::Options};
+/// let found = ask::radius("pair", "matrices = [[[1, 1], [0, 1]], [[1, 0], [1, 1]]]", &Options::default())?;
+/// assert_eq!(found.json()["exact"], true);
+/// assert!(found.certificate()?.starts_with('{'));
+/// # Ok::<(), secant::diagnostic::Problem>(())
+/// ```
+pub fn radius(name: &str, text: &str, options: &Options) -> Result<Radius, Problem> {
+    let file = file::parse(text).map_err(|e| {
+        let source = SourceText::new(name, text);
+        wrong(e.problem.to_string(), "see docs/radius.md for the format").with_source(&source).with_mark(e.span)
+    })?;
+    let found = joint_radius(&file.system, options).map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md"))?;
+    let name = if file.name.is_empty() { name } else { &file.name }.to_owned();
+    Ok(Radius { name, found, file, text: text.to_owned() })
+}
+
+impl Radius {
+    /// The answer as data.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        radius_json(&self.name, &self.found)
+    }
+
+    /// The certificate of the bounds, accepted by the checker.
+    ///
+    /// # Errors
+    /// A [`Problem`] where there is none, and where the text is not TOML.
+    pub fn certificate(&self) -> Result<String, Problem> {
+        let certificate = radius_certificate(&self.file, &self.found)
+            .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; nothing was written"))?;
+        let written = certificate.text();
+        secant_check::check(&self.text, &written).map_err(|e| {
+            let help = match self.text.trim_start().starts_with(['{', '[']) || !self.text.contains('=') {
+                true => "certificates are about TOML files: write the matrices as one",
+                false => "this is a mistake in secant: please report it",
+            };
+            wrong(format!("the certificate is not accepted: {e}"), help)
+        })?;
+        Ok(written)
+    }
+}

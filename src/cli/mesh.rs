@@ -1,0 +1,85 @@
+//! `secant certify` of a mesh.
+
+use super::CertifyArgs;
+use super::certify::{exit_code, extension, json_text};
+use super::output::{print, stdout_colour, write_file};
+use super::progress::Progress;
+use crate::diagnostic::Problem;
+use crate::mesh::{Found, Model, Scheme, certify};
+use crate::picture::mesh::{ply, svg};
+use crate::report::{html, latex, markdown, mesh as report, text};
+use std::path::Path;
+
+/// Certifies one mesh, prints and writes what was asked for; the exit code.
+///
+/// # Errors
+/// The [`Problem`] of the file, of an option, or of an output.
+pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
+    check(args)?;
+    let names = Scheme::ALL.map(Scheme::name).join(", ");
+    let name = args.scheme.as_deref().ok_or_else(|| {
+        Problem::new("secant::usage::scheme", "a mesh has no scheme of its own")
+            .with_help(format!("add --scheme with one of {names}"))
+    })?;
+    let scheme = Scheme::named(name).ok_or_else(|| {
+        Problem::new("secant::usage::scheme", format!("meshes are not refined by `{name}`"))
+            .with_help(format!("the schemes for meshes are {names}"))
+    })?;
+    let model = Model::read(path)?;
+    let progress = Progress::of(0, "vertices", args.quiet);
+    let found = certify(&model, scheme, &args.budget(), &|| progress.step());
+    progress.finish();
+    let found = found?;
+    write(&model, name, &found, args)?;
+    if !args.quiet {
+        print(&shown(&model, name, &found, args));
+    }
+    Ok(exit_code(found.regular()))
+}
+
+fn check(args: &CertifyArgs) -> Result<(), Problem> {
+    let strange = [
+        (args.certificate.is_some(), "--certificate", "there is no certificate of a mesh yet"),
+        (args.png.is_some(), "--png", "--svg draws the mesh"),
+        (!args.address.is_empty(), "--address", "the report lists every vertex"),
+        (args.valence.is_some(), "--valence", "the valences are those of the mesh"),
+        (args.approx, "--approx", "there is no quick look at a mesh"),
+        (args.resume.is_some(), "--resume", "a mesh is certified anew"),
+    ];
+    match strange.iter().find(|(given, _, _)| *given) {
+        Some((_, option, help)) => {
+            Err(Problem::new("secant::usage", format!("{option} does not go with a mesh")).with_help(help))
+        }
+        None => Ok(()),
+    }
+}
+
+fn shown(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> String {
+    if args.json || args.jsonl {
+        return json_text(&report::json(model, scheme, found), args.json);
+    }
+    text::render(&report::document(model, scheme, found, false), stdout_colour())
+}
+
+fn write(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Result<(), Problem> {
+    if let Some(path) = &args.report {
+        let document = report::document(model, scheme, found, true);
+        let written = match extension(path).as_str() {
+            "md" => markdown::render(&document),
+            "tex" => latex::render(&document),
+            _ => html::render(&document),
+        };
+        write_file(path, written)?;
+    }
+    if let Some(path) = &args.svg {
+        let drawn = svg(model, found, &model.name).ok_or_else(|| {
+            Problem::new("secant::picture", "the mesh cannot be drawn")
+                .with_help("it has more than 20000 faces, or no extent")
+        })?;
+        write_file(path, drawn)?;
+    }
+    if let Some(path) = &args.ply {
+        write_file(path, ply(model, found))?;
+    }
+    Ok(())
+}

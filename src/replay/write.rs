@@ -1,0 +1,299 @@
+//! The text of the file.
+
+use super::curve::{Cones, Levels, Own, OwnJoint};
+use super::evidence::{Evidence, Top};
+use super::refuted::Refuted;
+use super::{Model, Replayed, Stated, Statement, Whole};
+use crate::arith::Rational;
+use crate::case::Case;
+use crate::linalg::Matrix;
+use crate::shape::Address;
+use crate::theorem::{Certified, Kind};
+use std::fmt::Write;
+
+fn number(x: &Rational) -> String {
+    x.to_string().replace('/', "#")
+}
+
+fn list<T>(items: impl IntoIterator<Item = T>, text: impl Fn(T) -> String) -> String {
+    let items: Vec<String> = items.into_iter().map(text).collect();
+    format!("[{}]", items.join("; "))
+}
+
+fn vector(v: &[Rational]) -> String {
+    list(v, number)
+}
+
+fn matrix(m: &Matrix) -> String {
+    list(0..m.rows(), |i| vector(m.row(i)))
+}
+
+fn word(w: &[usize]) -> String {
+    list(w, |letter| format!("{letter}%nat"))
+}
+
+fn branch(prefix: &[usize], cycle: &[usize]) -> String {
+    format!("{{| prefix := {}; cycle := {} |}}", word(prefix), word(cycle))
+}
+
+/// Text inside a comment.
+fn plain(text: &str) -> String {
+    text.replace("(*", "( *").replace("*)", "* )").replace('"', "'")
+}
+
+const ABOUT: &str = "(automaton_of case) (qm net) start";
+const GIVEN: &str = "case centres radii net start";
+const BY_COMPUTATION: &str = "[exact contracts|vm_compute; reflexivity]";
+
+/// The file: definitions, theorems, and one theorem that holds them all.
+pub(super) fn file(case: &Case, found: &Certified, model: &Model<'_>, theorems: &[Stated], whole: &Whole) -> String {
+    let mut out = String::new();
+    heading(&mut out, case, found, whole);
+    definitions(&mut out, model);
+    let mut names = Vec::new();
+    for theorem in theorems {
+        let (claim, proof) = stated(&mut out, theorem);
+        let _ = writeln!(out, "(* {}. *)", plain(&theorem.place));
+        finished(&mut out, &theorem.name, &claim, &proof);
+        names.push(theorem.name.clone());
+    }
+    if let Ok(levels) = &whole.levels {
+        all_levels(&mut out, model, levels, &mut names);
+    }
+    if let Ok(cones) = &whole.cones {
+        every_point(&mut out, cones);
+        names.push("every_point".to_owned());
+    }
+    let all = names.iter().map(|n| format!("{n}_statement")).collect::<Vec<_>>().join(" /\\\n  ");
+    let mut proof = String::new();
+    for (k, name) in names.iter().enumerate() {
+        let last = k + 1 == names.len();
+        proof += &if last { format!("exact {name}.") } else { format!("split; [exact {name}|]. ") };
+    }
+    let _ = write!(out, "Theorem verdict :\n  {all}.\nProof. {proof} Qed.\n\nPrint Assumptions verdict.\n");
+    out
+}
+
+fn heading(out: &mut String, case: &Case, found: &Certified, whole: &Whole) {
+    let levels = match &whole.levels {
+        Ok(_) => "Stated as well: the joints of all levels.".to_owned(),
+        Err(why) => format!("Not stated: the joints of all levels ({}).", why.what),
+    };
+    let cones = match &whole.cones {
+        Ok(_) => "Stated as well: one ray for both sides at every address.".to_owned(),
+        Err(why) => format!("Not stated: every point ({}).", why.what),
+    };
+    let _ = write!(
+        out,
+        "(* Case {}: {}\n   secant's verdict: {}. This file states and proves what it says of single points: rays and lines of the\n   branches below.\n   {}\n   {}\n   Exponents and rates are never stated. Every number is checked by computation; the theorems are those of proofs/\n   (see proofs/README.md): coqc -Q proofs/theories Secant FILE.v *)\n",
+        plain(&case.name),
+        plain(&case.title),
+        found.verdict.word(),
+        plain(&levels),
+        plain(&cones),
+    );
+    out.push_str(
+        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
+    );
+}
+
+fn definitions(out: &mut String, model: &Model<'_>) {
+    let table = model.states.iter().map(|e| {
+        let state = &model.shape.states[*e];
+        let pieces = list(&state.pieces, |p| format!("\n      ({}%nat, {})", model.number(p.target), matrix(&p.op)));
+        format!("({}%nat, {pieces})", state.dim)
+    });
+    let _ = writeln!(out, "(* States with their dimension and pieces: target and matrix, row by row. *)");
+    let _ = writeln!(
+        out,
+        "Definition case : system := {{| ambient := {}; table := {} |}}.",
+        model.ambient,
+        list(table, |t| format!("\n    {t}"))
+    );
+    let _ = writeln!(out, "(* The control points, one a column; the identity where the case has none. *)");
+    let _ = writeln!(out, "Definition net : qmat := {}.", matrix(&model.net));
+    let _ = writeln!(out, "Definition start : nat := {}.\n", model.number(model.shape.start));
+    let _ = writeln!(out, "(* Balls that hold the attractors, and contraction by words (Lemma 1). *)");
+    let centres = list(&model.states, |e| vector(&model.balls.centre[*e]));
+    let radii = list(&model.states, |e| number(&model.balls.radius[*e]));
+    let _ = writeln!(out, "Definition centres : list qvec := {centres}.\nDefinition radii : list Q := {radii}.");
+    let _ = writeln!(out, "Lemma contracts : controlled case centres radii.");
+    let _ = writeln!(
+        out,
+        "Proof. apply (controlled_ok case centres radii ({}) {}); vm_compute; reflexivity. Qed.\n",
+        number(&model.constant),
+        model.length
+    );
+}
+
+fn top(t: &Top) -> String {
+    let (value, row, lead) = (number(&t.value), vector(&t.row), vector(&t.vector));
+    match &t.chain {
+        None => format!("Simple ({value}) {row} {lead}"),
+        Some((other, second)) => format!("Block ({value}) {} {row} {lead} {}", vector(other), vector(second)),
+    }
+}
+
+fn evidence(out: &mut String, name: &str, e: &Evidence) {
+    let _ = writeln!(
+        out,
+        "Definition {name} : evidence := {{| value := {}; lead := {}; power := {}; rate := {}; low := {}; depth := {}; exit := {}; scale := {} |}}.",
+        vector(&e.point),
+        top(&e.top),
+        e.power,
+        number(&e.rate),
+        number(&e.low),
+        e.depth,
+        word(&e.exit),
+        number(&e.scale),
+    );
+}
+
+fn finished(out: &mut String, name: &str, claim: &str, proof: &str) {
+    let _ = writeln!(
+        out,
+        "Definition {name}_statement : Prop :=\n  {claim}.\nTheorem {name} : {name}_statement.\nProof.\n  {proof}\nQed.\n"
+    );
+}
+
+/// The evidence of a theorem is written; its claim and its proof are returned.
+fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
+    let Stated { name, statement, image, .. } = theorem;
+    let image = vector(image);
+    let at = |of: &str, value: &str| {
+        (
+            format!("point {ABOUT} {of} = qv {image} /\\\n  "),
+            format!("split; [apply (check_point_ok {GIVEN} _ {value}); {BY_COMPUTATION}|].\n  "),
+        )
+    };
+    match statement {
+        Statement::Ray { branch: b } => {
+            let ((claim, proof), of, d) =
+                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
+            let cells = "[exact contracts|vm_compute; reflexivity..]";
+            (
+                format!("{claim}half_tangent {ABOUT} {of} (qv {d})"),
+                format!("{proof}apply (half_tangent_ok {GIVEN} _ {name}_evidence); {cells}."),
+            )
+        }
+        Statement::Line { branch: b } => {
+            let ((claim, proof), of, d) =
+                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
+            (
+                format!("{claim}tangent_line {ABOUT} {of} (qv {d})"),
+                format!("{proof}apply (tangent_line_ok {GIVEN} _ {name}_evidence); {BY_COMPUTATION}."),
+            )
+        }
+        Statement::Joint { kind, before, after, minor } => {
+            evidence(out, &format!("{name}_before"), &before.evidence);
+            evidence(out, &format!("{name}_after"), &after.evidence);
+            let (b1, b2) = (branch(&before.prefix, &before.cycle), branch(&after.prefix, &after.cycle));
+            let (d1, d2) = (vector(&before.direction), vector(&after.direction));
+            let (claim, proof) = at(&b2, &format!("(value {name}_after)"));
+            let (word, dirs, last) = match kind {
+                Kind::Corner => {
+                    ("corner", format!("(qv {d1}) (qv {d2})"), format!("{d1} {d2} {} {}", minor.0, minor.1))
+                }
+                Kind::Cusp => ("cusp", format!("(qv {d2})"), d2),
+                _ => ("regular", format!("(qv {d2})"), d2),
+            };
+            (
+                format!("{claim}{word} {ABOUT}\n    {b1}\n    {b2} {dirs}"),
+                format!(
+                    "{proof}apply ({word}_ok {GIVEN} _ _ {name}_before {name}_after {image} {last}); {BY_COMPUTATION}."
+                ),
+            )
+        }
+        Statement::NoTangent { address, point, refuted } => no_tangent(out, name, address, point, refuted, &at),
+    }
+}
+
+type At<'a> = dyn Fn(&str, &str) -> (String, String) + 'a;
+
+fn single(out: &mut String, name: &str, b: &Replayed, at: &At<'_>) -> (String, String) {
+    evidence(out, &format!("{name}_evidence"), &b.evidence);
+    at(&branch(&b.prefix, &b.cycle), &format!("(value {name}_evidence)"))
+}
+
+fn no_tangent(
+    out: &mut String,
+    name: &str,
+    address: &Address,
+    point: &[Rational],
+    refuted: &Refuted,
+    at: &At<'_>,
+) -> (String, String) {
+    for (k, limit) in refuted.limits.iter().enumerate() {
+        let _ = writeln!(
+            out,
+            "Definition {name}_limit_{k} : direction_evidence := {{| tail := {}; tail_value := {}; space := {}; proj := {}; eigen := {}; turns_power := {}; turns_rate := {}; multiple := {} |}}.",
+            branch(&limit.tail.prefix, &limit.tail.cycle),
+            vector(&limit.value),
+            matrix(&refuted.space),
+            matrix(&refuted.projection),
+            number(&refuted.eigenvalue),
+            refuted.power,
+            number(&refuted.rate),
+            number(&limit.multiple),
+        );
+    }
+    let of = branch(&address.prefix, &address.cycle);
+    let q = vector(point);
+    let (claim, proof) = at(&of, &q);
+    let [d1, d2] = [&refuted.limits[0], &refuted.limits[1]].map(|l| vector(&l.direction));
+    let (i, j) = refuted.minor;
+    (
+        format!("{claim}no_tangent {ABOUT} {of}"),
+        format!(
+            "{proof}apply (no_tangent_ok {GIVEN} _ {q} {name}_limit_0 {name}_limit_1 {d1} {d2} {i} {j}); {BY_COMPUTATION}."
+        ),
+    )
+}
+
+/// Theorem 5: every joint in its own state, and in all copies of the state.
+fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut Vec<String>) {
+    let inverses = list(&levels.inverses, |of| list(of, matrix));
+    let _ = writeln!(out, "(* The joints of all levels (Theorem 5): left inverses on the vectors of sum 0. *)");
+    let _ = writeln!(out, "Definition inverses : list (list qmat) := {inverses}.");
+    let _ = writeln!(out, "Definition net_inverse : qmat := {}.\n", matrix(&levels.net));
+    for joint in &levels.joints {
+        let state = model.number(joint.state);
+        let OwnJoint { pieces, before, after, cusp, point, .. } = joint;
+        let name = format!("levels_{state}_{}_{}", pieces.0, pieces.1);
+        evidence(out, &format!("{name}_before"), &before.evidence);
+        evidence(out, &format!("{name}_after"), &after.evidence);
+        let of = |b: &Own| branch(&b.prefix, &b.cycle);
+        let (b1, b2, d) = (of(before), of(after), vector(&after.direction));
+        let word = if *cusp { "cusp" } else { "regular" };
+        let values = format!("(value {name}_before) (value {name}_after)");
+        let claim = format!(
+            "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u (qv {d})))"
+        );
+        let proof = format!(
+            "refine ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values} _ _ _ _); [exact contracts|vm_compute; reflexivity|].\n  apply ({word}_ok case centres radii (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
+            vector(point)
+        );
+        finished(out, &name, &claim, &proof);
+        names.push(name);
+    }
+}
+
+/// Theorem 6.
+fn every_point(out: &mut String, cones: &Cones) {
+    let columns = |m: &Matrix| list(0..m.cols(), |j| vector(&m.column(j)));
+    let _ = writeln!(out, "(* Every point (Theorem 6): rays, their images, end points, chords. *)");
+    let _ = writeln!(
+        out,
+        "Definition common : cones := {{|\n  rays_of := {};\n  maps_of := {};\n  firsts := {};\n  lasts := {};\n  chords := {};\n  ratio := {}; seen_by := {} |}}.",
+        list(&cones.rays, columns),
+        list(&cones.maps, |of| list(of, matrix)),
+        list(&cones.firsts, |v| vector(v)),
+        list(&cones.lasts, |v| vector(v)),
+        list(&cones.chords, |v| vector(v)),
+        number(&cones.ratio),
+        vector(&cones.seen_by),
+    );
+    let claim = format!("tangent_at_every_address {ABOUT}");
+    let proof = format!("apply (cones_ok case centres radii common net start); {BY_COMPUTATION}.");
+    finished(out, "every_point", &claim, &proof);
+}

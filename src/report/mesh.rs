@@ -1,0 +1,288 @@
+//! Reports on meshes: what holds of the limit surface, by valence, and the bad vertices with their lines.
+
+use super::document::{Block, Document, Inline, Line, Table, code, words};
+use super::words::{count, mark};
+use crate::answer::Verdict;
+use crate::mesh::{AtVertex, Bad, Curvature, Found, Model, Number, Reason, Regular, Rings, Second, Size, Spot};
+use crate::picture::mesh::svg;
+use crate::vertex::decimal;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// Rows of a list in the terminal and in a report.
+const LISTED: [usize; 2] = [12, 400];
+/// Up to this valence normals are written out exactly.
+const WRITTEN: usize = 16;
+
+/// Where a vertex is, in words.
+#[must_use]
+pub fn place(v: &AtVertex) -> String {
+    match v.spot {
+        Spot::Vertex(k) => format!("vertex {} (line {})", k + 1, v.line),
+        Spot::Face(k) => format!("middle of face {} (line {})", k + 1, v.line),
+    }
+}
+
+/// Why a vertex has its verdict, in words.
+#[must_use]
+pub fn reason(v: &AtVertex) -> String {
+    match &v.reason {
+        Reason::Independent => "the leading coefficients are independent (Vertices of a mesh)".to_owned(),
+        Reason::Dependent => {
+            "the leading coefficients are dependent, one a multiple of the other, as where a net is folded along a line"
+                .to_owned()
+        }
+        Reason::Vanishing => "the leading coefficient of these points is 0; what decides is of higher order".to_owned(),
+        Reason::Undecided => "whether the leading coefficients are independent was not decided".to_owned(),
+        Reason::Line => "all points on which the surface depends there lie on one line".to_owned(),
+        Reason::Valence(why) => why.clone(),
+        Reason::Border => "the vertex lies on the border of the mesh".to_owned(),
+    }
+}
+
+fn around(v: &AtVertex) -> Option<String> {
+    Some(match v.rings.as_ref()? {
+        Ok(Rings::Immersed(0)) => "all rings are immersed".to_owned(),
+        Ok(Rings::Immersed(m)) => format!("{} tested, all later ones immersed", count(*m, "ring")),
+        Ok(Rings::Open(ring, sector)) => format!("ring {ring} was not proved regular in sector {sector}"),
+        Ok(Rings::Slow(m)) => format!("after {m} rings the later ones are under no bound yet"),
+        Ok(Rings::Dependent) => "the leading coefficients are nearly dependent in floats".to_owned(),
+        Err(why) => why.clone(),
+    })
+}
+
+fn patch(b: &Bad) -> String {
+    let steps = if b.level == 0 { String::new() } else { format!(", after {}", count(b.level, "step")) };
+    let spot = |s: &(crate::arith::Rational, crate::arith::Rational)| format!("({}, {})", s.0, s.1);
+    let what = match &b.found {
+        Regular::Proved(_) => "is regular".to_owned(),
+        Regular::Refuted(s) => {
+            format!("is not regular at the parameter {}: the derivatives are dependent there", spot(s))
+        }
+        Regular::Folded(s, r) => {
+            format!(
+                "is plane, with Jacobian determinants of both signs at {} and {}: it is not regular in between",
+                spot(s),
+                spot(r)
+            )
+        }
+        Regular::Open(s) => format!("was not decided near the parameter {}", spot(s)),
+    };
+    format!("face {} (line {}){steps}: the patch {what}", b.face + 1, b.line)
+}
+
+/// The document of a terminal or of a report; `whole` adds the picture and longer lists.
+#[must_use]
+pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Document {
+    let most = LISTED[usize::from(whole)];
+    let mut blocks = vec![Block::Paragraph(words(format!(
+        "{}: {}, {}, scheme {scheme}; {}.",
+        model.name,
+        count(model.topology.faces(), "face"),
+        count(model.points.len(), "point"),
+        parts(found)
+    )))];
+    blocks.push(Block::heading(2, "Claims"));
+    blocks.push(Block::List(claims(found)));
+    if whole {
+        let title = format!("{} with its verdicts", model.name);
+        if let Some(svg) = svg(model, found, &title) {
+            let caption = "The mesh; green vertices are proved, red ones refuted, violet ones undetermined.";
+            let tikz = "\\emph{The picture is in the HTML report.}".to_owned();
+            blocks.push(Block::Figure { svg, tikz, alt: title, caption: words(caption) });
+        }
+    }
+    blocks.push(Block::heading(2, "Vertices by valence"));
+    blocks.push(Block::Table(table(found)));
+    let bad: Vec<&AtVertex> = found.vertices.iter().filter(|v| !v.surrounded()).collect();
+    if !bad.is_empty() {
+        blocks.push(Block::heading(2, "Vertices that are not proved"));
+        blocks.push(Block::List(bad.iter().take(most).map(|v| listed(v)).collect()));
+        blocks.extend(rest(bad.len(), most));
+    }
+    if !found.patches.bad.is_empty() {
+        blocks.push(Block::heading(2, "Patches that are not proved"));
+        blocks.push(Block::List(found.patches.bad.iter().take(most).map(|b| words(patch(b))).collect()));
+        blocks.extend(rest(found.patches.bad.len(), most));
+    }
+    if whole {
+        blocks.push(Block::heading(2, "Limits"));
+        blocks.push(Block::Table(limits(found, most)));
+        blocks.extend(rest(found.vertices.len(), most));
+        blocks.push(Block::heading(2, "Statements"));
+        blocks.extend(found.statements().into_iter().map(Block::Statement));
+    }
+    blocks.push(Block::Paragraph(words(
+        "The certificate format has no rule for meshes: what is decided here was proved once, not twice.",
+    )));
+    Document { title: format!("{} by {scheme}", model.name), blocks }
+}
+
+fn rest(all: usize, most: usize) -> Option<Block> {
+    (all > most).then(|| Block::Paragraph(words(format!("… and {} more; --json lists all.", all - most))))
+}
+
+fn parts(found: &Found) -> String {
+    let border = if found.closed { "closed" } else { "with a border" };
+    let one_sided = found.parts.iter().filter(|two| !**two).count();
+    let sides = match (one_sided, found.parts.len()) {
+        (0, 1) => "one part with two sides".to_owned(),
+        (0, n) => format!("{n} parts with two sides"),
+        (1, 1) => "one part with one side".to_owned(),
+        (k, n) => format!("{n} parts, {k} of them with one side"),
+    };
+    format!("{border}, {sides}")
+}
+
+fn claims(found: &Found) -> Vec<Line> {
+    let one = |verdict: Verdict, claim: &str| {
+        let mut line = vec![mark(verdict)];
+        line.extend(words(format!(": {claim}")));
+        line
+    };
+    let p = &found.patches;
+    let mut surface =
+        one(found.regular(), "the limit surface of this mesh is a regular C¹ surface, immersed by its parametrisation");
+    if let Some(bad) = found.first_bad() {
+        surface.extend(words(format!("; {}", patch(bad))));
+    } else if !found.closed {
+        surface.extend(words("; the mesh has a border"));
+    }
+    let tested = format!(
+        "{} tested, {} proved regular by floats with bounds, {} more exactly",
+        count(p.tested, "patch"),
+        p.by_floats,
+        p.exactly
+    );
+    vec![one(found.smooth(), "the surface is C¹ at every vertex, for these points"), surface, words(tested)]
+}
+
+fn listed(v: &AtVertex) -> Line {
+    let valence = if v.valence == 0 { "on the border".to_owned() } else { format!("valence {}", v.valence) };
+    let mut line = words(format!("{}, {valence}: ", place(v)));
+    line.push(mark(v.smooth));
+    let rings = around(v).filter(|_| v.smooth == Verdict::Proved);
+    line.extend(words(match rings {
+        Some(rings) => format!(" at the vertex; around it: {rings}"),
+        None => format!(": {}", reason(v)),
+    }));
+    line
+}
+
+fn table(found: &Found) -> Table {
+    let mut by: BTreeMap<usize, Vec<&AtVertex>> = BTreeMap::new();
+    found.vertices.iter().for_each(|v| by.entry(v.valence).or_default().push(v));
+    let row = |(n, all): (&usize, &Vec<&AtVertex>)| {
+        let of = |verdict: Verdict| all.iter().filter(|v| v.smooth == verdict).count();
+        let lambda = found
+            .valences
+            .get(n)
+            .and_then(|a| a.top.as_ref())
+            .map_or("–".to_owned(), |t| format!("{:.10}", decimal(t)));
+        let rings = if all.iter().all(|v| !v.extraordinary) {
+            "–".to_owned()
+        } else {
+            format!("{} of {}", all.iter().filter(|v| v.surrounded()).count(), all.len())
+        };
+        let mut cells = vec![if *n == 0 { words("border") } else { words(n.to_string()) }];
+        cells.extend([all.len().to_string(), lambda, of(Verdict::Proved).to_string()].map(words));
+        cells.extend([of(Verdict::Refuted).to_string(), of(Verdict::Undetermined).to_string(), rings].map(words));
+        cells.push(words(found.curvature.get(n).map_or_else(|| "–".to_owned(), curved)));
+        cells
+    };
+    let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "undetermined", "rings immersed", "curvature"];
+    let caption = words(
+        "The curvature is that of almost all points at such a vertex; flat it is for all points with independent leading \
+         coefficients (Size of the curvature).",
+    );
+    Table { caption, header: header.map(words).to_vec(), rows: by.iter().map(row).collect() }
+}
+
+/// The curvature of almost all points at a valence.
+fn curved(c: &Curvature) -> String {
+    match (c.size, c.second, c.exponent) {
+        (_, Second::Flat, _) => "tends to 0; C², flat".to_owned(),
+        (_, Second::Regular, _) => "bounded; C² (regular)".to_owned(),
+        (Size::Unbounded, _, Some(p)) => format!("unbounded, p* = {p:.3}"),
+        (Size::Unbounded, ..) => "unbounded".to_owned(),
+        (Size::Bounded, Second::No, _) => "bounded, not C²".to_owned(),
+        (Size::Bounded, ..) => "bounded; C² not decided".to_owned(),
+        (Size::Vanishing, ..) => "tends to 0".to_owned(),
+    }
+}
+
+fn limits(found: &Found, most: usize) -> Table {
+    let decimals = |v: Option<[f64; 3]>| match v {
+        Some([x, y, z]) => format!("({x:.8}, {y:.8}, {z:.8})"),
+        None => "–".to_owned(),
+    };
+    let row = |v: &AtVertex| {
+        let limit = v.limit.as_ref();
+        let exact = limit.and_then(|l| l.point.as_ref()).map(tuple);
+        vec![
+            words(place(v)),
+            words(decimals(limit.map(|l| l.near.map(crate::mesh::Float::mid)))),
+            exact.map_or_else(|| words("–"), code),
+            words(decimals(limit.and_then(|l| l.unit))),
+            vec![mark(v.smooth) as Inline],
+        ]
+    };
+    let header = ["where", "limit point", "exactly", "unit normal", "C¹"];
+    let caption = words("In exact numbers t = 2cos(2π/n) at valence n.");
+    Table { caption, header: header.map(words).to_vec(), rows: found.vertices.iter().take(most).map(row).collect() }
+}
+
+fn tuple(all: &[Number; 3]) -> String {
+    format!("({})", all.iter().map(Number::display).collect::<Vec<_>>().join(", "))
+}
+
+/// Everything as data.
+#[must_use]
+pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
+    let vertex = |v: &AtVertex| {
+        let limit = v.limit.as_ref();
+        let exact = |all: &[Number; 3]| json!(all.iter().map(Number::display).collect::<Vec<_>>());
+        let written = |all: &[Number; 3]| if v.valence <= WRITTEN { exact(all) } else { Value::Null };
+        let (kind, number) = match v.spot {
+            Spot::Vertex(k) => ("vertex", k + 1),
+            Spot::Face(k) => ("face", k + 1),
+        };
+        json!({
+            "at": kind,
+            "number": number,
+            "line": v.line,
+            "valence": v.valence,
+            "smooth": v.smooth.word(),
+            "reason": reason(v),
+            "rings": around(v),
+            "surrounded": v.surrounded(),
+            "point": limit.map(|l| l.near.map(crate::mesh::Float::mid)),
+            "point_exact": limit.and_then(|l| l.point.as_ref()).map(exact),
+            "normal": limit.and_then(|l| l.unit),
+            "normal_exact": limit.map(|l| written(&l.normal)),
+            "tangents_exact": limit.map(|l| l.tangents.iter().map(written).collect::<Vec<_>>()),
+        })
+    };
+    let p = &found.patches;
+    let bad = |b: &Bad| json!({"face": b.face + 1, "line": b.line, "steps": b.level, "what": patch(b), "refuted": !matches!(b.found, Regular::Open(_))});
+    json!({
+        "mesh": model.name,
+        "scheme": scheme,
+        "faces": model.topology.faces(),
+        "closed": found.closed,
+        "two_sided": found.parts,
+        "smooth": found.smooth().word(),
+        "regular": found.regular().word(),
+        "certificate": Value::Null,
+        "statements": found.statements().iter().map(|s| s.id()).collect::<Vec<_>>(),
+        "patches": {"tested": p.tested, "by_floats": p.by_floats, "exactly": p.exactly, "bad": p.bad.iter().map(bad).collect::<Vec<_>>()},
+        "numbers": "t = 2cos(2π/n) at valence n; a is the positive root of a² = (2 + t)a + 8 + 4t",
+        "curvature": found.curvature.iter().map(|(n, c)| json!({
+            "valence": n,
+            "almost_all": curved(c),
+            "ratio": c.ratio.mid(),
+            "exponent": c.exponent,
+        })).collect::<Vec<_>>(),
+        "vertices": found.vertices.iter().map(vertex).collect::<Vec<_>>(),
+    })
+}
