@@ -79,7 +79,7 @@ fn several_inputs_and_data_of_all() {
 
 #[test]
 fn parameters_are_addresses_too() {
-    for (text, address) in [("1/3", "(01)"), ("0.5", "0(1)"), ("0", "(0)"), ("1", "(1)"), ("t=1/6", "0(01)")] {
+    for (text, address) in [("1/3", "(01)"), ("0.5", "1(0)"), ("0", "(0)"), ("1", "(1)"), ("t=1/6", "0(01)")] {
         let (out, _) = run(&["certify", "bspline", "--json", "--at", text], "", 0);
         let value: Value = serde_json::from_str(&out).unwrap();
         let asked = value["claims"].as_array().unwrap().iter().filter(|c| c["about"] == "points");

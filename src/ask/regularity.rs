@@ -9,7 +9,7 @@ use crate::report::regularity::Meaning;
 use crate::scheme::{self, Laurent, Normalisation};
 use crate::shape::{Contraction, Shape, Spaces};
 use crate::theorem::enclosed::enclosed;
-use crate::theorem::filter::{Filter, Understood, understood};
+use crate::theorem::filter::{Filter, FilterError, Understood, understood};
 use crate::theorem::regularity as theorem_regularity;
 use crate::theorem::smoothness::curve_regularity;
 use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
@@ -64,6 +64,15 @@ fn wrong(message: String) -> Problem {
         "name a case file, a scheme of `secant schemes`, a wavelet such as db2, haar or bior2.2, or write a mask as in \
          \"1/4,3/4,3/4,1/4\" or a symbol as in \"(1+z)^3/4\"",
     )
+}
+
+/// Why coefficients are no mask, with the remedy where the reader of numbers has one.
+fn no_mask(place: &str, error: FilterError) -> Problem {
+    let problem = wrong(format!("{place}{error}"));
+    match error {
+        FilterError::Read { help: Some(help), .. } => problem.with_help(help),
+        _ => problem,
+    }
 }
 
 fn answer(what: &str, subject: &Subject) -> Result<Smooth, Problem> {
@@ -138,9 +147,8 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
     if let Some(extra) = parameters.first() {
         return Err(wrong(format!("`{extra}` is a parameter, but only named schemes have parameters")));
     }
-    let mask = |texts: &[String], arity, scale| {
-        understood(texts, arity, scale).map(Subject::Mask).map_err(|e| wrong(e.to_string()))
-    };
+    let mask =
+        |texts: &[String], arity, scale| understood(texts, arity, scale).map(Subject::Mask).map_err(|e| no_mask("", e));
     if let Some(texts) = scheme::wavelet_mask(what) {
         return mask(&texts, 2, None);
     }
@@ -216,7 +224,7 @@ fn given(mask: &scheme::Mask) -> Understood {
 /// The mask of a case with one, whether its curve converges or not; otherwise its curve, which must be a model that contracts.
 fn subject_of_case(name: &str, text: &str) -> Result<Subject, Problem> {
     if let Some((texts, arity, scale)) = written_mask(text) {
-        return understood(&texts, arity, scale).map(Subject::Mask).map_err(|e| wrong(format!("{name}: {e}")));
+        return understood(&texts, arity, scale).map(Subject::Mask).map_err(|e| no_mask(&format!("{name}: "), e));
     }
     of_read(Case::parse(name, text)?)
 }

@@ -52,7 +52,7 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
 
 /// Keys of the case that stand below `[scheme]` belong to it for TOML.
 fn own_keys_only(table: &Table<'_>) -> Result<(), Problem> {
-    for key in ["control", "title", "source", "convention", "kind", "examine", "expect", "pieces", "start"] {
+    for key in ["control", "title", "source", "convention", "kind", "examine", "expect", "start"] {
         if let Some(span) = table.key_span(key) {
             let message = format!("`{key}` stands below [scheme], so that it belongs to the scheme");
             let problem = table.file.problem("misplaced-key", message, span, "a key of the case");

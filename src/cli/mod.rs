@@ -270,7 +270,7 @@ fn effort(word: &str) -> Result<Effort, String> {
 struct SpectrumArgs {
     /// Cases (.toml, or what stands for one, as for `certify`), text files with a square matrix (rows of numbers, MatrixMarket, or
     /// the literal of a computer algebra system), such a literal itself, or `-`.
-    #[arg(required = true, value_name = "CASE|MATRIX", allow_hyphen_values = true)]
+    #[arg(required = true, value_name = "CASE|MATRIX")]
     files: Vec<PathBuf>,
     /// Print JSON.
     #[arg(long)]

@@ -104,7 +104,7 @@ pub fn label(what: &Assertion) -> String {
         (Assertion::Polynomial, _) => "C^k for all k".to_owned(),
         (Assertion::PlaneAtVertices, _) => "vertices".to_owned(),
         (Assertion::SomePoint, _) => "some point".to_owned(),
-        (Assertion::DenseJoints | Assertion::SeenJoints, _) => "all joints, dense".to_owned(),
+        (Assertion::DenseJoints | Assertion::SeenJoints, _) => "joints (dense)".to_owned(),
         (Assertion::C1AtVertex { valence } | Assertion::PlaneAtVertex { valence }, _) => format!("valence {valence}"),
         (Assertion::C1AtVertices { from }, _) => format!("valences from {from}"),
         (_, None) => "tangents".to_owned(),
