@@ -130,6 +130,7 @@ statements! {
     Radius = "radius",
     Smoothness = "smoothness",
     TensorEveryPoint = "tensor-every-point",
+    PatchDerivative = "patch-derivative",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",

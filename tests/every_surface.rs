@@ -137,3 +137,127 @@ fn a_point_without_a_tangent_plane_refutes_with_a_certificate() {
     assert!(forged(&case, &|p| p["every"]["point"] = json!(99)).is_err());
     assert!(forged(&case, &|p| p["every"]["verdict"] = json!("proved")).is_err());
 }
+
+#[test]
+fn patches_with_a_derivative_of_rank_2_are_smooth_everywhere() {
+    let loops = parse("[scheme]\nmesh = \"loop\"\nvalence = 6");
+    let quads = parse("[scheme]\nmesh = \"catmull-clark\"\nvalence = 4");
+    let files = ["surfaces/bicubic-space.toml", "surfaces/biquadratic-space.toml", "faces/bicubic.toml"];
+    for case in files.map(file).iter().chain([&loops, &quads]) {
+        let found = found(case);
+        match &surface(&found).every {
+            Answer::Proved(EverySurfaceProof::Derivative(d)) => {
+                assert!(d.enclosure.hi < d.share && d.edges > 0);
+                assert!(d.cells.is_none() || case.shape.control.is_some());
+            }
+            // A product of curves is decided by these first.
+            Answer::Proved(EverySurfaceProof::Product(_)) => assert!(case.shape.control.is_none()),
+            other => panic!("{}: {other:?}", case.name),
+        }
+        assert_eq!(verdict(case), Verdict::Proved);
+        assert_eq!(says(&forged(case, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved), "{}", case.name);
+    }
+}
+
+#[test]
+fn a_fold_of_the_control_points_is_not_proved() {
+    let spline = "name = \"bspline\", degree = 2";
+    let fold = |x: [i64; 3]| {
+        let points: Vec<String> = (0..9).map(|k| format!("[{}, {}]", x[k / 3], k % 3)).collect();
+        product(spline, spline, &format!("control = [{}]", points.join(", ")))
+    };
+    assert_eq!(verdict(&fold([0, 1, 2])), Verdict::Proved);
+    assert_ne!(verdict(&fold([0, 1, 0])), Verdict::Proved);
+    assert_ne!(verdict(&fold([0, 1, 1])), Verdict::Proved, "the derivative is 0 at one side");
+}
+
+fn rows(m: &[Vec<String>]) -> String {
+    let row = |r: &Vec<String>| format!("[{}]", r.iter().map(|x| format!("\"{x}\"")).collect::<Vec<_>>().join(", "));
+    format!("[{}]", m.iter().map(row).collect::<Vec<_>>().join(", "))
+}
+
+/// De Casteljau's halves of a quadratic curve, in quarters; columns are the new points.
+const HALVES: [[[i64; 3]; 3]; 2] = [[[4, 2, 1], [0, 2, 2], [0, 0, 1]], [[1, 0, 0], [2, 2, 0], [1, 2, 4]]];
+
+/// A face of 2 x 2 biquadratic patches that meet along their edges, with the heights of 25 control points over a plane grid.
+fn four_patches(height: &dyn Fn(usize, usize) -> i64) -> Case {
+    let mut text = String::from("convention = \"columns\"\nstart = \"X\"\n");
+    let points: Vec<String> = (0..25).map(|k| format!("[{}, {}, {}]", k % 5, k / 5, height(k % 5, k / 5))).collect();
+    text += &format!("control = [{}]\n", points.join(", "));
+    let side =
+        |of: [usize; 2], n: usize| (0..n).map(|k| (of[0] + k * of[1]).to_string()).collect::<Vec<_>>().join(", ");
+    let face = |name: &str, n: usize, edge: &str| {
+        let sides = [("bottom", [0, 1]), ("right", [n - 1, n]), ("top", [n * (n - 1), 1]), ("left", [0, n])];
+        let sides: Vec<String> =
+            sides.map(|(s, of)| format!("{s} = {{ edge = \"{edge}\", points = [{}] }}\n", side(of, n))).into();
+        format!(
+            "[[state]]\nname = \"{name}\"\nkind = \"face\"\ndimension = {}\nlayout = \"2x2\"\n{}",
+            n * n,
+            sides.join("")
+        )
+    };
+    let piece = |to: &str, m: Vec<Vec<String>>| format!("[[state.piece]]\nto = \"{to}\"\nmatrix = {}\n", rows(&m));
+    let quarter = |x: i64, d: i64| format!("{x}/{d}");
+    text += &face("X", 5, "L");
+    for k in 0..4 {
+        let at = |c: usize| (2 * (k / 2) + c / 3) * 5 + 2 * (k % 2) + c % 3;
+        text += &piece("R", (0..25).map(|r| (0..9).map(|c| quarter(i64::from(at(c) == r), 1)).collect()).collect());
+    }
+    text += &face("R", 3, "q");
+    for k in 0..4 {
+        let (u, v) = (HALVES[k % 2], HALVES[k / 2]);
+        let entry = |r: usize, c: usize| quarter(u[r % 3][c % 3] * v[r / 3][c / 3], 16);
+        text += &piece("R", (0..9).map(|r| (0..9).map(|c| entry(r, c)).collect()).collect());
+    }
+    text += "[[state]]\nname = \"L\"\nkind = \"edge\"\ndimension = 5\n";
+    for k in 0..2 {
+        text += &piece("q", (0..5).map(|r| (0..3).map(|c| quarter(i64::from(2 * k + c == r), 1)).collect()).collect());
+    }
+    text += "[[state]]\nname = \"q\"\nkind = \"edge\"\ndimension = 3\n";
+    for half in HALVES {
+        text += &piece("q", half.iter().map(|r| r.iter().map(|x| quarter(*x, 4)).collect()).collect());
+    }
+    parse(&text)
+}
+
+#[test]
+fn two_smooth_patches_that_meet_in_a_crease_are_not_proved() {
+    // One plane in four patches, and a paraboloid.
+    assert_eq!(verdict(&four_patches(&|x, y| (x + 2 * y) as i64)), Verdict::Proved);
+    assert_eq!(verdict(&four_patches(&|x, y| [4, 0, 0, 0, 4][x] + [4, 0, 0, 0, 4][y])), Verdict::Proved);
+    // A roof: the middle line is a crease.
+    assert_eq!(verdict(&four_patches(&|x, _| [0, 1, 2, 1, 0][x])), Verdict::Refuted);
+    // (u − 1/2)⁺ b(v): a crease along u = 1/2 that vanishes at the vertices of the first level.
+    let hidden = four_patches(&|x, y| [0, 0, 0, 2, 4][x] * [0, 1, 0, -1, 0][y]);
+    let found = found(&hidden);
+    let Answer::Open(gaps) = &surface(&found).every else { panic!("{:?}", surface(&found).every) };
+    let state = hidden.shape.start;
+    assert!(gaps.contains(&EverySurfaceGap::Edge { state, letters: [0, 1] }), "{gaps:?}");
+}
+
+#[test]
+fn forged_derivatives_are_rejected() {
+    let case = file("surfaces/bicubic-space.toml");
+    let refused = |change: &dyn Fn(&mut Value)| assert!(forged(&case, &|p| change(&mut p["every"])).is_err());
+    assert!(forged(&case, &|_| ()).is_ok());
+    refused(&|e| e["radius"] = Value::Null);
+    refused(&|e| e["radius"]["upper"] = json!("1/100"));
+    refused(&|e| e["verdict"] = json!("refuted"));
+    refused(&|e| e["length"] = json!(0));
+    refused(&|e| drop(e["cells"].as_array_mut().unwrap().pop()));
+    refused(&|e| e["cells"] = json!([]));
+    refused(&|e| e["cells"] = Value::Null);
+    // The certificate of a plane in four patches, about the same patches with creases.
+    let plane = |x: usize, y: usize| (x + 2 * y) as i64;
+    let flat = four_patches(&plane);
+    let certificate = confirm(&flat, &found(&flat)).unwrap().json().clone();
+    let every = certificate["proof"]["every"].clone();
+    assert_eq!(every["by"], "derivative");
+    let hidden = four_patches(&|x, y| [0, 0, 0, 2, 4][x] * [0, 1, 0, -1, 0][y]);
+    let mut own = confirm(&hidden, &found(&hidden)).unwrap().json().clone();
+    let proof = own["proof"].as_object_mut().unwrap();
+    let answers = proof.remove("answers").unwrap();
+    proof.insert("every".to_owned(), every);
+    proof.insert("answers".to_owned(), answers);
+    assert!(secant_check::check(&hidden.checked_text(), &own.to_string()).is_err());
+}

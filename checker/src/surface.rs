@@ -2,6 +2,7 @@
 
 mod branch;
 mod chart;
+mod derivative;
 mod product;
 
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
@@ -121,8 +122,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     }
     let verdict = together(found.iter().map(|d| d.verdict));
     if let Some(every) = every {
-        every.need(chart.is_some(), "every", "a patch with parameters is needed")?;
-        found.push(Claim::PlaneTurns.is(surface.every(&root, &found_at, &every)?));
+        found.push(Claim::PlaneTurns.is(surface.every(&root, chart.as_ref(), &found_at, &every)?));
     }
     Ok(Accepted { case: case.name, verdict, claims: found, points: found_at })
 }
@@ -165,8 +165,14 @@ impl Surface<'_> {
     }
 
     /// Whether the surface is G¹: a point without a tangent plane, or the curves of a product.
-    fn every(&self, root: &Root, points: &[Decided], node: &Node<'_>) -> Checked<Verdict> {
+    fn every(&self, root: &Root, chart: Option<&Chart>, points: &[Decided], node: &Node<'_>) -> Checked<Verdict> {
+        let chart = node.some(chart, "every", "a patch with parameters is needed")?;
         let found = match node.tag("by")? {
+            "derivative" => {
+                node.need(self.cover, "contraction", "without contraction only a product has an answer")?;
+                derivative::check(self.model, chart, node)?;
+                Verdict::Proved
+            }
             "point" => {
                 let [_, _, point] = node.fields("by verdict point")?;
                 let broken = points[point.index(points.len())?].verdict == Verdict::Refuted;
@@ -181,7 +187,7 @@ impl Surface<'_> {
                 curves.need(seen, "every", "the view must be injective")?;
                 product.every(&curves)?
             }
-            _ => return node.reject("every", "a point or a product is needed"),
+            _ => return node.reject("every", "a point, a product or a derivative is needed"),
         };
         let decided = found != Verdict::Undetermined;
         node.need(decided, "every", "this decides nothing")?;

@@ -31,12 +31,17 @@ pub fn regularity_certificate(
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
 }
 
+/// The bounds of the radius of a system; `null` where all spaces are 0.
+pub fn radius(system: Option<&System>, found: Option<&JointRadius>, place: &str) -> Result<Value, Unsupported> {
+    match (system, found) {
+        (None, _) => Ok(Value::Null),
+        (Some(system), Some(found)) => radius_proof(system, &radius_with_a_rational_word(system, found)),
+        (Some(_), None) => unsupported("a radius without bounds", place),
+    }
+}
+
 pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
-    let radius = match (&order.system, &order.radius) {
-        (None, _) => Value::Null,
-        (Some(system), Some(radius)) => radius_proof(system, &radius_with_a_rational_word(system, radius))?,
-        (Some(_), None) => return unsupported("a radius without bounds", format!("order {}", order.order)),
-    };
+    let radius = radius(order.system.as_ref(), order.radius.as_ref(), &format!("order {}", order.order))?;
     let outcome = match &order.outcome {
         Outcome::Curve => "curve",
         Outcome::Holds => "holds",

@@ -117,6 +117,14 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
         Answer::Proved(EverySurfaceProof::Product(curves)) => {
             json!({"by": "product", "verdict": "proved", "curves": product.every([Some(&curves[0]), Some(&curves[1])])?})
         }
+        Answer::Proved(EverySurfaceProof::Derivative(found)) => {
+            let radius = super::regularity::radius(found.system.as_ref(), found.radius.as_ref(), "every point")?;
+            let (length, cells) = match &found.cells {
+                Some((length, cells)) => (json!(length), json!(cells)),
+                None => (Value::Null, Value::Null),
+            };
+            json!({"by": "derivative", "verdict": "proved", "radius": radius, "length": length, "cells": cells})
+        }
         Answer::Refuted(EverySurfaceBreak::Curve { curves, curve, .. }) => {
             let of = |k: usize| (k == *curve).then(|| &curves[k]);
             json!({"by": "product", "verdict": "refuted", "curves": product.every([of(0), of(1)])?})

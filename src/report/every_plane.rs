@@ -1,9 +1,11 @@
 //! What is known of every point of a surface, in words and as data.
 
 use super::document::{Line, words};
+use super::radius::decimal;
 use super::reasons;
 use super::words::{listed, mark};
 use crate::answer::Answer;
+use crate::statement::Statement;
 use crate::theorem::Certified;
 use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface};
 use serde_json::{Value, json};
@@ -17,6 +19,13 @@ fn proof(surface: &Surface) -> Option<String> {
         Answer::Proved(EverySurfaceProof::Product(curves)) => Some(format!(
             "it is the tensor product of two curves that are G¹: {}",
             listed(&curves.iter().map(of_curve).collect::<Vec<_>>())
+        )),
+        Answer::Proved(EverySurfaceProof::Derivative(d)) => Some(format!(
+            "it is C¹ in its parameters, with a derivative of rank 2 ({}); the joint spectral radius on the differences of the \
+             derivative is at most {}, below {}",
+            Statement::PatchDerivative.short_name(),
+            decimal(&d.enclosure.hi, true, 6),
+            d.share
         )),
         Answer::Refuted(_) | Answer::Open(_) => None,
     }
@@ -48,6 +57,7 @@ pub fn value(surface: &Surface) -> Value {
         Answer::Proved(EverySurfaceProof::Product(_)) | Answer::Refuted(EverySurfaceBreak::Curve { .. }) => {
             json!("product")
         }
+        Answer::Proved(EverySurfaceProof::Derivative(_)) => json!("derivative"),
         Answer::Refuted(EverySurfaceBreak::Point(_)) => json!("point"),
         Answer::Open(_) => Value::Null,
     };

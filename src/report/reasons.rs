@@ -193,8 +193,23 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
         EverySurfaceGap::Curve(curve) => {
             format!("it is not decided whether {} curve of the product is G¹", ordinal(curve))
         }
+        EverySurfaceGap::Large => "there are too many coordinates for the derivative in the parameters".to_owned(),
+        EverySurfaceGap::Turned { letter, .. } => {
+            format!("piece {letter} of a face is turned, so that its parameters are not those of the face but for their size")
+        }
+        EverySurfaceGap::Unequal => "the pieces are not all of one size in the parameters".to_owned(),
+        EverySurfaceGap::Radius => {
+            "the joint spectral radius on the differences of the derivative is not seen to be below the size of the pieces"
+                .to_owned()
+        }
+        EverySurfaceGap::Edge { letters: [i, j], .. } => {
+            format!("the derivatives on the two sides of the edge between the pieces {i} and {j} of a face differ")
+        }
+        EverySurfaceGap::Rank => {
+            "the derivative in the parameters is continuous, but the control points are not seen to keep its rank".to_owned()
+        }
         EverySurfaceGap::Contradiction => {
-            "the theorem on tensor products and the tangent subspace of a point disagree: a mistake in secant"
+            "the proof for every point and the tangent subspace of a point disagree: a mistake in secant"
                 .to_owned()
         }
     }

@@ -103,7 +103,29 @@ pub enum EverySurfaceGap {
     Folded,
     /// One of the two curves of a product, 0 or 1, of which it is not decided whether it is G¹.
     Curve(usize),
-    /// The theorem on tensor products proves it, and at a point there is no tangent plane.
+    /// There are too many coordinates for the derivative in the parameters.
+    Large,
+    /// A piece is turned: it is not placed by a homothety of the parameters.
+    Turned {
+        /// The state that it divides.
+        state: usize,
+        /// Its letter.
+        letter: usize,
+    },
+    /// The pieces are not all of one size in the parameters.
+    Unequal,
+    /// The joint spectral radius on the differences of the derivative is not seen to be below that size.
+    Radius,
+    /// The derivatives on the two sides of an edge differ at some point.
+    Edge {
+        /// The state inside which it is.
+        state: usize,
+        /// The pieces that share it.
+        letters: [usize; 2],
+    },
+    /// The derivative is not seen to keep its rank under the control points.
+    Rank,
+    /// It is proved, and at a point there is no tangent plane.
     Contradiction,
 }
 

@@ -3,7 +3,7 @@
 use crate::base::{Checked, MAX_PIECES, Matrix, Node, Q, index, need, number::ratio, some, spend, whole};
 use crate::curve::{Address, Kind, Piece, Shape, State, case};
 use num_bigint::BigInt;
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
 /// Cells that may be visited in search of the addresses of a parameter.
 const MAX_STEPS: usize = 20_000;
@@ -98,6 +98,25 @@ impl Chart {
             }
             Ok(Some(Self { maps: Shape::new(maps, shape.start, Matrix::identity(3)), triangle }))
         })
+    }
+
+    /// The corners of a face, in their order.
+    pub fn corners(&self) -> Vec<Matrix> {
+        corners(self.triangle)
+    }
+
+    /// The affine map of a piece.
+    pub fn map(&self, face: usize, letter: usize) -> &Matrix {
+        &self.maps.states[face].pieces[letter].op
+    }
+
+    /// `s`, where a piece is placed by `x ↦ s x + p`.
+    pub fn share(&self, face: usize, letter: usize) -> Checked<Option<Q>> {
+        let at = |k: usize| self.map(face, letter).columns(&[k]);
+        let (u, v) = (at(1).minus(&at(0)), at(2).minus(&at(0)));
+        let (s, t) = (u.at(1, 0), v.at(2, 0));
+        let plain = s == t && !s.is_zero() && u.at(2, 0).is_zero() && v.at(1, 0).is_zero();
+        Ok(plain.then_some(s))
     }
 
     /// Whether a piece of the start lies in its part of a division into columns and rows without a turn.

@@ -2,7 +2,9 @@
 
 use super::super::document::{Block, Tone, words};
 use super::super::every_plane;
-use super::super::words::mark;
+use super::super::math::Math;
+use super::super::radius::decimal;
+use super::super::words::{count, listed, mark};
 use super::Quoted;
 use super::evidence::Evidence;
 use crate::answer::Answer;
@@ -10,7 +12,7 @@ use crate::case::Case;
 use crate::shape::Spaces;
 use crate::statement::Statement;
 use crate::theorem::Certified;
-use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface};
+use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface};
 
 pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Every point")];
@@ -20,10 +22,40 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
             blocks.extend(seen.once_id(Statement::TensorEveryPoint));
             blocks.push(product(case, surface, curves).block());
         }
+        Answer::Proved(EverySurfaceProof::Derivative(found)) => {
+            blocks.extend(seen.once_id(Statement::PatchDerivative));
+            blocks.push(derivative(found).block());
+        }
         Answer::Refuted(EverySurfaceBreak::Point(_)) | Answer::Open(_) => {}
     }
     blocks.push(Block::Facts(every_plane::facts(surface)));
     blocks
+}
+
+/// What was verified of the statement on the derivative of a patch.
+fn derivative(found: &PatchDerivative) -> Evidence {
+    let dims = listed(&found.dims.iter().map(ToString::to_string).collect::<Vec<_>>());
+    let hi = decimal(&found.enclosure.hi, true, 6);
+    let radius = format!(
+        "the spaces $F$ have the dimensions {dims}, state by state; the joint spectral radius on them is at most {hi}, which is below \
+         $@$."
+    );
+    let rank = match &found.cells {
+        None => "the differences of the corners of the start are independent modulo the differences of the derivative, as they are \
+                 seen."
+            .to_owned(),
+        Some((length, cells)) => format!(
+            "a 2-form is positive on the derivative on each of {}; words of {} bound it.",
+            count(cells.len(), "cell"),
+            count(*length, "letter")
+        ),
+    };
+    let edges = format!("the equations hold in {} of two faces along an edge.", count(found.edges, "position"));
+    Evidence::of(Statement::PatchDerivative)
+        .holds("patch", "every piece is placed by a homothety with the factor $±@$.", [Math::number(&found.share)])
+        .holds("radius", &radius, [Math::number(&found.share)])
+        .holds("edges", &edges, [])
+        .holds("rank", &rank, [])
 }
 
 /// What was verified of the theorem on tensor products at every point.

@@ -1,6 +1,7 @@
-//! Every point of a surface: tensor products of curves that are G¹ (theory §11).
+//! Every point of a surface: tensor products of curves that are G¹, and patches with a derivative (theory §11.1).
 
 use super::branch::Setting;
+use super::derivative::{PatchDerivative, derivative};
 use super::place::{Chart, Spot};
 use super::tensor::Product;
 use super::verdict::{Surface, SurfacePoint};
@@ -16,6 +17,8 @@ pub type EverySurface = Answer<EverySurfaceProof, EverySurfaceBreak, Vec<EverySu
 pub enum EverySurfaceProof {
     /// It is the tensor product of these curves, which are G¹.
     Product(Box<[Certified; 2]>),
+    /// It is C¹ in its parameters, and immersed.
+    Derivative(Box<PatchDerivative>),
 }
 
 /// Why it is not.
@@ -42,13 +45,14 @@ pub fn claim(
     surface: &Surface,
 ) -> (EverySurface, Claim) {
     let every = match chart {
-        Some(_) => decide(setting, product, surface),
+        Some(chart) => decide(setting, chart, product, surface),
         None => Answer::Open(vec![EverySurfaceGap::Unparametrised]),
     };
     let by = match &every {
         Answer::Proved(EverySurfaceProof::Product(_)) | Answer::Refuted(EverySurfaceBreak::Curve { .. }) => {
             Some(Statement::TensorEveryPoint)
         }
+        Answer::Proved(EverySurfaceProof::Derivative(_)) => Some(Statement::PatchDerivative),
         Answer::Refuted(EverySurfaceBreak::Point(k)) => surface.points[*k].statement,
         Answer::Open(_) => None,
     };
@@ -56,14 +60,24 @@ pub fn claim(
     (every, claim)
 }
 
-fn decide(setting: &Setting, product: Option<&Product>, surface: &Surface) -> EverySurface {
+fn decide(setting: &Setting, chart: &Chart, product: Option<&Product>, surface: &Surface) -> EverySurface {
     let by_product = match product {
         Some(product) => of_product(setting, product),
         None => Answer::Open(vec![EverySurfaceGap::NoProduct]),
     };
+    let found = match by_product {
+        Answer::Open(mut gaps) => match derivative(setting, chart) {
+            Ok(found) => Answer::Proved(EverySurfaceProof::Derivative(Box::new(found))),
+            Err(gap) => {
+                gaps.push(gap);
+                Answer::Open(gaps)
+            }
+        },
+        decided => decided,
+    };
     // Of a branch alone it is not known what else comes to its point.
     let broken = |p: &SurfacePoint| p.verdict == Verdict::Refuted && p.spot != Spot::Branch;
-    match (by_product, surface.points.iter().position(broken)) {
+    match (found, surface.points.iter().position(broken)) {
         (Answer::Proved(_), Some(_)) => Answer::Open(vec![EverySurfaceGap::Contradiction]),
         (Answer::Open(_), Some(k)) => Answer::Refuted(EverySurfaceBreak::Point(k)),
         (answer, _) => answer,

@@ -2,6 +2,8 @@
 
 mod branch;
 mod dense;
+mod derivative;
+mod edges;
 mod every;
 mod place;
 mod span;
@@ -10,6 +12,7 @@ mod verdict;
 mod winding;
 
 pub use branch::leading_functionals;
+pub use derivative::PatchDerivative;
 pub use every::{EverySurface, EverySurfaceBreak, EverySurfaceProof};
 pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};

@@ -141,7 +141,8 @@ impl<'a> Chart<'a> {
         Ok(chart)
     }
 
-    fn layout(&self, state: usize) -> Layout {
+    /// How a face is divided.
+    pub fn layout(&self, state: usize) -> Layout {
         self.complex.faces[&state].layout
     }
 
@@ -160,6 +161,17 @@ impl<'a> Chart<'a> {
         let last = c.len() - 1;
         let edge = |k: usize| [&c[k][0] - &c[0][0], &c[k][1] - &c[0][1]];
         Affine { p: c[0].clone(), a: edge(1), b: edge(last) }
+    }
+
+    /// The corners of a face in its own parameters.
+    pub fn corners(&self, state: usize) -> Vec<Param> {
+        corners(self.layout(state))
+    }
+
+    /// `s` and `p`, where a piece is placed by `x ↦ s x + p`.
+    pub fn homothety(&self, state: usize, letter: usize) -> Option<(Rational, Param)> {
+        let Affine { p, a, b } = self.map(state, letter);
+        (a[1] == 0 && b[0] == 0 && a[0] == b[1]).then(|| (a[0].clone(), p))
     }
 
     /// Whether all corners of a piece lie where the affine map through three of them has them.
