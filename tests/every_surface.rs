@@ -143,7 +143,7 @@ fn patches_with_a_derivative_of_rank_2_are_smooth_everywhere() {
     let loops = parse("[scheme]\nmesh = \"loop\"\nvalence = 6");
     let quads = parse("[scheme]\nmesh = \"catmull-clark\"\nvalence = 4");
     let files = ["surfaces/bicubic-space.toml", "surfaces/biquadratic-space.toml", "faces/bicubic.toml"];
-    for case in files.map(file).iter().chain([&loops, &quads]) {
+    for case in files.map(file).iter().chain([&loops, &quads, &bumpy()]) {
         let found = found(case);
         match &surface(&found).every {
             Answer::Proved(EverySurfaceProof::Derivative(d)) => {
@@ -157,6 +157,17 @@ fn patches_with_a_derivative_of_rank_2_are_smooth_everywhere() {
         assert_eq!(verdict(case), Verdict::Proved);
         assert_eq!(says(&forged(case, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved), "{}", case.name);
     }
+}
+
+/// A biquadratic patch on points that are no even grid.
+fn bumpy() -> Case {
+    let point = |k: i64| {
+        let (i, j) = (k / 3, k % 3);
+        format!("[{}, {}, {}]", 4 * i + i64::from(k == 4), 4 * j - i64::from(k == 5), i * j + i64::from(k == 0))
+    };
+    let points: Vec<String> = (0..9).map(point).collect();
+    let spline = "name = \"bspline\", degree = 2";
+    product(spline, spline, &format!("control = [{}]", points.join(", ")))
 }
 
 #[test]
@@ -237,7 +248,13 @@ fn two_smooth_patches_that_meet_in_a_crease_are_not_proved() {
 
 #[test]
 fn forged_derivatives_are_rejected() {
-    let case = file("surfaces/bicubic-space.toml");
+    let case = bumpy();
+    match &surface(&found(&case)).every {
+        Answer::Proved(EverySurfaceProof::Derivative(d)) => assert!(d.cells.as_ref().is_some_and(|c| c.1.len() > 1)),
+        other => panic!("{other:?}"),
+    }
+    let no_cells = file("surfaces/bicubic-space.toml");
+    assert!(forged(&no_cells, &|p| p["every"]["cells"] = json!([[]])).is_err());
     let refused = |change: &dyn Fn(&mut Value)| assert!(forged(&case, &|p| change(&mut p["every"])).is_err());
     assert!(forged(&case, &|_| ()).is_ok());
     refused(&|e| e["radius"] = Value::Null);

@@ -105,14 +105,7 @@ pub enum EverySurfaceGap {
     Curve(usize),
     /// There are too many coordinates for the derivative in the parameters.
     Large,
-    /// A piece is turned: it is not placed by a homothety of the parameters.
-    Turned {
-        /// The state that it divides.
-        state: usize,
-        /// Its letter.
-        letter: usize,
-    },
-    /// The pieces are not all of one size in the parameters.
+    /// Not all faces are divided into the same number of parts along every side.
     Unequal,
     /// The joint spectral radius on the differences of the derivative is not seen to be below that size.
     Radius,

@@ -110,13 +110,19 @@ impl Chart {
         &self.maps.states[face].pieces[letter].op
     }
 
-    /// `s`, where a piece is placed by `x ↦ s x + p`.
-    pub fn share(&self, face: usize, letter: usize) -> Checked<Option<Q>> {
-        let at = |k: usize| self.map(face, letter).columns(&[k]);
-        let (u, v) = (at(1).minus(&at(0)), at(2).minus(&at(0)));
-        let (s, t) = (u.at(1, 0), v.at(2, 0));
-        let plain = s == t && !s.is_zero() && u.at(2, 0).is_zero() && v.at(1, 0).is_zero();
-        Ok(plain.then_some(s))
+    /// `1/N` and `U^-t`, where a piece is placed by `x ↦ U x / N + p` with a matrix `U` of 0, 1, −1 and determinant ±1.
+    pub fn turn(&self, face: usize, letter: usize) -> Checked<(Q, Matrix)> {
+        let column = |k: usize| self.map(face, letter).columns(&[k]).minus(&self.map(face, letter).columns(&[0]));
+        let linear = column(1).part(1..3, 0..1).beside(&column(2).part(1..3, 0..1));
+        let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().map(|(i, j)| linear.at(i, j));
+        let share = some(entries().map(|x| x.abs()).max(), "every", "a piece without a size")?;
+        need(share.is_positive(), "every", "a piece without a size")?;
+        let turn = linear.scaled(&share.recip());
+        let det = turn.at(0, 0) * turn.at(1, 1) - turn.at(0, 1) * turn.at(1, 0);
+        let whole = entries().all(|x| x.is_zero() || x.abs() == share) && det.abs() == Q::one();
+        need(whole, "every", "a face is not divided into the same number of parts along every side")?;
+        let inverse = some(turn.solve(&Matrix::identity(2))?, "every", "a piece that is no cell")?;
+        Ok((share, inverse.transpose()))
     }
 
     /// Whether a piece of the start lies in its part of a division into columns and rows without a turn.

@@ -2,7 +2,7 @@
 
 use super::chart::Chart;
 use crate::base::{Checked, Matrix, Node, Q, need, some, whole};
-use crate::curve::{Model, Way, close};
+use crate::curve::{Model, Way, close, kronecker};
 use crate::jsr::{System, bounds};
 use num_traits::{One, Signed, Zero};
 
@@ -18,13 +18,17 @@ struct Level {
     maps: Vec<Vec<Matrix>>,
 }
 
-/// A patch whose pieces are placed by `x ↦ s x + p`.
+/// A patch whose pieces are placed by `x ↦ U x / N + p`.
 struct Patch<'a> {
     model: &'a Model<'a>,
     chart: &'a Chart,
-    /// By state and letter: `s`.
-    shares: Vec<Vec<Q>>,
-    /// `T_i / s_i` on the visible quotients.
+    /// `1/N`.
+    share: Q,
+    /// By state and letter: `U^-t`, which goes with the derivative as two rows.
+    turns: Vec<Vec<Matrix>>,
+    /// `N T_i` on the visible quotients.
+    scaled: Vec<Vec<Matrix>>,
+    /// What pieces make of derivatives, one row after the other.
     derivatives: Level,
     /// `T_i` on barycentric coordinates.
     points: Level,
@@ -47,10 +51,7 @@ type Step = ([usize; 2], usize);
 pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
     let [_, _, radius, length, cells] = node.fields("by verdict radius length cells")?;
     let patch = Patch::read(model, chart)?;
-    let share = patch.shares[model.shape.start][0].abs();
-    let equal = patch.shares.iter().flatten().all(|s| s.abs() == share) && share < Q::one();
-    node.need(equal, "every", "all pieces must be of one size")?;
-    radius.need(patch.radius(&radius)? < share, "every", "the radius is not below 1/N")?;
+    radius.need(patch.radius(&radius)? < patch.share, "every", "the radius is not below 1/N")?;
     let (pairs, steps, inner) = patch.pairs()?;
     need(!inner.is_empty(), "every", "a face without inner edges")?;
     patch.meets(&patch.points, &pairs, &steps, &inner, &|e, word| patch.point(e, word))?;
@@ -70,34 +71,45 @@ pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
 impl<'a> Patch<'a> {
     fn read(model: &'a Model<'a>, chart: &'a Chart) -> Checked<Self> {
         let shape = model.shape;
+        let none = || vec![Vec::new(); shape.states.len()];
         let mut patch = Self {
             model,
             chart,
-            shares: vec![Vec::new(); shape.states.len()],
-            derivatives: Level { maps: vec![Vec::new(); shape.states.len()] },
-            points: Level { maps: vec![Vec::new(); shape.states.len()] },
+            share: Q::zero(),
+            turns: none(),
+            scaled: none(),
+            derivatives: Level { maps: none() },
+            points: Level { maps: none() },
             chords: shape.no_rows(),
             families: shape.no_rows(),
         };
-        let mut letter = vec![0_usize; shape.states.len()];
         for (e, piece) in shape.pieces() {
-            let share = some(chart.share(e, letter[e])?, "every", "a piece is turned")?;
-            letter[e] += 1;
-            patch.derivatives.maps[e].push(model.spaces.on_visible(e, piece)?.scaled(&share.recip()));
+            let (share, turn) = chart.turn(e, patch.turns[e].len())?;
+            let one = patch.share.is_zero() || patch.share == share;
+            need(one && share < Q::one(), "every", "all pieces must be of one size")?;
+            let scaled = model.spaces.on_visible(e, piece)?.scaled(&share.recip());
+            patch.derivatives.maps[e].push(kronecker(&turn, &scaled)?);
             patch.points.maps[e].push(piece.op.clone());
-            patch.shares[e].push(share);
+            patch.scaled[e].push(scaled);
+            patch.turns[e].push(turn);
+            patch.share = share;
         }
         for &e in &shape.reachable {
             let (chords, defect) = patch.corners(e)?;
             (patch.chords[e], patch.families[e]) = (chords, defect);
         }
         for (e, i, d) in patch.arrows() {
-            let image = patch.chords[d].times(&patch.derivatives.maps[e][i].transpose())?;
+            let image = patch.carried(e, i, d)?;
             patch.families[e] = patch.families[e].stack(&image.minus(&patch.chords[e]));
         }
         let image = |e: usize, p: &_, span: &Matrix| span.times(&model.spaces.on_visible(e, p)?.transpose());
         patch.families = close(shape, patch.families, Way::Up, image)?;
         Ok(patch)
+    }
+
+    /// What a piece makes of the differences of corners of its target.
+    fn carried(&self, e: usize, i: usize, d: usize) -> Checked<Matrix> {
+        self.turns[e][i].times(&self.chords[d])?.times(&self.scaled[e][i].transpose())
     }
 
     /// All pieces: state, letter, target.
@@ -135,9 +147,9 @@ impl<'a> Patch<'a> {
         Ok(local)
     }
 
-    /// `T_i / s_i` on the differences, on columns.
+    /// `N T_i` on the differences, on columns.
     fn step(&self, e: usize, i: usize, d: usize) -> Checked<Matrix> {
-        let images = self.families[d].times(&self.derivatives.maps[e][i].transpose())?;
+        let images = self.families[d].times(&self.scaled[e][i].transpose())?;
         Ok(self.local(e, &images)?.transpose())
     }
 
@@ -152,7 +164,7 @@ impl<'a> Patch<'a> {
         let place = |e: usize| some(reachable.iter().position(|r| *r == e), "every", "a state that is not reached");
         let mut arrows = Vec::new();
         for (e, i, d) in self.arrows() {
-            arrows.push((place(e)?, place(d)?, self.step(e, i, d)?.scaled(&self.shares[e][i])));
+            arrows.push((place(e)?, place(d)?, self.step(e, i, d)?.scaled(&self.share)));
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
         Ok(bounds(&System { name: String::new(), dims, arrows }, node)?.upper)
@@ -264,20 +276,22 @@ impl<'a> Patch<'a> {
         Ok(before.times(&fixed)?.transpose())
     }
 
-    /// The derivative there, as two rows: that of the cycle is the fixed one in `c + F`.
+    /// The derivative there, one row after the other: that of the cycle is the fixed one in `c + F`.
     fn derivative(&self, e: usize, [prefix, cycle]: &[Vec<usize>; 2]) -> Checked<Matrix> {
         let (before, home) = self.product(e, prefix)?;
-        let (turn, _) = self.product(home, cycle)?;
+        let (turn, back) = self.product(home, cycle)?;
+        need(home == back, "every", "the cycle of an edge does not return to its state")?;
         let shifted = turn.minus(&Matrix::identity(turn.rows));
-        let (family, chords) = (self.families[home].transpose(), self.chords[home].transpose());
+        let family = kronecker(&Matrix::identity(2), &self.families[home].transpose())?;
+        let chords = self.chords[home].row(0).beside(&self.chords[home].row(1)).transpose();
         let y = shifted.times(&family)?.solve(&shifted.times(&chords.scaled(&-Q::one()))?)?;
         let y = some(y, "every", "the derivative is not unique at a point of an edge")?;
         Ok(before.times(&chords.plus(&Q::one(), &family.times(&y)?))?.transpose())
     }
 
-    /// The product of `T_i / s_i` along a word, and where it ends.
+    /// What a word makes of derivatives, and where it ends.
     fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
-        let (mut product, mut at) = (Matrix::identity(self.chords[from].cols), from);
+        let (mut product, mut at) = (Matrix::identity(2 * self.chords[from].cols), from);
         for &i in word {
             let map = some(self.derivatives.maps[at].get(i), "word", "a letter that does not exist")?;
             product = product.times(map)?;
@@ -292,30 +306,30 @@ impl<'a> Patch<'a> {
         Ok(self.model.shape.view.times(&space.basis)?.columns(&space.leading))
     }
 
-    /// By state: a bound of the 1-norm of the coordinates of `D_e − c_e`, by words of a length.
+    /// By state: a bound of the 1-norm of the coordinates of each column of `D_e − c_e`, by words of a length.
     fn radii(&self, length: usize) -> Checked<Vec<Q>> {
         let states = &self.model.shape.states;
         let (mut offsets, mut largest) = (vec![Q::zero(); states.len()], Q::zero());
         for &e in &self.model.shape.reachable {
             let size = self.families[e].rows;
-            let mut layer = vec![(Matrix::identity(size), Matrix::zeros(size, 2), e)];
+            let mut layer = vec![(Matrix::identity(size), Matrix::identity(2), Matrix::zeros(size, 2), e)];
             for _ in 0..length {
                 let mut next = Vec::new();
-                for (product, offset, at) in &layer {
+                for (product, turn, offset, at) in &layer {
                     for (i, piece) in states[*at].pieces.iter().enumerate() {
                         let d = piece.target;
-                        let image = self.chords[d].times(&self.derivatives.maps[*at][i].transpose())?;
-                        let own = self.local(*at, &image.minus(&self.chords[*at]))?.transpose();
-                        let moved = offset.plus(&Q::one(), &product.times(&own)?);
-                        next.push((product.times(&self.step(*at, i, d)?)?, moved, d));
+                        let own = self.local(*at, &self.carried(*at, i, d)?.minus(&self.chords[*at]))?.transpose();
+                        let moved = offset.plus(&Q::one(), &product.times(&own)?.times(&turn.transpose())?);
+                        let turned = turn.times(&self.turns[*at][i])?;
+                        next.push((product.times(&self.step(*at, i, d)?)?, turned, moved, d));
                     }
                 }
                 need(next.len() <= MAX_WORDS.1, "limit", "too many words")?;
                 layer = next;
             }
-            for (product, offset, _) in &layer {
+            for (product, turn, offset, _) in &layer {
                 offsets[e] = offsets[e].clone().max(column_norm(offset));
-                largest = largest.max(column_norm(product));
+                largest = largest.max(column_norm(product) * column_norm(&turn.transpose()));
             }
         }
         need(length > 0 && largest < Q::one(), "every", "words of this length do not shrink the differences")?;
@@ -343,7 +357,7 @@ impl<'a> Patch<'a> {
             item.need(below, "every", "the cells are no cover, in their order")?;
             for (i, piece) in self.model.shape.states[e].pieces.iter().enumerate().rev() {
                 let longer = [word.as_slice(), &[i]].concat();
-                open.push((longer, seen.times(&self.derivatives.maps[e][i])?, piece.target));
+                open.push((longer, seen.times(&self.scaled[e][i])?, piece.target));
             }
         }
         node.need(given.is_none(), "every", "a cell twice")

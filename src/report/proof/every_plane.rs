@@ -52,7 +52,11 @@ fn derivative(found: &PatchDerivative) -> Evidence {
     };
     let edges = format!("the equations hold in {} of two faces along an edge.", count(found.edges, "position"));
     Evidence::of(Statement::PatchDerivative)
-        .holds("patch", "every piece is placed by a homothety with the factor $±@$.", [Math::number(&found.share)])
+        .holds(
+            "patch",
+            "all faces are divided evenly; the pieces have the size $1/N=@$ in the parameters.",
+            [Math::number(&found.share)],
+        )
         .holds("radius", &radius, [Math::number(&found.share)])
         .holds("edges", &edges, [])
         .holds("rank", &rank, [])

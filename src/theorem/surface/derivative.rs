@@ -6,6 +6,8 @@ use super::place::{Chart, Param};
 use crate::arith::{Interval, Rational, abs};
 use crate::linalg::{Matrix, closures};
 use crate::radius::{Arrow, JointRadius, System};
+use crate::scheme::kronecker;
+use crate::shape::Piece;
 use crate::theorem::smoothness::radius_of;
 use crate::theorem::{Context, EverySurfaceGap};
 
@@ -37,11 +39,15 @@ pub(super) struct Patch<'a> {
     pub cx: &'a Context<'a>,
     pub chart: &'a Chart<'a>,
     pub states: Vec<usize>,
-    /// By state and letter: `s_i` and `p_i` of `x ↦ s_i x + p_i`.
-    pub places: Vec<Vec<(Rational, Param)>>,
+    /// `1/N`.
+    pub share: Rational,
+    /// By state and letter: the map of the parameters `x ↦ U_i x / N + p_i`, on columns `1, u, v`.
+    pub places: Vec<Vec<Matrix>>,
+    /// By state and letter: `U_i^-t`, which goes with the derivative as two rows.
+    pub turns: Vec<Vec<Matrix>>,
     /// By state and letter: the positions of the targets.
     pub targets: Vec<Vec<usize>>,
-    /// By state and letter: `T_i / s_i` on the visible quotients.
+    /// By state and letter: `N T_i` on the visible quotients.
     pub scaled: Vec<Vec<Matrix>>,
     /// By state: the differences of its corners 1 and last to corner 0, as rows.
     pub chords: Vec<Matrix>,
@@ -55,7 +61,7 @@ pub(super) struct Patch<'a> {
 /// The hypothesis that is not shown to hold.
 pub fn derivative(setting: &Setting, chart: &Chart) -> Result<PatchDerivative, EverySurfaceGap> {
     let patch = Patch::new(&setting.cx, chart)?;
-    let share = abs(&patch.places[0][0].0);
+    let share = patch.share.clone();
     let system = patch.system();
     let (radius, enclosure) = radius_of(system.as_ref(), &setting.cx.budget.orders);
     let enclosure = enclosure.filter(|e| e.hi < share).ok_or(EverySurfaceGap::Radius)?;
@@ -78,28 +84,32 @@ impl<'a> Patch<'a> {
             return Err(EverySurfaceGap::Large);
         }
         let position = |e: usize| states.iter().position(|s| *s == e).ok_or(EverySurfaceGap::Radius);
-        let (mut places, mut targets, mut scaled, mut chords) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let share = chart.share(&states).ok_or(EverySurfaceGap::Unequal)?;
+        let scale = Rational::from(1) / &share;
+        let mut patch = Self {
+            cx,
+            chart,
+            states: states.clone(),
+            share,
+            places: Vec::new(),
+            turns: Vec::new(),
+            targets: Vec::new(),
+            scaled: Vec::new(),
+            chords: Vec::new(),
+            families: Vec::new(),
+        };
         for &e in &states {
-            let (mut own, mut to, mut ops) = (Vec::new(), Vec::new(), Vec::new());
-            for (letter, piece) in shape.states[e].pieces.iter().enumerate() {
-                let turned = EverySurfaceGap::Turned { state: e, letter };
-                let (s, p) = chart.homothety(e, letter).ok_or(turned)?;
-                let op = cx.spaces.on_visible(&piece.op, e, piece.target).ok_or(EverySurfaceGap::Radius)?;
-                ops.push(op.scale(&(Rational::from(1) / &s)));
-                own.push((s, p));
-                to.push(position(piece.target)?);
-            }
-            places.push(own);
-            targets.push(to);
-            scaled.push(ops);
-            chords.push(corner_differences(cx, chart, e).ok_or(EverySurfaceGap::Radius)?);
+            let pieces = &shape.states[e].pieces;
+            let places: Vec<Matrix> = (0..pieces.len()).map(|letter| chart.placement(e, letter)).collect();
+            let turn = |place: &Matrix| Matrix::from_fn(2, 2, |i, j| &place[(i + 1, j + 1)] * &scale).inverse();
+            let turns: Option<Vec<Matrix>> = places.iter().map(|p| Some(turn(p)?.transpose())).collect();
+            let on = |p: &Piece| Some(cx.spaces.on_visible(&p.op, e, p.target)?.scale(&scale));
+            patch.turns.push(turns.ok_or(EverySurfaceGap::Unequal)?);
+            patch.places.push(places);
+            patch.targets.push(pieces.iter().map(|p| position(p.target)).collect::<Result<_, _>>()?);
+            patch.scaled.push(pieces.iter().map(on).collect::<Option<_>>().ok_or(EverySurfaceGap::Radius)?);
+            patch.chords.push(corner_differences(cx, chart, e).ok_or(EverySurfaceGap::Radius)?);
         }
-        let share = places.first().and_then(|p: &Vec<_>| p.first()).map(|(s, _)| abs(s));
-        let unequal = |p: &&(Rational, Param)| Some(abs(&p.0)) != share;
-        if places.iter().flatten().any(|p| unequal(&p)) {
-            return Err(EverySurfaceGap::Unequal);
-        }
-        let mut patch = Self { cx, chart, states, places, targets, scaled, chords, families: Vec::new() };
         patch.families = patch.differences();
         // Of the fourth corner of a quadrangle only its difference to the parallelogram is needed, as a difference.
         patch.chords = patch.chords.iter().map(|c| first_two(c)).collect();
@@ -111,16 +121,26 @@ impl<'a> Patch<'a> {
         self.targets.iter().enumerate().flat_map(|(e, to)| to.iter().enumerate().map(move |(i, &d)| (e, i, d)))
     }
 
-    /// The smallest families with `T_i c_δ / s_i − c_e ∈ F_e` and `T_i F_δ ⊂ F_e`, and with the defects of quadrangles.
+    /// The smallest families with `N T_i c_δ U_i^-1 − c_e ∈ F_e` and `T_i F_δ ⊂ F_e`, and with the defects of quadrangles.
     fn differences(&self) -> Vec<Matrix> {
         let defect = |c: &Matrix| rows_from(c, 2);
         let mut families: Vec<Matrix> = self.chords.iter().map(defect).collect();
         for (e, i, d) in self.arrows() {
-            let image = &first_two(&self.chords[d]) * &self.scaled[e][i].transpose();
+            let image = self.carried(e, i, &first_two(&self.chords[d]));
             families[e] = families[e].stack(&(&image - &first_two(&self.chords[e])));
         }
         let arrows: Vec<_> = self.arrows().map(|(e, i, d)| (d, e, self.scaled[e][i].transpose())).collect();
         closures(families, &arrows)
+    }
+
+    /// What a piece makes of a derivative, two rows.
+    fn carried(&self, e: usize, letter: usize, rows: &Matrix) -> Matrix {
+        &(&self.turns[e][letter] * rows) * &self.scaled[e][letter].transpose()
+    }
+
+    /// The same on derivatives as columns, one row after the other.
+    pub fn on_derivatives(&self, e: usize, letter: usize) -> Matrix {
+        kronecker(&self.turns[e][letter], &self.scaled[e][letter])
     }
 
     /// The coordinates of vectors of `F_e` (rows), in its echelon basis.
@@ -129,34 +149,38 @@ impl<'a> Patch<'a> {
         Matrix::from_fn(vectors.rows(), pivots.len(), |i, j| vectors[(i, pivots[j])].clone())
     }
 
-    /// `T_i / s_i : F_δ → F_e` in coordinates, on columns.
+    /// `N T_i : F_δ → F_e` in coordinates, on columns.
     fn on_family(&self, e: usize, letter: usize) -> Matrix {
         let images = &self.families[self.targets[e][letter]] * &self.scaled[e][letter].transpose();
         self.local(e, &images).transpose()
     }
 
-    /// `T_i c_δ / s_i − c_e` in coordinates, as columns.
+    /// `N T_i c_δ U_i^-1 − c_e` in coordinates, as columns.
     fn offset(&self, e: usize, letter: usize) -> Matrix {
-        let image = &self.chords[self.targets[e][letter]] * &self.scaled[e][letter].transpose();
+        let image = self.carried(e, letter, &self.chords[self.targets[e][letter]]);
         self.local(e, &(&image - &self.chords[e])).transpose()
     }
 
-    /// The product of the scaled operators along a word.
+    /// What a word makes of derivatives, as columns, one row after the other.
     fn product(&self, from: usize, word: &[usize]) -> Matrix {
-        let start = Matrix::identity(self.chords[from].cols());
-        word.iter().fold((start, from), |(product, at), &i| (&product * &self.scaled[at][i], self.targets[at][i])).0
+        let start = Matrix::identity(2 * self.chords[from].cols());
+        let step =
+            |(product, at): (Matrix, usize), &i: &usize| (&product * &self.on_derivatives(at, i), self.targets[at][i]);
+        word.iter().fold((start, from), step).0
     }
 
-    /// The derivative at an eventually periodic address, as two rows: that of the cycle is the fixed one in `c + F`, unique because the
-    /// radius on `F` is below `1/N`.
-    pub fn limit(&self, from: usize, prefix: &[usize], home: usize, cycle: &[usize]) -> Option<Matrix> {
+    /// The derivative at an eventually periodic address, one row after the other: that of the cycle is the fixed one in `c + F`, unique
+    /// because the radius on `F` is below `1/N`.
+    pub fn limit(&self, from: usize, prefix: &[usize], home: usize, cycle: &[usize]) -> Option<Vec<Rational>> {
         let product = self.product(home, cycle);
         let shifted = &product - &Matrix::identity(product.rows());
-        let (family, chords) = (self.families[home].transpose(), self.chords[home].transpose());
+        let family = kronecker(&Matrix::identity(2), &self.families[home].transpose());
+        let chords = self.chords[home].entries().to_vec();
         // (M − 1)(c + Fᵗ y) = 0.
-        let y = (&shifted * &family).solve(&(&shifted * &chords).scale(&Rational::from(-1)))?;
-        let fixed = &chords + &(&family * &y);
-        Some((&self.product(from, prefix) * &fixed).transpose())
+        let right: Vec<Rational> = shifted.apply(&chords).into_iter().map(|x| -x).collect();
+        let y = (&shifted * &family).solve(&Matrix::from_columns(right.len(), &[right]))?.column(0);
+        let fixed: Vec<Rational> = chords.iter().zip(family.apply(&y)).map(|(c, f)| c + f).collect();
+        Some(self.product(from, prefix).apply(&fixed))
     }
 
     /// The operators `T_i` on the differences, as a certificate has them.
@@ -166,7 +190,7 @@ impl<'a> Patch<'a> {
         }
         let mut arrows = Vec::new();
         for (from, i, to) in self.arrows() {
-            let matrix = self.on_family(from, i).scale(&self.places[from][i].0);
+            let matrix = self.on_family(from, i).scale(&self.share);
             arrows.push(Arrow { from, to, matrix, label: arrows.len() });
         }
         Some(System { dims: self.families.iter().map(Matrix::rows).collect(), arrows })
@@ -208,7 +232,7 @@ impl<'a> Patch<'a> {
         Some((length, found))
     }
 
-    /// By state, the 1-norm of the coordinates of `D_e − c_e` is at most this number, by words of a length whose products shrink the
+    /// By state, the 1-norm of the coordinates of each column of `D_e − c_e` is at most this number, by words of a length whose products shrink the
     /// differences; `None` where they do not all do that.
     fn radii(&self, length: usize) -> Option<Vec<Rational>> {
         let one = Rational::from(1);
@@ -221,21 +245,21 @@ impl<'a> Patch<'a> {
         for e in 0..self.states.len() {
             // Products on the differences, and what `D − c` is but for them.
             let k = self.families[e].rows();
-            let mut layer = vec![(Matrix::identity(k), Matrix::zero(k, 2), e)];
+            let mut layer = vec![(Matrix::identity(k), Matrix::identity(2), Matrix::zero(k, 2), e)];
             for _ in 0..length {
                 let mut next = Vec::new();
-                for (product, offset, at) in &layer {
+                for (product, turn, offset, at) in &layer {
                     crate::stop::check();
                     for (i, &to) in self.targets[*at].iter().enumerate() {
-                        let moved = offset + &(product * &offsets[*at][i]);
-                        next.push((product * &steps[*at][i], moved, to));
+                        let moved = offset + &(&(product * &offsets[*at][i]) * &turn.transpose());
+                        next.push((product * &steps[*at][i], turn * &self.turns[*at][i], moved, to));
                     }
                 }
                 layer = next;
             }
-            for (product, offset, _) in &layer {
+            for (product, turn, offset, _) in &layer {
                 largest[e] = largest[e].clone().max(norm1(offset));
-                least = least.min(&one - norm1(product));
+                least = least.min(&one - norm1(product) * norm1(&turn.transpose()));
             }
         }
         let bound = largest.iter().max()? / &least;

@@ -1,19 +1,17 @@
 //! The derivatives of a patch on the two sides of its inner edges, at all their points (theory §11.1).
 
 use super::derivative::Patch;
-use super::place::{Param, corners};
+use super::place::Param;
 use crate::arith::Rational;
 use crate::linalg::{Matrix, closures};
-use std::collections::BTreeMap;
 
-/// Two faces that share an edge: the states, by position, and `x ↦ sign x + shift`, which puts the parameters of the second face where
-/// it lies beside the first one.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+/// Two faces that share an edge: the states, by position, and the map, on columns `1, u, v`, which puts the parameters of the second face
+/// where it lies beside the first one.
+#[derive(Debug, Clone, PartialEq, Eq)]
 struct Pair {
     first: usize,
     second: usize,
-    sign: Rational,
-    shift: Param,
+    place: Matrix,
 }
 
 /// All positions of two faces that share an edge inside a face, and how they are divided along it.
@@ -28,13 +26,11 @@ pub(super) struct Pairs {
 impl Pairs {
     pub fn new(patch: &Patch) -> Self {
         let mut pairs = Self { list: Vec::new(), steps: Vec::new(), inner: Vec::new() };
-        let mut known = BTreeMap::new();
-        let own = Pair { first: 0, second: 0, sign: Rational::from(1), shift: [Rational::from(0), Rational::from(0)] };
         for e in 0..patch.states.len() {
-            let here = Pair { first: e, second: e, ..own.clone() };
+            let here = Pair { first: e, second: e, place: Matrix::identity(3) };
             for (i, j, pair) in here.divided(patch) {
                 if i < j {
-                    let index = pairs.index(&mut known, pair);
+                    let index = pairs.index(pair);
                     pairs.inner.push((e, [i, j], index));
                 }
             }
@@ -42,19 +38,18 @@ impl Pairs {
         while pairs.steps.len() < pairs.list.len() {
             crate::stop::check();
             let divided = pairs.list[pairs.steps.len()].divided(patch);
-            let steps = divided.into_iter().map(|(i, j, pair)| (i, j, pairs.index(&mut known, pair))).collect();
+            let steps = divided.into_iter().map(|(i, j, pair)| (i, j, pairs.index(pair))).collect();
             pairs.steps.push(steps);
         }
         pairs
     }
 
-    fn index(&mut self, known: &mut BTreeMap<Pair, usize>, pair: Pair) -> usize {
-        let next = self.list.len();
-        let index = *known.entry(pair.clone()).or_insert(next);
-        if index == next {
-            self.list.push(pair);
+    fn index(&mut self, pair: Pair) -> usize {
+        if let Some(known) = self.list.iter().position(|p| *p == pair) {
+            return known;
         }
-        index
+        self.list.push(pair);
+        self.list.len() - 1
     }
 
     pub fn len(&self) -> usize {
@@ -66,15 +61,10 @@ impl Pair {
     /// The pieces of the first and of the second face that share an edge, with their position beside one another.
     fn divided(&self, patch: &Patch) -> Vec<(usize, usize, Self)> {
         let mut found = Vec::new();
-        for (i, (s, p)) in patch.places[self.first].iter().enumerate() {
-            for (j, (t, q)) in patch.places[self.second].iter().enumerate() {
-                let shift = [0, 1].map(|k| (&self.sign * &q[k] + &self.shift[k] - &p[k]) / s);
-                let pair = Self {
-                    first: patch.targets[self.first][i],
-                    second: patch.targets[self.second][j],
-                    sign: &self.sign * t / s,
-                    shift,
-                };
+        for (i, first) in patch.places[self.first].iter().enumerate() {
+            for (j, second) in patch.places[self.second].iter().enumerate() {
+                let Some(place) = first.solve(&(&self.place * second)) else { continue };
+                let pair = Self { first: patch.targets[self.first][i], second: patch.targets[self.second][j], place };
                 if pair.shares_an_edge(patch) {
                     found.push((i, j, pair));
                 }
@@ -84,10 +74,10 @@ impl Pair {
     }
 
     fn shares_an_edge(&self, patch: &Patch) -> bool {
-        let own = corners(patch.chart.layout(patch.states[self.first]));
-        let moved = |x: &Param| [0, 1].map(|k| &self.sign * &x[k] + &self.shift[k]);
-        let other = corners(patch.chart.layout(patch.states[self.second]));
-        other.iter().filter(|x| own.contains(&moved(x))).count() == 2
+        let column = |[u, v]: &Param| vec![Rational::from(1), u.clone(), v.clone()];
+        let corners = |e: usize| patch.chart.corners(patch.states[e]).iter().map(column).collect::<Vec<_>>();
+        let own = corners(self.first);
+        corners(self.second).iter().filter(|x| own.contains(&self.place.apply(x))).count() == 2
     }
 }
 
@@ -102,20 +92,20 @@ pub(super) fn agree(patch: &Patch, pairs: &Pairs) -> Option<Option<(usize, [usiz
     for (from, steps) in pairs.steps.iter().enumerate() {
         let pair = &pairs.list[from];
         for &(i, j, to) in steps {
-            let both = diagonal(&patch.scaled[pair.first][i], &patch.scaled[pair.second][j]);
+            let both = diagonal(&patch.on_derivatives(pair.first, i), &patch.on_derivatives(pair.second, j));
             arrows.push((to, from, both.transpose()));
         }
     }
     let spaces = closures(spaces, &arrows);
     let differs = |(e, [i, j], pair): &&(usize, [usize; 2], usize)| {
-        let (before, after) = (&patch.scaled[*e][*i], &patch.scaled[*e][*j]);
+        let (before, after) = (patch.on_derivatives(*e, *i), patch.on_derivatives(*e, *j));
         let jump = before.beside(&after.scale(&Rational::from(-1)));
         !(&spaces[*pair] * &jump.transpose()).is_zero()
     };
     Some(pairs.inner.iter().find(differs).map(|(e, letters, _)| (patch.states[*e], *letters)))
 }
 
-/// The derivatives of both faces at one point of the edge that they share, as rows: along the first parts, until a pair comes back.
+/// The derivatives of both faces at one point of the edge that they share, as one row: along the first parts, until a pair comes back.
 fn along(patch: &Patch, pairs: &Pairs, start: usize) -> Option<Matrix> {
     let mut seen = vec![start];
     let mut letters: Vec<(usize, usize)> = Vec::new();
@@ -130,7 +120,8 @@ fn along(patch: &Patch, pairs: &Pairs, start: usize) -> Option<Matrix> {
             };
             let first = patch.limit(pairs.list[start].first, &word(prefix, 0), pair.first, &word(cycle, 0))?;
             let second = patch.limit(pairs.list[start].second, &word(prefix, 1), pair.second, &word(cycle, 1))?;
-            return Some(first.beside(&second));
+            let both = [first, second].concat();
+            return Some(Matrix::from_rows(both.len(), vec![both]));
         }
         seen.push(next);
     }

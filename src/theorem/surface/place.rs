@@ -5,6 +5,7 @@
 //! through the cells that contain it.
 
 use crate::arith::Rational;
+use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex, Layout};
 use crate::theorem::NoChart;
 
@@ -168,10 +169,21 @@ impl<'a> Chart<'a> {
         corners(self.layout(state))
     }
 
-    /// `s` and `p`, where a piece is placed by `x ↦ s x + p`.
-    pub fn homothety(&self, state: usize, letter: usize) -> Option<(Rational, Param)> {
+    /// The map of the parameters that places a piece, on columns `1, u, v`.
+    pub fn placement(&self, state: usize, letter: usize) -> Matrix {
         let Affine { p, a, b } = self.map(state, letter);
-        (a[1] == 0 && b[0] == 0 && a[0] == b[1]).then(|| (a[0].clone(), p))
+        let column = |first: u8, x: Param| [vec![Rational::from(first)], x.into()].concat();
+        Matrix::from_columns(3, &[column(1, p), column(0, a), column(0, b)])
+    }
+
+    /// `1/N`, where these states are all divided into `N` parts along every side.
+    pub fn share(&self, states: &[usize]) -> Option<Rational> {
+        let parts = |&e: &usize| match self.layout(e) {
+            Layout::Quad { columns, rows } => (columns == rows).then_some(columns),
+            Layout::Triangle => Some(2),
+        };
+        let first = parts(states.first()?)?;
+        states.iter().all(|e| parts(e) == Some(first)).then(|| Rational::from(1) / Rational::from(first))
     }
 
     /// Whether all corners of a piece lie where the affine map through three of them has them.
