@@ -65,7 +65,7 @@ pub fn derivative(setting: &Setting, chart: &Chart) -> Result<PatchDerivative, E
     let system = patch.system();
     let (radius, enclosure) = radius_of(system.as_ref(), &setting.cx.budget.orders);
     let enclosure = enclosure.filter(|e| e.hi < share).ok_or(EverySurfaceGap::Radius)?;
-    let pairs = Pairs::new(&patch);
+    let pairs = Pairs::new(&patch).ok_or(EverySurfaceGap::Radius)?;
     if let Some((state, letters)) = agree(&patch, &pairs).ok_or(EverySurfaceGap::Radius)? {
         return Err(EverySurfaceGap::Edge { state, letters });
     }

@@ -24,11 +24,12 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    pub fn new(patch: &Patch) -> Self {
+    /// `None` where a piece is no cell.
+    pub fn new(patch: &Patch) -> Option<Self> {
         let mut pairs = Self { list: Vec::new(), steps: Vec::new(), inner: Vec::new() };
         for e in 0..patch.states.len() {
             let here = Pair { first: e, second: e, place: Matrix::identity(3) };
-            for (i, j, pair) in here.divided(patch) {
+            for (i, j, pair) in here.divided(patch)? {
                 if i < j {
                     let index = pairs.index(pair);
                     pairs.inner.push((e, [i, j], index));
@@ -37,11 +38,11 @@ impl Pairs {
         }
         while pairs.steps.len() < pairs.list.len() {
             crate::stop::check();
-            let divided = pairs.list[pairs.steps.len()].divided(patch);
+            let divided = pairs.list[pairs.steps.len()].divided(patch)?;
             let steps = divided.into_iter().map(|(i, j, pair)| (i, j, pairs.index(pair))).collect();
             pairs.steps.push(steps);
         }
-        pairs
+        Some(pairs)
     }
 
     fn index(&mut self, pair: Pair) -> usize {
@@ -58,19 +59,20 @@ impl Pairs {
 }
 
 impl Pair {
-    /// The pieces of the first and of the second face that share an edge, with their position beside one another.
-    fn divided(&self, patch: &Patch) -> Vec<(usize, usize, Self)> {
+    /// The pieces of the first and of the second face that share an edge, with their position beside one another; `None` where a piece
+    /// is no cell.
+    fn divided(&self, patch: &Patch) -> Option<Vec<(usize, usize, Self)>> {
         let mut found = Vec::new();
         for (i, first) in patch.places[self.first].iter().enumerate() {
             for (j, second) in patch.places[self.second].iter().enumerate() {
-                let Some(place) = first.solve(&(&self.place * second)) else { continue };
+                let place = first.solve(&(&self.place * second))?;
                 let pair = Self { first: patch.targets[self.first][i], second: patch.targets[self.second][j], place };
                 if pair.shares_an_edge(patch) {
                     found.push((i, j, pair));
                 }
             }
         }
-        found
+        Some(found)
     }
 
     fn shares_an_edge(&self, patch: &Patch) -> bool {
@@ -82,8 +84,11 @@ impl Pair {
 }
 
 /// The first two pieces, with their state by index, whose derivatives differ at a point of the edge that they share, if there is one; of
-/// no use (`None`) where a derivative is not unique, or an edge has no parts.
+/// no use (`None`) where a derivative is not unique, an edge has no parts, or there is no edge.
 pub(super) fn agree(patch: &Patch, pairs: &Pairs) -> Option<Option<(usize, [usize; 2])>> {
+    if pairs.inner.is_empty() {
+        return None;
+    }
     let mut spaces = Vec::new();
     for start in 0..pairs.list.len() {
         spaces.push(along(patch, pairs, start)?);
