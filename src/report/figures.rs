@@ -75,7 +75,11 @@ const MAX_LABELS: usize = 8;
 
 /// The eigenvalues of a cycle in the complex plane.
 #[must_use]
-pub fn spectrum(spectrum: &Spectrum) -> Block {
+pub fn spectrum(spectrum: &Spectrum) -> Option<Block> {
+    let rational = |member| spectrum.factor(member).poly.degree() == Some(1);
+    if spectrum.classes.iter().flat_map(|c| &c.members).all(|m| rational(*m)) {
+        return None;
+    }
     let members: Vec<_> =
         spectrum.classes.iter().enumerate().flat_map(|(k, c)| c.members.iter().map(move |m| (k, *m))).collect();
     let mut dots = Vec::new();
@@ -96,7 +100,7 @@ pub fn spectrum(spectrum: &Spectrum) -> Block {
     }
     let alt = format!("Eigenvalues in the complex plane: {}.", listed(&told));
     let text = "The eigenvalues in the complex plane, those of the largest modulus in green, with the circles of their moduli.";
-    figure(picture::spectrum(&dots, "Eigenvalues"), alt, words(text))
+    Some(figure(picture::spectrum(&dots, "Eigenvalues"), alt, words(text)))
 }
 
 /// The cones of Theorem 6 along the curve; `None` where there are none, or they are not seen in the plane of the drawing.
