@@ -30,12 +30,12 @@ pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
     Some(picture)
 }
 
-/// The picture of [`attractor`] as a PNG file, without the words in it.
+/// The picture of [`attractor`] as a PNG file, so many pixels wide, without the words in it.
 #[cfg(feature = "png")]
 #[must_use]
-pub fn attractor_png(case: &Case, found: &Certified) -> Option<Vec<u8>> {
+pub fn attractor_png(case: &Case, found: &Certified, pixels: u32) -> Option<Vec<u8>> {
     let marks: Vec<Mark> = found.points.iter().take(MAX_MARKS).map(mark).collect();
-    picture::attractor_png(&case.shape, &marks)
+    picture::attractor_png(&case.shape, &marks, pixels)
 }
 
 fn figure(drawing: Drawing, alt: String, caption: Line) -> Block {
@@ -264,7 +264,8 @@ fn mark(point: &PointReport) -> Mark {
         (_, Kind::Cusp) => MarkStyle::Cusp,
         (_, Kind::Corner) => MarkStyle::Corner,
         (Verdict::Proved, _) => MarkStyle::Tangent,
-        _ => MarkStyle::Open,
+        (Verdict::Refuted, _) => MarkStyle::Refuted,
+        (Verdict::Undetermined, _) => MarkStyle::Undecided,
     };
     let mut rays: Vec<Vec<f64>> = point.left.iter().chain(&point.right).map(|d| d.to_f64()).collect();
     if rays.is_empty()
