@@ -21,7 +21,7 @@ mod surface;
 mod surface_cycle;
 mod vertex;
 
-pub(super) use results::parameter;
+pub(super) use results::{parameter, table as results_table};
 pub use vertex::vertex_document;
 
 use super::document::{Block, Document, Inline, Line, line, words};
