@@ -10,6 +10,7 @@ mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod parameters;
 mod question;
 mod read;
 mod scheme;
@@ -19,6 +20,7 @@ mod vertex;
 
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
+pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting};
 pub use question::{Question, Subject};
 pub use vertex::{Valences, VertexCase};
 

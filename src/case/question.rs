@@ -77,7 +77,8 @@ impl Question {
         Self::read_open(path)?.closed()
     }
 
-    /// The question of what somebody writes: a file or `-`, the name of a scheme with parameters, a mask, or a symbol.
+    /// The question of what somebody writes: a file or `-`, a file with values of its parameters behind it (`six-point.toml
+    /// t=1/50`), the name of a scheme with parameters, a mask, or a symbol.
     ///
     /// # Errors
     /// As [`Question::read`]; what is none of these is taken for a file.
@@ -91,6 +92,11 @@ impl Question {
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn ask(text: &str) -> Result<Self, Problem> {
+        if let Some((path, set)) = super::parameters::with_settings(text)? {
+            let source = SourceText::read(&path)?;
+            let member = super::parameters::member_text(&source.name, &source.text, &set)?;
+            return Self::parse(&source.name, member.as_deref().unwrap_or(&source.text));
+        }
         let path = Path::new(text);
         if text == "-" || path.exists() || path.extension().is_some_and(|e| e == "toml") {
             return Self::read(path);

@@ -144,6 +144,7 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
             .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
     }
+    super::parameters::left_free(case).map_or(Ok(()), Err)?;
     case.only(&KEYS)?;
     let name = name(case)?;
     let title = case.optional_text("title")?.unwrap_or(&name).to_owned();

@@ -12,6 +12,7 @@ mod contracts;
 mod disc;
 mod driver;
 mod enclose;
+pub mod family;
 mod exact;
 pub mod file;
 mod fixed;

@@ -18,6 +18,7 @@ mod hodograph;
 pub mod parameter;
 mod point;
 pub mod regularity;
+pub mod region;
 mod require;
 mod ring;
 mod sign;
