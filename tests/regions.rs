@@ -6,9 +6,9 @@ use secant::ask::{Regions, regions};
 use secant::case::setting;
 use secant::radius::Options;
 use secant::radius::family::Search;
-use secant::theorem::regularity::regularity;
 use secant::theorem::region::{Finding, OrderRegion, Part};
-use std::path::{Path, PathBuf};
+use secant::theorem::regularity::regularity;
+use std::path::PathBuf;
 use std::process::Command;
 
 fn family(name: &str) -> String {
@@ -177,7 +177,10 @@ fn certificates_are_accepted_and_forgeries_are_not() {
     let accepted = secant_check::check(&plain, &whole.to_string()).unwrap();
     assert_eq!(accepted.verdict, secant_check::Verdict::Refuted);
     let said: Vec<String> = accepted.claims.iter().map(ToString::to_string).collect();
-    assert!(said.iter().any(|s| s.starts_with("refuted for every w at the root of x^3 + (1/8)x - 1/32 near")), "{said:?}");
+    assert!(
+        said.iter().any(|s| s.starts_with("refuted for every w at the root of x^3 + (1/8)x - 1/32 near")),
+        "{said:?}"
+    );
     let parts = whole["proof"]["orders"][1]["parts"].as_array().unwrap();
     let place = |verdict: &str| parts.iter().position(|p| p["verdict"] == verdict && p["from"] != p["to"]).unwrap();
     let (proved, refuted) = (place("proved"), place("refuted"));
@@ -248,7 +251,9 @@ fn the_program_answers() {
     assert_eq!(data["orders"][2]["table"][1]["interval"], serde_json::json!(["7/100", "1/10"]));
     assert_eq!(data["orders"][2]["table"][1]["verdict"], "proved");
     assert_eq!(run(&["region", "ternary-four-point", "mu=7/100..1/10", "--order", "2", "--json"]).0, Some(0));
-    for wrong in [vec!["region", "four-point"], vec!["region", "four-point", "w=1/4..0"], vec!["region", "koch", "w=0..1"]] {
+    for wrong in
+        [vec!["region", "four-point"], vec!["region", "four-point", "w=1/4..0"], vec!["region", "koch", "w=0..1"]]
+    {
         let (code, _, problem) = run(&wrong);
         assert_eq!(code, Some(2), "{wrong:?}: {problem}");
         assert!(problem.contains("help"), "{problem}");
@@ -256,6 +261,15 @@ fn the_program_answers() {
     // A case with parameters is one case only with values.
     let case = family("six-point.toml");
     let (code, _, problem) = run(&["certify", &case]);
-    assert!(code == Some(2) && problem.contains("--set"), "{problem}");
-    assert!(Path::new(&case).exists());
+    assert!(code == Some(2) && problem.contains("w=1/16"), "{problem}");
+    let (code, text, problem) = run(&["certify", &case, "t=1/50", "--certificate", "b.json"]);
+    assert!(code == Some(0) && text.contains("proved"), "{text}{problem}");
+    let member = std::fs::read_to_string(dir.path().join("b.case.toml")).unwrap();
+    assert!(member.starts_with("# Member of a family: t = 1/50\n") && member.contains("\"-49/400\""), "{member}");
+    let proof = std::fs::read_to_string(dir.path().join("b.json")).unwrap();
+    assert!(secant_check::check(&member, &proof).is_ok());
+    let (code, text, problem) = run(&["regularity", &case, "t=1/50"]);
+    assert!(code == Some(0) && text.contains("smoothness  C^2"), "{text}{problem}");
+    let (code, _, problem) = run(&["certify", &case, "t=1/50", "u=3"]);
+    assert!(code == Some(2) && problem.contains("no parameter `u`"), "{problem}");
 }

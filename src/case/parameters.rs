@@ -137,10 +137,9 @@ fn unknown(
 pub(super) fn left_free(case: &Table<'_>) -> Option<Problem> {
     let span = case.key_span("parameters")?;
     let file = case.file;
-    Some(
-        file.problem("parameters", "the case has parameters", span, "no values are set")
-            .with_help("give every one of them a value, as in --set w=1/16, or ask `secant region` about its range"),
-    )
+    Some(file.problem("parameters", "the case has parameters", span, "no values are set").with_help(
+        "give every one of them a value behind the case, as in `CASE w=1/16`, or ask `secant region` about its range",
+    ))
 }
 
 /// The case with a value for every parameter, as text; `None` for a text without `[parameters]`. What is written `w/2 + 1` becomes
@@ -174,8 +173,15 @@ pub fn member_text(name: &str, text: &str, set: &[(String, Setting)]) -> Result<
         let Setting::Value(value) = setting else {
             let span = case.key_span("parameters").unwrap_or_default();
             return Err(file
-                .problem("parameters", format!("the parameter `{name}` has a range and no value"), span, "declared here")
-                .with_help(format!("give it a value, as in --set {name}=1/16, or ask `secant region` about its range")));
+                .problem(
+                    "parameters",
+                    format!("the parameter `{name}` has a range and no value"),
+                    span,
+                    "declared here",
+                )
+                .with_help(format!(
+                    "give it a value behind the case, as in `CASE {name}=1/16`, or ask `secant region` about its range"
+                )));
         };
         values.insert(name.clone(), Poly::constant(value.clone()));
     }
@@ -197,8 +203,12 @@ pub fn member_text(name: &str, text: &str, set: &[(String, Setting)]) -> Result<
         at = span.end;
     }
     out.push_str(&text[at..]);
-    Ok(Some(without_parameters(&out)))
+    let said: Vec<String> = all.iter().map(|(name, _)| format!("{name} = {}", values[name].coeff(0))).collect();
+    Ok(Some(format!("{MEMBER}{}\n{}", said.join(", "), without_parameters(&out))))
 }
+
+/// How the text of a member begins.
+pub(super) const MEMBER: &str = "# Member of a family: ";
 
 /// Keys of `[scheme]` and `[vertex]` that are words.
 const WORDS: [&str; 7] = ["name", "mesh", "symbol", "cell", "normalisation", "valence", "arity"];
@@ -297,9 +307,9 @@ impl MaskFamilyCase {
             .collect();
         let [(parameter, from, to)] = free.as_slice() else {
             let message = format!("{} parameters are left free, and exactly one is needed", free.len());
-            return Err(case
-                .problem("parameters", message, "this case")
-                .with_help("give one of them a range, as in  w = \"-1/2..1/2\"  under [parameters], and the others values"));
+            return Err(case.problem("parameters", message, "this case").with_help(
+                "give one of them a range, as in  w = \"-1/2..1/2\"  under [parameters], and the others values",
+            ));
         };
         let variable = Poly::linear(&Rational::from(0));
         let value = |(n, s): &(String, Setting)| match s {
@@ -349,14 +359,19 @@ fn coefficients(table: &Table<'_>, names: &BTreeMap<String, Poly>) -> Result<(us
     let keys: Vec<String> = table.keys().into_iter().filter(|k| k != "name").collect();
     let [key] = keys.as_slice() else {
         return Err(node
-            .problem("scheme-parameter", format!("`{}` needs one parameter that is an expression", clipped(name)), "this scheme")
+            .problem(
+                "scheme-parameter",
+                format!("`{}` needs one parameter that is an expression", clipped(name)),
+                "this scheme",
+            )
             .with_help("add a line such as  w = \"w\"  to [scheme], or write the mask as a list"));
     };
     let value = table.need(key, "\"w\"")?.polynomial(names)?;
     let found = scheme::mask_family(name, key, &value).map_err(|e| refused(table, &node, &e, &known))?;
     found.ok_or_else(|| {
-        node.problem("scheme", format!("`{}` has no mask with a parameter", clipped(name)), "this scheme")
-            .with_help("regions are found for four-point, ternary-four-point, ternary-three-point, and masks written as a list")
+        node.problem("scheme", format!("`{}` has no mask with a parameter", clipped(name)), "this scheme").with_help(
+            "regions are found for four-point, ternary-four-point, ternary-three-point, and masks written as a list",
+        )
     })
 }
 

@@ -35,8 +35,7 @@ fn hull(cover: &Cover) -> Value {
         Seed::Eigen { word, column, scale } => json!({"word": word, "column": column, "scale": text(scale)}),
         Seed::Axis { index, scale } => json!({"word": [], "column": index, "scale": text(scale)}),
     };
-    let vertices: Vec<Value> =
-        cover.hull.vertices.iter().map(|v| json!({"seed": v.seed, "word": v.word})).collect();
+    let vertices: Vec<Value> = cover.hull.vertices.iter().map(|v| json!({"seed": v.seed, "word": v.word})).collect();
     let piece = |p: &Piece| {
         let values: Vec<Vec<Value>> = p.values.iter().map(|v| v.iter().map(text).collect()).collect();
         json!({"to": text(&p.to), "values": values, "bases": p.bases})

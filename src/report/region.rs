@@ -101,7 +101,9 @@ impl<'a> Row<'a> {
 /// Whether two findings are known for one reason; single members stay single.
 fn alike(a: &Finding, b: &Finding) -> bool {
     match (a, b) {
-        (Finding::Proved(_), Finding::Proved(_)) | (Finding::SumRules, Finding::SumRules) | (Finding::Gap, Finding::Gap) => true,
+        (Finding::Proved(_), Finding::Proved(_))
+        | (Finding::SumRules, Finding::SumRules)
+        | (Finding::Gap, Finding::Gap) => true,
         (Finding::Word(k), Finding::Word(l)) => k == l,
         _ => false,
     }
@@ -218,11 +220,8 @@ pub fn report(case: &MaskFamilyCase, family: &MaskFamily, orders: &[OrderRegion]
 #[must_use]
 pub fn picture(case: &MaskFamilyCase, orders: &[OrderRegion]) -> Option<(String, String)> {
     let name = |k: usize| if k == 0 { "converges".to_owned() } else { format!("C{k}") };
-    let span = |part: &Part| bar::Span {
-        from: part.from.to_f64().0,
-        to: part.to.to_f64().0,
-        verdict: verdict(&part.finding),
-    };
+    let span =
+        |part: &Part| bar::Span { from: part.from.to_f64().0, to: part.to.to_f64().0, verdict: verdict(&part.finding) };
     let bars: Vec<(String, Vec<bar::Span>)> =
         orders.iter().map(|o| (name(o.order), o.parts.iter().map(span).collect())).collect();
     bar::bars(&case.parameter, &bars)

@@ -26,7 +26,9 @@ pub enum RegionError {
     #[error("a mask with a parameter has from 1 to {MAX_LENGTH} coefficients, and not all are zero")]
     Length,
     /// Coefficients that do not add up to 1 on a coset for every value of the parameter.
-    #[error("the coefficients with index {coset} modulo {arity} add up to {sum}, not to 1 for every value of the parameter")]
+    #[error(
+        "the coefficients with index {coset} modulo {arity} add up to {sum}, not to 1 for every value of the parameter"
+    )]
     SumRule {
         /// The arity.
         arity: usize,
@@ -226,7 +228,13 @@ impl MaskFamily {
         Some(special)
     }
 
-    fn parts(&self, order: usize, range: &(Rational, Rational), radius: Option<&Below>, members: &mut Members<'_>) -> Vec<Part> {
+    fn parts(
+        &self,
+        order: usize,
+        range: &(Rational, Rational),
+        radius: Option<&Below>,
+        members: &mut Members<'_>,
+    ) -> Vec<Part> {
         let special = self.special(order, range);
         let ends = [&range.0, &range.1].map(Root::from_rational);
         let mut marks: Vec<Root> = radius.map_or_else(|| ends.to_vec(), Below::marks);

@@ -165,7 +165,11 @@ impl Moving {
                 let at = known.iter().position(|(b, _)| *b == basis);
                 let at = item.some(at, "hull", "a basis is missing")?;
                 let x = image(&self.letters[letter], &points[v])?;
-                item.need(known[at].1.holds(&x)?, "hull", format_args!("the image of vertex {v} under {letter} is not inside"))?;
+                item.need(
+                    known[at].1.holds(&x)?,
+                    "hull",
+                    format_args!("the image of vertex {v} under {letter} is not inside"),
+                )?;
             }
         }
         Ok(())

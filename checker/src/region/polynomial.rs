@@ -1,6 +1,10 @@
 //! Polynomials in the parameter: values, real roots in intervals (Sturm), and stability of matrices.
 
-use crate::base::{Checked, Matrix, Node, Q, need, number::{bits, gcd, longest, whole}, spend};
+use crate::base::{
+    Checked, Matrix, Node, Q, need,
+    number::{bits, gcd, longest, whole},
+    spend,
+};
 use crate::claim::Real;
 use num_bigint::BigInt;
 use num_integer::Integer;

@@ -121,8 +121,7 @@ impl Growing {
         let values = proposed_values(pencil, &hull, p, p)?;
         let moving = Moving::new(pencil, p, &Rational::from(0));
         let points = floats(&moving.field, &hull.points(&moving, &values)?);
-        let mut growing =
-            Self { letters, hull, points: Vec::new(), body: Points::new(dim), todo: Vec::new() };
+        let mut growing = Self { letters, hull, points: Vec::new(), body: Points::new(dim), todo: Vec::new() };
         points.into_iter().for_each(|q| growing.add_point(q));
         Some(growing)
     }

@@ -153,18 +153,25 @@ mod tests {
         let pencil = Pencil::new(vec![turn, plain]).unwrap();
         let range = (ratio(-1, 1), ratio(2, 1));
         let first = Crossing::of(&pencil, &[0], &range).unwrap();
-        assert_eq!(first.ends.iter().map(|r| r.to_f64().0.abs().powi(2)).map(|x| (x * 2.0).round() as i32).collect::<Vec<_>>(), [1, 1]);
+        assert_eq!(
+            first.ends.iter().map(|r| r.to_f64().0.abs().powi(2)).map(|x| (x * 2.0).round() as i32).collect::<Vec<_>>(),
+            [1, 1]
+        );
         assert_eq!(first.above, [true, false, true]);
         let second = Crossing::of(&pencil, &[1], &range).unwrap();
         let at = |p, q| second.holds_at(&Root::from_rational(&ratio(p, q)));
         // At p = 1 the eigenvalues 2 and 1/2 have the product 1: an end inside a refuted part.
         assert_eq!(second.ends.len(), 3);
-        assert_eq!((at(-1, 2), at(-499, 1000), at(1, 4), at(1, 2), at(1, 1), at(2, 1)), (true, false, false, true, true, true));
+        assert_eq!(
+            (at(-1, 2), at(-499, 1000), at(1, 4), at(1, 2), at(1, 1), at(2, 1)),
+            (true, false, false, true, true, true)
+        );
     }
 
     #[test]
     fn stability_is_decided_where_roots_lie_on_the_circle() {
-        let diagonal = |x: &[Rational]| Matrix::from_fn(x.len(), x.len(), |i, j| if i == j { x[i].clone() } else { ratio(0, 1) });
+        let diagonal =
+            |x: &[Rational]| Matrix::from_fn(x.len(), x.len(), |i, j| if i == j { x[i].clone() } else { ratio(0, 1) });
         assert!(is_stable(&diagonal(&[ratio(99, 100), ratio(-99, 100), ratio(0, 1)])));
         assert!(!is_stable(&diagonal(&[ratio(1, 2), ratio(-1, 1), ratio(0, 1)])));
         assert!(!is_stable(&diagonal(&[ratio(1, 3), ratio(3, 1)])));
