@@ -46,7 +46,7 @@ pub fn regions(what: &str, set: &[(String, Setting)], most: usize, search: &Sear
         Problem::new("secant::region", format!("{}: {e}", case.name))
             .with_help("a mask with a parameter must satisfy the sum rules of order 1 for every value of it")
     };
-    let family = MaskFamily::new(case.arity, &case.mask).map_err(wrong)?;
+    let family = MaskFamily::new(case.arity, &case.mask, &case.parameter).map_err(wrong)?;
     let orders = family.regions(&case.range, most, search).map_err(wrong)?;
     Ok(Regions { case, family, orders })
 }

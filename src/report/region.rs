@@ -126,10 +126,14 @@ fn because(family: &MaskFamily, order: &OrderRegion, part: &Part) -> String {
         }
         (Finding::Word(k), Some(r)) => {
             let word = &r.crossings[*k].word;
-            let power = if word.len() == 1 { threshold } else { format!("({threshold})^{}", word.len()) };
+            let plain = word.len() == 1 || order.order == 0;
+            let power = if plain { threshold } else { format!("({threshold})^{}", word.len()) };
             format!("word {}: spectral radius at least {power}", word_text(word))
         }
-        (Finding::SumRules, _) => format!("no more than {} sum rules", family.sum_rules),
+        (Finding::SumRules, _) => match family.sum_rules {
+            1 => "no more than one sum rule".to_owned(),
+            k => format!("no more than {k} sum rules"),
+        },
         (Finding::Member(_), _) => "this member by itself (secant regularity)".to_owned(),
         (Finding::Special, _) => "translates may be dependent here: a failure is not claimed".to_owned(),
         _ => "no hull and no word was found".to_owned(),

@@ -142,11 +142,11 @@ impl OrderRegion {
 }
 
 impl MaskFamily {
-    /// A mask with polynomials in a parameter as coefficients.
+    /// A mask with polynomials in a parameter of this name as coefficients.
     ///
     /// # Errors
     /// [`RegionError`].
-    pub fn new(arity: usize, mask: &[Poly]) -> Result<Self, RegionError> {
+    pub fn new(arity: usize, mask: &[Poly], parameter: &str) -> Result<Self, RegionError> {
         if arity < 2 {
             return Err(RegionError::Arity(arity));
         }
@@ -159,7 +159,7 @@ impl MaskFamily {
         for coset in 0..arity {
             let sum = mask.iter().skip(coset).step_by(arity).fold(Poly::zero(), |s, f| &s + f);
             if sum != Poly::constant(Rational::from(1)) {
-                return Err(RegionError::SumRule { arity, coset, sum: sum.display("p") });
+                return Err(RegionError::SumRule { arity, coset, sum: sum.display(parameter) });
             }
         }
         let (mut sum_rules, mut factor) = (0, mask.clone());
@@ -307,7 +307,8 @@ impl Members<'_> {
         let row = found.orders.iter().find(|o| o.order == order || o.smooth != Some(true));
         match row.and_then(|o| o.smooth) {
             Some(true) => Finding::Member(true),
-            Some(false) if found.independent => Finding::Member(false),
+            // Convergence fails whether translates are independent or not.
+            Some(false) if found.independent || row.is_some_and(|o| o.order == 0) => Finding::Member(false),
             _ => Finding::Special,
         }
     }
@@ -445,7 +446,7 @@ mod tests {
     fn four_point() -> MaskFamily {
         let w = Poly::new(vec![ratio(0, 1), ratio(1, 1)]);
         let (arity, mask) = crate::scheme::mask_family("four-point", "w", &w).unwrap().unwrap();
-        MaskFamily::new(arity, &mask).unwrap()
+        MaskFamily::new(arity, &mask, "w").unwrap()
     }
 
     #[test]

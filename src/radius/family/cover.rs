@@ -1,5 +1,7 @@
 //! An interval of parameters, covered by words and hulls.
 
+#![allow(clippy::float_arithmetic, reason = "widths and values of words say what is tried next")]
+
 use super::proposal::{Word, grow, piece, words};
 use super::word::between;
 use super::{Cover, Crossing, Hull, Pencil};
@@ -203,18 +205,18 @@ impl Covering<'_> {
     /// A hull around a parameter; whether one was found.
     fn hull(&mut self, p: &Rational, hole: &Hole, best: &[Word], border: bool) -> bool {
         let Some(top) = best.first().map(|w| w.value) else { return false };
-        for (tolerance, axes) in attempts(border || top > 0.97) {
+        for attempt in attempts(border || top > 0.97) {
             if self.left == 0 {
                 return false;
             }
             self.left -= 1;
-            let near = |w: &&Word| tolerance > 0.0 && w.value >= top * (1.0 - tolerance);
+            let near = |w: &&Word| attempt.tolerance > 0.0 && w.value >= top * (1.0 - attempt.tolerance);
             let chosen: Vec<&[usize]> = best.iter().filter(near).take(4).map(|w| w.word.as_slice()).collect();
             // What a hull says depends on where its words are small.
             if !chosen.iter().all(|w| self.knows(w)) {
                 continue;
             }
-            let Some(hull) = grow(&self.found.pencil, p, &chosen, axes.as_ref()) else { continue };
+            let Some(hull) = grow(&self.found.pencil, p, &chosen, &attempt) else { continue };
             let pieces = self.march(&hull, p, hole);
             if !pieces.is_empty() {
                 self.found.covers.push(Cover { hull, pieces });
@@ -283,14 +285,34 @@ impl Covering<'_> {
     }
 }
 
-/// What is tried: how far below the fastest word others count as seeds (0 for no words), and the size of axes.
-fn attempts(leading: bool) -> Vec<(f64, Option<Rational>)> {
-    let axes = |p, q| Some(ratio(p, q));
-    if leading {
-        vec![(1e-6, None), (1e-6, axes(1, 8)), (0.02, None), (0.02, axes(1, 8)), (1e-6, axes(1, 64)), (0.0, axes(1, 1))]
+/// What is tried at a parameter.
+pub(super) struct Attempt {
+    /// How far below the fastest word others count as seeds; 0 for no words.
+    pub tolerance: f64,
+    /// The size of axes that are seeds.
+    pub axes: Option<Rational>,
+    /// Images whose gauge is below this count as inside.
+    pub inside: f64,
+}
+
+fn attempts(leading: bool) -> Vec<Attempt> {
+    let attempt = |(tolerance, axes, inside): (f64, Option<i64>, f64)| {
+        Attempt { tolerance, axes: axes.map(|q| ratio(1, q)), inside }
+    };
+    let list: &[(f64, Option<i64>, f64)] = if leading {
+        &[
+            (1e-6, None, 0.985),
+            (1e-6, Some(8), 0.985),
+            (1e-6, None, 0.998),
+            (0.02, None, 0.985),
+            (0.02, Some(8), 0.99),
+            (1e-6, Some(64), 0.998),
+            (0.0, Some(1), 0.985),
+        ]
     } else {
-        vec![(0.0, axes(1, 1)), (1e-6, None), (1e-6, axes(1, 8)), (0.02, axes(1, 8))]
-    }
+        &[(0.0, Some(1), 0.985), (1e-6, None, 0.985), (1e-6, Some(8), 0.985), (0.02, Some(8), 0.985)]
+    };
+    list.iter().copied().map(attempt).collect()
 }
 
 /// The largest power of two that is not above a positive number.

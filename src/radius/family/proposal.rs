@@ -1,6 +1,7 @@
 //! Floats propose words, hulls, eigenvalues and choices of vertices; [`Hull::holds`] and [`super::Crossing`] decide.
 #![allow(clippy::float_arithmetic, reason = "proposes, exact arithmetic decides")]
 
+use super::cover::Attempt;
 use super::hull::{Moving, floats};
 use super::{Hull, Image, Pencil, Piece, Seed, Vertex};
 use crate::arith::{Rational, to_f64};
@@ -13,9 +14,7 @@ use crate::radius::{Options, System};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 
 /// Most vertices of a hull.
-const MAX_VERTICES: usize = 90;
-/// An image counts as inside where its gauge is below this.
-const INSIDE: f64 = 0.985;
+const MAX_VERTICES: usize = 110;
 /// Images beyond this have left for ever.
 const FAR: f64 = 1e5;
 
@@ -86,12 +85,12 @@ fn eigen_seed(pencil: &Pencil, p: &Rational, word: &[usize]) -> Option<Seed> {
 }
 
 /// A hull at a member from the eigenvectors of words, and from axes of a size where one is given.
-pub(super) fn grow(pencil: &Pencil, p: &Rational, words: &[&[usize]], axes: Option<&Rational>) -> Option<Hull> {
+pub(super) fn grow(pencil: &Pencil, p: &Rational, words: &[&[usize]], attempt: &Attempt) -> Option<Hull> {
     let mut seeds: Vec<Seed> = words.iter().map(|w| eigen_seed(pencil, p, w)).collect::<Option<_>>()?;
-    if let Some(scale) = axes {
+    if let Some(scale) = &attempt.axes {
         seeds.extend((0..pencil.dim()).map(|index| Seed::Axis { index, scale: scale.clone() }));
     }
-    let mut growing = Growing::start(pencil, p, seeds)?;
+    let mut growing = Growing::start(pencil, p, seeds, attempt.inside)?;
     while !growing.todo.is_empty() {
         growing.generation()?;
     }
@@ -105,10 +104,12 @@ struct Growing {
     body: Points,
     /// Images that are not yet known: vertex and letter.
     todo: Vec<(usize, usize)>,
+    /// Images whose gauge is below this count as inside.
+    inside: f64,
 }
 
 impl Growing {
-    fn start(pencil: &Pencil, p: &Rational, seeds: Vec<Seed>) -> Option<Self> {
+    fn start(pencil: &Pencil, p: &Rational, seeds: Vec<Seed>, inside: f64) -> Option<Self> {
         let (letters, dim) = (at(pencil, p), pencil.dim());
         let mut vertices: Vec<Vertex> = Vec::new();
         for (seed, kind) in seeds.iter().enumerate() {
@@ -121,7 +122,7 @@ impl Growing {
         let values = proposed_values(pencil, &hull, p, p)?;
         let moving = Moving::new(pencil, p, &Rational::from(0));
         let points = floats(&moving.field, &hull.points(&moving, &values)?);
-        let mut growing = Self { letters, hull, points: Vec::new(), body: Points::new(dim), todo: Vec::new() };
+        let mut growing = Self { letters, hull, points: Vec::new(), body: Points::new(dim), todo: Vec::new(), inside };
         points.into_iter().for_each(|q| growing.add_point(q));
         Some(growing)
     }
@@ -149,14 +150,14 @@ impl Growing {
             } else {
                 let x = self.letters[letter].apply(&self.points[v]);
                 let value = self.gauge(&x);
-                if value >= INSIDE {
+                if value >= self.inside {
                     outside.push((value, v, letter, x));
                 }
             }
         }
         outside.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
         for (_, v, letter, x) in outside {
-            if self.gauge(&x) < INSIDE {
+            if self.gauge(&x) < self.inside {
                 continue;
             }
             if self.points.len() >= MAX_VERTICES || x.iter().any(|c| !(c.abs() < FAR)) {
