@@ -1,6 +1,6 @@
 //! Certificates of the orders of smoothness of a curve.
 
-use super::joint::radius_proof;
+use super::joint::{radius_proof, stated};
 use super::{Certificate, Unsupported, contraction, unsupported};
 use crate::algebraic::Root;
 use crate::case::Case;
@@ -31,12 +31,25 @@ pub fn regularity_certificate(
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
 }
 
+/// The bounds of the radius of a system; `null` where all spaces are 0.
+pub fn radius(system: Option<&System>, found: Option<&JointRadius>, place: &str) -> Result<Value, Unsupported> {
+    match (system, found) {
+        (None, _) => Ok(Value::Null),
+        (Some(system), Some(found)) => radius_proof(system, &radius_with_a_rational_word(system, found)),
+        (Some(_), None) => unsupported("a radius without bounds", place),
+    }
+}
+
 pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
-    let radius = match (&order.system, &order.radius) {
-        (None, _) => Value::Null,
-        (Some(system), Some(radius)) => radius_proof(system, &radius_with_a_rational_word(system, radius))?,
-        (Some(_), None) => return unsupported("a radius without bounds", format!("order {}", order.order)),
-    };
+    let place = format!("order {}", order.order);
+    if let (Outcome::Cycle, Some(system), Some(found)) = (&order.outcome, &order.system, &order.radius) {
+        let lower = radius_with_a_rational_word(system, found).lower;
+        let lower = lower.as_ref().map(|lower| stated(system, lower)).transpose()?;
+        if lower.is_none_or(|lower| lower < order.threshold) {
+            return unsupported("an eigenvalue on the threshold itself", place);
+        }
+    }
+    let radius = radius(order.system.as_ref(), order.radius.as_ref(), &place)?;
     let outcome = match &order.outcome {
         Outcome::Curve => "curve",
         Outcome::Holds => "holds",
@@ -44,7 +57,7 @@ pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
         Outcome::Cycle => "cycle",
         Outcome::Chord(_) => "chord",
         Outcome::Exponent => "exponent",
-        Outcome::Open => return unsupported("an order that is not decided", format!("order {}", order.order)),
+        Outcome::Open => return unsupported("an order that is not decided", place),
     };
     Ok(json!({"order": order.order, "dims": order.dims, "radius": radius, "outcome": outcome}))
 }
@@ -55,7 +68,7 @@ const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 /// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
 /// words a certificate says more than an inequality with room.
 fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
-    let irrational = radius.lower.as_ref().filter(|l| l.root().and_then(Root::rational).is_none());
+    let irrational = radius.lower.as_ref().filter(|l| l.rational().is_none());
     let power = irrational.and_then(|lower| {
         let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
         powers.into_iter().find(|l| l.root().and_then(Root::rational).is_some())

@@ -1,6 +1,6 @@
 //! `secant region`.
 
-use super::output::{print, settle, stdout_colour, write_certificate, write_file};
+use super::output::{print, settle, shown, write_certificate, write_file};
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
@@ -9,7 +9,7 @@ use crate::case::setting;
 use crate::diagnostic::Problem;
 use crate::radius::family::Search;
 use crate::report::document::Document;
-use crate::report::{html, latex, markdown, text};
+use crate::report::{html, latex, markdown};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -68,7 +68,7 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
     if args.json {
         print(&format!("{:#}\n", found.data()));
     } else {
-        print(&text::render(&found.document(), stdout_colour()));
+        print(&shown(&found.document()));
     }
     Ok(match found.verdict() {
         Verdict::Proved => PROVED,

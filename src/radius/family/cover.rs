@@ -296,8 +296,10 @@ pub(super) struct Attempt {
 }
 
 fn attempts(leading: bool) -> Vec<Attempt> {
-    let attempt = |(tolerance, axes, inside): (f64, Option<i64>, f64)| {
-        Attempt { tolerance, axes: axes.map(|q| ratio(1, q)), inside }
+    let attempt = |(tolerance, axes, inside): (f64, Option<i64>, f64)| Attempt {
+        tolerance,
+        axes: axes.map(|q| ratio(1, q)),
+        inside,
     };
     let list: &[(f64, Option<i64>, f64)] = if leading {
         &[

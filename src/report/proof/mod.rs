@@ -6,6 +6,7 @@ mod contracts;
 mod cycles;
 mod dense;
 mod every;
+mod every_plane;
 mod evidence;
 mod frames;
 mod functionals;
@@ -20,13 +21,13 @@ mod surface;
 mod surface_cycle;
 mod vertex;
 
-pub(super) use results::parameter;
+pub(super) use results::{parameter, table as results_table};
 pub use vertex::vertex_document;
 
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
-use super::summary::{claim_line, overall_line, shape_line};
+use super::summary::{claim_line, mask_line, overall_line, shape_line};
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, Spaces};
@@ -91,6 +92,7 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     if let Some(surface) = &found.surface {
         blocks.extend(definitions(start, surface.unparametrised.is_none()));
         blocks.extend(surface::section(case, surface, &mut seen));
+        blocks.extend(every_plane::section(case, surface, &mut seen));
     }
     blocks.extend(dense::section(case, found, &mut seen));
     blocks.extend(every::section(case, found, &mut seen));
@@ -188,6 +190,10 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     shape.push(Inline::Code(case.name.clone()));
     shape.extend(words(": a "));
     shape.extend(shape_line(case, found));
+    if let Some(mask) = mask_line(case) {
+        shape.extend(words(", made of the "));
+        shape.extend(mask);
+    }
     shape.extend(words("."));
     blocks.push(Block::Paragraph(shape));
     if let Some(source) = &case.source {
