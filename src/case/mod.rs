@@ -3,6 +3,7 @@
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
 mod chain;
+mod control;
 mod expect;
 mod faces;
 mod field;
@@ -17,9 +18,10 @@ mod source;
 mod states;
 mod vertex;
 
+pub use control::with_control;
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
-pub use question::{Question, Subject};
+pub use question::{Question, Subject, written};
 pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};

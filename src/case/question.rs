@@ -68,6 +68,17 @@ fn scheme_case(text: &str) -> Option<String> {
     Some(format!("name = {}\ntitle = {}\n\n[scheme]\n{}\n", quoted(name), quoted(text), lines.join("\n")))
 }
 
+/// The text of the case that somebody writes or means by a scheme with parameters, a mask or a symbol; no file is read.
+///
+/// # Errors
+/// A [`Problem`] where the text is none of these.
+pub fn written(text: &str) -> Result<String, Problem> {
+    if text.contains("name") && text.contains('=') && (text.contains('\n') || text.contains('"')) {
+        return Ok(text.to_owned());
+    }
+    scheme_case(text.trim()).ok_or_else(|| Problem::new("secant::case::unreadable", "this is no case, scheme, mask or symbol"))
+}
+
 impl Question {
     /// Reads the question of a case file; `-` is the standard input.
     ///
