@@ -376,3 +376,21 @@ fn ten_thousand_requests_leave_nothing_behind() {
     assert!(after < before + (24 << 20), "{before} bytes before, {after} after");
     assert!(server.threads() < 40, "{} threads", server.threads());
 }
+
+/// Nothing that the page sends can name a file: no function that takes a path is used, and standard input is not read.
+#[test]
+fn the_server_opens_no_file() {
+    let mut seen = 0;
+    for entry in std::fs::read_dir(format!("{}/src/studio", env!("CARGO_MANIFEST_DIR"))).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|e| e == "rs") {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            for word in ["std::fs", "std::env", "stdin", "Path", "File::open", "::read(", "::ask(", "asked(text", "Command"] {
+                assert!(!code.contains(word), "{word} in {}", path.display());
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen >= 7);
+}

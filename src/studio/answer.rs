@@ -14,7 +14,7 @@ use crate::prove::Findings;
 use crate::report::document::Document;
 use crate::report::math::Math;
 use crate::report::text::{math_line, plain};
-use crate::report::{claims, figures, findings, html, mesh as mesh_report, proof, surface, words};
+use crate::report::{claims, figures, findings, html, mesh as mesh_report, proof, summary, surface, words};
 use crate::theorem::surface::SurfacePoint;
 use crate::theorem::{Certified, Claim, PointReport, Required};
 use serde_json::{Value, json};
@@ -52,8 +52,8 @@ impl Kept {
         Ok(Self { asked, effort, found })
     }
 
-    /// The answer as the page shows it; `id` names it in the addresses of its files.
-    pub fn value(&self, id: u64) -> Value {
+    /// The answer as the page shows it.
+    pub fn value(&self) -> Value {
         let mut value = match (&self.asked, &self.found) {
             (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => mesh(model, *scheme, found),
             (_, What::Case(answered)) => match &answered.findings {
@@ -62,7 +62,6 @@ impl Kept {
             },
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         };
-        value["id"] = id.into();
         value["effort"] = self.effort.word().into();
         value
     }
@@ -201,6 +200,7 @@ fn tangents(case: &Case, found: &Certified, answered: &Answered) -> Value {
     });
     let mut value = json!({
         "verdict": required.verdict(&found.claims).word(),
+        "overall": plain(&summary::overall_line(found, &required)),
         "claims": found.claims.iter().map(|c| claim(c, claims::reason(case, found, c))).collect::<Vec<_>>(),
         "limits": found.limits().iter().map(claims::limit).collect::<Vec<_>>(),
         "points": points.collect::<Vec<_>>(),
@@ -286,16 +286,23 @@ fn mesh(model: &Model, scheme: Scheme, found: &Found) -> Value {
     let points = found.vertices.iter().map(|v| {
         let limit = v.limit.as_ref();
         let verdict = if v.smooth == Verdict::Proved && !v.surrounded() { Verdict::Undetermined } else { v.smooth };
+        let (kind, style) = match verdict {
+            Verdict::Proved => ("C¹", "tangent"),
+            Verdict::Refuted => ("not C¹", "none"),
+            Verdict::Undetermined => ("undetermined", "undetermined"),
+        };
+        let decimals = |n: [f64; 3]| n.map(|x| format!("{x:.4}")).join(", ");
         json!({
             "name": mesh_report::place(v),
             "address": format!("line {}", v.line),
             "parameter": format!("valence {}", v.valence),
             "verdict": verdict.word(),
-            "kind": mesh_report::reason(v),
-            "style": match verdict { Verdict::Proved => "tangent", Verdict::Refuted => "none", Verdict::Undetermined => "undetermined" },
+            "kind": kind,
+            "note": mesh_report::reason(v),
+            "style": style,
             "at": limit.map(|l| l.near.map(crate::mesh::Float::mid)),
             "normal": limit.and_then(|l| l.unit),
-            "tangent": null,
+            "tangent": limit.and_then(|l| l.unit).map(|n| json!({ "text": format!("normal ≈ ({})", decimals(n)) })),
         })
     });
     json!({

@@ -12,13 +12,13 @@ const EXAMPLES: [(&str, &str); 9] = [
     ("Matrices: the thesis's half-tangent", include_str!("../../cases/thesis/half-tangent.toml")),
     ("Control points: a Bézier curve with a cusp", include_str!("../../cases/control/bezier-cusp.toml")),
     ("Maps: an interpolation function", include_str!("../../cases/fif/integral.toml")),
-    ("Maps: a set on Sierpiński's triangle", include_str!("../../cases/sets/sierpinski.toml")),
+    ("Maps: Sierpiński's triangle", include_str!("../../cases/sets/sierpinski.toml")),
     ("Automaton: three states", include_str!("../../cases/automata/three-states.toml")),
     ("Surface: a bicubic patch in space", include_str!("../../cases/surfaces/bicubic-space.toml")),
-    ("Vertex: Catmull and Clark at valence 12", include_str!("../../cases/surfaces/catmull-clark-12-12.toml")),
+    ("Vertex: Catmull and Clark with other weights", include_str!("../../cases/surfaces/catmull-clark-12-12.toml")),
 ];
 
-/// Meshes: title, whether it is of triangles, and text.
+/// Meshes: title, and text.
 const MESHES: [(&str, &str); 4] = [
     ("octahedron", include_str!("../../cases/meshes/octahedron.obj")),
     ("cube", include_str!("../../cases/meshes/cube.obj")),

@@ -282,8 +282,13 @@ async fn prove(state: &State, body: &[u8]) -> Result<Answer, Problem> {
         }
     };
     let stop = state.work.newer(&asked.page)?;
-    let work = move || Kept::prove(asked.input.asked()?, effort, asked.check).map(Arc::new);
-    let kept = state.work.run(Weight::Proof, Duration::from_secs(limit), &stop, work).await?;
-    let number = state.work.keep(Arc::clone(&kept));
-    Ok(data(&kept.value(number)))
+    let work = move || {
+        let kept = Kept::prove(asked.input.asked()?, effort, asked.check)?;
+        let value = kept.value();
+        Ok((Arc::new(kept), value))
+    };
+    let (kept, mut value) = state.work.run(Weight::Proof, Duration::from_secs(limit), &stop, work).await?;
+    // It names the answer in the addresses of its files.
+    value["id"] = state.work.keep(kept).into();
+    Ok(data(&value))
 }

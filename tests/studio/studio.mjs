@@ -69,7 +69,7 @@ const steps = {
   async "the first scheme is answered and checked"() {
     const { page, complaints, context } = await opened();
     assert.equal(await claim(page, "ends"), "proved");
-    assert.match(await page.textContent("#checked"), /Proved again by the independent checker/);
+    assert.match(await page.textContent("#checked"), /proved again by the independent checker/);
     assert.ok(await page.locator(".mark").count() >= 3);
     assert.equal(await page.evaluate(() => {
       const canvas = document.getElementById("solid");
@@ -197,7 +197,7 @@ const steps = {
   async "surfaces, meshes, sets and vertices are drawn"() {
     const { page, complaints, context } = await opened();
     await page.check("input[value=text]");
-    for (const label of ["Surface: a bicubic patch in space", "Maps: a set on Sierpiński's triangle", "Vertex: Catmull and Clark at valence 12"]) {
+    for (const label of ["Surface: a bicubic patch in space", "Maps: Sierpiński's triangle", "Vertex: Catmull and Clark with other weights"]) {
       await page.selectOption("#example", { label });
       await settled(page);
       await page.screenshot({ path: join(shots, `${label.split(":")[0].toLowerCase()}.png`) });

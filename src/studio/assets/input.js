@@ -121,6 +121,7 @@ export class Inputs {
     for (const kind of ["scheme", "text", "mesh"]) at(`by-${kind}`).hidden = kind !== this.kind;
     const [kind, entry] = this.entry;
     at("ends-row").hidden = this.kind !== "scheme" || kind === "rules";
+    at("further").hidden = this.kind === "mesh" || (this.kind === "scheme" && kind === "rules");
     at("ends").value = "";
     this.points = null;
     const list = kind === "rules"

@@ -2,12 +2,14 @@
 import { at, make } from "./api.js";
 
 const CHECKED = {
-  yes: "Proved again by the independent checker.",
-  part: "Proved again by the independent checker, apart from what its certificate has no rule for.",
+  yes: "The answers are proved again by the independent checker.",
+  part: "The answers are proved again by the independent checker, apart from what its certificate has no rule for.",
   "no-rule": "The certificate format has no rule for this: it was proved once.",
   "not-asked": "Not yet proved again by the checker.",
 };
 
+/** Exponents as they are set. */
+const raised = text => text.replace(/C\^(\d+|k)/g, (_, order) => `C${[...order].map(d => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d] ?? "ᵏ").join("")}`);
 const chip = verdict => make("span", { class: `chip ${verdict === "undetermined" ? "undetermined-word" : verdict}` }, verdict);
 
 export class Results {
@@ -20,19 +22,20 @@ export class Results {
   }
 
   stale(is) {
-    for (const id of ["claims", "found"]) at(id).toggleAttribute("data-stale", is);
+    for (const part of [document.querySelector("header"), at("claims"), at("found")]) part.toggleAttribute("data-stale", is);
   }
 
   /** Shows an answer; `last`: nothing more comes by itself. */
   show(answer, last) {
     this.answer = answer;
     at("verdict").replaceChildren(chip(answer.verdict));
+    at("overall").textContent = raised(answer.overall ?? "");
     at("checked").textContent = CHECKED[answer.checked];
     const row = claim => make("tr", {},
-      make("td", { class: "word" }, claim.about),
+      make("td", { class: "word" }, raised(claim.about)),
       make("td", { class: "word" }, chip(claim.verdict)),
-      make("td", {}, claim.text, claim.theorem ? make("span", { class: "reason" }, claim.theorem) : null,
-        claim.reason && claim.verdict !== "proved" ? make("span", { class: "reason" }, claim.reason) : null));
+      make("td", {}, raised(claim.text), claim.theorem ? make("span", { class: "reason" }, claim.theorem) : null,
+        claim.reason && claim.verdict !== "proved" ? make("span", { class: "reason" }, raised(claim.reason)) : null));
     const limits = answer.limits.map(text => make("tr", {}, make("td", { colspan: 3, class: "soft" }, text)));
     const bad = (answer.bad ?? []).slice(0, 20).map(b => make("tr", {}, make("td", { colspan: 3 }, `face ${b.face}, line ${b.line}: ${b.what}`)));
     at("claim-rows").replaceChildren(...answer.claims.map(row), ...limits, ...bad);
@@ -48,7 +51,7 @@ export class Results {
       const name = make("button", { type: "button", onclick: () => this.pick(number) }, point.name);
       return make("tr", { "data-number": number, "aria-current": number === this.number ? "true" : null },
         make("td", { class: "word" }, name), make("td", {}, make("code", {}, point.address ?? "–")), make("td", { class: "word" }, point.parameter ?? "–"),
-        make("td", { class: `word ${point.style}` }, point.kind === point.verdict ? point.kind : `${point.kind} (${point.verdict})`), make("td", {}, tangent, decimal));
+        make("td", { class: `word ${point.style}` }, point.kind === point.verdict ? point.kind : `${point.kind} (${point.verdict})`, point.note ? make("span", { class: "reason" }, point.note) : null), make("td", {}, tangent, decimal));
     };
     at("point-rows").replaceChildren(...answer.points.map(row));
     at("found").hidden = answer.points.length === 0;

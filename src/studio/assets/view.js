@@ -9,6 +9,7 @@ const SIGNS = {
   undetermined: () => make("g", {}, make("circle", { class: "sign", r: 7.5 }), make("text", { y: 4 }, "?")),
 };
 const NAMES = { tangent: "tangent", cusp: "cusp", corner: "corner", none: "no tangent", undetermined: "undetermined" };
+const PLANES = { ...NAMES, tangent: "tangent plane", none: "no tangent plane" };
 /** Length of a ray, in pixels. */
 const RAY = 46;
 
@@ -82,7 +83,10 @@ export class View {
 
   /** The examined points of an answer. */
   mark(points) {
-    this.marks = points.filter(p => p.at);
+    // What is no plain tangent lies above.
+    const rank = p => Object.keys(SIGNS).indexOf(p.style);
+    this.marks = points.filter(p => p.at).sort((a, b) => rank(a) - rank(b));
+    this.reach = this.marks.length > 8 ? RAY / 2 : RAY;
     const group = this.marks.map(point => {
       const number = points.indexOf(point);
       const label = `${point.name}, ${point.address}: ${point.kind}, ${point.verdict}`;
@@ -105,7 +109,7 @@ export class View {
   legend(styles) {
     const shown = Object.keys(SIGNS).filter(style => styles.includes(style));
     const sign = style => make("svg", { viewBox: "-9 -9 18 18", class: `mark ${style}`, "aria-hidden": "true" }, SIGNS[style]());
-    at("legend").replaceChildren(...shown.map(style => make("li", {}, sign(style), NAMES[style])));
+    at("legend").replaceChildren(...shown.map(style => make("li", {}, sign(style), (this.solid ? PLANES : NAMES)[style])));
   }
 
   current(number) {
@@ -120,7 +124,8 @@ export class View {
   fit() {
     const d = this.drawing;
     if (!d) return;
-    const all = this.solid ? [...d.vertices, ...this.places] : [...d.points, ...d.polygon, ...this.places].map(p => [p[0], p[1], 0]);
+    // Of a surface control points may lie far away.
+    const all = this.solid ? d.vertices : [...d.points, ...d.polygon, ...this.places].map(p => [p[0], p[1], 0]);
     if (all.length === 0) return;
     const low = [0, 1, 2].map(k => all.reduce((m, p) => Math.min(m, p[k]), Infinity));
     const high = [0, 1, 2].map(k => all.reduce((m, p) => Math.max(m, p[k]), -Infinity));
@@ -128,7 +133,7 @@ export class View {
     const { clientWidth: w, clientHeight: h } = this.stage;
     const span = high.map((x, k) => x - low[k]);
     const room = this.solid ? Math.min(w, h) / Math.hypot(...span) : Math.min(w / span[0], h / span[1]);
-    this.scale = Number.isFinite(room) && room > 0 ? room * 0.84 : 100;
+    this.scale = Number.isFinite(room) && room > 0 ? room * (this.solid ? 0.7 : 0.84) : 100;
     this.later();
   }
 
@@ -229,7 +234,7 @@ export class View {
       const v = this.solid ? [dot(ray, axes[0]), -dot(ray, axes[1])] : [ray[0], -ray[1]];
       const length = Math.hypot(...v);
       if (!(length > 0)) return "";
-      const reach = this.solid ? RAY / 2 : RAY / length;
+      const reach = this.solid ? RAY / 2 : this.reach / length;
       const [a, b] = v.map(c => c * reach);
       const head = length => [[-8, 4], [-8, -4]].map(([along, across]) => [x + a + (along * a - across * b) / length, y + b + (along * b + across * a) / length]);
       const wings = head(Math.hypot(a, b) || 1);
@@ -242,7 +247,7 @@ export class View {
   plane(point, axes) {
     if (point.plane.length !== 2) return "";
     const [u, v] = orthogonal(point.plane[0], point.plane[1]);
-    const reach = 30 / this.scale;
+    const reach = 17 / this.scale;
     const corner = (a, b) => this.seen(point.at.map((x, k) => x + reach * (a * u[k] + b * v[k])), axes).map(c => c.toFixed(1)).join(" ");
     return `M${corner(1, 1)}L${corner(1, -1)}L${corner(-1, -1)}L${corner(-1, 1)}Z`;
   }
