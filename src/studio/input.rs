@@ -1,7 +1,7 @@
 //! What the page asks about: a scheme with parameters, a mesh rule, a text, or a mesh; always text, never a path.
 
 use crate::arith::{Rational, parse_rational};
-use crate::case::{Question, Subject, Valences, with_control, written};
+use crate::case::{Origin, Question, Subject, Valences, with_control, written};
 use crate::diagnostic::{Problem, SourceText};
 use crate::mesh::{Model, Scheme};
 use crate::shape::Frame;
@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 
 /// Most further points of one request.
 const MAX_POINTS: usize = 16;
+/// Control points of a suggested polygon beyond those of one span.
+const MORE: usize = 3;
 
 /// What the page sends.
 #[derive(Debug, Clone, Deserialize)]
@@ -189,10 +191,12 @@ fn suggested(question: &Question) -> Option<Vec<Vec<Rational>>> {
     let Question::Tangents { case, .. } = question else { return None };
     let shape = &case.shape;
     let free = shape.control.is_none() && shape.frame == Frame::Barycentric && question.subject() == Subject::Curve;
-    let count = shape.states[shape.start].dim;
-    if !free || count < 2 {
+    let one = shape.states[shape.start].dim;
+    if !free || one < 2 {
         return None;
     }
+    // A curve of a mask has several spans, so that joints of them are seen too.
+    let count = if matches!(case.scheme, Some(Origin::Mask(_))) { one + MORE } else { one };
     let height = |k: usize| match k {
         0 => 0,
         k if k + 1 == count => 0,
@@ -219,7 +223,7 @@ mod tests {
     fn control_points_are_as_written_suggested_none_or_given() {
         let scheme = |control: serde_json::Value| asked(serde_json::json!({"kind": "scheme", "name": "bspline", "parameters": {"degree": "2"}, "control": control}));
         assert_eq!(scheme("as-written".into()).map(|a| control(&a)).ok(), Some(None));
-        assert_eq!(scheme("suggested".into()).map(|a| control(&a)).ok(), Some(Some(3)));
+        assert_eq!(scheme("suggested".into()).map(|a| control(&a)).ok(), Some(Some(3 + MORE)));
         let points = serde_json::json!({"points": [["0", "0"], ["1/3", "0.5"], ["2", "0"]]});
         assert_eq!(scheme(points).map(|a| control(&a)).ok(), Some(Some(3)));
         let broken = serde_json::json!({"points": [["0", "zero"]]});
