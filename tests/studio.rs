@@ -179,7 +179,9 @@ fn nobody_else_is_let_in() {
 #[test]
 fn answers_are_those_of_the_library() {
     let server = Server::start();
-    for name in ["thesis/half-tangent", "control/bezier-cusp", "sets/sierpinski", "surfaces/bicubic-space", "classical/takagi"] {
+    for name in
+        ["thesis/half-tangent", "control/bezier-cusp", "sets/sierpinski", "surfaces/bicubic-space", "classical/takagi"]
+    {
         let path = format!("{}/cases/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(&path).unwrap();
         let found = prove(&Question::parse("case.toml", &text).unwrap(), &Budget::default()).unwrap();
@@ -187,11 +189,10 @@ fn answers_are_those_of_the_library() {
         let answer = server.post("api/prove", &json!({"page": "p", "input": input, "effort": "normal", "check": true}));
         let value = answer.json();
         let all = found.claims();
-        let wanted: Vec<Value> = all
-            .iter()
-            .map(|c| json!([claims::label(&c.what), c.verdict().word(), claims::judged(c)]))
-            .collect();
-        let got: Vec<Value> = value["claims"].as_array().unwrap().iter().map(|c| json!([c["about"], c["verdict"], c["text"]])).collect();
+        let wanted: Vec<Value> =
+            all.iter().map(|c| json!([claims::label(&c.what), c.verdict().word(), claims::judged(c)])).collect();
+        let got: Vec<Value> =
+            value["claims"].as_array().unwrap().iter().map(|c| json!([c["about"], c["verdict"], c["text"]])).collect();
         assert_eq!(got, wanted, "{name}");
         assert_eq!(value["verdict"], found.verdict().word(), "{name}");
         assert!(["yes", "part"].contains(&value["checked"].as_str().unwrap()), "{name}: {}", value["checked"]);
@@ -343,14 +344,18 @@ fn newer_requests_a_stop_and_a_lost_connection_end_the_work() {
 #[test]
 fn ten_thousand_requests_leave_nothing_behind() {
     let server = Server::start();
-    let broken: Vec<Vec<u8>> = broken().iter().map(|(_, body)| server.posted("api/prove", body)).filter(|r| r.len() < 5_000).collect();
+    let broken: Vec<Vec<u8>> =
+        broken().iter().map(|(_, body)| server.posted("api/prove", body)).filter(|r| r.len() < 5_000).collect();
     let round = |from: usize, count: usize| {
         let mut line = server.line();
         for k in from..from + count {
             let w = format!("{}/400", k % 100);
             let input = json!({"kind": "scheme", "name": "four-point", "parameters": {"w": w}, "control": "suggested"});
             let request = match k % 20 {
-                0 => server.posted("api/prove", &quick(&format!("p{}", k % 7), scheme("bspline", json!({"degree": "2"}))).to_string()),
+                0 => server.posted(
+                    "api/prove",
+                    &quick(&format!("p{}", k % 7), scheme("bspline", json!({"degree": "2"}))).to_string(),
+                ),
                 1..=4 => broken[k % broken.len()].clone(),
                 5..=9 => server.posted("api/draw", &json!({"input": input}).to_string()),
                 10..=13 => server.head("GET", "api/catalogue", 0).into_bytes(),
@@ -372,7 +377,12 @@ fn ten_thousand_requests_leave_nothing_behind() {
     let before = server.memory();
     round(2_000, 8_000);
     let after = server.memory();
-    println!("memory after 2000 requests: {} KiB, after 10000: {} KiB; {} threads", before >> 10, after >> 10, server.threads());
+    println!(
+        "memory after 2000 requests: {} KiB, after 10000: {} KiB; {} threads",
+        before >> 10,
+        after >> 10,
+        server.threads()
+    );
     assert!(after < before + (24 << 20), "{before} bytes before, {after} after");
     assert!(server.threads() < 40, "{} threads", server.threads());
 }
@@ -386,7 +396,9 @@ fn the_server_opens_no_file() {
         if path.extension().is_some_and(|e| e == "rs") {
             let text = std::fs::read_to_string(&path).unwrap();
             let code = text.split("#[cfg(test)]").next().unwrap();
-            for word in ["std::fs", "std::env", "stdin", "Path", "File::open", "::read(", "::ask(", "asked(text", "Command"] {
+            for word in
+                ["std::fs", "std::env", "stdin", "Path", "File::open", "::read(", "::ask(", "asked(text", "Command"]
+            {
                 assert!(!code.contains(word), "{word} in {}", path.display());
             }
             seen += 1;

@@ -10,7 +10,8 @@ use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::Plot;
 use crate::shape::{
-    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample, sample,
+    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
+    sample,
 };
 use std::path::Path;
 

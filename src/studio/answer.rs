@@ -19,6 +19,21 @@ use crate::theorem::surface::SurfacePoint;
 use crate::theorem::{Certified, Claim, PointReport, Required};
 use serde_json::{Value, json};
 
+/// Steps of the search for cones in a first answer.
+const FIRST_CONE_STEPS: usize = 4_000_000;
+/// Work for each order of smoothness in a first answer.
+const FIRST_ORDER: u64 = 1_000_000;
+
+/// The limits of an effort; a first answer must follow the pointer, and leaves the costly searches to the next one.
+fn budget(effort: Effort) -> Budget {
+    let mut budget = Budget::of(effort);
+    if effort == Effort::Quick {
+        budget.cone_steps = FIRST_CONE_STEPS;
+        budget.orders.work = Some(FIRST_ORDER);
+    }
+    budget
+}
+
 /// Something that was asked, with the answer.
 pub struct Kept {
     asked: Asked,
@@ -44,7 +59,7 @@ impl Kept {
     /// # Errors
     /// The [`Problem`] of the model, or of a certificate that the checker does not accept.
     pub fn prove(asked: Asked, effort: Effort, check: bool) -> Result<Self, Problem> {
-        let budget = Budget::of(effort);
+        let budget = budget(effort);
         let found = match &asked {
             Asked::Case(question) => What::Case(Box::new(answered(question, check, &budget, &|| {})?)),
             Asked::Mesh { model, scheme, .. } => What::Mesh(Box::new(certify(model, *scheme, &budget, &|| {})?)),
@@ -280,9 +295,7 @@ fn vertices(answered: &Answered) -> Value {
 
 fn mesh(model: &Model, scheme: Scheme, found: &Found) -> Value {
     let data = mesh_report::json(model, scheme.name(), found);
-    let whole = |about: &str, verdict: Verdict, text: &str| {
-        json!({ "about": about, "verdict": verdict.word(), "text": text, "reason": null, "theorem": null })
-    };
+    let whole = |about: &str, verdict: Verdict, text: &str| json!({ "about": about, "verdict": verdict.word(), "text": text, "reason": null, "theorem": null });
     let points = found.vertices.iter().map(|v| {
         let limit = v.limit.as_ref();
         let verdict = if v.smooth == Verdict::Proved && !v.surrounded() { Verdict::Undetermined } else { v.smooth };

@@ -90,7 +90,8 @@ mod tests {
         let json = ("content-type", "application/json");
         let host = ("host", "127.0.0.1:4000");
         assert_eq!(asked(Method::POST, &path, &[host, json]), Ok("api/draw".to_owned()));
-        let full = [("host", "localhost:4000"), json, ("origin", "http://localhost:4000"), ("sec-fetch-site", "same-origin")];
+        let full =
+            [("host", "localhost:4000"), json, ("origin", "http://localhost:4000"), ("sec-fetch-site", "same-origin")];
         assert_eq!(asked(Method::POST, &path, &full), Ok("api/draw".to_owned()));
         for (name, value) in [
             ("origin", "http://evil.example"),

@@ -4,7 +4,6 @@
 use super::input::Asked;
 use crate::arith::to_f64;
 use crate::case::{Case, Question, Subject};
-use crate::diagnostic::Problem;
 use crate::mesh::{Model, Scheme, refined};
 use crate::picture::{Projection, outline};
 use crate::shape::{Frame, Shape, depth_within, sample};
@@ -41,12 +40,9 @@ pub struct Drawing {
 }
 
 /// The drawing of what was asked about.
-///
-/// # Errors
-/// None yet; the signature is that of all work.
-pub fn drawing(asked: &Asked) -> Result<Drawing, Problem> {
+pub fn drawing(asked: &Asked) -> Drawing {
     let text = asked.text().text.to_string();
-    Ok(match asked {
+    match asked {
         Asked::Mesh { model, scheme, .. } => Drawing { text, ..mesh(model, *scheme) },
         Asked::Case(question @ Question::Vertices { .. }) => Drawing {
             kind: "vertices",
@@ -61,9 +57,15 @@ pub fn drawing(asked: &Asked) -> Result<Drawing, Problem> {
                 Subject::Curve => flat(case, "curve"),
                 Subject::Set | Subject::Vertices => flat(case, "set"),
             };
-            Drawing { title: question.title().to_owned(), text, control: control(&case.shape), free: free(case), ..shape }
+            Drawing {
+                title: question.title().to_owned(),
+                text,
+                control: control(&case.shape),
+                free: free(case),
+                ..shape
+            }
         }
-    })
+    }
 }
 
 /// The control points, exactly.
@@ -112,7 +114,8 @@ pub fn place(shape: &Shape, point: &[f64]) -> [f32; 3] {
 fn surface(case: &Case) -> Drawing {
     let depth = depth_within(&case.shape, FACES);
     let Some(found) = sample(&case.complex(), depth, &mut |_| crate::stop::check()) else {
-        let words = "No point of the surface can be computed, because it does not contract as far as is known.".to_owned();
+        let words =
+            "No point of the surface can be computed, because it does not contract as far as is known.".to_owned();
         return Drawing { kind: "surface", words, ..Drawing::default() };
     };
     let vertices = found.points.iter().map(|p| place(&case.shape, &p.iter().map(to_f64).collect::<Vec<_>>())).collect();

@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 const MAX_POINTS: usize = 16;
 /// Control points of a suggested polygon beyond those of one span.
 const MORE: usize = 3;
+/// Masks with more control points for one span have one span.
+const SMALL: usize = 6;
 
 /// What the page sends.
 #[derive(Debug, Clone, Deserialize)]
@@ -196,7 +198,8 @@ fn suggested(question: &Question) -> Option<Vec<Vec<Rational>>> {
         return None;
     }
     // A curve of a mask has several spans, so that joints of them are seen too.
-    let count = if matches!(case.scheme, Some(Origin::Mask(_))) { one + MORE } else { one };
+    let spans = matches!(case.scheme, Some(Origin::Mask(_))) && one <= SMALL;
+    let count = if spans { one + MORE } else { one };
     let height = |k: usize| match k {
         0 => 0,
         k if k + 1 == count => 0,
@@ -221,14 +224,19 @@ mod tests {
 
     #[test]
     fn control_points_are_as_written_suggested_none_or_given() {
-        let scheme = |control: serde_json::Value| asked(serde_json::json!({"kind": "scheme", "name": "bspline", "parameters": {"degree": "2"}, "control": control}));
+        let scheme = |control: serde_json::Value| {
+            asked(
+                serde_json::json!({"kind": "scheme", "name": "bspline", "parameters": {"degree": "2"}, "control": control}),
+            )
+        };
         assert_eq!(scheme("as-written".into()).map(|a| control(&a)).ok(), Some(None));
         assert_eq!(scheme("suggested".into()).map(|a| control(&a)).ok(), Some(Some(3 + MORE)));
         let points = serde_json::json!({"points": [["0", "0"], ["1/3", "0.5"], ["2", "0"]]});
         assert_eq!(scheme(points).map(|a| control(&a)).ok(), Some(Some(3)));
         let broken = serde_json::json!({"points": [["0", "zero"]]});
         assert_eq!(scheme(broken).err().map(|p| p.id().to_owned()).as_deref(), Some("secant::studio::number"));
-        let text = "name = \"a\"\ncontrol = [[0, 0], [1, 1], [2, 0]]\n[scheme]\nmask = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"]\n";
+        let text =
+            "name = \"a\"\ncontrol = [[0, 0], [1, 1], [2, 0]]\n[scheme]\nmask = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"]\n";
         let text = asked(serde_json::json!({"kind": "text", "text": text, "control": "none"}));
         assert_eq!(text.map(|a| control(&a)).ok(), Some(None));
     }

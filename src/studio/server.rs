@@ -175,7 +175,9 @@ fn data(value: &Value) -> Answer {
 
 fn refused(status: StatusCode) -> Answer {
     let said = match status {
-        StatusCode::NOT_FOUND => "There is nothing here. The address of the studio has a token: open it as it was printed.\n",
+        StatusCode::NOT_FOUND => {
+            "There is nothing here. The address of the studio has a token: open it as it was printed.\n"
+        }
         StatusCode::PAYLOAD_TOO_LARGE => "The request is too large.\n",
         _ => "This request is not answered.\n",
     };
@@ -263,7 +265,7 @@ async fn get(state: &State, path: &str, query: Option<&str>) -> Answer {
 async fn draw(state: &State, body: &[u8]) -> Result<Answer, Problem> {
     let asked: Draw = read(body)?;
     let work = move || {
-        let drawn = drawing(&asked.input.asked()?)?;
+        let drawn = drawing(&asked.input.asked()?);
         serde_json::to_string(&drawn).map_err(|e| Problem::new(Problem::INTERNAL, e.to_string()))
     };
     let text = state.work.run(Weight::Light, LIGHT, &Stop::unnamed(), work).await?;

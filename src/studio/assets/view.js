@@ -198,7 +198,7 @@ export class View {
       const corners = faces[k];
       const normal = cross(vertices, corners);
       const facing = dot(normal, axes[2]);
-      const light = 0.45 + 0.55 * Math.abs(0.8 * facing + 0.45 * dot(normal, axes[1]) - 0.25 * dot(normal, axes[0]));
+      const light = 0.6 + 0.5 * Math.abs(0.8 * facing + 0.45 * dot(normal, axes[1]) - 0.25 * dot(normal, axes[0]));
       const tone = (facing >= 0 ? front : back).map(x => Math.min(255, Math.round(x * light)));
       pen.fillStyle = pen.strokeStyle = `rgb(${tone.join(",")})`;
       pen.beginPath();
