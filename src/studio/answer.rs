@@ -20,7 +20,7 @@ use crate::theorem::{Certified, Claim, PointReport, Required};
 use serde_json::{Value, json};
 
 /// Steps of the search for cones in a first answer.
-const FIRST_CONE_STEPS: usize = 4_000_000;
+const FIRST_CONE_STEPS: usize = 600_000;
 /// Work for each order of smoothness in a first answer.
 const FIRST_ORDER: u64 = 1_000_000;
 
