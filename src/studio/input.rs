@@ -13,7 +13,7 @@ const MAX_POINTS: usize = 16;
 /// Control points of a suggested polygon beyond those of one span.
 const MORE: usize = 3;
 /// Masks with more control points for one span have one span.
-const SMALL: usize = 6;
+const SMALL: usize = 4;
 
 /// What the page sends.
 #[derive(Debug, Clone, Deserialize)]
