@@ -1,14 +1,14 @@
 //! `secant render`: exact points of a shape, drawn.
 
 use super::certify::{extension, mistaken};
-use super::output::{deliver, write_file};
+use super::output::{say, settle, to_stdout, write_file};
 use super::progress::Progress;
 use super::{PROVED, RenderArgs};
 use crate::arith::{parse_rational, to_f64};
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
-use crate::picture::Plot;
+use crate::picture::{PLOT_PIXELS, Plot, resized};
 use crate::shape::{
     CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
     sample,
@@ -22,7 +22,11 @@ const DEFAULT_POINTS: usize = 20_000;
 
 /// Renders the case into the files asked for.
 pub fn run(args: &RenderArgs) -> u8 {
-    deliver(render(args).map(|text| (text, PROVED)))
+    let done = to_stdout([&args.svg, &args.png, &args.obj, &args.ply]).and_then(|piped| Ok((render(args)?, piped)));
+    settle(done.map(|(text, piped)| {
+        say(&text, piped);
+        PROVED
+    }))
 }
 
 fn render(args: &RenderArgs) -> Result<String, Problem> {
@@ -53,11 +57,12 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
     })?;
     let mut files: Vec<(&Path, Vec<u8>)> = Vec::new();
     if let Some(path) = &args.svg {
-        files.push((path, plot.svg(&case.title).into_bytes()));
+        let svg = plot.svg(&case.title);
+        files.push((path, args.size.map_or(svg.clone(), |width| resized(&svg, width)).into_bytes()));
     }
     if let Some(path) = &args.png {
         let image = plot
-            .png()
+            .png(args.size.unwrap_or(PLOT_PIXELS))
             .ok_or_else(|| Problem::new("secant::render", "the image cannot be encoded").with_help("try --svg"))?;
         files.push((path, image));
     }

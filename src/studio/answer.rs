@@ -229,18 +229,13 @@ fn style(style: MarkStyle) -> &'static str {
         MarkStyle::Tangent => "tangent",
         MarkStyle::Cusp => "cusp",
         MarkStyle::Corner => "corner",
-        MarkStyle::Open => "open",
+        MarkStyle::Refuted => "none",
+        MarkStyle::Undecided => "undetermined",
     }
 }
 
 fn point(case: &Case, projection: &Projection, point: &PointReport) -> Value {
     let mark = figures::mark(point);
-    // What is refuted and what is open do not look the same.
-    let style = match point.verdict {
-        Verdict::Undetermined => "undetermined",
-        Verdict::Refuted if mark.style == MarkStyle::Open => "none",
-        Verdict::Proved | Verdict::Refuted => style(mark.style),
-    };
     let parameter = point.branches.first().and_then(|b| proof::parameter(&case.shape, &b.address));
     json!({
         "name": words::point_name(&case.shape, point),
@@ -248,7 +243,7 @@ fn point(case: &Case, projection: &Projection, point: &PointReport) -> Value {
         "parameter": parameter.map(|t| t.to_string()),
         "verdict": point.verdict.word(),
         "kind": point.kind.word(),
-        "style": style,
+        "style": style(mark.style),
         "at": projection.point(&mark.at),
         "rays": mark.rays.iter().map(|ray| projection.direction(ray)).collect::<Vec<_>>(),
     })

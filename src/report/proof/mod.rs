@@ -21,6 +21,7 @@ mod surface_cycle;
 mod vertex;
 
 pub use results::parameter;
+pub(super) use results::table as results_table;
 pub use vertex::vertex_document;
 
 use super::document::{Block, Document, Inline, Line, line, words};

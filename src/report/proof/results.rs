@@ -14,7 +14,7 @@ use crate::theorem::{Certified, PointReport};
 const MAX_ROWS: usize = 16;
 
 /// One row for every examined point.
-pub(super) fn table(case: &Case, found: &Certified) -> Option<Block> {
+pub(in crate::report) fn table(case: &Case, found: &Certified) -> Option<Block> {
     let (header, mut rows) = match &found.surface {
         Some(surface) => (["point", "address", "parameters", "found", "tangent plane"], surface_rows(surface)),
         None => (
