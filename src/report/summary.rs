@@ -44,6 +44,8 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
         blocks.extend(point_blocks(case, point, verbose));
     }
     if let Some(surface) = &found.surface {
+        blocks.push(Block::heading(2, "Every point"));
+        blocks.push(Block::Facts(super::every_plane::facts(surface)));
         blocks.extend(super::surface::summary(surface, verbose));
     }
     blocks.push(Block::heading(2, "Verdict"));

@@ -6,6 +6,7 @@ mod contracts;
 mod cycles;
 mod dense;
 mod every;
+mod every_plane;
 mod evidence;
 mod frames;
 mod functionals;
@@ -94,6 +95,7 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     if let Some(surface) = &found.surface {
         blocks.extend(definitions(start, surface.unparametrised.is_none()));
         blocks.extend(surface::section(case, surface, &mut seen));
+        blocks.extend(every_plane::section(case, surface, &mut seen));
     }
     blocks.extend(dense::section(case, found, &mut seen));
     blocks.extend(every::section(case, found, &mut seen));
