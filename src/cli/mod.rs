@@ -27,6 +27,8 @@ mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
+#[cfg(feature = "studio")]
+mod studio;
 
 use crate::budget::{Budget, Effort};
 use crate::guard::guarded;
@@ -128,6 +130,10 @@ enum Command {
     /// Hold verdicts on random cases against the laws that they obey; print the simplest case that breaks one (exit code 1).
     #[cfg(feature = "strategies")]
     Fuzz(fuzz::FuzzArgs),
+    /// Open a page in the browser on which schemes, control points and cases can be changed and are proved at once; it is served
+    /// by this program to this machine only, and needs no network.
+    #[cfg(feature = "studio")]
+    Studio(studio::StudioArgs),
     /// Print the completions for a shell.
     Completions {
         /// The shell.
@@ -450,6 +456,8 @@ fn run(command: Command) -> u8 {
         Command::Gallery(args) => gallery::run(&args),
         #[cfg(feature = "strategies")]
         Command::Fuzz(args) => fuzz::run(&args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(&args),
         Command::Completions { shell } => completions(shell),
         Command::Man { command, out } => manual::run(command.as_deref(), out.as_deref()),
     }
