@@ -11,6 +11,7 @@ mod frames;
 mod hull;
 mod joint;
 mod radius;
+mod region;
 mod regularity;
 mod solve;
 mod spectrum;
@@ -21,6 +22,7 @@ mod vertex;
 
 pub use confirm::{Doubt, checked, confirm, confirm_orders};
 pub use joint::radius_certificate;
+pub use region::region_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
 pub use vertex::{confirm_vertices, vertex_certificate};

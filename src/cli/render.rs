@@ -10,7 +10,8 @@ use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::{PLOT_PIXELS, Plot, resized};
 use crate::shape::{
-    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, level, random_sample, sample,
+    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
+    sample,
 };
 use std::path::Path;
 
@@ -126,19 +127,8 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
 
 /// The largest depth with not too many words, and a patch not finer than can be seen.
 fn depth(shape: &Shape) -> usize {
-    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
-    let limit = if shape.states.iter().any(|s| s.kind == CellKind::Face) { 3_000 } else { DEFAULT_POINTS };
-    let mut counts = vec![1usize; shape.states.len()];
-    let mut depth = 0;
-    while most > 1 && depth < 24 {
-        let next = |s: &crate::shape::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
-        counts = shape.states.iter().map(next).collect();
-        if counts[shape.start] > limit {
-            break;
-        }
-        depth += 1;
-    }
-    depth.max(1)
+    let faces = shape.states.iter().any(|s| s.kind == CellKind::Face);
+    depth_within(shape, if faces { 3_000 } else { DEFAULT_POINTS })
 }
 
 /// How often each piece is drawn: by its determinant where it has one, and never too seldom.

@@ -125,7 +125,8 @@ fn points_table(case: &Case, found: &Certified) -> Option<Block> {
 }
 
 /// What holds, what fails, what is open, and what decides.
-pub(super) fn overall_line(found: &Certified, required: &Required) -> Line {
+#[must_use]
+pub fn overall_line(found: &Certified, required: &Required) -> Line {
     let of = |verdict: Verdict| {
         let labels: Vec<String> =
             found.claims.iter().filter(|c| c.verdict() == verdict).map(|c| claims::label(&c.what)).collect();

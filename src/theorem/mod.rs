@@ -17,6 +17,7 @@ pub mod graph;
 mod hodograph;
 pub mod parameter;
 mod point;
+pub mod region;
 pub mod regularity;
 mod require;
 mod ring;
