@@ -333,7 +333,7 @@ impl<'a> Patch<'a> {
             }
         }
         need(length > 0 && largest < Q::one(), "every", "words of this length do not shrink the differences")?;
-        let most = offsets.iter().max().cloned().map_or_else(Q::zero, |m| m / (Q::one() - &largest));
+        let most = offsets.iter().fold(Q::zero(), |m, own| m.max(own.clone())) / (Q::one() - &largest);
         Ok(offsets.iter().map(|own| own + &largest * &most).collect())
     }
 
@@ -385,7 +385,7 @@ impl<'a> Patch<'a> {
 /// The largest 1-norm of a column.
 fn column_norm(m: &Matrix) -> Q {
     let column = |j: usize| (0..m.rows).fold(whole(0), |s, i| s + m.at(i, j).abs());
-    (0..m.cols).map(column).max().map_or_else(Q::zero, |x| x)
+    (0..m.cols).map(column).fold(Q::zero(), Q::max)
 }
 
 /// The addresses on both sides of an edge, along its first parts: prefix and cycle of each.

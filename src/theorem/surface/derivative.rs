@@ -112,7 +112,7 @@ impl<'a> Patch<'a> {
         }
         patch.families = patch.differences();
         // Of the fourth corner of a quadrangle only its difference to the parallelogram is needed, as a difference.
-        patch.chords = patch.chords.iter().map(|c| first_two(c)).collect();
+        patch.chords = patch.chords.iter().map(first_two).collect();
         Ok(patch)
     }
 
@@ -245,7 +245,7 @@ impl<'a> Patch<'a> {
             (0..self.states.len()).map(|e| all(e).map(|i| self.on_family(e, i)).collect()).collect();
         let offsets: Vec<Vec<Matrix>> =
             (0..self.states.len()).map(|e| all(e).map(|i| self.offset(e, i)).collect()).collect();
-        for e in 0..self.states.len() {
+        for (e, most) in largest.iter_mut().enumerate() {
             // Products on the differences, and what `D − c` is but for them.
             let k = self.families[e].rows();
             let mut layer = vec![(Matrix::identity(k), Matrix::identity(2), Matrix::zero(k, 2), e)];
@@ -264,7 +264,7 @@ impl<'a> Patch<'a> {
                 layer = next;
             }
             for (product, turn, offset, _) in &layer {
-                largest[e] = largest[e].clone().max(norm1(offset));
+                *most = most.clone().max(norm1(offset));
                 least = least.min(&one - norm1(product) * norm1(&turn.transpose()));
             }
         }
@@ -282,9 +282,8 @@ impl<'a> Patch<'a> {
         let differences = &self.families[e] * &seen.transpose();
         let (x, y) = (&centre * &centre.transpose(), &differences * &centre.transpose());
         let form = |a: &Matrix, i: usize, b: &Matrix, j: usize| &a[(i, 0)] * &b[(j, 1)] - &a[(i, 1)] * &b[(j, 0)];
-        let largest = |values: &mut dyn Iterator<Item = Rational>| {
-            values.map(|v| abs(&v)).max().map_or_else(|| Rational::from(0), |m| m)
-        };
+        let largest =
+            |values: &mut dyn Iterator<Item = Rational>| values.fold(Rational::from(0), |most, v| most.max(abs(&v)));
         let n = y.rows();
         let first = largest(&mut (0..n).map(|k| form(&y, k, &x, 1)));
         let second = largest(&mut (0..n).map(|k| form(&x, 0, &y, k)));
@@ -315,7 +314,7 @@ fn first_two(m: &Matrix) -> Matrix {
 /// The largest 1-norm of a column.
 fn norm1(m: &Matrix) -> Rational {
     let column = |j: usize| (0..m.rows()).fold(Rational::from(0), |s, i| s + abs(&m[(i, j)]));
-    (0..m.cols()).map(column).max().map_or_else(|| Rational::from(0), |x| x)
+    (0..m.cols()).map(column).fold(Rational::from(0), Rational::max)
 }
 
 /// The differences of the corners 1 and last to corner 0 in the visible quotient, and of a quadrangle the one by which its corner 2
