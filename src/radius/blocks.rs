@@ -60,6 +60,15 @@ pub fn flag(system: &System) -> Vec<Step> {
     steps
 }
 
+/// The flag of one step: the whole system as one block.
+#[must_use]
+pub(super) fn undivided(system: &System) -> Vec<Step> {
+    let arrows = system.arrows.iter().enumerate().map(|(k, a)| Arrow { label: k, ..a.clone() }).collect();
+    let own = System { dims: system.dims.clone(), arrows };
+    let block = Block { system: own, states: (0..system.dims.len()).collect(), irreducible: false };
+    vec![Step { frame: system.dims.iter().map(|d| Matrix::identity(*d)).collect(), block: Some(block) }]
+}
+
 fn refine(part: &Part, whole: &System, steps: &mut Vec<Step>) {
     for (component, cyclic) in components(part) {
         let frame = (0..whole.dims.len()).map(|s| {
