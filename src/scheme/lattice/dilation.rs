@@ -1,8 +1,9 @@
 //! Integer matrices by which lattices are dilated, and the cosets of what they make of a lattice.
 
 use super::LatticeError;
-use crate::arith::Rational;
+use crate::arith::{Integer, Rational};
 use crate::linalg::Matrix;
+use malachite_base::num::conversion::traits::IsInteger;
 use std::collections::BTreeMap;
 
 /// Most dimensions.
@@ -167,6 +168,14 @@ impl Dilation {
 
 fn times(rows: &[Vec<i64>], a: &[i64]) -> Vec<i64> {
     rows.iter().map(|row| row.iter().zip(a).map(|(x, y)| x * y).sum()).collect()
+}
+
+/// A rational that is a whole number of moderate size.
+fn whole(x: &Rational) -> Option<i64> {
+    if !x.is_integer() {
+        return None;
+    }
+    i64::try_from(&Integer::try_from(x.clone()).ok()?).ok()
 }
 
 fn determinant(m: &Matrix) -> Rational {
