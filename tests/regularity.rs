@@ -269,11 +269,11 @@ fn shear() -> impl Strategy<Value = Matrix> {
     })
 }
 
-/// The same outcomes, where both are decided.
-fn agree(a: &CurveRegularity, b: &CurveRegularity) {
+/// The same outcomes, where both are decided. `same_spaces`: the last states see the same directions.
+fn agree(a: &CurveRegularity, b: &CurveRegularity, same_spaces: bool) {
     for (x, y) in a.orders.iter().zip(&b.orders) {
         assert!(x.smooth().is_none() || y.smooth().is_none() || x.smooth() == y.smooth(), "{x:?}\n{y:?}");
-        assert_eq!(x.dims.last(), y.dims.last());
+        assert!(x.dims.last() == y.dims.last() || !same_spaces, "{x:?}\n{y:?}");
         let (p, q) = (x.enclosure.as_ref().unwrap(), y.enclosure.as_ref().unwrap());
         assert!(p.lo <= q.hi && q.lo <= p.hi, "{p:?} {q:?}");
     }
@@ -344,7 +344,8 @@ proptest! {
             return Ok(());
         }
         let (a, b) = (analysed(&plain), analysed(&killed));
-        agree(&a, &b);
+        // Where both factors are 0 no letter sees the height: the start alone does, and it is the last state of `plain` only.
+        agree(&a, &b, top.factors.iter().any(|f| *f != 0));
         // Barnsley and Harrington: C¹ if and only if the factors are below 1/2 and the slopes agree, but for polynomials.
         let steep = top.factors.iter().any(|f| abs(f) >= ratio(1, 2));
         for found in [&a, &b] {

@@ -7,7 +7,7 @@ use super::budget::{Budget, Options};
 use super::invariant::growth as growth_of;
 use super::leading::{Lower, longest_block};
 use super::search::{Candidate, candidates, canonical, insertions};
-use super::strategy::{Best, Found, Outcome, QUICK, Target, leading, smaller};
+use super::strategy::{Best, Found, Outcome, QUICK, Target, glance, leading, smaller};
 use super::system::{System, SystemError};
 use crate::arith::{Rational, to_f64};
 use std::cmp::Ordering;
@@ -27,18 +27,31 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
     let flag = if system.widest() > options.split { undivided(&system) } else { flag(&system) };
     let blocks: Vec<Block> = flag.iter().filter_map(|s| s.block.clone()).collect();
     let share = work / 10 / blocks.len().max(1) as u64;
-    let near = blocks.iter().map(|b| words(&b.system, options, &budget.part(share))).collect();
+    let short = options.longest.min(SHORT);
+    let near = blocks.iter().map(|b| candidates(&b.system, short, NEAR, &budget.part(share / 4))).collect();
     let mut search = Search {
         system: &system,
         options,
         budget: &budget,
         work,
         near,
+        stage: Stage::Glance,
         found: blocks.iter().map(|_| None).collect(),
         dear: Vec::new(),
         blocks,
     };
-    Ok(JointRadius { flag, ..search.run() })
+    let (best, block) = search.best_of(GLANCES);
+    if search.closed(&best) {
+        return Ok(JointRadius { flag, ..search.conclude(&best, block) });
+    }
+    search.stage = Stage::Whole;
+    search.dear.clear();
+    for k in 0..search.blocks.len() {
+        search.near[k] = words(&search.blocks[k].system, options, &budget.part(share));
+    }
+    search.found.iter_mut().flatten().for_each(|f| f.attains = false);
+    let (best, block) = search.best_of(RESTARTS);
+    Ok(JointRadius { flag, ..search.conclude(&best, block) })
 }
 
 /// The cyclic words of a block that grow fastest.
@@ -52,12 +65,24 @@ fn words(system: &System, options: &Options, budget: &Budget) -> Vec<Candidate> 
 const NEAR: f64 = 1e-7;
 /// How many times longer than searched words may become by powers and insertions.
 const INSERTED: usize = 40;
+/// Letters of the words that a first glance looks at.
+const SHORT: usize = 4;
+/// Most times that a better word starts a first glance again.
+const GLANCES: usize = 3;
 /// Most times that a better word starts the strategies again.
 const RESTARTS: usize = 24;
 /// Words that are compared exactly.
 const TIES: usize = 12;
 
+/// What is tried: most sets are closed by short words and cheap norms.
+#[derive(Clone, Copy)]
+enum Stage {
+    Glance,
+    Whole,
+}
+
 struct Search<'a> {
+    stage: Stage,
     system: &'a System,
     options: &'a Options,
     budget: &'a Budget<'a>,
@@ -74,11 +99,12 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn run(&mut self) -> JointRadius {
-        for round in 0..=RESTARTS {
+    /// Bounds all blocks, with the best word there is after at most so many better ones.
+    fn best_of(&mut self, restarts: usize) -> (Best, Option<usize>) {
+        for round in 0..=restarts {
             let (best, block, ties) = self.best();
-            match self.bound_all(&best, &ties, round < RESTARTS) {
-                None => return self.conclude(&best, block),
+            match self.bound_all(&best, &ties, round < restarts) {
+                None => return (best, block),
                 Some((block, path)) => {
                     let word = canonical(&path);
                     let value = growth_of(&self.blocks[block].system, &word);
@@ -91,7 +117,13 @@ impl Search<'_> {
             }
         }
         let (best, block, _) = self.best();
-        self.conclude(&best, block)
+        (best, block)
+    }
+
+    /// Whether every block is known to be at most the best word.
+    fn closed(&self, best: &Best) -> bool {
+        best.lower.is_some()
+            && self.found.iter().all(|f| f.as_ref().is_some_and(|f| f.attains || f.bound <= best.floor))
     }
 
     /// The best word, its block, and by block the words that equal it.
@@ -134,7 +166,12 @@ impl Search<'_> {
                 near: self.near[block].clone(),
                 options: self.options,
             };
-            for (k, strategy) in if top { leading() } else { smaller() }.into_iter().enumerate() {
+            let strategies = match (self.stage, top) {
+                (Stage::Glance, _) => glance(top),
+                (Stage::Whole, true) => leading(),
+                (Stage::Whole, false) => smaller(),
+            };
+            for (k, strategy) in strategies.into_iter().enumerate() {
                 if self.dear.contains(&(block, top, k)) {
                     continue;
                 }

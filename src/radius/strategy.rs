@@ -108,6 +108,19 @@ impl<S: Strategy> Strategy for Transposed<S> {
     }
 }
 
+/// For a first glance, with short words only: norms that cost next to nothing, and small bodies.
+pub(super) fn glance(top: bool) -> Vec<Box<dyn Strategy>> {
+    let mut list: Vec<Box<dyn Strategy>> = vec![Box::new(LetterNorms), Box::new(Transposed(LetterNorms))];
+    if top {
+        list.push(Box::new(QuadraticNorm));
+        list.push(Box::new(AtRadius { vertices: 60, share: 20 }));
+        list.push(Box::new(Transposed(AtRadius { vertices: 60, share: 20 })));
+    } else {
+        list.push(Box::new(Between { part: 0.6, vertices: 60, share: 20 }));
+    }
+    list
+}
+
 /// For blocks that may attain the radius: cheap norms first, so that there is an answer at once; then bodies that are invariant at
 /// the radius itself, small ones before large ones; then slightly larger radii; at last the norms of many words.
 pub(super) fn leading() -> Vec<Box<dyn Strategy>> {

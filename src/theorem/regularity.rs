@@ -4,7 +4,7 @@
 //! If `ρ` is the joint spectral radius of the matrices of `b`, the Hölder exponent of the scheme is `−log_N ρ`; the limits are
 //! `C^m` where `ρ < N^{−m}` (the condition of Levin and Levin, `JSR < 2^{−m}` for `C^m`, there for differences of order `m+1`).
 
-use crate::arith::{Interval, Rational};
+use crate::arith::{Integer, Interval, Rational};
 use crate::linalg::Matrix;
 use crate::radius::{Growth, JointRadius, Options, System, joint_radius};
 use crate::shape::{fixed_point, norm1};
@@ -248,19 +248,34 @@ fn digits_of_log(x: &Rational, arity: usize) -> Option<Interval> {
     if x == one {
         return Some(Interval::point(whole));
     }
-    let mut x = Interval::point(x).outward(200);
-    let mut step = one.clone();
-    for _ in 0..44 {
-        step /= Rational::from(2);
-        x = x.square().outward(200);
-        if x.lo >= base {
-            x = Interval::new(&x.lo / &base, &x.hi / &base);
-            whole += &step;
-        } else if x.hi >= base {
-            return Some(Interval::new(whole.clone(), whole + step * Rational::from(2)));
+    // Fixed point with this many binary digits, rounded outwards at every step.
+    const BITS: u64 = 200;
+    const DIGITS: u64 = 44;
+    let unit = Integer::from(1) << BITS;
+    let up = |n: Integer| (n + &unit - Integer::from(1)) >> BITS;
+    let scaled = &x * Rational::from(&unit);
+    let (mut lo, mut hi) = ((&scaled).floor(), (&scaled).ceiling());
+    let base = Integer::from(arity as u64);
+    let limit = &base << BITS;
+    let mut digits = Integer::from(0);
+    let enclosure = |digits: Integer, known: u64| {
+        let place = Rational::from(Integer::from(1) << known);
+        let lower = &whole + Rational::from(digits) / &place;
+        Interval::new(lower.clone(), lower + one / place)
+    };
+    for known in 0..DIGITS {
+        lo = (&lo * &lo) >> BITS;
+        hi = up(&hi * &hi);
+        digits <<= 1u64;
+        if lo >= limit {
+            lo /= &base;
+            hi = (hi + &base - Integer::from(1)) / &base;
+            digits += Integer::from(1);
+        } else if hi >= limit {
+            return Some(enclosure(digits >> 1u64, known));
         }
     }
-    Some(Interval::new(whole.clone(), whole + step))
+    Some(enclosure(digits, DIGITS))
 }
 
 fn orders(arity: usize, sum_rules: usize, radius: Option<&Interval>) -> Vec<Order> {
