@@ -132,6 +132,8 @@ statements! {
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",
+    LatticeMask = "lattice-mask",
+    StableShifts = "stable-shifts",
 }
 
 impl Statement {

@@ -6,6 +6,7 @@ mod chain;
 mod expect;
 mod faces;
 mod field;
+mod lattice;
 mod maps;
 mod matrix;
 pub mod matrix_file;
@@ -19,6 +20,7 @@ mod vertex;
 
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
+pub use lattice::LatticeCase;
 pub use question::{Question, Subject};
 pub use vertex::{Valences, VertexCase};
 

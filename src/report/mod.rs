@@ -8,6 +8,7 @@ pub mod figures;
 pub mod findings;
 pub mod html;
 pub mod json;
+pub mod lattice;
 pub mod latex;
 pub mod markdown;
 pub mod math;

@@ -143,6 +143,25 @@ impl LatticeMask {
         Self { splines: Some(splines), ..self }
     }
 
+    /// The same mask, where it is that of the box spline with these directions.
+    ///
+    /// # Errors
+    /// [`LatticeError::Parameter`] where it is another, or has another dilation than twice the unit matrix.
+    pub fn with_directions(self, directions: Vec<Vec<i64>>) -> Result<Self, LatticeError> {
+        let spline = named::spline(directions)?;
+        // A shift of the mask shifts the limit function.
+        let start = |m: &Self| m.terms.corners().map(|(low, _)| low);
+        let (Some(own), Some(other)) = (start(&self), start(&spline)) else { return Err(LatticeError::Zero) };
+        let moved = spline.terms.iter().map(|(a, c)| {
+            let a = a.iter().zip(&own).zip(&other).map(|((x, p), q)| x + p - q).collect();
+            (a, c.clone())
+        });
+        if spline.dilation != self.dilation || Terms::new(own.len(), moved) != self.terms {
+            return Err(LatticeError::Parameter("the mask is not that of the box spline with these directions".to_owned()));
+        }
+        Ok(Self { splines: spline.splines, ..self })
+    }
+
     /// The coefficients.
     #[must_use]
     pub fn terms(&self) -> &Terms {

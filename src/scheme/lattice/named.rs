@@ -121,17 +121,19 @@ fn directions(text: &str) -> Result<Vec<Vec<i64>>, LatticeError> {
         };
         all.extend(std::iter::repeat_n(direction, times.min(MAX_DIRECTIONS + 1)));
     }
-    let s = all.first().map_or(0, Vec::len);
-    let fits = |v: &Vec<i64>| v.len() == s && v.iter().all(|x| x.abs() <= MAX_STEP) && v.iter().any(|x| *x != 0);
-    if !(1..=MAX_DIRECTIONS).contains(&all.len()) || s > MAX_DIMENSIONS || !all.iter().all(fits) {
+    if all.is_empty() {
         return Err(bad());
     }
     Ok(all)
 }
 
 /// The mask `2^s Π (1 + z^v)/2` of a box spline, with twice the unit matrix as dilation.
-fn spline(directions: Vec<Vec<i64>>) -> Result<LatticeMask, LatticeError> {
+pub(super) fn spline(directions: Vec<Vec<i64>>) -> Result<LatticeMask, LatticeError> {
     let s = directions.first().map_or(0, Vec::len);
+    let fits = |v: &Vec<i64>| v.len() == s && v.iter().all(|x| x.abs() <= MAX_STEP) && v.iter().any(|x| *x != 0);
+    if !(1..=MAX_DIRECTIONS).contains(&directions.len()) || s > MAX_DIMENSIONS || !directions.iter().all(fits) {
+        return Err(wrong(format!("a box spline has 1 to {MAX_DIRECTIONS} directions, not 0, of coordinates up to {MAX_STEP}")));
+    }
     let half = ratio(1, 2);
     let start = Terms::new(s, [(vec![0; s], Rational::from(1 << s.min(8)))]);
     let terms = directions.iter().try_fold(start, |p, v| {

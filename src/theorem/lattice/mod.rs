@@ -89,6 +89,12 @@ impl LatticeRegularity {
         self.orders.iter().take_while(|a| **a == Answer::Smooth).count().checked_sub(1)
     }
 
+    /// Whether the exponent is the supremum of those of all limits, and not only a lower bound.
+    #[must_use]
+    pub fn exponent_is_exact(&self) -> bool {
+        self.stability.is_proved() && self.sum_rules < MAX_RULES
+    }
+
     /// Whether the order after [`LatticeRegularity::smoothness`] is refuted.
     #[must_use]
     pub fn is_exact(&self) -> bool {
@@ -133,7 +139,7 @@ pub fn lattice_regularity(mask: LatticeMask, options: &Options) -> Result<Lattic
     };
     let orders = orders(&size, sum_rules, stable.is_proved());
     let exponent = size.exponent();
-    let attained = attained(radius.growth, exponent.as_ref());
+    let attained = attained(radius.growth, exponent.as_ref(), sum_rules);
     Ok(LatticeRegularity { sum_rules, orders, exponent, attained, stability: stable, mask, window, letters, radius })
 }
 
@@ -225,8 +231,9 @@ fn orders(size: &Size<'_>, sum_rules: usize, stable: bool) -> Vec<Answer> {
     rows
 }
 
-/// With bounded products the exponent is attained, but in the Zygmund sense only where it is an integer.
-fn attained(growth: Growth, exponent: Option<&Interval>) -> Attained {
+/// With bounded products the exponent is attained, but in the Zygmund sense only where it is an integer below the order of the sum
+/// rules.
+fn attained(growth: Growth, exponent: Option<&Interval>, sum_rules: usize) -> Attained {
     let integer = exponent.and_then(|e| match (e.lo == e.hi && e.lo.is_integer(), (&e.lo).ceiling() > (&e.hi).floor()) {
         (true, _) => Some(true),
         (_, true) => Some(false),
@@ -234,6 +241,7 @@ fn attained(growth: Growth, exponent: Option<&Interval>) -> Attained {
     });
     match (growth, integer) {
         (Growth::Unbounded(_), _) => Attained::No,
+        (Growth::Bounded, Some(true)) if exponent.is_some_and(|e| e.lo == sum_rules as u64) => Attained::Yes,
         (Growth::Bounded, Some(true)) => Attained::Zygmund,
         (Growth::Bounded, Some(false)) => Attained::Yes,
         (Growth::Bounded, None) | (Growth::Unknown, _) => Attained::Unknown,

@@ -162,6 +162,8 @@ mod tests {
         assert_eq!(sum_rules(&bilinear), 2);
         assert_eq!(closure(&bilinear, &[vec![0, 0]]).unwrap().len(), 4);
         assert!(Window::around(&bilinear, &[vec![0, 0]], 1).is_none());
+        let small = Window { points: closure(&bilinear, &[vec![0, 0]]).unwrap(), degree: 1, rank: 3 };
+        assert!(small.quotient(&bilinear).unwrap().iter().all(|m| m.entries() == [ratio(1, 4)]));
         let window = Window::of(&bilinear, 1).unwrap();
         assert!(window.points.len() > 4);
         let letters = window.quotient(&bilinear).unwrap();
