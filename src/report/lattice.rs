@@ -1,6 +1,6 @@
 //! What is known about masks on lattices, as text for a terminal and as data.
 
-use super::radius::{interval, joint_radius};
+use super::radius::{decimal, interval, joint_radius};
 use crate::arith::{Interval, Rational};
 use crate::scheme::point;
 use crate::statement::Statement;
@@ -106,16 +106,16 @@ fn limits(out: &mut String, r: &LatticeRegularity) {
         let _ = writeln!(out, "smoothness  C^{k}{exact}: proved");
     }
     if let Some(e) = &r.exponent {
-        let note = match (r.attained, r.exponent_is_exact()) {
-            (Attained::Yes, _) => "attained",
-            (Attained::Zygmund, _) => "in the Zygmund sense; the Hölder class of that order may miss it",
-            (Attained::No, true) => "the supremum, not attained: products grow faster",
-            (Attained::No, false) => "of exponents that are attained below it",
-            (Attained::Unknown, _) => "the supremum; attained or not: not decided",
+        let note = match r.attained {
+            Attained::Yes => "attained",
+            Attained::Zygmund => "in the Zygmund sense; the Hölder class of that order may miss it",
+            Attained::No => "not attained: products grow faster",
+            Attained::Unknown => "attained or not: not decided",
         };
-        let sense = if r.exponent_is_exact() { "exponent   " } else { "exponent >=" };
-        let shown = if r.exponent_is_exact() { interval(e) } else { interval(&Interval::point(e.lo.clone())) };
-        let _ = writeln!(out, "{sense} {shown} ({note})");
+        let _ = match r.exponent_is_exact() {
+            true => writeln!(out, "exponent    {} ({note})", interval(e)),
+            false => writeln!(out, "exponent >= {} (a lower bound, as the shifts are not proved to be stable)", decimal(&e.lo, false, 12)),
+        };
     }
 }
 
@@ -145,7 +145,7 @@ pub fn lattice_data(r: &LatticeRegularity) -> Value {
         Attained::No => Some("no"),
         Attained::Unknown => None,
     };
-    let bounds = |x: &Interval| json!([super::radius::decimal(&x.lo, false, 15), super::radius::decimal(&x.hi, true, 15)]);
+    let bounds = |x: &Interval| json!([decimal(&x.lo, false, 15), decimal(&x.hi, true, 15)]);
     let converges = r.converges();
     let some = |x: Value| if converges == Some(true) { x } else { Value::Null };
     let coefficients = r.mask.terms().iter().map(|(a, c)| json!({"at": a, "value": c.to_string()}));
