@@ -87,7 +87,7 @@ fn moduli(member: &Member) -> Vec<f64> {
 fn the_family_has_the_right_size() {
     let (two, three, four) = (spline("2"), spline("3"), named("four-point", &[]));
     assert_eq!((two.points(), two.shared, four.points(), four.shared), (3, 2, 6, 5));
-    assert_eq!((two.order, four.order), (PointOrder::Backwards, PointOrder::Backwards));
+    assert_eq!((two.order, four.order), (PointOrder::Given, PointOrder::Given));
     let free = |a: &Side, b: &Side, pattern: &str, points: usize| {
         Junction::new(a.clone(), b.clone(), Pattern::parse(pattern).unwrap(), points).unwrap().free()
     };

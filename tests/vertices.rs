@@ -344,7 +344,7 @@ fn mesh_rules_have_names() {
     }
     assert!(matches!(mesh_rule("loop-variant", &BTreeMap::new()), Err(SchemeError::Missing { .. })));
     assert!(
-        matches!(mesh_rule("catmul-clark", &BTreeMap::new()), Err(SchemeError::Unknown { near, .. }) if near == "catmull-clark")
+        matches!(mesh_rule("catmul-clark", &BTreeMap::new()), Err(SchemeError::Unknown { near, .. }) if near.as_deref() == Some("catmull-clark"))
     );
 }
 

@@ -2,15 +2,15 @@
 
 use super::lattice::{lattice_answer, lattice_case, lattice_certified};
 use crate::arith::{Rational, parse_rational};
-use crate::case::{Case, Origin};
-use crate::diagnostic::Problem;
+use crate::case::{self, Case, Origin};
+use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
 use crate::report::regularity::Meaning;
 use crate::scheme::{self, Laurent, Normalisation};
 use crate::shape::{Contraction, Shape, Spaces};
 use crate::theorem::enclosed::enclosed;
-use crate::theorem::filter::{Filter, Understood, understood};
+use crate::theorem::filter::{Filter, FilterError, Understood, understood};
 use crate::theorem::regularity as theorem_regularity;
 use crate::theorem::smoothness::curve_regularity;
 use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
@@ -90,6 +90,15 @@ fn wrong(message: String) -> Problem {
     )
 }
 
+/// Why coefficients are no mask, with the remedy where the reader of numbers has one.
+fn no_mask(place: &str, error: FilterError) -> Problem {
+    let problem = wrong(format!("{place}{error}"));
+    match error {
+        FilterError::Read { help: Some(help), .. } => problem.with_help(help),
+        _ => problem,
+    }
+}
+
 fn answer(what: &str, subject: &Subject) -> Result<Smooth, Problem> {
     let options = Options::default();
     match subject {
@@ -154,15 +163,16 @@ fn of_mask(what: &str, mask: &Understood, options: &Options) -> Result<Smooth, P
 }
 
 fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, Problem> {
-    if scheme::list().iter().any(|s| s.name == what) {
-        return scheme_named(what, parameters);
+    let mut words = what.split_whitespace();
+    if let Some(name) = words.next().filter(|word| scheme::list().iter().any(|s| s.name == *word)) {
+        let own = words.map(str::to_owned);
+        return scheme_named(name, &own.chain(parameters.iter().cloned()).collect::<Vec<_>>());
     }
     if let Some(extra) = parameters.first() {
         return Err(wrong(format!("`{extra}` is a parameter, but only named schemes have parameters")));
     }
-    let mask = |texts: &[String], arity, scale| {
-        understood(texts, arity, scale).map(Subject::Mask).map_err(|e| wrong(e.to_string()))
-    };
+    let mask =
+        |texts: &[String], arity, scale| understood(texts, arity, scale).map(Subject::Mask).map_err(|e| no_mask("", e));
     if let Some(texts) = scheme::wavelet_mask(what) {
         return mask(&texts, 2, None);
     }
@@ -176,6 +186,16 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
         return Err(wrong(format!("{what} is not known"))
             .with_help(format!("known are {}", scheme::wavelet_names().join(", "))));
     }
+    if what == "-" {
+        let source = SourceText::read(Path::new(what))?;
+        return match case::is_case(&source.text) {
+            true => subject_of_case(&source.name, &source.text),
+            false => subject(source.text.trim(), &[], arity),
+        };
+    }
+    if what.starts_with("[[[") {
+        return of_read(Case::ask(what)?);
+    }
     if what.ends_with(".toml") || Path::new(what).is_file() {
         return match std::fs::read_to_string(what) {
             Ok(text) => subject_of_case(what, &text),
@@ -188,11 +208,13 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
         return mask(&symbol_texts(&symbol), arity, None);
     }
     let inner = what.trim_start_matches('[').trim_end_matches(']');
-    let texts: Vec<String> = inner.split(',').map(|t| t.trim().to_owned()).collect();
+    let blanks = !inner.contains([',', '(', '*', '+']);
+    let parts: Vec<&str> = if blanks { inner.split_whitespace().collect() } else { inner.split(',').collect() };
+    let texts: Vec<String> = parts.iter().map(|t| t.trim().replace("//", "/")).collect();
     if let [word] = texts.as_slice()
         && word.chars().any(char::is_alphabetic)
     {
-        return Err(wrong(format!("`{word}` is no file, no scheme and no wavelet that is known")));
+        return Err(case::nothing(what));
     }
     mask(&texts, arity, None)
 }
@@ -226,7 +248,7 @@ fn given(mask: &scheme::Mask) -> Understood {
 /// The mask of a case with one, whether its curve converges or not; otherwise its curve, which must be a model that contracts.
 fn subject_of_case(name: &str, text: &str) -> Result<Subject, Problem> {
     if let Some((texts, arity, scale)) = written_mask(text) {
-        return understood(&texts, arity, scale).map(Subject::Mask).map_err(|e| wrong(format!("{name}: {e}")));
+        return understood(&texts, arity, scale).map(Subject::Mask).map_err(|e| no_mask(&format!("{name}: "), e));
     }
     of_read(Case::parse(name, text)?)
 }

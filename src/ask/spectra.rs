@@ -2,9 +2,9 @@
 
 use crate::algebraic::field::FieldMatrix;
 use crate::case::matrix_file::{self, Format};
-use crate::case::{Case, FieldCase};
+use crate::case::{self, Case, FieldCase};
 use crate::certificate::{self, Doubt, Operator};
-use crate::diagnostic::Problem;
+use crate::diagnostic::{Problem, SourceText};
 use crate::jordan::{BUDGET, FieldSpectrum, Spectrum, estimated_field_work, estimated_work};
 use crate::linalg::Matrix;
 use crate::report::{field_spectrum, spectrum as report};
@@ -54,29 +54,43 @@ pub struct Matrices {
 }
 
 impl Matrices {
-    /// Reads a case (`.toml`) or a file with a matrix.
+    /// The matrices of what somebody writes: a file with a matrix, the literal of one, or a case as for
+    /// [`case::asked`]; from the standard input (`-`) a case or a matrix.
     ///
     /// # Errors
-    /// A [`Problem`] for everything that is wrong with the file.
-    pub fn read(path: &Path) -> Result<Self, Problem> {
-        let name = path.display().to_string();
-        if path.extension().is_some_and(|e| e == "toml") {
-            return match Case::read(path) {
-                Err(p) if over_a_field(&p) => Ok(Self::of_field_case(FieldCase::read(path)?)),
-                case => Ok(Self::of_rational_case(case?)),
+    /// A [`Problem`] for everything that is wrong with it.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant::ask::Matrices;
+    /// assert_eq!(Matrices::ask("[[1, 0], [1/2, 1/2]]")?.list.len(), 1);
+    /// assert_eq!(Matrices::ask("bspline degree=3")?.list.len(), 2);
+    /// # Ok::<(), secant::diagnostic::Problem>(())
+    /// ```
+    pub fn ask(what: &str) -> Result<Self, Problem> {
+        let path = Path::new(what);
+        if what == "-" {
+            let source = SourceText::read(path)?;
+            return match case::is_case(&source.text) {
+                true => Self::of_case(&source.name, &source.text),
+                false => Self::of_matrix(&source.name, &source.text),
             };
         }
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            Problem::new("secant::input", format!("{name} cannot be read: {error}"))
-                .with_help("name a text file with a matrix, or a case file")
-        })?;
-        Self::of_matrix(&name, &text)
+        if path.exists() && path.extension().is_none_or(|e| e != "toml") {
+            let source = SourceText::read(path)?;
+            return Self::of_matrix(&source.name, &source.text);
+        }
+        if !path.exists() && is_literal(what) {
+            return Self::of_matrix("the matrix", what);
+        }
+        let source = case::asked(what)?;
+        Self::of_case(&source.name, &source.text)
     }
 
     /// The operators of the text of a case; `name` is shown in diagnostics.
     ///
     /// # Errors
-    /// As [`Matrices::read`].
+    /// As [`Matrices::ask`].
     pub fn of_case(name: &str, text: &str) -> Result<Self, Problem> {
         match Case::parse(name, text) {
             Err(p) if over_a_field(&p) => Ok(Self::of_field_case(FieldCase::parse(name, text)?)),
@@ -87,7 +101,7 @@ impl Matrices {
     /// The matrix of a text, in one of the forms of [`matrix_file`].
     ///
     /// # Errors
-    /// As [`Matrices::read`].
+    /// As [`Matrices::ask`].
     ///
     /// # Examples
     /// ```
@@ -153,6 +167,13 @@ impl Matrices {
             accepted.map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; nothing was written"))?;
         Ok(accepted.text())
     }
+}
+
+/// Whether a text is the literal of a matrix.
+fn is_literal(text: &str) -> bool {
+    let start = text.trim_start();
+    let list = start.starts_with("[[") || start.starts_with("{{") || start.starts_with('[') && text.contains(';');
+    list && !start.starts_with("[[[") || text.contains("atrix(") || text.contains("\\begin{")
 }
 
 /// Whether a case is refused because an entry is irrational.

@@ -6,7 +6,6 @@ use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
-use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 /// A case whose matrices may have entries in a real number field, such as `sqrt(5)`.
@@ -22,23 +21,10 @@ pub struct FieldCase {
 }
 
 impl FieldCase {
-    /// Reads a case file.
-    ///
-    /// # Errors
-    /// As [`Case::read`], also for expressions that cannot be read.
-    pub fn read(path: &Path) -> Result<Self, Problem> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|error| {
-            Problem::new("secant::case::unreadable", format!("{name} cannot be read: {error}"))
-                .with_help("give the path of a case file")
-        })?;
-        Self::parse(&name, &text)
-    }
-
     /// Reads the text of a case; `name` is shown in diagnostics.
     ///
     /// # Errors
-    /// As [`FieldCase::read`].
+    /// As [`Case::parse`], also for expressions that cannot be read.
     ///
     /// # Cost
     /// The case is read once for each degree of the field: entries are polynomials in its generator, and everything that

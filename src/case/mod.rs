@@ -2,6 +2,7 @@
 //!
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
+mod asked;
 mod chain;
 mod expect;
 mod faces;
@@ -13,15 +14,18 @@ pub mod matrix_file;
 mod node;
 mod question;
 mod read;
+mod schema;
 mod scheme;
 mod source;
 mod states;
 mod vertex;
 
+pub use asked::{asked, is_case, nothing};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
 pub use lattice::LatticeCase;
 pub use question::{Question, Subject};
+pub use schema::schema;
 pub use vertex::{Valences, VertexCase};
 
 use crate::diagnostic::{Problem, SourceText};
@@ -106,6 +110,8 @@ pub enum Origin {
     Named(String),
     /// A univariate mask, given or named.
     Mask(Mask),
+    /// A polygon of control points, a curve of several spans.
+    Polygon,
     /// The tensor product of two curves.
     Tensor,
     /// An automaton, some of whose states name a scheme or are chains.
@@ -244,11 +250,11 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, or states that name schemes or are chains, which the checker
-    /// does not build: a certificate is about this text, and it is written beside it.
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
+    /// chains, which the checker does not build: a certificate is about this text, and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::States)).then(|| self.expanded())
+        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon | Origin::States)).then(|| self.expanded())
     }
 
     /// A problem of one operator, shown at its matrix in the file.

@@ -81,6 +81,11 @@ impl<'a> Node<'a> {
         self.value.get_ref().as_str().ok_or_else(|| self.wrong_type("a string in quotes"))
     }
 
+    /// Whether it is a whole number.
+    pub fn is_integer(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Integer(_))
+    }
+
     pub fn boolean(&self) -> Result<bool, Problem> {
         self.value.get_ref().as_bool().ok_or_else(|| self.wrong_type("true or false"))
     }

@@ -2,8 +2,9 @@
 
 use super::node::{File, Table};
 use super::{Case, MAX_LETTERS, Valences, VertexCase};
+use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
-use crate::scheme::{self, Heading, complex_text};
+use crate::scheme::{Heading, complex_text};
 use crate::shape::{Address, CellKind, Complex};
 use std::path::Path;
 use std::sync::Arc;
@@ -42,32 +43,6 @@ pub enum Subject {
     Vertices,
 }
 
-/// The case that a scheme's name with parameters, a mask or a symbol stands for; `None` for anything else.
-fn scheme_case(text: &str) -> Option<String> {
-    // Strings of JSON are strings of TOML.
-    let quoted = |part: &str| serde_json::Value::from(part.trim()).to_string();
-    let mut words = text.split_whitespace();
-    let first = words.next()?;
-    let mut lines = Vec::new();
-    let name = if scheme::list().iter().any(|s| s.name == first) {
-        lines.push(format!("name = {}", quoted(first)));
-        for word in words {
-            let (key, value) = word.split_once('=')?;
-            lines.push(format!("{} = {}", quoted(key), quoted(value)));
-        }
-        first
-    } else if text.contains('z') && text.contains(['(', '^', '+']) {
-        lines.push(format!("symbol = {}", quoted(text)));
-        "symbol"
-    } else if text.contains(',') {
-        lines.push(format!("mask = [{}]", text.split(',').map(quoted).collect::<Vec<_>>().join(", ")));
-        "mask"
-    } else {
-        return None;
-    };
-    Some(format!("name = {}\ntitle = {}\n\n[scheme]\n{}\n", quoted(name), quoted(text), lines.join("\n")))
-}
-
 impl Question {
     /// Reads the question of a case file; `-` is the standard input.
     ///
@@ -75,30 +50,6 @@ impl Question {
     /// A [`Problem`] for everything that is wrong with the file. Entries left open (`"?"`) are refused.
     pub fn read(path: &Path) -> Result<Self, Problem> {
         Self::read_open(path)?.closed()
-    }
-
-    /// The question of what somebody writes: a file or `-`, the name of a scheme with parameters, a mask, or a symbol.
-    ///
-    /// # Errors
-    /// As [`Question::read`]; what is none of these is taken for a file.
-    ///
-    /// # Examples
-    /// ```
-    /// use secant::case::{Question, Subject};
-    /// for text in ["four-point w=1/16", "1/4,3/4,3/4,1/4", "(1+z)^3/4", "cases/thesis/half-tangent.toml"] {
-    ///     assert_eq!(Question::ask(text)?.subject(), Subject::Curve, "{text}");
-    /// }
-    /// # Ok::<(), secant::diagnostic::Problem>(())
-    /// ```
-    pub fn ask(text: &str) -> Result<Self, Problem> {
-        let path = Path::new(text);
-        if text == "-" || path.exists() || path.extension().is_some_and(|e| e == "toml") {
-            return Self::read(path);
-        }
-        match scheme_case(text) {
-            Some(case) => Self::parse(text, &case),
-            None => Self::read(path),
-        }
     }
 
     /// As [`Question::read`] for a file in which entries may be left open.
@@ -169,18 +120,28 @@ impl Question {
     /// A [`Problem`] where the shape has no such address, or the question is not about a shape.
     pub fn with_address(mut self, text: &str) -> Result<Self, Problem> {
         let problem = |error: String| {
-            Problem::new("secant::usage::address", error)
-                .with_help("letters first, then the repeated letters in brackets: `0(1)` is 0111…")
+            Problem::new("secant::usage::address", error).with_help(
+                "letters first, then the repeated letters in brackets: `0(1)` is 0111…; or a parameter such as 1/3 or 0.5",
+            )
         };
         let Self::Tangents { case, further } = &mut self else {
             return Err(problem("a case about the vertices of a mesh has no addresses".to_owned()));
         };
-        let address = Address::parse(text).map_err(|e| problem(e.to_string()))?;
+        let address = match parameter(text) {
+            Some(t) => case.shape.address_of(case.shape.start, &t).ok_or_else(|| {
+                problem(format!("the parameter {t} has no address here: it is between 0 and 1, and of a curve"))
+            })?,
+            None => Address::parse(text).map_err(|e| problem(e.to_string()))?,
+        };
         if address.prefix.len() + address.cycle.len() > MAX_LETTERS {
             return Err(problem("the address is too long".to_owned()));
         }
-        address.normalise(&case.shape, case.shape.start).map_err(|e| problem(e.to_string()))?;
-        further.push(address);
+        let normal = |a: &Address| a.normalise(&case.shape, case.shape.start);
+        let own = normal(&address).map_err(|e| problem(e.to_string()))?;
+        // What is asked twice is one question.
+        if !case.examine.iter().chain(further.iter()).any(|known| normal(known).as_ref() == Ok(&own)) {
+            further.push(address);
+        }
         Ok(self)
     }
 
@@ -223,4 +184,12 @@ impl Question {
             Self::Vertices { case, .. } => &case.text,
         }
     }
+}
+
+/// A parameter: a fraction or a decimal, `0`, `1`, or any of them behind `t=`; other digits are letters.
+fn parameter(text: &str) -> Option<Rational> {
+    let text = text.trim();
+    let number =
+        text.strip_prefix("t=").or_else(|| (text.contains(['/', '.']) || matches!(text, "0" | "1")).then_some(text));
+    parse_rational(number?.trim()).ok()
 }

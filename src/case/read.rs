@@ -125,7 +125,17 @@ fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
     let end = source.text.len();
     let span = error.span().unwrap_or(end..end);
     let message = error.message();
-    let help = if message.contains("recursion") {
+    let rest = source.text.get(span.start.min(end)..).unwrap_or_default();
+    let fraction: String = rest.chars().take_while(|c| c.is_ascii_digit() || matches!(c, '/' | '-' | '+')).collect();
+    let start = source.text.trim_start();
+    let quoted = format!("write fractions in quotes: \"{fraction}\"");
+    let help = if fraction.contains('/') && fraction.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+        quoted.as_str()
+    } else if start.starts_with('{') {
+        "this looks like JSON: `secant import FILE` writes a JSON file as a case"
+    } else if source.text.lines().any(|l| l.starts_with("v ")) && source.text.lines().any(|l| l.starts_with("f ")) {
+        "this looks like a mesh in the Wavefront format: cases name a mesh rule and valences, see [vertex] in docs/case-format.md"
+    } else if message.contains("recursion") {
         "lists and tables are nested too deeply; a matrix is a list of lists"
     } else if message.contains("duplicate") {
         "every key may be given once"
@@ -143,6 +153,17 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
         return Err(case
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
             .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
+    }
+    if let Some(span) = case.key_span("matrices") {
+        return Err(case
+            .file
+            .problem(
+                "matrices",
+                "this is a set of matrices for a joint spectral radius, no case",
+                span,
+                "no case has it",
+            )
+            .with_help("`secant jsr FILE` bounds the radius; the operators of a case are its `pieces`"));
     }
     case.only(&KEYS)?;
     let name = name(case)?;

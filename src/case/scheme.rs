@@ -1,10 +1,10 @@
 //! `[scheme]`: a case built from a name, a mask, a tensor product or a mesh rule.
 
 use super::node::{Node, Table, clipped, suggest};
-use super::{Model, Origin, Places, StatePlace};
+use super::{MAX_COORDINATES, Model, Origin, Places, StatePlace};
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
-use crate::scheme::{self, Laurent, Mask, Normalisation, SchemeError};
+use crate::scheme::{self, Ends, Laurent, Mask, Normalisation, SchemeError};
 use crate::shape::{Complex, Shape};
 use std::collections::BTreeMap;
 
@@ -30,11 +30,13 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
     }
     let mut table = node.table()?;
     table.what = "`[scheme]`".to_owned();
+    own_keys_only(&table)?;
     let (complex, origin) = match form(&table)? {
         "tensor" => (tensor(&table)?, Origin::Tensor),
         "mesh" => mesh(&table)?,
         form => {
             let built = curve(&table, form, table.flag("vertices")?)?;
+            let built = polygon(case, &table, built)?;
             (Complex::of_curves(built.shape), built.origin)
         }
     };
@@ -46,6 +48,93 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
     };
     let places = Places { states: complex.shape.states.iter().map(place).collect(), control: None };
     Ok(Model { complex, places, unknown: Vec::new(), scheme: Some(origin) })
+}
+
+/// Keys of the case that stand below `[scheme]` belong to it for TOML.
+fn own_keys_only(table: &Table<'_>) -> Result<(), Problem> {
+    for key in ["control", "title", "source", "convention", "kind", "examine", "expect", "start"] {
+        if let Some(span) = table.key_span(key) {
+            let message = format!("`{key}` stands below [scheme], so that it belongs to the scheme");
+            let problem = table.file.problem("misplaced-key", message, span, "a key of the case");
+            return Err(problem.with_help(format!("move the line with `{key}` above the line [scheme]")));
+        }
+    }
+    Ok(())
+}
+
+/// The curve of the polygon of the control points: several spans, where there are more than one needs or its ends are told.
+fn polygon(case: &Table<'_>, table: &Table<'_>, built: Built) -> Result<Built, Problem> {
+    let ends = match table.word("ends", &["open", "closed", "clamped"])? {
+        Some("closed") => Some(Ends::Closed),
+        Some("clamped") => Some(Ends::Clamped),
+        Some(_) => Some(Ends::Open),
+        None => None,
+    };
+    let size = built.shape.states[built.shape.start].dim;
+    let node = |key: &str| case.get(key).or_else(|| table.get(key));
+    let Some(control) = case.get("control") else {
+        let told = ["ends", "knots"].into_iter().find(|key| table.get(key).is_some());
+        return match told.and_then(node) {
+            Some(told) => Err(told
+                .problem("polygon", format!("{} needs control points", told.what), "without a polygon")
+                .with_help("add a line such as  control = [[0, 0], [1, 2], [3, 2], [4, 0]]  above [scheme]")),
+            None => Ok(built),
+        };
+    };
+    let count = control.array(|k| format!("control point {k}"))?.len();
+    let step = match &built.origin {
+        Origin::Mask(_) => 1,
+        Origin::Named(name) if name == "bezier" => size - 1,
+        _ => return Ok(built),
+    };
+    if count <= size && ends.is_none() && table.get("knots").is_none() || table.flag("vertices")? {
+        return Ok(built);
+    }
+    if count > MAX_COORDINATES {
+        return Err(control
+            .problem("limit", format!("{count} control points are over the limit of {MAX_COORDINATES}"), "too many")
+            .with_help("divide the curve"));
+    }
+    let refused = |error: SchemeError| {
+        match &error {
+        SchemeError::Value { parameter, .. } if parameter == "control" => {
+            control.problem("polygon", error.to_string(), format!("{count} points here")).with_help(
+                "`ends` is open, closed or clamped; a polygon with more points than one span needs is a curve of several spans",
+            )
+        }
+        _ => refused(table, &control, &error, &[]),
+    }
+    };
+    let shape = match (ends, table.get("knots")) {
+        (Some(Ends::Clamped), None) => {
+            scheme::over_knots(count, spline_degree(table, size)?, &scheme::clamped_knots(count, size - 1))
+        }
+        (None, Some(list)) => {
+            let knots = list.array(|k| format!("knot {k}"))?.iter().map(Node::number).collect::<Result<Vec<_>, _>>()?;
+            scheme::over_knots(count, spline_degree(table, size)?, &knots)
+        }
+        (Some(_), Some(list)) => {
+            return Err(list
+                .problem("two-forms", "`knots` and `ends` exclude each other", "given besides `ends`")
+                .with_help("the knots say what happens at the ends"));
+        }
+        (ends, None) => scheme::windows(count, size, step, ends.unwrap_or(Ends::Open))
+            .and_then(|spans| scheme::of_spans(built.shape, spans)),
+    };
+    Ok(Built { shape: shape.map_err(refused)?, origin: Origin::Polygon })
+}
+
+/// The degree of a scheme that is a B-spline by name.
+fn spline_degree(table: &Table<'_>, size: usize) -> Result<usize, Problem> {
+    let dyadic = table.get("arity").is_none_or(|n| n.index(2).is_ok_and(|m| m == 2));
+    if table.optional_text("name")? == Some("bspline") && dyadic {
+        return Ok(size - 1);
+    }
+    let key = if table.get("knots").is_some() { "knots" } else { "ends" };
+    let node = table.need(key, "\"open\"")?;
+    Err(node
+        .problem("polygon", "knots and clamped ends are those of B-splines of arity 2", "not for this scheme")
+        .with_help("take name = \"bspline\", or ends = \"open\" with end points that are repeated"))
 }
 
 fn form(table: &Table<'_>) -> Result<&'static str, Problem> {
@@ -77,7 +166,7 @@ fn curve(table: &Table<'_>, form: &str, vertices: bool) -> Result<Built, Problem
     if form == "name" {
         let node = table.need("name", "\"bspline\"")?;
         let name = node.text()?;
-        let values = parameters(table, &["name", "vertices"])?;
+        let values = parameters(table, &["name", "vertices", "ends", "knots"])?;
         let build = if vertices { scheme::build_with_vertices } else { scheme::build };
         let known = || scheme::list().iter().map(|s| s.name).collect::<Vec<_>>();
         let shape = build(name, &values).map_err(|e| refused(table, &node, &e, &known()))?;
@@ -93,9 +182,9 @@ fn curve(table: &Table<'_>, form: &str, vertices: bool) -> Result<Built, Problem
 
 fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<Mask, Problem> {
     let known: &[&'static str] = if form == "filter" {
-        &["filter", "arity", "normalisation", "vertices"]
+        &["filter", "arity", "normalisation", "vertices", "ends"]
     } else {
-        &["mask", "symbol", "arity", "vertices"]
+        &["mask", "symbol", "arity", "vertices", "ends"]
     };
     table.only(known)?;
     let arity_node = table.get("arity");

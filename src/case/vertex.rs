@@ -138,6 +138,11 @@ impl VertexCase {
 }
 
 fn valences(node: &Node<'_>) -> Result<Valences, Problem> {
+    if node.is_integer() && node.index(MAX_VALENCE).is_err() {
+        return Err(node
+            .problem("range", format!("a valence is between 3 and {MAX_VALENCE}"), "out of range")
+            .with_help("write valence = 5, \"3..32\" (both ends included), \"3,5,8\" or \"all\""));
+    }
     let text = match node.index(MAX_VALENCE) {
         Ok(n) => n.to_string(),
         Err(_) => node.text()?.to_owned(),

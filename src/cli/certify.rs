@@ -46,17 +46,24 @@ pub fn run(args: &CertifyArgs) -> u8 {
     };
     let done = guarded(|| {
         let answered = one(path, args)?;
-        write_files(&answered, args)?;
+        // A picture or a file that fails takes no verdict with it.
+        let written = guarded(|| write_files(&answered, args));
         let shown = if args.quiet { String::new() } else { printed(&answered, args) };
-        Ok((answered, shown))
+        Ok((answered, shown, written))
     });
     match done {
-        Ok((answered, shown)) => {
+        Ok((answered, shown, written)) => {
             if !args.quiet {
                 note(&answered);
             }
             print(&shown);
-            exit_code(answered.findings.verdict_on(&args.require))
+            match written {
+                Ok(()) => exit_code(answered.findings.verdict_on(&args.require)),
+                Err(problem) => {
+                    complain(&problem);
+                    problem_code(&problem)
+                }
+            }
         }
         Err(problem) => {
             if args.json || args.jsonl {
@@ -146,6 +153,11 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         )
         .with_help("--resume DIR keeps results and certificates in DIR; use --jsonl for data"));
     }
+    for (option, path, other) in [("--svg", &args.svg, "png"), ("--png", &args.png, "svg")] {
+        if let Some(path) = path.as_deref().filter(|p| extension(p) == other) {
+            return Err(mistaken(option, path, other));
+        }
+    }
     if let Some((_, parts)) = args.shard.filter(|(_, parts)| *parts > args.cases.len()) {
         let message = format!("--shard: {parts} parts of {}", words::count(args.cases.len(), "case"));
         return Err(
@@ -172,6 +184,12 @@ pub(super) fn rendered(path: &Path, of: &Findings, level: Level) -> String {
         "tex" => latex::render(&document),
         _ => html::render(&document),
     }
+}
+
+/// An option of one format with a file of another.
+pub(super) fn mistaken(option: &str, path: &Path, other: &str) -> Problem {
+    Problem::new("secant::usage::format", format!("{option} does not write {}", path.display()))
+        .with_help(format!("write --{other} {}, or another ending", path.display()))
 }
 
 pub(super) fn extension(path: &Path) -> String {

@@ -77,11 +77,15 @@ enum Command {
     },
     /// Write a case with every operator written out: what `[scheme]` stands for, and what the checker reads.
     Expand {
-        /// The case file; `-` reads the standard input.
-        case: PathBuf,
+        /// Case files, or what stands for one, as for `certify`.
+        #[arg(required = true, value_name = "CASE")]
+        cases: Vec<PathBuf>,
         /// Write to a file instead of the standard output.
         #[arg(short, long, value_name = "FILE")]
         output: Option<PathBuf>,
+        /// Print JSON: of each case its path, its name and its text.
+        #[arg(long, conflicts_with = "output")]
+        json: bool,
     },
     /// Write a file of another program (Fractint .ifs, JSON) as a case, with the convention it was read in.
     Import {
@@ -107,6 +111,8 @@ enum Command {
         /// Its name, such as `theorem-2`; without it the names are listed.
         theorem: Option<String>,
     },
+    /// Print the JSON Schema of case files, for completion and checks in editors.
+    Schema,
     /// Write a commented starter case.
     Init {
         /// Its name; NAME.toml is written to the current directory.
@@ -129,7 +135,8 @@ enum Command {
 #[derive(Debug, Clone, Args)]
 struct CertifyArgs {
     /// Case files, or what stands for one: `-` for the standard input, the name of a scheme with its parameters
-    /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4").
+    /// (four-point w=1/16), a mask ("1/4,3/4,3/4,1/4"), a symbol ("(1+z)^3/4"), a wavelet with a rational filter (bior2.2), the
+    /// matrices of the pieces ("[[[1, 1/2], [0, 1/2]], [[1/2, 0], [1/2, 1]]]").
     #[arg(required = true, value_name = "CASE")]
     cases: Vec<PathBuf>,
     /// Print the result as JSON (docs/json.md).
@@ -138,7 +145,8 @@ struct CertifyArgs {
     /// Print one line of JSON for each case.
     #[arg(long)]
     jsonl: bool,
-    /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`.
+    /// Examine a further point: letters, and the repeated ones in brackets, as in `0(1)`; or a parameter of a curve, as in `1/3`
+    /// or `0.5`.
     #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
     /// For a case with a `[vertex]` table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
@@ -208,21 +216,8 @@ struct CertifyArgs {
 
 impl CertifyArgs {
     /// The same with each parameter `name=value` joined to the scheme before it.
-    fn with_parameters(mut self) -> Self {
-        let mut cases: Vec<PathBuf> = Vec::new();
-        for case in self.cases {
-            let parameter = case.to_str().is_some_and(|text| text.contains('=')) && !case.exists();
-            match cases.last_mut().filter(|_| parameter) {
-                Some(scheme) => {
-                    let joined = scheme.as_mut_os_string();
-                    joined.push(" ");
-                    joined.push(case);
-                }
-                None => cases.push(case),
-            }
-        }
-        self.cases = cases;
-        self
+    fn with_parameters(self) -> Self {
+        Self { cases: joined(self.cases), ..self }
     }
 
     /// The budget that the options name.
@@ -232,6 +227,29 @@ impl CertifyArgs {
         budget.words = self.words.unwrap_or(budget.words);
         budget
     }
+}
+
+/// What is asked about, each parameter `name=value` joined to the scheme before it.
+fn joined(given: Vec<PathBuf>) -> Vec<PathBuf> {
+    let mut cases: Vec<PathBuf> = Vec::new();
+    for case in given {
+        let parameter = case.to_str().is_some_and(is_parameter) && !case.exists();
+        match cases.last_mut().filter(|_| parameter) {
+            Some(scheme) => {
+                let joined = scheme.as_mut_os_string();
+                joined.push(" ");
+                joined.push(case);
+            }
+            None => cases.push(case),
+        }
+    }
+    cases
+}
+
+/// Whether a word is of the form `name=value`.
+fn is_parameter(text: &str) -> bool {
+    let name = text.split_once('=').map(|(name, _)| name.trim());
+    name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_alphanumeric() || c == '_'))
 }
 
 fn shard(text: &str) -> Result<(usize, usize), String> {
@@ -250,9 +268,10 @@ fn effort(word: &str) -> Result<Effort, String> {
 
 #[derive(Debug, Args)]
 struct SpectrumArgs {
-    /// A case (.toml), or a text file with a square matrix (rows of rationals, MatrixMarket, or the literal of a computer
-    /// algebra system).
-    file: PathBuf,
+    /// Cases (.toml, or what stands for one, as for `certify`), text files with a square matrix (rows of numbers, MatrixMarket, or
+    /// the literal of a computer algebra system), such a literal itself, or `-`.
+    #[arg(required = true, value_name = "CASE|MATRIX")]
+    files: Vec<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -272,8 +291,9 @@ struct SpectrumArgs {
 
 #[derive(Debug, Args)]
 struct RenderArgs {
-    /// A case file; `-` reads the standard input.
-    case: PathBuf,
+    /// A case file, or what stands for one, as for `certify`.
+    #[arg(required = true, value_name = "CASE")]
+    cases: Vec<PathBuf>,
     /// Write an SVG drawing; surfaces are projected.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
@@ -433,17 +453,21 @@ pub fn main() -> ExitCode {
 fn run(command: Command) -> u8 {
     match command {
         Command::Certify(args) => certify::run(&args.with_parameters()),
-        Command::Spectrum(args) => spectrum::run(&args),
+        Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: joined(args.files), ..args }),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
-        Command::Expand { case, output } => expand::run(&case, output.as_deref()),
+        Command::Expand { cases, output, json } => expand::run(&joined(cases), output.as_deref(), json),
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
-        Command::Render(args) => render::run(&args),
+        Command::Render(args) => render::run(&RenderArgs { cases: joined(args.cases), ..args }),
         Command::Solve(args) => solve::run(&args),
         Command::Junction(args) => junction::run(&args),
         Command::Refine(args) => refine::run(&args),
         Command::Explain { theorem } => explain::run(theorem.as_deref()),
+        Command::Schema => {
+            output::print(&format!("{:#}\n", crate::case::schema()));
+            PROVED
+        }
         Command::Init { name } => init::run(&name),
         Command::Gallery(args) => gallery::run(&args),
         #[cfg(feature = "strategies")]

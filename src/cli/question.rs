@@ -11,7 +11,6 @@ use std::path::Path;
 /// The [`Problem`] of the file, or of an option that does not go with it.
 pub fn question(path: &Path, args: &CertifyArgs) -> Result<Question, Problem> {
     let question = match args.valence.as_deref() {
-        None if path.exists() => Question::read(path)?,
         None => Question::ask(&path.to_string_lossy())?,
         Some(text) => Question::at_valences(path, valences(text)?)?,
     };

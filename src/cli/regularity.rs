@@ -26,10 +26,10 @@ fn inputs(args: &RegularityArgs) -> Vec<(String, Vec<String>)> {
     let mut list = vec![(args.what.trim().to_owned(), Vec::new())];
     for text in &args.more {
         let text = text.trim();
-        let name =
-            text.split_once('=').is_some_and(|(key, _)| key.trim().chars().all(|c| c.is_alphanumeric() || c == '_'));
         match list.last_mut() {
-            Some((_, parameters)) if name && !Path::new(text).exists() => parameters.push(text.to_owned()),
+            Some((_, parameters)) if super::is_parameter(text) && !Path::new(text).exists() => {
+                parameters.push(text.to_owned())
+            }
             _ => list.push((text.to_owned(), Vec::new())),
         }
     }

@@ -1,5 +1,6 @@
 //! `secant render`: exact points of a shape, drawn.
 
+use super::certify::{extension, mistaken};
 use super::output::{deliver, write_file};
 use super::progress::Progress;
 use super::{PROVED, RenderArgs};
@@ -29,7 +30,16 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
         return Err(Problem::new("secant::usage::render", "no file to write is given")
             .with_help("add --svg FILE, --png FILE, --obj FILE or --ply FILE"));
     }
-    let case = Case::read(&args.case)?;
+    for (option, path, other) in [("--svg", &args.svg, "png"), ("--png", &args.png, "svg")] {
+        if let Some(path) = path.as_deref().filter(|p| extension(p) == other) {
+            return Err(mistaken(option, path, other));
+        }
+    }
+    let [path] = args.cases.as_slice() else {
+        return Err(Problem::new("secant::usage::render", "one case is drawn at a time")
+            .with_help("parameters follow the name of a scheme, as in `four-point w=1/16`"));
+    };
+    let case = Case::ask(&path.to_string_lossy())?;
     let contracts = contraction(&case.shape, |_| false);
     let proved = args.error.as_deref().map(|text| bounded(&case, &contracts, text)).transpose()?;
     let (found, how) = points(&case, args, proved)?;

@@ -12,16 +12,37 @@ use crate::report::{field_spectrum, spectrum as report};
 /// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
 pub fn run(args: &SpectrumArgs) -> u8 {
     let code = if args.approx { UNDETERMINED } else { PROVED };
-    deliver(Matrices::read(&args.file).and_then(|input| rendered(args, &input)).map(|text| (text, code)))
+    deliver(all(args).map(|text| (text, code)))
 }
 
-fn rendered(args: &SpectrumArgs, input: &Matrices) -> Result<String, Problem> {
+/// The spectra of all files; of several matrices a list in JSON.
+fn all(args: &SpectrumArgs) -> Result<String, Problem> {
+    if args.certificate.is_some() && args.files.len() > 1 {
+        return Err(Problem::new("secant::usage", "--certificate is for a single file")
+            .with_help("write the certificates one by one"));
+    }
+    let mut parts = Vec::new();
+    for path in &args.files {
+        if args.files.len() > 1 && !args.json {
+            parts.push(format!("== {}\n", path.display()));
+        }
+        parts.extend(rendered(args, &path.to_string_lossy())?);
+    }
+    Ok(match (args.json, parts.as_slice()) {
+        (true, [one]) => one.clone(),
+        (true, _) => format!("[{}]\n", parts.iter().map(|p| p.trim_end()).collect::<Vec<_>>().join(",\n")),
+        _ => parts.join("\n"),
+    })
+}
+
+fn rendered(args: &SpectrumArgs, what: &str) -> Result<Vec<String>, Problem> {
+    let input = Matrices::ask(what)?;
     if input.decimals > 0 {
         eprintln!("note: {} decimals were read as the exact fractions that they write", input.decimals);
     }
     if args.approx {
         let parts = input.list.iter().map(|m| approximate(args, &m.entries).map(|s| report::approximate_text(&s)));
-        return Ok(parts.collect::<Result<Vec<_>, _>>()?.join("\n"));
+        return parts.collect();
     }
     let waiting = Waiting::with("computing the spectrum …", false);
     let one = |entries: &Entries, name: &str| match args.transpose {
@@ -34,8 +55,7 @@ fn rendered(args: &SpectrumArgs, input: &Matrices) -> Result<String, Problem> {
     if let Some(path) = args.certificate.as_deref() {
         write_certificate(path, input.certificate(&found)?, input.beside.clone())?;
     }
-    let parts: Vec<String> = found.iter().zip(&input.list).map(|(f, m)| render(args, f, &m.name)).collect();
-    Ok(parts.join("\n"))
+    Ok(found.iter().zip(&input.list).map(|(f, m)| render(args, f, what, &m.name)).collect())
 }
 
 fn transposed(entries: &Entries) -> Entries {
@@ -59,9 +79,13 @@ fn approximate(args: &SpectrumArgs, entries: &Entries) -> Result<ApproxSpectrum,
     })
 }
 
-fn render(args: &SpectrumArgs, spectrum: &ExactSpectrum, name: &str) -> String {
+fn render(args: &SpectrumArgs, spectrum: &ExactSpectrum, what: &str, name: &str) -> String {
     match spectrum {
-        found if args.json => format!("{:#}\n", found.json()),
+        found if args.json => {
+            let mut data = found.json();
+            (data["path"], data["name"]) = (what.into(), name.into());
+            format!("{data:#}\n")
+        }
         ExactSpectrum::Rational(spectrum) if args.latex => report::latex(spectrum),
         ExactSpectrum::Rational(spectrum) => format!("{name}\n{}", report::text(spectrum)),
         ExactSpectrum::Field(spectrum) if args.latex => field_spectrum::latex(spectrum),

@@ -47,10 +47,10 @@ pub fn assertion(what: &Assertion) -> String {
         Assertion::Exponent(bounds) => {
             return match bounds {
                 Some(b) => format!(
-                    "the Hölder exponent of the curve in the uniform parameter is {}",
+                    "the Hölder exponents of the curve in the uniform parameter have the supremum {}",
                     super::radius::interval(b)
                 ),
-                None => "the Hölder exponent of the curve in the uniform parameter has a bound".to_owned(),
+                None => "the Hölder exponents of the curve in the uniform parameter have a bound".to_owned(),
             };
         }
         Assertion::PlaneAtVertices => {
@@ -104,6 +104,7 @@ pub fn label(what: &Assertion) -> String {
         (Assertion::Polynomial, _) => "C^k for all k".to_owned(),
         (Assertion::PlaneAtVertices, _) => "vertices".to_owned(),
         (Assertion::SomePoint, _) => "some point".to_owned(),
+        (Assertion::DenseJoints | Assertion::SeenJoints, _) => "joints (dense)".to_owned(),
         (Assertion::C1AtVertex { valence } | Assertion::PlaneAtVertex { valence }, _) => format!("valence {valence}"),
         (Assertion::C1AtVertices { from }, _) => format!("valences from {from}"),
         (_, None) => "tangents".to_owned(),

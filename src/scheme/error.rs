@@ -7,12 +7,12 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum SchemeError {
     /// No scheme of that name.
-    #[error("there is no scheme `{name}`; did you mean `{near}`?")]
+    #[error("there is no scheme `{name}`{}", near.as_ref().map_or_else(String::new, |near| format!("; did you mean `{near}`?")))]
     Unknown {
         /// The name given.
         name: String,
-        /// The listed name nearest to it.
-        near: String,
+        /// The listed name nearest to it, where one is near.
+        near: Option<String>,
     },
     /// A parameter that the scheme does not have.
     #[error("scheme `{scheme}` has no parameter `{parameter}`; it has {known}")]

@@ -62,6 +62,20 @@ impl Entry {
     }
 }
 
+/// What is wrong, in words of the format.
+fn plain(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    let float = text.contains("floating point") || text.contains("untagged enum Entry");
+    if float {
+        return format!(
+            "an entry at column {} is no exact number: write integers, or strings such as \"1/2\" and \"0.5\"; a map is {{\"linear\": \
+             [[…]], \"shift\": […]}}",
+            error.column()
+        );
+    }
+    text
+}
+
 fn error(message: &str) -> SchemeError {
     SchemeError::Import { line: 1, message: message.to_owned() }
 }
@@ -71,8 +85,8 @@ fn error(message: &str) -> SchemeError {
 /// # Errors
 /// [`SchemeError::Import`] with the line where the text is no such JSON, and the errors of the shape.
 pub fn parse_json(text: &str) -> Result<Shape, SchemeError> {
-    let file: File = serde_json::from_str(text)
-        .map_err(|e| SchemeError::Import { line: e.line().max(1), message: e.to_string() })?;
+    let file: File =
+        serde_json::from_str(text).map_err(|e| SchemeError::Import { line: e.line().max(1), message: plain(&e) })?;
     let kind = match file.kind.as_deref() {
         None | Some("curve") => CellKind::Edge,
         Some("set") => CellKind::Set,

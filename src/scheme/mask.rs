@@ -4,8 +4,8 @@
 //! `φ(x) = Σ_k a_k φ(mx − k)` and lives on `[0, L/(m−1)]`. With `v_i(x) = φ(x + i)` the piece of the limit curve over
 //! `[0, 1]` is `P v(x)`, and `v((y + e)/m) = T_e v(y)` with `T_e[i][j] = a_{mi−j+e}` (Micchelli and Prautzsch, *Uniform
 //! refinement of curves*, Linear Algebra Appl. 114/115, 1989; Daubechies and Lagarias, *Two-scale difference equations II*,
-//! SIAM J. Math. Anal. 23, 1992). Column `i` of `P` is the control point that goes with `φ(x + i)`: control points are
-//! listed in reverse order.
+//! SIAM J. Math. Anal. 23, 1992). Column `i` of `P` is the control point that goes with `φ(x + i)`. The coordinates of a curve
+//! are the `φ(x + i)` with `i` descending, so that its control points run with its parameter.
 
 use super::{Laurent, SchemeError};
 use crate::arith::{Natural, Rational};
@@ -134,7 +134,7 @@ impl Mask {
         (self.coefficients.len() - 1).div_ceil(self.arity - 1)
     }
 
-    /// `T_e[i][j] = a_{mi−j+e}` on all `window()` coordinates, every column summing to 1.
+    /// `T_e[i][j] = a_{mi−j+e}` on all `window()` coordinates `φ(x + i)`, `i` ascending, every column summing to 1.
     #[must_use]
     pub fn operators(&self) -> Vec<Matrix> {
         let n = self.window();
@@ -146,14 +146,15 @@ impl Mask {
     }
 
     /// The curve over `[0, 1]`: one edge state with `arity` pieces in the order of the parameter, on the smallest set of
-    /// coordinates that the operators leave invariant.
+    /// coordinates that the operators leave invariant, in the order of the control points along the curve.
     ///
     /// # Errors
     /// [`SchemeError::Divergent`] where an end point is not determined, [`SchemeError::Curve`] where the pieces do not
     /// meet (the limit function is not continuous).
     pub fn curve(&self) -> Result<Shape, SchemeError> {
         let operators = self.operators();
-        let kept = invariant_coordinates(&operators)?;
+        let mut kept = invariant_coordinates(&operators)?;
+        kept.reverse();
         if kept.len() < 2 {
             return Err(SchemeError::Divergent("the limit is constant between the integers".to_owned()));
         }
@@ -174,11 +175,13 @@ impl Mask {
         if n < 2 {
             return Err(SchemeError::Divergent("the limit is constant between the integers".to_owned()));
         }
-        let vertex_operator = select(&operators[0], &(1..n).collect::<Vec<_>>());
+        let vertex_operator = select(&operators[0], &(1..n).rev().collect::<Vec<_>>());
+        let all: Vec<usize> = (0..n).rev().collect();
+        let operators = operators.iter().map(|t| select(t, &all)).collect();
         let inclusion = |shift: usize| Matrix::from_fn(n, n - 1, |i, j| Rational::from(u8::from(i == j + shift)));
         let mut shape = Shape::single(CellKind::Edge, operators);
-        shape.states[0].left = Some(Boundary { vertex: 1, op: inclusion(1) });
-        shape.states[0].right = Some(Boundary { vertex: 1, op: inclusion(0) });
+        shape.states[0].left = Some(Boundary { vertex: 1, op: inclusion(0) });
+        shape.states[0].right = Some(Boundary { vertex: 1, op: inclusion(1) });
         shape.states.push(State {
             name: "v".to_owned(),
             kind: CellKind::Vertex,

@@ -16,6 +16,7 @@ mod registry;
 mod rule;
 mod rules;
 mod sector;
+mod spans;
 mod symbol;
 mod tensor;
 mod text;
@@ -42,6 +43,7 @@ pub use rule::{AllValences, MeshRule, RuleInfo, Spline, Split, rational_cosine};
 pub(crate) use rule::{Corners, Lattice};
 pub use rules::{mesh_rule, mesh_rules};
 pub use sector::{Place, SectorStencils, Weight, sector_stencils};
+pub use spans::{Ends, clamped_knots, of_spans, over_knots, windows};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use text::{Heading, case_text, complex_text};
 pub use univariate::{

@@ -149,8 +149,9 @@ pub(super) fn resolve(
 
 /// The error for a name that is not among `known`.
 pub(super) fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> SchemeError {
-    let near = known.min_by_key(|k| distance(name, k)).unwrap_or_default();
-    SchemeError::Unknown { name: name.to_owned(), near: near.to_owned() }
+    // One letter in three may be wrong.
+    let near = known.map(|k| (distance(name, k), k)).filter(|(d, k)| 3 * d <= k.len().max(3)).min();
+    SchemeError::Unknown { name: name.to_owned(), near: near.map(|(_, k)| k.to_owned()) }
 }
 
 /// The number of single-letter changes between two words (Levenshtein).

@@ -5,6 +5,9 @@ use crate::arith::Rational;
 use crate::linalg::Matrix;
 use thiserror::Error;
 
+/// Letters after which the expansion of a parameter is given up.
+const MAX_EXPANSION: usize = 1_000;
+
 /// An end of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum End {
@@ -111,6 +114,33 @@ impl Shape {
             side = side.in_piece(&pieces[letter]);
             at = pieces[letter].target;
         }
+    }
+
+    /// The address of a parameter of the curve of a state, in which the pieces of every cell take equal parts; `None` where the
+    /// parameter is not between 0 and 1, or a state on the way is no curve.
+    #[must_use]
+    pub fn address_of(&self, state: usize, parameter: &Rational) -> Option<Address> {
+        if *parameter < 0 || *parameter > 1 {
+            return None;
+        }
+        let (mut at, mut t, mut word) = (state, parameter.clone(), Vec::new());
+        let mut seen: Vec<(usize, Rational)> = Vec::new();
+        while word.len() <= MAX_EXPANSION {
+            if let Some(from) = seen.iter().position(|(e, x)| *e == at && *x == t) {
+                return Some(Address { prefix: word[..from].to_vec(), cycle: word[from..].to_vec() });
+            }
+            seen.push((at, t.clone()));
+            let state = self.states.get(at).filter(|s| s.kind == CellKind::Edge)?;
+            let scaled = &t * Rational::from(state.pieces.len());
+            let letter = (0..state.pieces.len()).rev().find(|k| scaled >= Rational::from(*k))?;
+            t = scaled - Rational::from(letter);
+            if state.pieces[letter].reversed {
+                t = Rational::from(1) - t;
+            }
+            word.push(letter);
+            at = state.pieces[letter].target;
+        }
+        None
     }
 
     /// An end point of the curve of a state.

@@ -3,7 +3,7 @@
 use super::enclosed::BITS;
 use super::regularity::factored;
 use crate::algebraic::Elem;
-use crate::algebraic::field::{FieldBuilder, Number, NumberField};
+use crate::algebraic::field::{ExpressionError, FieldBuilder, Number, NumberField};
 use crate::arith::{Integer, Interval, Rational, abs, parse_rational};
 use crate::linalg::Matrix;
 use crate::scheme::{MAX_ARITY, Normalisation};
@@ -80,6 +80,8 @@ pub enum FilterError {
         place: usize,
         /// Why.
         message: String,
+        /// How to mend it.
+        help: Option<String>,
     },
     /// An arity that is not handled.
     #[error("a mask of arity {0} cannot be used; the arity is an integer from 2 to 64")]
@@ -123,7 +125,8 @@ pub fn understood(texts: &[String], arity: usize, scale: Option<Normalisation>) 
     let mut builder = FieldBuilder::new();
     let mut numbers = Vec::new();
     for (place, text) in texts.iter().enumerate() {
-        let number = builder.parse(text).map_err(|e| FilterError::Read { place, message: e.to_string() })?;
+        let wrong = |e: ExpressionError| FilterError::Read { place, message: e.to_string(), help: e.help };
+        let number = builder.parse(text).map_err(wrong)?;
         numbers.push(number);
     }
     let rationals: Option<Vec<Rational>> = numbers.iter().map(|x| builder.is_rational(x)).collect();

@@ -6,7 +6,6 @@ use crate::arith::{Rational, sign};
 use crate::linalg::Matrix;
 use crate::poly::{Poly, factor};
 use crate::shape::{Address, CellKind};
-use std::cmp::Ordering;
 
 /// Most spans of a curve.
 const MAX_SPANS: usize = 64;
@@ -251,7 +250,7 @@ impl Hodograph {
         let mut t = root.rational()?;
         let span = &self.spans[*k];
         let mut word = span.path.clone();
-        let mut state = *cx.shape.path(cx.from.root(), &word).last()?;
+        let state = *cx.shape.path(cx.from.root(), &word).last()?;
         let mut backwards = false;
         let mut at = cx.from.root();
         for &letter in &span.path {
@@ -262,22 +261,8 @@ impl Hodograph {
         if backwards {
             t = Rational::from(1) - t;
         }
-        let mut seen: Vec<(usize, Rational, usize)> = Vec::new();
-        while word.len() < 200 {
-            if let Some((.., from)) = seen.iter().find(|(e, x, _)| *e == state && *x == t) {
-                return Some(Address { prefix: word[..*from].to_vec(), cycle: word[*from..].to_vec() });
-            }
-            seen.push((state, t.clone(), word.len()));
-            let pieces = &cx.shape.states[state].pieces;
-            let scaled = &t * Rational::from(pieces.len());
-            let letter = (0..pieces.len()).rev().find(|k| scaled.cmp(&Rational::from(*k)) != Ordering::Less)?;
-            t = scaled - Rational::from(letter);
-            if pieces[letter].reversed {
-                t = Rational::from(1) - t;
-            }
-            word.push(letter);
-            state = pieces[letter].target;
-        }
-        None
+        let inner = cx.shape.address_of(state, &t)?;
+        word.extend(inner.prefix);
+        Some(Address { prefix: word, cycle: inner.cycle })
     }
 }

@@ -165,7 +165,7 @@ impl Mask {
         Ok((0..m).map(|e| Matrix::new(n, n, &(0..n * n).map(|k| entry(e, k)).collect::<Vec<_>>())).collect())
     }
 
-    /// The curve over `[0, 1]`: with its vertices on all coordinates, otherwise on the smallest set of coordinates that the
+    /// The curve over `[0, 1]`, its coordinates in the order of the control points: with its vertices on all of them, otherwise on the smallest set of coordinates that the
     /// operators map into itself.
     pub fn curve(&self, node: &Node<'_>, vertices: bool) -> Checked<Curve> {
         let all = self.operators()?;
@@ -173,8 +173,8 @@ impl Mask {
         node.need(n >= 2, "case", "the limit is constant between the integers")?;
         if vertices {
             let shift = |by: usize| Matrix::ones(n, n - 1, |i, j| i == j + by);
-            let vertex = Vertex { op: all[0].part(1..n, 1..n), ends: [shift(1), shift(0)] };
-            return Ok(Curve { vertex: Some(vertex), ..Curve::new(all) });
+            let vertex = Vertex { op: backwards(&all[0].part(1..n, 1..n)), ends: [shift(0), shift(1)] };
+            return Ok(Curve { vertex: Some(vertex), ..Curve::new(all.iter().map(backwards).collect()) });
         }
         let reached: Vec<Vec<usize>> = (0..n).map(|j| closure(&all, j)).collect();
         // A smallest set is reached from each of its members.
@@ -184,9 +184,15 @@ impl Mask {
         least.dedup();
         let [kept] = least.as_slice() else { return node.reject("case", "the limit depends on where it starts") };
         node.need(kept.len() >= 2, "case", "the limit is constant between the integers")?;
-        let rows = |m: &Matrix| m.columns(kept).transpose().columns(kept).transpose();
+        let rows = |m: &Matrix| backwards(&m.columns(kept).transpose().columns(kept).transpose());
         Ok(Curve::new(all.iter().map(rows).collect()))
     }
+}
+
+/// The same operator with its coordinates in the opposite order: control points run with the parameter.
+fn backwards(m: &Matrix) -> Matrix {
+    let order: Vec<usize> = (0..m.cols).rev().collect();
+    m.columns(&order).transpose().columns(&order).transpose()
 }
 
 /// The coordinates to which the operators take a coordinate, in any number of steps.

@@ -524,7 +524,13 @@ impl<'a> Expression<'a> {
 
 fn unknown(name: &str, at: usize) -> ExpressionError {
     let shown: String = name.chars().take(40).collect();
-    error("name", at, format!("`{shown}` is not an exact real number")).help(WRITE)
+    let unknown = error("name", at, format!("`{shown}` is not an exact real number"));
+    if shown.chars().count() == 1 {
+        return unknown.help(
+            "a letter has no value here: write the number; parameters are those of schemes, as in `four-point w=1/16`",
+        );
+    }
+    unknown.help(WRITE)
 }
 
 fn root_of(builder: &mut FieldBuilder, value: Value, index: usize, at: usize) -> Read<Value> {

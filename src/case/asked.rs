@@ -1,0 +1,246 @@
+//! What somebody writes instead of a file: the name of a scheme, a mask, a symbol, a wavelet, the matrices of the pieces.
+
+use super::node::clipped;
+use super::{Case, Question, VertexCase};
+use crate::arith::{Rational, parse_rational};
+use crate::diagnostic::{Problem, SourceText};
+use crate::scheme;
+use std::path::Path;
+
+/// Other names, each with what it stands for.
+const ALIASES: [(&str, &str); 6] = [
+    ("chaikin", "bspline degree=2"),
+    ("lane-riesenfeld", "bspline"),
+    ("4-point", "four-point"),
+    ("6-point", "dubuc-deslauriers points=6"),
+    ("cantor", "lebesgue a=1/2"),
+    ("butterfly", "the mesh rule of that name: [vertex] mesh = \"butterfly\""),
+];
+
+/// A string of TOML.
+fn quoted(part: &str) -> String {
+    serde_json::Value::from(part.trim()).to_string()
+}
+
+fn case(name: &str, title: &str, body: &str) -> String {
+    format!("name = {}\ntitle = {}\n{body}\n", quoted(name), quoted(title))
+}
+
+/// The coefficients of a list: separated by commas, or by blanks as NumPy prints them.
+fn coefficients(text: &str) -> Option<Vec<&str>> {
+    let inner = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    let parts: Vec<&str> = if inner.contains(',') {
+        inner.split(',').map(str::trim).filter(|w| !w.is_empty()).collect()
+    } else {
+        inner.split_whitespace().collect()
+    };
+    (parts.len() >= 2).then_some(parts)
+}
+
+/// The text of the case that something stands for; `None` for anything else.
+pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
+    let mut words = text.split_whitespace();
+    let first = words.next()?;
+    if scheme::list().iter().any(|s| s.name == first) {
+        let mut lines = vec![format!("name = {}", quoted(first))];
+        for word in words {
+            let Some((key, value)) = word.split_once('=') else {
+                let problem =
+                    Problem::new("secant::usage::parameter", format!("`{word}` is not of the form name=value"));
+                return Some(Err(problem.with_help(format!("parameters follow the name, as in `{first} w=1/16`"))));
+            };
+            lines.push(format!("{} = {}", quoted(key), quoted(value)));
+        }
+        return Some(Ok(case(first, text, &format!("\n[scheme]\n{}", lines.join("\n")))));
+    }
+    if let Some(mask) = scheme::wavelet_mask(text) {
+        let list: Vec<String> = mask.iter().map(|c| quoted(c)).collect();
+        return Some(Ok(case(text, text, &format!("\n[scheme]\nmask = [{}]", list.join(", ")))));
+    }
+    if text.trim_start().starts_with("[[[") {
+        return Some(pieces(text));
+    }
+    if text.contains('z') && text.contains(['(', '^', '+']) {
+        return Some(Ok(case("symbol", text, &format!("\n[scheme]\nsymbol = {}", quoted(text)))));
+    }
+    let parts = coefficients(text)?;
+    let numbers = parts.iter().any(|w| parse_rational(&w.replace("//", "/")).is_ok());
+    let list: Vec<String> = parts.iter().map(|w| quoted(&w.replace("//", "/"))).collect();
+    numbers.then(|| Ok(case("mask", text, &format!("\n[scheme]\nmask = [{}]", list.join(", ")))))
+}
+
+/// A list of matrices: operators on columns where columns add up to 1, otherwise subdivision matrices on rows.
+fn pieces(text: &str) -> Result<String, Problem> {
+    let wrong = |message: String| {
+        Problem::new("secant::usage::pieces", message)
+            .with_help("write the matrices of the pieces as in [[[1, 1/2], [0, 1/2]], [[1/2, 0], [1/2, 1]]]")
+    };
+    let (mut quoted_entries, mut entry, mut columns, mut matrix) = (String::new(), String::new(), true, Vec::new());
+    let (mut row, mut depth): (Vec<Rational>, usize) = (Vec::new(), 0);
+    for c in text.chars() {
+        if matches!(c, ',' | ']') && !entry.trim().is_empty() {
+            let value = parse_rational(&entry.trim().replace("//", "/")).map_err(|e| wrong(e.to_string()))?;
+            quoted_entries.push_str(&quoted(&value.to_string()));
+            row.push(value);
+        }
+        match c {
+            '[' => depth += 1,
+            ']' => {
+                depth =
+                    depth.checked_sub(1).ok_or_else(|| wrong("a bracket is closed that was not opened".to_owned()))?;
+                if depth == 2 {
+                    matrix.push(std::mem::take(&mut row));
+                } else if depth == 1 {
+                    columns &= sums_to_one(&std::mem::take(&mut matrix));
+                }
+            }
+            _ => {}
+        }
+        match c {
+            ',' | '[' | ']' => {
+                quoted_entries.push(c);
+                entry.clear();
+            }
+            '"' => {}
+            other => entry.push(other),
+        }
+    }
+    if depth != 0 {
+        return Err(wrong("a bracket is not closed".to_owned()));
+    }
+    let convention = if columns { "columns" } else { "rows" };
+    Ok(case("pieces", "pieces", &format!("convention = {}\npieces = {quoted_entries}", quoted(convention))))
+}
+
+fn sums_to_one(rows: &[Vec<Rational>]) -> bool {
+    let width = rows.first().map_or(0, Vec::len);
+    (0..width).all(|j| rows.iter().filter_map(|r| r.get(j)).fold(Rational::from(0), |s, x| s + x) == 1)
+}
+
+/// The text of the case that somebody means: that of a file; from the standard input (`-`) a case, or what stands for one, in a
+/// line; what is written instead of a file becomes a case.
+///
+/// # Errors
+/// A [`Problem`] where a file cannot be read, or a text is none of these, with what is near.
+pub fn asked(text: &str) -> Result<SourceText, Problem> {
+    let path = Path::new(text);
+    if text == "-" {
+        let source = SourceText::read(path)?;
+        let line = Some(source.text.trim()).filter(|line| !is_case(line) && !line.contains('\n'));
+        return match line.and_then(text_of) {
+            Some(case) => Ok(SourceText::new(&source.name, case?)),
+            None => Ok(source),
+        };
+    }
+    if path.exists() || path.extension().is_some_and(|e| e == "toml") {
+        return SourceText::read(path);
+    }
+    match text_of(text) {
+        Some(case) => Ok(SourceText::new(text, case?)),
+        None => Err(nothing(text)),
+    }
+}
+
+/// Whether a text is meant to be a case.
+#[must_use]
+pub fn is_case(text: &str) -> bool {
+    text.contains("name") && text.contains('=')
+}
+
+impl Question {
+    /// The question of what somebody writes: a file or `-`, the name of a scheme with parameters, a wavelet, a mask, a symbol,
+    /// or the matrices of the pieces.
+    ///
+    /// # Errors
+    /// As [`Question::read`]; what is none of these is told so, with what is near.
+    ///
+    /// # Examples
+    /// ```
+    /// use secant::case::{Question, Subject};
+    /// for text in ["four-point w=1/16", "1/4,3/4,3/4,1/4", "[0.25 0.75 0.75 0.25]", "(1+z)^3/4", "bior2.2",
+    ///     "[[[1, 1/2], [0, 1/2]], [[1/2, 0], [1/2, 1]]]", "cases/thesis/half-tangent.toml"] {
+    ///     assert_eq!(Question::ask(text)?.subject(), Subject::Curve, "{text}");
+    /// }
+    /// # Ok::<(), secant::diagnostic::Problem>(())
+    /// ```
+    pub fn ask(text: &str) -> Result<Self, Problem> {
+        let source = asked(text)?;
+        Self::parse(&source.name, &source.text)
+    }
+}
+
+impl Case {
+    /// The case of what somebody writes, as [`Question::ask`].
+    ///
+    /// # Errors
+    /// As [`Case::read`]; what is none of these is told so.
+    pub fn ask(text: &str) -> Result<Self, Problem> {
+        let source = asked(text)?;
+        Self::parse(&source.name, &source.text)
+    }
+}
+
+impl VertexCase {
+    /// Whether a name is that of a mesh rule.
+    fn is_rule(name: &str) -> bool {
+        scheme::mesh_rules().iter().any(|r| r.name == name)
+    }
+}
+
+/// What a text might have been.
+#[must_use]
+pub fn nothing(text: &str) -> Problem {
+    let name = text.split_whitespace().next().unwrap_or_default();
+    let shown = clipped(text);
+    if VertexCase::is_rule(name) {
+        return Problem::new("secant::usage::mesh", format!("`{shown}` is a mesh rule, no curve")).with_help(format!(
+            "write a file with  name = \"{name}\"  and  [vertex]  mesh = \"{name}\"  valence = \"3..12\", and certify that"
+        ));
+    }
+    if text.ends_with(['/', '\\']) || text.contains(['/', '\\']) && !text.contains(',') {
+        return Problem::new("secant::case::unreadable", format!("{shown} cannot be read: there is no such file"))
+            .with_help("give the path of a case file, or `-` for the standard input");
+    }
+    let problem = Problem::new(
+        "secant::case::unreadable",
+        format!("`{shown}` is no file, no scheme and no wavelet that is known"),
+    );
+    let help = match (ALIASES.iter().find(|(alias, _)| *alias == name.to_lowercase()), near(name)) {
+        (Some((_, other)), _) => format!("write {other}"),
+        (_, Some(other)) => format!("did you mean `{other}`?"),
+        _ => "name a case file, a scheme of `secant schemes` with its parameters, a wavelet such as bior2.2, or write a mask as in \
+              \"1/4,3/4,3/4,1/4\" or a symbol as in \"(1+z)^3/4\""
+            .to_owned(),
+    };
+    problem.with_help(help)
+}
+
+/// A scheme or wavelet whose name is near.
+fn near(name: &str) -> Option<String> {
+    let known = scheme::list().iter().map(|s| s.name.to_owned()).chain(scheme::wavelet_names());
+    let scored = known.map(|k| (strsim::jaro_winkler(&clipped(name).to_lowercase(), &k), k));
+    scored.filter(|(score, _)| *score > 0.85).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, k)| k)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_near_is_suggested_and_nothing_else() {
+        let help = |text: &str| nothing(text).remedy().unwrap_or_default().to_owned();
+        assert_eq!(help("four-pont"), "did you mean `four-point`?");
+        assert_eq!(help("Chaikin"), "write bspline degree=2");
+        assert!(help("nope").starts_with("name a case file"), "{}", help("nope"));
+        assert!(nothing("some/where.txt").message().contains("no such file"));
+        assert!(nothing("catmull-clark").message().contains("mesh rule"));
+    }
+
+    #[test]
+    fn matrices_of_pieces_tell_their_convention() {
+        let convention = |text: &str| Case::ask(text).map(|c| c.convention.name()).map_err(|p| p.message().to_owned());
+        assert_eq!(convention("[[[1, 1/2], [0, 1/2]], [[1/2, 0], [1/2, 1]]]"), Ok("columns"));
+        assert_eq!(convention("[[[1, 0], [1/2, 1/2]], [[1/2, 1/2], [0, 1]]]"), Ok("rows"));
+        assert!(convention("[[[1, 0], [1/2, 1/2]]").is_err() && convention("[[[1, x]]]").is_err());
+    }
+}
