@@ -32,7 +32,10 @@ fn exactly(r: &LatticeRegularity, value: &Rational) {
 
 #[test]
 fn the_zwart_powell_element() {
-    let zp = [found(symbol("(1+x)*(1+y)*(1+x*y)*(1+x/y)/4", None)), found(named("box-spline", &["directions=(1,0)(0,1)(1,1)(1,-1)"]))];
+    let zp = [
+        found(symbol("(1+x)*(1+y)*(1+x*y)*(1+x/y)/4", None)),
+        found(named("box-spline", &["directions=(1,0)(0,1)(1,1)(1,-1)"])),
+    ];
     for r in zp {
         exactly(&r, &ratio(1, 4));
         assert_eq!((r.sum_rules, r.smoothness(), r.is_exact(), r.exponent_is_exact()), (2, Some(1), false, false));
@@ -216,7 +219,10 @@ fn files_and_certificates() {
         ("name = \"a\"\n[mask]\ngrid = [[1, 1], [1, 1]]\n", "origin"),
         ("name = \"a\"\n[mask]\ngrid = [[1, 1], [1, 2]]\norigin = [0, 0]\n", "sum to 2"),
         ("name = \"a\"\n[mask]\ngrid = [[1, 1], [1, 1]]\norigin = [0, 0]\ndilation = [[1, 0], [0, 2]]\n", "dilation"),
-        ("name = \"a\"\n[mask]\ngrid = [[1, 1], [1, 1]]\norigin = [0, 0]\ndirections = [[1, 0], [1, 1]]\n", "directions"),
+        (
+            "name = \"a\"\n[mask]\ngrid = [[1, 1], [1, 1]]\norigin = [0, 0]\ndirections = [[1, 0], [1, 1]]\n",
+            "directions",
+        ),
     ] {
         std::fs::write(&grid, text).unwrap();
         let output = secant(&["regularity", grid.to_str().unwrap()]).code(2);

@@ -246,7 +246,8 @@ fn same(found: &Accepted, original: &Accepted) -> bool {
         Claim::LatticeSmooth { .. } => {
             let is_order = |d: &&Decided| matches!(d.claim, Claim::LatticeSmooth { .. });
             let [mine, all] = [found, original].map(|x| x.claims.iter().filter(is_order).cloned().collect::<Vec<_>>());
-            let known = found.claims.iter().filter(|d| !is_order(d)).all(|d| original.claims.iter().any(|o| weaker(d, o)));
+            let known =
+                found.claims.iter().filter(|d| !is_order(d)).all(|d| original.claims.iter().any(|o| weaker(d, o)));
             verdicts && all.starts_with(&mine) && known
         }
         // Fewer valences, or no plane without a half-plane.

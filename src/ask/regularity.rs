@@ -2,7 +2,7 @@
 
 use super::lattice::{lattice_answer, lattice_case, lattice_certified};
 use crate::arith::{Rational, parse_rational};
-use crate::case::{self, Case, Origin};
+use crate::case::{self, Case, LatticeCase, Origin};
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
@@ -80,6 +80,9 @@ pub fn dilated_regularity(
 /// # Errors
 /// As [`regularity`].
 pub fn regularity_of_case(name: &str, text: &str) -> Result<Smooth, Problem> {
+    if LatticeCase::is_meant(text) {
+        return lattice_answer(LatticeCase::parse(name, text)?.mask).map(|(smooth, _)| smooth);
+    }
     answer(name, &subject_of_case(name, text)?)
 }
 

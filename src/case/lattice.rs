@@ -88,10 +88,15 @@ fn whole_numbers(node: &Node<'_>, what: &str) -> Result<Vec<i64>, Problem> {
 
 fn whole(node: &Node<'_>) -> Result<i64, Problem> {
     let x = node.number()?;
-    let small = (x.is_integer() && crate::arith::abs(&x) <= Rational::from(MAX_PLACE)).then(|| x.to_string().parse().ok());
+    let small =
+        (x.is_integer() && crate::arith::abs(&x) <= Rational::from(MAX_PLACE)).then(|| x.to_string().parse().ok());
     small.flatten().ok_or_else(|| {
-        node.problem("range", format!("{} must be a whole number from -{MAX_PLACE} to {MAX_PLACE}", node.what), "not one")
-            .with_help("points of the lattice and dilations are whole numbers")
+        node.problem(
+            "range",
+            format!("{} must be a whole number from -{MAX_PLACE} to {MAX_PLACE}", node.what),
+            "not one",
+        )
+        .with_help("points of the lattice and dilations are whole numbers")
     })
 }
 
@@ -145,9 +150,9 @@ fn of_name(table: &Table<'_>, named: &Node<'_>, dilation: Option<Dilation>) -> R
         }
     };
     let made = named_mask(named.text()?, &parameters).ok_or_else(|| {
-        named.problem("mask", format!("there is no mask on a lattice called {:?}", named.text().ok()), "not a name").with_help(
-            "there are box-spline, butterfly, four-eight, loop, sqrt3 and tensor",
-        )
+        named
+            .problem("mask", format!("there is no mask on a lattice called {:?}", named.text().ok()), "not a name")
+            .with_help("there are box-spline, butterfly, four-eight, loop, sqrt3 and tensor")
     })?;
     made.map_err(|e| problem(named, &e))
 }

@@ -1,7 +1,8 @@
-//! Quadratic norms of large sets of matrices: the forms that the sum of all matrices, `P -> Σ TᵗPT`, tends to. Floats propose the
-//! form and the bound; that no matrix expands the rounded form is decided exactly.
+//! Quadratic norms of large sets of matrices. Let `S(P) = Σ TᵗPT` and `σ` be its radius; the sum `P` of the `(S/cσ)^j(1)`, `c > 1`, has
+//! `S(P) <= cσP`, so no matrix expands `P` by more than the root of `cσ`, whatever the coordinates are. Floats propose the form and
+//! the bound; that no matrix expands the rounded form is decided exactly.
 #![allow(clippy::float_arithmetic, reason = "proposes a form, which is then checked exactly")]
-#![allow(clippy::cast_possible_truncation, reason = "rounds numbers below 2^20")]
+#![allow(clippy::cast_possible_truncation, reason = "rounds numbers below 2^41")]
 
 use super::answer::Proof;
 use super::budget::Budget;
@@ -13,12 +14,14 @@ use crate::linalg::Matrix;
 
 /// From which dimension on it is tried: polytopes are better in small ones.
 const LEAST: usize = 30;
-/// Steps of the iteration.
-const STEPS: usize = 40;
-/// What is added of the unit matrix.
-const RIDGE: f64 = 1e-2;
+/// Steps to the radius of the sum.
+const POWERS: usize = 60;
+/// Terms of the form.
+const TERMS: usize = 160;
+/// The factor `c`.
+const SLACK: f64 = 1.05;
 /// Size of the largest entry of a form.
-const SCALE: f64 = 16384.0;
+const SCALE: f64 = 1_099_511_627_776.0;
 /// Relative room of the bounds that are tried.
 const ROOM: [f64; 3] = [1e-3, 1e-2, 5e-2];
 
@@ -28,12 +31,13 @@ impl Strategy for Sums {
     fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome {
         let system = &target.block.system;
         let [dim] = system.dims[..] else { return Outcome::Nothing };
-        let work = (dim.pow(3) * (4 * STEPS + 200) * system.arrows.len()) as u64;
+        let work = (dim.pow(3) * (2 * (POWERS + TERMS) + 400) * system.arrows.len()) as u64;
         if dim < LEAST || !budget.spend(work) {
             return Outcome::Nothing;
         }
-        let letters: Vec<Vec<f64>> = system.arrows.iter().map(|a| a.matrix.entries().iter().map(to_f64).collect()).collect();
-        let form = rounded(&iterated(&letters, dim));
+        let letters: Vec<Vec<f64>> =
+            system.arrows.iter().map(|a| a.matrix.entries().iter().map(to_f64).collect()).collect();
+        let form = rounded(&summed(&letters, dim), dim);
         let Some(found) = expansion(&letters, &form, dim).filter(|r| r.is_finite() && *r < known) else {
             return Outcome::Nothing;
         };
@@ -44,6 +48,10 @@ impl Strategy for Sums {
             }
             _ => Outcome::Nothing,
         }
+    }
+
+    fn share(&self) -> u64 {
+        200
     }
 }
 
@@ -77,24 +85,37 @@ fn transposed(a: &[f64], n: usize) -> Vec<f64> {
     (0..n * n).map(|k| a[(k % n) * n + k / n]).collect()
 }
 
-/// The form after some steps of `P -> Σ TᵗPT + ridge`, with the largest entry 1.
-fn iterated(letters: &[Vec<f64>], n: usize) -> Vec<f64> {
-    let unit = |k: usize| if k / n == k % n { 1.0 } else { 0.0 };
+/// The form, with the largest entry 1; without a finite one no bound is found.
+fn summed(letters: &[Vec<f64>], n: usize) -> Vec<f64> {
     let turned: Vec<Vec<f64>> = letters.iter().map(|t| transposed(t, n)).collect();
-    let mut form: Vec<f64> = (0..n * n).map(unit).collect();
-    for _ in 0..STEPS {
+    let step = |form: &[f64], factor: f64| {
         let mut sum = vec![0.0; n * n];
         for (t, u) in letters.iter().zip(&turned) {
-            sum.iter_mut().zip(product(u, &product(&form, t, n), n)).for_each(|(x, y)| *x += y);
+            sum.iter_mut().zip(product(u, &product(form, t, n), n)).for_each(|(x, y)| *x += factor * y);
         }
-        let most = (0..n).map(|i| sum[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
-        form = sum.iter().enumerate().map(|(k, x)| (x / most + RIDGE * unit(k)) / (1.0 + RIDGE)).collect();
+        sum
+    };
+    let trace = |form: &[f64]| (0..n).map(|i| form[i * n + i]).sum::<f64>();
+    let unit: Vec<f64> = (0..n * n).map(|k| if k / n == k % n { 1.0 } else { 0.0 }).collect();
+    let (mut form, mut sigma) = (unit.clone(), 0.0);
+    for _ in 0..POWERS {
+        let before = trace(&form);
+        form = step(&form, 1.0 / before);
+        sigma = trace(&form);
     }
-    form
+    let (mut term, mut sum) = (unit.clone(), unit);
+    for _ in 0..TERMS {
+        term = step(&term, 1.0 / (SLACK * sigma));
+        sum.iter_mut().zip(&term).for_each(|(x, y)| *x += y);
+    }
+    let most = sum.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    sum.iter().map(|x| x / most).collect()
 }
 
-fn rounded(form: &[f64]) -> Vec<f64> {
-    form.iter().map(|x| (x * SCALE).round()).collect()
+/// In whole numbers, and symmetric.
+fn rounded(form: &[f64], n: usize) -> Vec<f64> {
+    let upper = |k: usize| form[(k / n).min(k % n) * n + (k / n).max(k % n)];
+    (0..n * n).map(|k| (upper(k) * SCALE).round()).collect()
 }
 
 /// The largest factor by which a letter expands a form, by Cholesky's decomposition and the power method.
@@ -157,7 +178,8 @@ mod tests {
     #[test]
     fn a_large_set_is_bounded_without_splitting_it() {
         let n = 32;
-        let shift = |step: usize| Matrix::from_fn(n, n, |i, j| if (i + step) % n == j { ratio(1, 2) } else { ratio(0, 1) });
+        let shift =
+            |step: usize| Matrix::from_fn(n, n, |i, j| if (i + step) % n == j { ratio(1, 2) } else { ratio(0, 1) });
         let system = System::plain(&[shift(1), shift(3)]).unwrap();
         let forms = vec![Matrix::identity(n)];
         assert!(proof(&system, &forms, 0.5).is_some() && proof(&system, &forms, 0.49).is_none());

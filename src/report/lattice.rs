@@ -15,7 +15,8 @@ pub fn lattice(r: &LatticeRegularity) -> String {
     let mut out = String::new();
     let (mask, m) = (&r.mask, r.mask.dilation());
     let rows: Vec<String> = m.rows().iter().map(|row| format!("{row:?}").replace(' ', "")).collect();
-    let corners = mask.terms().corners().map_or_else(String::new, |(a, b)| format!(" from {} to {}", point(&a), point(&b)));
+    let corners =
+        mask.terms().corners().map_or_else(String::new, |(a, b)| format!(" from {} to {}", point(&a), point(&b)));
     let _ = writeln!(out, "mask        {} coefficients at points{corners}", mask.terms().len());
     let _ = writeln!(out, "dilation    M = [{}], {} cosets; ρ = {}", rows.join(","), m.index(), rho(r));
     let most = if r.sum_rules == MAX_RULES { "at least " } else { "" };
@@ -27,10 +28,19 @@ pub fn lattice(r: &LatticeRegularity) -> String {
         r.window.degree,
         r.window.rank
     );
-    let _ = writeln!(out, "matrices    {} of dimension {}, on nets modulo these polynomials; J is their radius", r.letters.len(), r.window.points.len() - r.window.rank);
+    let _ = writeln!(
+        out,
+        "matrices    {} of dimension {}, on nets modulo these polynomials; J is their radius",
+        r.letters.len(),
+        r.window.points.len() - r.window.rank
+    );
     out.push_str(&joint_radius(&r.radius));
     let _ = writeln!(out, "shifts      {}", shifts(r));
-    let _ = writeln!(out, "condition   J < ρ^-k gives C^k; for stable shifts also only if ({})", Statement::LatticeMask.name());
+    let _ = writeln!(
+        out,
+        "condition   J < ρ^-k gives C^k; for stable shifts also only if ({})",
+        Statement::LatticeMask.name()
+    );
     out.push_str("k   bound ρ^-k      C^k\n");
     for (k, answer) in r.orders.iter().enumerate() {
         let _ = writeln!(out, "{k:<3} {:<15} {}", threshold(r, k), word(*answer, k));
@@ -52,7 +62,9 @@ fn rho(r: &LatticeRegularity) -> String {
 /// `ρ^(−k)`.
 fn threshold(r: &LatticeRegularity, k: usize) -> String {
     let m = r.mask.dilation();
-    let fraction = |exponent: usize| Rational::from(1) / (0..exponent).fold(Rational::from(1), |p, _| p * Rational::from(m.index() as u64));
+    let fraction = |exponent: usize| {
+        Rational::from(1) / (0..exponent).fold(Rational::from(1), |p, _| p * Rational::from(m.index() as u64))
+    };
     match (k % m.dimensions(), m.factor()) {
         (0, _) => fraction(k / m.dimensions()).to_string(),
         (_, Some(factor)) => {
@@ -77,11 +89,18 @@ fn word(answer: Answer, k: usize) -> &'static str {
 
 fn shifts(r: &LatticeRegularity) -> String {
     match &r.stability {
-        Stability::Interpolatory(at) => format!("stable: the mask is 1 at {} and 0 at the rest of its coset (interpolatory)", point(at)),
-        Stability::Unimodular => "stable: a box spline, all of whose bases of directions have the determinant 1 or -1".to_owned(),
+        Stability::Interpolatory(at) => {
+            format!("stable: the mask is 1 at {} and 0 at the rest of its coset (interpolatory)", point(at))
+        }
+        Stability::Unimodular => {
+            "stable: a box spline, all of whose bases of directions have the determinant 1 or -1".to_owned()
+        }
         Stability::Samples(s) => {
             let cells: usize = s.charts.iter().map(Cells::count).sum();
-            format!("stable: on each of {cells} cells of the torus the symbol of the values at one of {} points is not 0", s.words.len())
+            format!(
+                "stable: on each of {cells} cells of the torus the symbol of the values at one of {} points is not 0",
+                s.words.len()
+            )
         }
         Stability::Dependent(d) => format!("dependent: a box spline with a basis of directions of determinant {d}"),
         Stability::Unknown if r.converges() == Some(true) => "not proved to be stable".to_owned(),
@@ -114,7 +133,11 @@ fn limits(out: &mut String, r: &LatticeRegularity) {
         };
         let _ = match r.exponent_is_exact() {
             true => writeln!(out, "exponent    {} ({note})", interval(e)),
-            false => writeln!(out, "exponent >= {} (a lower bound, as the shifts are not proved to be stable)", decimal(&e.lo, false, 12)),
+            false => writeln!(
+                out,
+                "exponent >= {} (a lower bound, as the shifts are not proved to be stable)",
+                decimal(&e.lo, false, 12)
+            ),
         };
     }
 }

@@ -232,8 +232,7 @@ impl<P: Symbol> Parser<P> {
                     self.at += 1;
                 }
                 let name: String = self.text[start..self.at].iter().collect();
-                P::variable(&name)
-                    .ok_or_else(|| self.error(&format!("`{name}` is no variable; {} are", P::VARIABLES)))
+                P::variable(&name).ok_or_else(|| self.error(&format!("`{name}` is no variable; {} are", P::VARIABLES)))
             }
             Some(c) if c.is_ascii_digit() || c == '.' => {
                 let start = self.at;

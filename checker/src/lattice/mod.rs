@@ -40,15 +40,27 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     }
     let mut claims = Vec::new();
     for (order, item) in orders.list()?.iter().enumerate() {
-        orders.need(order <= k && claims.len() == order, "orders", "no order after one that fails, or beyond the sum rules")?;
+        orders.need(
+            order <= k && claims.len() == order,
+            "orders",
+            "no order after one that fails, or beyond the sum rules",
+        )?;
         match item.text()? {
             "smooth" => {
-                item.need(order < k && size.is_below(order)?, "orders", "the radius is not below the bound of this order")?;
+                item.need(
+                    order < k && size.is_below(order)?,
+                    "orders",
+                    "the radius is not below the bound of this order",
+                )?;
                 claims.push(Claim::LatticeSmooth { order }.is(Verdict::Proved));
             }
             "rough" => {
                 let known = order < k && (order == 0 || stable) && size.is_at_least(order)?;
-                item.need(known, "orders", "the radius does not reach the bound, or shifts are not proved to be stable")?;
+                item.need(
+                    known,
+                    "orders",
+                    "the radius does not reach the bound, or shifts are not proved to be stable",
+                )?;
                 claims.push(Claim::LatticeSmooth { order }.is(Verdict::Refuted));
                 break;
             }
@@ -76,7 +88,11 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
 fn read_points(node: &Node<'_>, s: usize) -> Checked<Vec<Vec<i64>>> {
     let points = node.each(|p| read_point(p, s))?;
     let ascending = points.windows(2).all(|w| w[0] < w[1]);
-    node.need(ascending && (1..=MAX_WINDOW).contains(&points.len()), "window", "1 to 256 points are needed, ascending")?;
+    node.need(
+        ascending && (1..=MAX_WINDOW).contains(&points.len()),
+        "window",
+        "1 to 256 points are needed, ascending",
+    )?;
     Ok(points)
 }
 
@@ -208,11 +224,19 @@ impl Window<'_> {
             "interpolatory" => {
                 let [_, at] = node.fields("stable at")?;
                 let at = read_point(&at, self.points[0].len())?;
-                node.need(self.mask.is_alone(&at), "shifts", "the mask is not 1 at this point and 0 at the rest of its coset")
+                node.need(
+                    self.mask.is_alone(&at),
+                    "shifts",
+                    "the mask is not 1 at this point and 0 at the rest of its coset",
+                )
             }
             "unimodular" => {
                 let [_] = node.fields("stable")?;
-                node.need(self.mask.is_unimodular()?, "shifts", "the case names no directions of a box spline that show it")
+                node.need(
+                    self.mask.is_unimodular()?,
+                    "shifts",
+                    "the case names no directions of a box spline that show it",
+                )
             }
             "samples" => {
                 let [_, words, charts] = node.fields("stable words charts")?;

@@ -100,7 +100,10 @@ impl Mask {
         let same = match (product.keys().next(), self.terms.keys().next()) {
             (Some(p), Some(q)) => {
                 let moved = |a: &Vec<i64>| a.iter().zip(p).zip(q).map(|((x, y), z)| x - y + z).collect::<Vec<i64>>();
-                product.iter().map(|(a, c)| (moved(a), c.clone())).eq(self.terms.iter().map(|(a, c)| (a.clone(), c.clone())))
+                product
+                    .iter()
+                    .map(|(a, c)| (moved(a), c.clone()))
+                    .eq(self.terms.iter().map(|(a, c)| (a.clone(), c.clone())))
             }
             _ => false,
         };
@@ -146,12 +149,7 @@ fn places(node: &Node<'_>) -> Checked<Vec<i64>> {
     })
 }
 
-fn grid(
-    node: &Node<'_>,
-    origin: &[i64],
-    place: &mut Vec<i64>,
-    terms: &mut BTreeMap<Vec<i64>, Q>,
-) -> Checked<()> {
+fn grid(node: &Node<'_>, origin: &[i64], place: &mut Vec<i64>, terms: &mut BTreeMap<Vec<i64>, Q>) -> Checked<()> {
     if place.len() == origin.len() {
         let c = number(node)?;
         if !c.is_zero() {
@@ -238,7 +236,8 @@ fn is_similarity(rows: &[Vec<i64>], determinant: i64) -> bool {
     let own: Vec<Vec<Q>> = rows.iter().map(|r| r.iter().map(|x| wide(*x)).collect()).collect();
     let mut power = own.clone();
     for _ in 0..24 {
-        let scalar = (0..s).all(|i| (0..s).all(|j| if i == j { power[i][j] == power[0][0] } else { power[i][j].is_zero() }));
+        let scalar =
+            (0..s).all(|i| (0..s).all(|j| if i == j { power[i][j] == power[0][0] } else { power[i][j].is_zero() }));
         if scalar {
             return true;
         }

@@ -43,7 +43,8 @@ fn a_window_that_is_too_small() {
             "axes": [{"state": 0, "units": [[[0, "1"]]]}]}}],
     });
     let forged = |window: Value, rules: usize, radius: &Value| {
-        let proof = json!({"rules": rules, "window": window, "radius": radius, "shifts": null, "orders": ["smooth", "smooth"]});
+        let proof =
+            json!({"rules": rules, "window": window, "radius": radius, "shifts": null, "orders": ["smooth", "smooth"]});
         let whole = json!({
             "format": "secant certificate", "version": 1, "kind": "lattice", "case": "bilinear", "verdict": "proved",
             "proof": proof,

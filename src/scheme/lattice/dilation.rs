@@ -213,7 +213,10 @@ mod tests {
             }
         }
         assert_eq!(Dilation::parse("sqrt3").unwrap().index(), 3);
-        assert_eq!((Dilation::parse("3").unwrap().factor(), Dilation::parse("quincunx").unwrap().factor()), (Some(3), None));
+        assert_eq!(
+            (Dilation::parse("3").unwrap().factor(), Dilation::parse("quincunx").unwrap().factor()),
+            (Some(3), None)
+        );
     }
 
     #[test]

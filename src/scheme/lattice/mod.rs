@@ -157,7 +157,9 @@ impl LatticeMask {
             (a, c.clone())
         });
         if spline.dilation != self.dilation || Terms::new(own.len(), moved) != self.terms {
-            return Err(LatticeError::Parameter("the mask is not that of the box spline with these directions".to_owned()));
+            return Err(LatticeError::Parameter(
+                "the mask is not that of the box spline with these directions".to_owned(),
+            ));
         }
         Ok(Self { splines: spline.splines, ..self })
     }

@@ -33,7 +33,12 @@ const LIST: [Named; 6] = [
         summary: "directions=\"(1,0)^2 (0,1)^2 (1,1)^2\": the box spline with these directions",
         build: box_spline,
     },
-    Named { name: "butterfly", parameters: &["w"], summary: "w=1/16: the butterfly scheme on the regular net", build: butterfly },
+    Named {
+        name: "butterfly",
+        parameters: &["w"],
+        summary: "w=1/16: the butterfly scheme on the regular net",
+        build: butterfly,
+    },
     Named {
         name: "four-eight",
         parameters: &[],
@@ -46,7 +51,12 @@ const LIST: [Named; 6] = [
         summary: "Loop's scheme on the regular net, the box spline with (1,0), (0,1), (1,1) twice each",
         build: |_| spline(vec![vec![1, 0], vec![1, 0], vec![0, 1], vec![0, 1], vec![1, 1], vec![1, 1]]),
     },
-    Named { name: "sqrt3", parameters: &["alpha"], summary: "alpha=1/3: one step of the √3 scheme on the regular net", build: sqrt3 },
+    Named {
+        name: "sqrt3",
+        parameters: &["alpha"],
+        summary: "alpha=1/3: one step of the √3 scheme on the regular net",
+        build: sqrt3,
+    },
     Named {
         name: "tensor",
         parameters: &["first", "second"],
@@ -78,7 +88,8 @@ pub fn lattice_names() -> Vec<(&'static str, &'static str)> {
 pub fn named_mask(name: &str, parameters: &[String]) -> Option<Result<LatticeMask, LatticeError>> {
     let known = LIST.iter().find(|n| n.name == name)?;
     let read = parameters.iter().map(|text| {
-        let (key, value) = text.split_once('=').ok_or_else(|| wrong(format!("`{text}` is not of the form name=value")))?;
+        let (key, value) =
+            text.split_once('=').ok_or_else(|| wrong(format!("`{text}` is not of the form name=value")))?;
         if known.parameters.contains(&key.trim()) {
             return Ok((key.trim().to_owned(), value.trim().to_owned()));
         }
@@ -132,7 +143,9 @@ pub(super) fn spline(directions: Vec<Vec<i64>>) -> Result<LatticeMask, LatticeEr
     let s = directions.first().map_or(0, Vec::len);
     let fits = |v: &Vec<i64>| v.len() == s && v.iter().all(|x| x.abs() <= MAX_STEP) && v.iter().any(|x| *x != 0);
     if !(1..=MAX_DIRECTIONS).contains(&directions.len()) || s > MAX_DIMENSIONS || !directions.iter().all(fits) {
-        return Err(wrong(format!("a box spline has 1 to {MAX_DIRECTIONS} directions, not 0, of coordinates up to {MAX_STEP}")));
+        return Err(wrong(format!(
+            "a box spline has 1 to {MAX_DIRECTIONS} directions, not 0, of coordinates up to {MAX_STEP}"
+        )));
     }
     let half = ratio(1, 2);
     let start = Terms::new(s, [(vec![0; s], Rational::from(1 << s.min(8)))]);
@@ -212,7 +225,9 @@ fn sqrt3(given: &Given) -> Result<LatticeMask, LatticeError> {
 
 fn tensor(given: &Given) -> Result<LatticeMask, LatticeError> {
     let part = |name: &str| {
-        given.get(name).ok_or_else(|| wrong(format!("a product needs `{name}`, as in {name}=four-point or {name}=\"(1+z)^3/4\"")))
+        given
+            .get(name)
+            .ok_or_else(|| wrong(format!("a product needs `{name}`, as in {name}=four-point or {name}=\"(1+z)^3/4\"")))
     };
     let (first, second) = (univariate(part("first")?)?, univariate(part("second")?)?);
     if first.1 != second.1 {
@@ -228,7 +243,8 @@ fn univariate(text: &str) -> Result<(Laurent, i64), LatticeError> {
     if scheme::list().iter().any(|s| s.name == name) {
         let mut values = BTreeMap::new();
         for word in words {
-            let (key, value) = word.split_once('=').ok_or_else(|| wrong(format!("`{word}` is not of the form name=value")))?;
+            let (key, value) =
+                word.split_once('=').ok_or_else(|| wrong(format!("`{word}` is not of the form name=value")))?;
             values.insert(key.to_owned(), parse_rational(value)?);
         }
         let mask = scheme::mask(name, &values)?.ok_or_else(|| wrong(format!("`{name}` has no mask")))?;

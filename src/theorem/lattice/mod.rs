@@ -18,6 +18,8 @@ use thiserror::Error;
 
 /// Largest dimension of the quotient in which common invariant subspaces are looked for.
 const MAX_SPLIT: usize = 48;
+/// Work that is spent on the radius in larger dimensions, where more of it hardly helps.
+const LARGE_WORK: u64 = 6_000_000_000;
 
 /// Why the regularity of a mask is not looked at.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -125,9 +127,16 @@ pub fn lattice_regularity(mask: LatticeMask, options: &Options) -> Result<Lattic
     let window = Window::of(&mask, degree).ok_or(LatticeProblem::Window)?;
     let letters = window.quotient(&mask).ok_or(LatticeProblem::Contradiction)?;
     let system = System::plain(&letters).map_err(|_| LatticeProblem::Radius)?;
-    let options = Options { split: options.split.min(MAX_SPLIT), ..options.clone() };
+    let large = letters.iter().any(|m| m.rows() > MAX_SPLIT);
+    let work = if large { options.work.or(Some(LARGE_WORK)) } else { options.work };
+    let options = Options { split: options.split.min(MAX_SPLIT), work, ..options.clone() };
     let radius = joint_radius(&system, &options).map_err(|_| LatticeProblem::Radius)?;
-    let size = Size { system: &system, radius: &radius, dimensions: mask.dilation().dimensions(), index: mask.dilation().index() };
+    let size = Size {
+        system: &system,
+        radius: &radius,
+        dimensions: mask.dilation().dimensions(),
+        index: mask.dilation().index(),
+    };
     if size.compare(sum_rules) == Some(Ordering::Less) {
         return Err(LatticeProblem::Contradiction);
     }
@@ -216,7 +225,13 @@ fn orders(size: &Size<'_>, sum_rules: usize, stable: bool) -> Vec<Answer> {
         let answer = match size.compare(order) {
             // Beyond the sum rules the radius decides nothing by itself.
             _ if order == sum_rules && sum_rules == MAX_RULES => Answer::Open,
-            _ if order == sum_rules => if stable { Answer::Rules } else { Answer::Unstable },
+            _ if order == sum_rules => {
+                if stable {
+                    Answer::Rules
+                } else {
+                    Answer::Unstable
+                }
+            }
             Some(Ordering::Less) => Answer::Smooth,
             // Whether differences of nets tend to 0 has nothing to do with shifts of limits.
             Some(_) if order == 0 || stable => Answer::Rough,
@@ -234,11 +249,12 @@ fn orders(size: &Size<'_>, sum_rules: usize, stable: bool) -> Vec<Answer> {
 /// With bounded products the exponent is attained, but in the Zygmund sense only where it is an integer below the order of the sum
 /// rules.
 fn attained(growth: Growth, exponent: Option<&Interval>, sum_rules: usize) -> Attained {
-    let integer = exponent.and_then(|e| match (e.lo == e.hi && e.lo.is_integer(), (&e.lo).ceiling() > (&e.hi).floor()) {
-        (true, _) => Some(true),
-        (_, true) => Some(false),
-        _ => None,
-    });
+    let integer =
+        exponent.and_then(|e| match (e.lo == e.hi && e.lo.is_integer(), (&e.lo).ceiling() > (&e.hi).floor()) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ => None,
+        });
     match (growth, integer) {
         (Growth::Unbounded(_), _) => Attained::No,
         (Growth::Bounded, Some(true)) if exponent.is_some_and(|e| e.lo == sum_rules as u64) => Attained::Yes,

@@ -163,9 +163,8 @@ impl Symbol {
         let moved = |p: &Vec<i64>| p.iter().zip(&centre).map(|(x, c)| x - c).collect::<Vec<i64>>();
         let terms: Vec<(Vec<i64>, Rational)> =
             points.iter().zip(row).filter(|(_, c)| **c != 0).map(|(p, c)| (moved(p), c.clone())).collect();
-        let slope = |k: usize| {
-            terms.iter().fold(Rational::from(0), |sum, (a, c)| sum + abs(c) * Rational::from(a[k].abs()))
-        };
+        let slope =
+            |k: usize| terms.iter().fold(Rational::from(0), |sum, (a, c)| sum + abs(c) * Rational::from(a[k].abs()));
         Self { slopes: (0..s).map(slope).collect(), terms }
     }
 
@@ -195,10 +194,7 @@ struct Complex {
 
 impl Complex {
     fn times(&self, other: &Self) -> Self {
-        Self {
-            re: &self.re * &other.re - &self.im * &other.im,
-            im: &self.re * &other.im + &self.im * &other.re,
-        }
+        Self { re: &self.re * &other.re - &self.im * &other.im, im: &self.re * &other.im + &self.im * &other.re }
     }
 }
 
@@ -240,7 +236,8 @@ fn cover(
     let quarter = &half / Rational::from(2);
     let s = centre.len();
     let part = |k: usize| {
-        let moved = |(axis, t): (usize, &Rational)| if k >> (s - 1 - axis) & 1 == 0 { t - &quarter } else { t + &quarter };
+        let moved =
+            |(axis, t): (usize, &Rational)| if k >> (s - 1 - axis) & 1 == 0 { t - &quarter } else { t + &quarter };
         centre.iter().enumerate().map(moved).collect::<Vec<Rational>>()
     };
     let parts = (0..1_usize << s).map(|k| cover(symbols, signs, &part(k), depth + 1, first, left));

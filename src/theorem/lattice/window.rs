@@ -48,7 +48,8 @@ pub fn sum_rules(mask: &LatticeMask) -> usize {
         }
         moments.windows(2).all(|w| w[0] == w[1])
     };
-    let exact = |degree: usize| monomials(s, degree).iter().filter(|a| a.iter().sum::<i64>() == degree as i64).all(equal);
+    let exact =
+        |degree: usize| monomials(s, degree).iter().filter(|a| a.iter().sum::<i64>() == degree as i64).all(equal);
     (0..MAX_RULES).take_while(|degree| exact(*degree)).count()
 }
 
@@ -167,7 +168,8 @@ mod tests {
         let window = Window::of(&bilinear, 1).unwrap();
         assert!(window.points.len() > 4);
         let letters = window.quotient(&bilinear).unwrap();
-        let slow = |m: &Matrix| m.rows() > 0 && (m + &Matrix::identity(m.rows()).scale(&ratio(-1, 2))).rank() < m.rows();
+        let slow =
+            |m: &Matrix| m.rows() > 0 && (m + &Matrix::identity(m.rows()).scale(&ratio(-1, 2))).rank() < m.rows();
         assert!(letters.iter().any(slow), "an eigenvalue 1/2");
         let haar = mask("(1+x)*(1+y)");
         assert_eq!((sum_rules(&haar), closure(&haar, &[vec![0, 0]]).unwrap().len()), (1, 1));
@@ -176,11 +178,9 @@ mod tests {
 
     #[test]
     fn sum_rules_of_box_splines() {
-        for (text, order) in [
-            ("(1+x)^2*(1+y)^2*(1+x*y)^2/16", 4),
-            ("(1+x)*(1+y)*(1+x*y)*(1+x/y)/4", 2),
-            ("(1+x)^3*(1+y)^3/16", 3),
-        ] {
+        for (text, order) in
+            [("(1+x)^2*(1+y)^2*(1+x*y)^2/16", 4), ("(1+x)*(1+y)*(1+x*y)*(1+x/y)/4", 2), ("(1+x)^3*(1+y)^3/16", 3)]
+        {
             assert_eq!(sum_rules(&mask(text)), order, "{text}");
         }
         assert_eq!(monomials(2, 3).len(), 10);
