@@ -77,6 +77,20 @@ fn several_inputs_and_data_of_all() {
     assert_eq!(paths, ["bspline", "cases/bspline/degree-2.toml"]);
 }
 
+/// What a symbol, a name or a filter was understood to be is said by every command that proves something about it.
+#[test]
+fn the_mask_understood_is_echoed() {
+    let control = "name = \"p\"\ncontrol = [[0,0],[1,2],[3,2],[4,0],[6,1]]\n[scheme]\nsymbol = \"(1+z)^3/4\"\n";
+    for (way, input) in [("(1+z)^3/4", ""), ("bspline degree=2", ""), ("[0.25 0.75 0.75 0.25]", ""), ("-", control)] {
+        assert!(run(&["certify", way], input, 0).0.contains("mask (1/4, 3/4, 3/4, 1/4)"), "{way}");
+        let data: Value = serde_json::from_str(&run(&["certify", "--json", way], input, 0).0).unwrap();
+        assert_eq!(data["mask"], serde_json::json!({"arity": 2, "coefficients": ["1/4", "3/4", "3/4", "1/4"]}));
+        assert!(run(&["regularity", way], input, 0).0.contains("1/4 3/4 3/4 1/4"), "{way}");
+    }
+    assert!(run(&["certify", "bspline degree=1 arity=3"], "", 0).0.contains("mask of arity 3 ("));
+    assert!(!run(&["certify", "koch"], "", 1).0.contains("mask"));
+}
+
 #[test]
 fn parameters_are_addresses_too() {
     for (text, address) in [("1/3", "(01)"), ("0.5", "1(0)"), ("0", "(0)"), ("1", "(1)"), ("t=1/6", "0(01)")] {

@@ -27,7 +27,7 @@ const LOOP: Scheme = Scheme::Loop;
 fn every_mesh_has_its_answer() {
     let warren = Scheme::LoopWarren;
     // The mesh, the rule, C¹ at all vertices, a regular C¹ surface.
-    let answers: [(&str, Scheme, Verdict, Verdict); 18] = [
+    let answers: [(&str, Scheme, Verdict, Verdict); 20] = [
         ("cube", QUADS, Proved, Proved),
         ("tetrahedron", QUADS, Proved, Proved),
         ("octahedron", QUADS, Proved, Proved),
@@ -40,6 +40,8 @@ fn every_mesh_has_its_answer() {
         ("line", QUADS, Refuted, Refuted),
         ("strip", QUADS, Undetermined, Undetermined),
         ("plane", QUADS, Undetermined, Undetermined),
+        ("triangle", QUADS, Undetermined, Undetermined),
+        ("triangle", LOOP, Undetermined, Undetermined),
         ("tetrahedron", LOOP, Proved, Proved),
         ("octahedron", LOOP, Proved, Proved),
         ("octahedron", warren, Proved, Proved),

@@ -83,9 +83,28 @@ class System:
         return low, high
 
     def below(self, value):
+        if "pair" in value:
+            letters, pair, bound = fields(value, "word", "pair", "bound")
+            length, product = self.product(letters)
+            (c, p), bound = vector(pair, 2), rational(bound)
+            need(bound >= 0 and (p == 0 or p * p < 4 * c), "word")
+            # Singular: 0 is an eigenvalue of M^2 + p M + c.
+            square = times(product, product, len(product))
+            shifted = [[x + p * y + (c if i == j else 0) for j, (x, y) in enumerate(zip(*rows))] for i, rows in enumerate(zip(square, product))]
+            need(characteristic(shifted)[0] == 0 and bound ** (2 * length) <= abs(c), "word")
+            return bound
         letters, centre, error, bound = fields(value, "word", "centre", "error", "bound")
-        letters, (x, y), error, bound = [index(a, len(self.arrows)) for a in letters], vector(centre, 2), rational(error), rational(bound)
-        need(0 < len(letters) <= MAX_LETTERS and error >= 0 and bound >= 0, "word")
+        length, product = self.product(letters)
+        (x, y), error, bound = vector(centre, 2), rational(error), rational(bound)
+        need(error >= 0 and bound >= 0, "word")
+        need(root_near(characteristic(product), (x, y), error), "word")
+        need((bound ** length + error) ** 2 <= x * x + y * y, "word")
+        return bound
+
+    def product(self, letters):
+        """The length and the product of a closed path in a space that is not 0."""
+        letters = [index(a, len(self.arrows)) for a in letters]
+        need(0 < len(letters) <= MAX_LETTERS, "word")
         path = [self.arrows[a] for a in letters]
         need(all(a[1] == b[0] for a, b in zip(path, path[1:] + path[:1])), "word")
         size = self.dims[path[0][0]]
@@ -93,9 +112,7 @@ class System:
         product = identity(size)
         for _, target, matrix in path:
             product = times(product, matrix, self.dims[target])
-        need(root_near(characteristic(product), (x, y), error), "word")
-        need((bound ** len(letters) + error) ** 2 <= x * x + y * y, "word")
-        return bound
+        return len(letters), product
 
     # ---- norms of a block ----
 

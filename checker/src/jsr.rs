@@ -2,7 +2,7 @@
 
 use crate::base::{
     Accepted, Checked, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Verdict, bits, file, has_root_near, index,
-    list, matrix, need, spend, total, word,
+    list, matrix, need, spend, total, whole, word,
 };
 use crate::claim::{Claim, Decided};
 use crate::curve::positive_definite;
@@ -123,23 +123,53 @@ fn read_bases(system: &System, node: &Node<'_>) -> Checked<Vec<(Matrix, Matrix)>
     Ok(bases)
 }
 
-/// A closed path and a disc around `z` in which its product has an eigenvalue, because `n |χ(z)| <= error |χ'(z)|`; the modulus is
-/// at least `|z| − error >= bound^length`.
+/// A closed path whose product has an eigenvalue of modulus `bound^length` or more: a root of a `pair`, or one in a disc.
 fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
-    let [word, centre, error, bound] = node.fields("word centre error bound")?;
+    if node.get("pair").is_some() {
+        let [word, pair, bound] = node.fields("word pair bound")?;
+        let (letters, product) = path(system, &word)?;
+        let bound = bound.rational()?;
+        need(!bound.is_negative(), "word", "a bound from 0 on is needed")?;
+        node.at(has_pair(&product, &pair.vector(2)?, &power(&bound, letters)?))?;
+        return Ok(bound);
+    }
+    in_a_disc(system, node)
+}
+
+/// Whether a root of `x² + bx + c` is an eigenvalue, where both have a modulus `√|c|` of at least `reach`: they are conjugate, or
+/// opposite.
+fn has_pair(product: &Matrix, pair: &[Q], reach: &Q) -> Checked<()> {
+    let (c, b) = (&pair[0], &pair[1]);
+    let level = b.is_zero() || b * b < c * whole(4);
+    need(level, "word", "the two numbers do not have the same modulus")?;
+    let value = product.times(product)?.plus(b, product).plus(c, &Matrix::identity(product.rows));
+    need(value.rank()? < product.rows, "word", "neither number is an eigenvalue")?;
+    need(reach * reach <= c.abs(), "word", "the bound is above the eigenvalue")
+}
+
+/// The length and the product of a closed path in a space that is not 0.
+fn path(system: &System, word: &Node<'_>) -> Checked<(usize, Matrix)> {
     let word = word.indices(system.arrows.len())?;
-    let (centre, e, bound) = (centre.vector(2)?, error.rational()?, bound.rational()?);
-    let fits = (1..=MAX_LETTERS).contains(&word.len()) && !e.is_negative() && !bound.is_negative();
-    need(fits, "word", "a word of 1 to 1000 letters, and numbers from 0 on, are needed")?;
+    need((1..=MAX_LETTERS).contains(&word.len()), "word", "a word of 1 to 1000 letters is needed")?;
     let arrow = |k: usize| &system.arrows[word[k]];
     let closed = (0..word.len()).all(|k| arrow(k).1 == arrow((k + 1) % word.len()).0);
     need(closed, "word", "the arrows form no closed path")?;
     let product = (1..word.len()).try_fold(arrow(0).2.clone(), |p, k| p.times(&arrow(k).2))?;
     // Of a space 0 there are no eigenvalues.
     need(product.rows > 0, "word", "the path begins in a space without dimensions")?;
+    Ok((word.len(), product))
+}
+
+/// A disc around `z` in which the product has an eigenvalue, because `n |χ(z)| <= error |χ'(z)|`; the modulus is at least
+/// `|z| − error >= bound^length`.
+fn in_a_disc(system: &System, node: &Node<'_>) -> Checked<Q> {
+    let [word, centre, error, bound] = node.fields("word centre error bound")?;
+    let (letters, product) = path(system, &word)?;
+    let (centre, e, bound) = (centre.vector(2)?, error.rational()?, bound.rational()?);
+    need(!e.is_negative() && !bound.is_negative(), "word", "numbers from 0 on are needed")?;
     let near = has_root_near(&product.characteristic()?, &centre, &e)?;
     error.need(near, "word", "no eigenvalue is seen in this disc")?;
-    let reach = power(&bound, word.len())? + &e;
+    let reach = power(&bound, letters)? + &e;
     let above = &reach * &reach <= &centre[0] * &centre[0] + &centre[1] * &centre[1];
     need(above, "word", "the bound is above the eigenvalue")?;
     Ok(bound)

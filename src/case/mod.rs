@@ -110,8 +110,8 @@ pub enum Origin {
     Named(String),
     /// A univariate mask, given or named.
     Mask(Mask),
-    /// A polygon of control points, a curve of several spans.
-    Polygon,
+    /// A polygon of control points, a curve of several spans; with its mask where the spans are those of one.
+    Polygon(Option<Mask>),
     /// The tensor product of two curves.
     Tensor,
     /// An automaton, some of whose states name a scheme or are chains.
@@ -250,11 +250,20 @@ impl Case {
         }
     }
 
+    /// The mask that `[scheme]` was understood to give.
+    #[must_use]
+    pub fn mask(&self) -> Option<&Mask> {
+        match &self.scheme {
+            Some(Origin::Mask(mask) | Origin::Polygon(Some(mask))) => Some(mask),
+            _ => None,
+        }
+    }
+
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
     /// chains, which the checker does not build: a certificate is about this text, and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon | Origin::States)).then(|| self.expanded())
+        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::States)).then(|| self.expanded())
     }
 
     /// A problem of one operator, shown at its matrix in the file.

@@ -105,6 +105,7 @@ fn polygon(case: &Table<'_>, table: &Table<'_>, built: Built) -> Result<Built, P
         _ => refused(table, &control, &error, &[]),
     }
     };
+    let mut mask = None;
     let shape = match (ends, table.get("knots")) {
         (Some(Ends::Clamped), None) => {
             scheme::over_knots(count, spline_degree(table, size)?, &scheme::clamped_knots(count, size - 1))
@@ -118,10 +119,16 @@ fn polygon(case: &Table<'_>, table: &Table<'_>, built: Built) -> Result<Built, P
                 .problem("two-forms", "`knots` and `ends` exclude each other", "given besides `ends`")
                 .with_help("the knots say what happens at the ends"));
         }
-        (ends, None) => scheme::windows(count, size, step, ends.unwrap_or(Ends::Open))
-            .and_then(|spans| scheme::of_spans(built.shape, spans)),
+        (ends, None) => {
+            mask = match built.origin {
+                Origin::Mask(own) => Some(own),
+                _ => None,
+            };
+            scheme::windows(count, size, step, ends.unwrap_or(Ends::Open))
+                .and_then(|spans| scheme::of_spans(built.shape, spans))
+        }
     };
-    Ok(Built { shape: shape.map_err(refused)?, origin: Origin::Polygon })
+    Ok(Built { shape: shape.map_err(refused)?, origin: Origin::Polygon(mask) })
 }
 
 /// The degree of a scheme that is a B-spline by name.

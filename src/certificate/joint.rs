@@ -24,7 +24,7 @@ pub fn radius_certificate(file: &File, found: &JointRadius) -> Result<Certificat
 /// The bounds that were found for a system, with what proves them.
 pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value, Unsupported> {
     let lower = match &found.lower {
-        Some(lower) => below(&system.product(&lower.path), lower)?,
+        Some(lower) => below(&system.product(&lower.path), lower)?.0,
         None => Value::Null,
     };
     let bases: Vec<Value> = (0..system.dims.len())
@@ -54,8 +54,23 @@ pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value
     Ok(json!({"lower": lower, "upper": number(&upper), "bases": bases, "blocks": blocks}))
 }
 
-/// A disc that holds an eigenvalue of the product, and a rational below its modulus to the power `1/length`.
-fn below(product: &Matrix, lower: &Lower) -> Result<Value, Unsupported> {
+/// What a certificate says of a lower bound, with that bound: it may be smaller than the value of the word.
+///
+/// # Errors
+/// [`Unsupported`] where the format cannot express the eigenvalue.
+pub(super) fn stated(system: &System, lower: &Lower) -> Result<Rational, Unsupported> {
+    Ok(below(&system.product(&lower.path), lower)?.1)
+}
+
+/// Two eigenvalues of equal modulus with a rational bound; or a disc that holds an eigenvalue of the product, and a rational below
+/// its modulus to the power `1/length`.
+fn below(product: &Matrix, lower: &Lower) -> Result<(Value, Rational), Unsupported> {
+    let irrational = lower.root().filter(|root| root.rational().is_none());
+    if let (Some(root), Some(bound)) = (irrational, lower.rational()) {
+        // Its minimal polynomial has degree 2.
+        let pair: Vec<Rational> = root.minpoly().monic().coeffs().iter().take(2).cloned().collect();
+        return Ok((json!({"word": lower.path, "pair": numbers(&pair), "bound": number(&bound)}), bound));
+    }
     let disc = match (&lower.eigenvalue, lower.root().and_then(Root::rational)) {
         (_, Some(x)) => Disc { centre: (x, Rational::from(0)), error: Rational::from(0) },
         (Leading::Disc(disc), None) => disc.clone(),
@@ -75,12 +90,13 @@ fn below(product: &Matrix, lower: &Lower) -> Result<Value, Unsupported> {
         let modulus = crate::radius::square_root(&square, 2 * BITS).lo - &error;
         crate::radius::root_floor(&modulus.max(Rational::from(0)), lower.length, BITS)
     });
-    Ok(json!({
+    let value = json!({
         "word": lower.path,
         "centre": [number(&disc.centre.0), number(&disc.centre.1)],
         "error": number(&error),
         "bound": number(&bound),
-    }))
+    });
+    Ok((value, bound))
 }
 
 fn above(proof: &BlockProof) -> Result<(Value, Rational), Unsupported> {

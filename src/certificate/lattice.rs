@@ -1,10 +1,10 @@
 //! Certificates of the regularity of masks on lattices.
 
-use super::joint::radius_proof;
+use super::joint::{radius_proof, stated};
 use super::regularity::radius_with_a_rational_word;
 use super::{Certificate, Unsupported, unsupported};
-use crate::arith::{Rational, parse_rational};
-use crate::radius::System;
+use crate::arith::Rational;
+use crate::radius::{JointRadius, System};
 use crate::theorem::lattice::{Answer, Cells, LatticeRegularity, Stability};
 use serde_json::{Value, json};
 
@@ -16,8 +16,13 @@ pub fn lattice_certificate(name: &str, found: &LatticeRegularity) -> Result<Cert
     let Ok(system) = System::plain(&found.letters) else {
         return unsupported("a window without a quotient", "window");
     };
-    let radius = radius_proof(&system, &radius_with_a_rational_word(&system, &found.radius))?;
-    let lower = radius["lower"]["bound"].as_str().and_then(|text| parse_rational(text).ok());
+    let radius = radius_with_a_rational_word(&system, &found.radius);
+    // A word whose eigenvalue cannot be written down is left out: it refutes only.
+    let lower = radius.lower.as_ref().and_then(|lower| stated(&system, lower).ok());
+    let radius = match lower {
+        Some(_) => radius_proof(&system, &radius)?,
+        None => radius_proof(&system, &JointRadius { lower: None, ..radius })?,
+    };
     let m = found.mask.dilation();
     // Of an irrational radius only a number below it is written down, which does not refute what the radius itself does.
     let shown = |order: usize| {

@@ -32,6 +32,7 @@ use crate::case::Case;
 use crate::shape::{Address, CellKind, Contraction, HullWeights, Shape};
 use crate::theorem::{Assertion, Certified, Claim, PointReport, Role, Verdict};
 use serde_json::{Value, json};
+use std::cell::RefCell;
 use thiserror::Error;
 
 pub use spectrum::{Operator, spectra};
@@ -150,13 +151,11 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
     let hulls = found.polygons.as_deref().map(|polygons| (polygons, found.polygon_weights.as_ref()));
     let states = contraction(&case.shape, &found.contraction, radii, hulls)?;
-    let mut points = Points { case, places: Vec::new(), json: Vec::new() };
-    for point in &found.points {
-        points.add(point)?;
-    }
+    let points = Points { case, listed: RefCell::new(Vec::new()) };
     let mut left_out = Vec::new();
     let answers = answers(case, found, &points, &mut left_out)?;
-    let proof = json!({"contraction": states, "points": points.json, "answers": answers});
+    let listed: Value = points.listed.into_inner().into_iter().map(|(_, point)| point).collect();
+    let proof = json!({"contraction": states, "points": listed, "answers": answers});
     Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof).without(left_out))
 }
 
@@ -213,30 +212,37 @@ fn place_json(point: &PointReport) -> Value {
     }
 }
 
-/// The decided points, each once.
+/// An answer to a question that the case does not ask.
+type Further = Result<Option<Value>, Unsupported>;
+
+/// The decided points that answer a question, each once: their places and what is written about them.
 struct Points<'a> {
     case: &'a Case,
-    places: Vec<Value>,
-    json: Vec<Value>,
+    listed: RefCell<Vec<(Value, Value)>>,
 }
 
 impl Points<'_> {
-    fn add(&mut self, point: &PointReport) -> Result<(), Unsupported> {
-        let place = place_json(point);
-        if point.verdict != Verdict::Undetermined && !self.places.contains(&place) {
-            self.json.push(branch::point(&self.case.shape, point, &place)?);
-            self.places.push(place);
+    /// The index of a decided point, which is listed from now on.
+    fn index(&self, point: &PointReport) -> Result<usize, Unsupported> {
+        if point.verdict == Verdict::Undetermined {
+            return unsupported("a point that is not decided", branch::branch_name(&point.branches[0]));
         }
-        Ok(())
+        let place = place_json(point);
+        let mut listed = self.listed.borrow_mut();
+        if let Some(index) = listed.iter().position(|(p, _)| *p == place) {
+            return Ok(index);
+        }
+        let json = branch::point(&self.case.shape, point, &place)?;
+        listed.push((place, json));
+        Ok(listed.len() - 1)
     }
 
-    /// The index of a decided point.
-    fn index(&self, point: &PointReport) -> Result<usize, Unsupported> {
-        let place = place_json(point);
-        match self.places.iter().position(|p| *p == place) {
-            Some(index) => Ok(index),
-            None => unsupported("a point that is not decided", branch::branch_name(&point.branches[0])),
+    /// An answer, or none: then the points that were listed for it, after so many others, are taken off again.
+    fn only_for(&self, answer: Further, before: usize) -> Further {
+        if !matches!(answer, Ok(Some(_))) {
+            self.listed.borrow_mut().truncate(before);
         }
+        answer
     }
 
     /// The indices of the decided points among those for which `wanted` holds.
@@ -301,7 +307,9 @@ fn answers(
         let address = address_json(address);
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
-    for further in [not_killed(case, found), everywhere::answer(shape, found, |point| points.index(point))] {
+    let before = points.listed.borrow().len();
+    let every = everywhere::answer(shape, found, |point| points.index(point));
+    for further in [not_killed(case, found), points.only_for(every, before)] {
         match further {
             Ok(answer) => answers.extend(answer),
             Err(why) => left_out.push(why),

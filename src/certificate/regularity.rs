@@ -1,6 +1,6 @@
 //! Certificates of the orders of smoothness of a curve.
 
-use super::joint::radius_proof;
+use super::joint::{radius_proof, stated};
 use super::{Certificate, Unsupported, contraction, unsupported};
 use crate::algebraic::Root;
 use crate::case::Case;
@@ -34,7 +34,16 @@ pub fn regularity_certificate(
 pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
     let radius = match (&order.system, &order.radius) {
         (None, _) => Value::Null,
-        (Some(system), Some(radius)) => radius_proof(system, &radius_with_a_rational_word(system, radius))?,
+        (Some(system), Some(radius)) => {
+            let radius = radius_with_a_rational_word(system, radius);
+            if order.outcome == Outcome::Cycle {
+                let lower = radius.lower.as_ref().map(|lower| stated(system, lower)).transpose()?;
+                if lower.is_none_or(|lower| lower < order.threshold) {
+                    return unsupported("an eigenvalue on the threshold itself", format!("order {}", order.order));
+                }
+            }
+            radius_proof(system, &radius)?
+        }
         (Some(_), None) => return unsupported("a radius without bounds", format!("order {}", order.order)),
     };
     let outcome = match &order.outcome {
@@ -55,7 +64,7 @@ const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 /// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
 /// words a certificate says more than an inequality with room.
 pub(super) fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
-    let irrational = radius.lower.as_ref().filter(|l| l.root().and_then(Root::rational).is_none());
+    let irrational = radius.lower.as_ref().filter(|l| l.rational().is_none());
     let power = irrational.and_then(|lower| {
         let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
         powers.into_iter().find(|l| l.root().and_then(Root::rational).is_some())

@@ -172,7 +172,7 @@ impl Work<'_> {
             }
             return found;
         };
-        let limit = self.limit(stencil, v);
+        let Some(limit) = self.limit(stencil, v) else { return found };
         let holds = if n > MAX_VALENCE {
             common
                 .then_some(())
@@ -193,14 +193,14 @@ impl Work<'_> {
         found
     }
 
-    fn limit(&self, stencil: &Stencil, v: usize) -> Limit {
+    /// The limit at a vertex; `None` where a point around the middle of a face lies on the border, for which there is no rule.
+    fn limit(&self, stencil: &Stencil, v: usize) -> Option<Limit> {
         let t = &self.start.topology;
         let star = t.around(v);
-        let at = |v: u32| self.exact[v as usize].as_ref().expect("points of the file, or one rational step of them");
-        let spokes: Vec<&Point> = star.spokes.iter().map(|v| at(*v)).collect();
-        let across: Vec<&Point> =
-            if self.triangles { Vec::new() } else { star.frames.iter().map(|f| at(t.diagonal(f.corner))).collect() };
-        stencil.limit(at(v as u32), &spokes, &across)
+        let at = |v: u32| self.exact.get(v as usize)?.as_ref();
+        let spokes = star.spokes.iter().map(|v| at(*v)).collect::<Option<Vec<&Point>>>()?;
+        let across = star.frames.iter().filter(|_| !self.triangles).map(|f| at(t.diagonal(f.corner)));
+        Some(stencil.limit(at(v as u32)?, &spokes, &across.collect::<Option<Vec<&Point>>>()?))
     }
 
     /// Whether all points lie on a line on which the surface depends in the faces at a vertex.

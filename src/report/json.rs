@@ -27,6 +27,7 @@ pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
         "version": VERSION,
         "case": case.name,
         "title": case.title,
+        "mask": case.mask().map(|m| json!({ "arity": m.arity(), "coefficients": rationals(m.coefficients()) })),
         "verdict": required.verdict(&found.claims).word(),
         "required": required.to_string(),
         "tangents": found.verdict.word(),

@@ -36,7 +36,7 @@ pub fn reason(v: &AtVertex) -> String {
         Reason::Undecided => "whether the leading coefficients are independent was not decided".to_owned(),
         Reason::Line => "all points on which the surface depends there lie on one line".to_owned(),
         Reason::Valence(why) => why.clone(),
-        Reason::Border => "the vertex lies on the border of the mesh".to_owned(),
+        Reason::Border => "the vertex, or a point around it, lies on the border of the mesh".to_owned(),
     }
 }
 

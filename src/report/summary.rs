@@ -30,6 +30,7 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
     if let Some(source) = &case.source {
         blocks.push(Block::Paragraph(vec![Inline::Mark(Tone::Neutral, source.clone())]));
     }
+    blocks.extend(mask_line(case).map(Block::Paragraph));
     blocks.push(Block::heading(2, "Claims"));
     blocks.push(claims_table(case, found));
     blocks.extend(points_table(case, found));
@@ -52,6 +53,13 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
         blocks.push(Block::List(limits));
     }
     Document { title: case.name.clone(), blocks }
+}
+
+/// The mask that was understood.
+pub(super) fn mask_line(case: &Case) -> Option<Line> {
+    let mask = case.mask()?;
+    let arity = if mask.arity() == 2 { String::new() } else { format!(" of arity {}", mask.arity()) };
+    Some(line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]))
 }
 
 /// What is claimed, each with its answer, statement and reason.

@@ -26,7 +26,7 @@ pub use vertex::vertex_document;
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
-use super::summary::{claim_line, overall_line, shape_line};
+use super::summary::{claim_line, mask_line, overall_line, shape_line};
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, Spaces};
@@ -188,6 +188,10 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     shape.push(Inline::Code(case.name.clone()));
     shape.extend(words(": a "));
     shape.extend(shape_line(case, found));
+    if let Some(mask) = mask_line(case) {
+        shape.extend(words(", made of the "));
+        shape.extend(mask);
+    }
     shape.extend(words("."));
     blocks.push(Block::Paragraph(shape));
     if let Some(source) = &case.source {
