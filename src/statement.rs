@@ -129,6 +129,8 @@ statements! {
     Components = "theorem-13",
     Radius = "radius",
     Smoothness = "smoothness",
+    TensorEveryPoint = "tensor-every-point",
+    PatchDerivative = "patch-derivative",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",

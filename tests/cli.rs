@@ -478,6 +478,53 @@ fn latex_is_complete() {
 fn completions_and_the_manual_are_printed() {
     assert!(output(&["completions", "bash"], 0).0.contains("secant"));
     assert!(output(&["man"], 0).0.contains(".TH"));
+    assert!(output(&["man", "certify"], 0).0.contains("secant certify"));
+    assert!(output(&["man", "certifi"], 2).1.contains("certify, spectrum"));
+    let directory = tempfile::tempdir().unwrap();
+    let pages = directory.path().join("man1");
+    output(&["man", "--out", pages.to_str().unwrap()], 0);
+    // The page of the program refers to those of its commands, all of which are there.
+    let program = std::fs::read_to_string(pages.join("secant.1")).unwrap();
+    let named: Vec<&str> =
+        program.split("secant\\-").skip(1).filter_map(|t| t.split_once("(1)")).map(|t| t.0).collect();
+    assert!(named.len() > 12, "{named:?}");
+    for name in named.iter() {
+        assert!(pages.join(format!("secant-{name}.1")).exists(), "{name}");
+    }
+}
+
+#[test]
+fn pictures_go_to_the_standard_output_in_the_size_asked_for() {
+    let (out, err) = output(&["certify", HALF, "--svg", "-", "--size", "900"], 0);
+    assert!(out.starts_with("<svg") && out.trim_end().ends_with("</svg>") && out.contains(" width=\"900\""), "{out}");
+    // The verdict is beside it, and the legend names the kinds that are there.
+    assert!(err.contains("proved: cusp") && out.contains(">cusp</text>") && !out.contains(">corner</text>"), "{err}");
+    let (out, err) = output(&["render", "koch", "--obj", "-", "--depth", "2"], 0);
+    assert!(out.starts_with("# ") && out.contains("\nv ") && err.contains("exact points"), "{out}{err}");
+    let (_, err) = output(&["certify", HALF, "--svg", "-", "--certificate", "-"], 2);
+    assert!(err.contains("give `-` once"), "{err}");
+    output(&["certify", HALF, "--svg", "-", "--size", "5"], 2);
+    let directory = tempfile::tempdir().unwrap();
+    for command in ["certify", "render"] {
+        let png = directory.path().join(format!("{command}.png"));
+        output(&[command, HALF, "--png", png.to_str().unwrap(), "--size", "333"], 0);
+        let bytes = std::fs::read(&png).unwrap();
+        assert_eq!(u32::from_be_bytes(bytes[16..20].try_into().unwrap()), 333, "{command}");
+    }
+}
+
+#[test]
+fn the_brief_form_has_the_answers_the_points_and_the_verdict() {
+    for (case, code, pieces) in [
+        (HALF, 0, ["ends", "every point (G¹)  refuted", "cusp", "Holds: ends"]),
+        ("cases/surfaces/bicubic-space.toml", 0, ["vertices", "proved", "tangent plane", "as required. Holds:"]),
+    ] {
+        let (brief, whole) = (output(&["certify", "--brief", case], code).0, output(&["certify", case], code).0);
+        for piece in pieces {
+            assert!(brief.contains(piece), "{piece} is missing in\n{brief}");
+        }
+        assert!(brief.lines().count() < 30 && 2 * brief.lines().count() < whole.lines().count(), "{brief}");
+    }
 }
 
 #[test]

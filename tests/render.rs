@@ -26,7 +26,7 @@ fn cubic(t: &Rational) -> Vec<Rational> {
         n(-3) * t * t * t + n(3) * t * t + n(3) * t + n(1),
         t * t * t,
     ];
-    basis.into_iter().rev().map(|b| b / &six).collect()
+    basis.into_iter().map(|b| b / &six).collect()
 }
 
 #[test]

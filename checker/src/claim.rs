@@ -77,6 +77,8 @@ pub enum Claim {
         /// Whether it is about the surface before the projection by the control points.
         projected: bool,
     },
+    /// The surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously.
+    PlaneTurns,
     /// For almost all control points the surface is C¹ at vertices of this valence.
     SmoothAtVertex(usize),
     /// For almost all control points the surface has a tangent plane at vertices of this valence.
@@ -288,6 +290,9 @@ impl Display for Claim {
             Self::PlaneDense { projected: true } => f.write_str(
                 "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
                  one where it does not fold that plane",
+            ),
+            Self::PlaneTurns => f.write_str(
+                "the surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously",
             ),
             Self::SmoothAtVertex(n) => {
                 write!(f, "for almost all control points the surface is C¹ at a vertex of valence {n}")

@@ -124,7 +124,7 @@ impl Findings {
     /// The picture as PNG.
     fn png(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
         let answered = Arc::clone(&self.answered);
-        outside(py, move || answered.bitmap())
+        outside(py, move || answered.bitmap(secant::picture::PIXELS))
     }
 
     /// The picture.

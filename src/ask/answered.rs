@@ -88,6 +88,7 @@ fn is_proved_again(claim: &Claim, certificate: &Certificate, orders: &[Assertion
     }
     match &claim.what {
         Assertion::G1 => certificate.decides_every_point(claim.verdict()),
+        Assertion::PlaneEverywhere => certificate.decides_every_plane(claim.verdict()),
         what if what.is_of_dense_joints() => !certificate.leaves_out_joints(),
         what if what.is_of_parameter() => orders.contains(what),
         _ => true,
@@ -155,15 +156,15 @@ impl Answered {
         }
     }
 
-    /// The picture of the shape with its tangents, as PNG.
+    /// The picture of the shape with its tangents, as PNG, so many pixels wide.
     ///
     /// # Errors
     /// A [`Problem`] where nothing can be drawn, and of vertices.
     #[cfg(feature = "png")]
-    pub fn bitmap(&self) -> Result<Vec<u8>, Problem> {
+    pub fn bitmap(&self, pixels: u32) -> Result<Vec<u8>, Problem> {
         match &self.findings {
             Findings::Tangents { case, found } => {
-                figures::attractor_png(case, found).ok_or_else(|| undrawn(&case.name))
+                figures::attractor_png(case, found, pixels).ok_or_else(|| undrawn(&case.name))
             }
             Findings::Vertices { .. } => {
                 Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")

@@ -141,6 +141,17 @@ pub fn asked(text: &str) -> Result<SourceText, Problem> {
     }
 }
 
+/// The text of the case that a text is or stands for, where no file can be meant: none is read.
+///
+/// # Errors
+/// A [`Problem`] where the text is no case and stands for none, with what is near.
+pub fn written(text: &str) -> Result<String, Problem> {
+    if text.contains('=') && text.trim().contains('\n') {
+        return Ok(text.to_owned());
+    }
+    text_of(text.trim()).unwrap_or_else(|| if is_case(text) { Ok(text.to_owned()) } else { Err(nothing(text.trim())) })
+}
+
 /// Whether a text is meant to be a case.
 #[must_use]
 pub fn is_case(text: &str) -> bool {

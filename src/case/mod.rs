@@ -4,6 +4,7 @@
 
 mod asked;
 mod chain;
+mod control;
 mod expect;
 mod faces;
 mod field;
@@ -20,7 +21,8 @@ mod source;
 mod states;
 mod vertex;
 
-pub use asked::{asked, is_case, nothing};
+pub use asked::{asked, is_case, nothing, written};
+pub use control::with_control;
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
 pub use lattice::LatticeCase;

@@ -95,6 +95,12 @@ impl Certificate {
         self.left_out.iter().any(|why| why.place == JOINTS)
     }
 
+    /// Whether it has the answer about every point of a surface with this verdict.
+    #[must_use]
+    pub fn decides_every_plane(&self, verdict: Verdict) -> bool {
+        self.json["proof"]["every"]["verdict"] == verdict.word()
+    }
+
     /// The certificate as JSON.
     #[must_use]
     pub fn json(&self) -> &Value {

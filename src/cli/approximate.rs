@@ -2,14 +2,14 @@
 
 use super::certify::json_text;
 use super::many::gravest;
-use super::output::{complain, print, problem_code, stdout_colour};
+use super::output::{complain, print, problem_code, shown};
 use super::{CertifyArgs, UNDETERMINED};
 use crate::approx::{PointLook, look};
 use crate::case::{Case, Question};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::report::document::{Block, Document, Inline, Tone, code, words};
-use crate::report::{json, text};
+use crate::report::json;
 use serde_json::{Value, json};
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
     for path in &args.cases {
         match guarded(|| one(path, args)) {
             Ok((case, seen)) if args.json || args.jsonl => print(&json_text(&value(&case, &seen), args.json)),
-            Ok((case, seen)) if !args.quiet => print(&text::render(&document(&case, &seen), stdout_colour())),
+            Ok((case, seen)) if !args.quiet => print(&shown(&document(&case, &seen))),
             Ok(_) => {}
             Err(problem) => {
                 complain(&problem);

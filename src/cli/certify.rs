@@ -1,6 +1,6 @@
 //! `secant certify` of a single case.
 
-use super::output::{complain, print, problem_code, settle, stdout_colour, write_certificate, write_file};
+use super::output::{complain, print, problem_code, say, settle, shown, to_stdout, write_certificate, write_file};
 use super::progress::{Progress, Waiting};
 use super::question::question;
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many, mesh};
@@ -10,10 +10,11 @@ use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::mesh::is_mesh;
+use crate::picture::{PIXELS, resized};
 use crate::prove::Findings;
 use crate::report::proof::Level;
 use crate::report::words::{self, listed};
-use crate::report::{findings, html, json, latex, markdown, text};
+use crate::report::{findings, html, json, latex, markdown};
 use std::path::Path;
 
 /// The exit code of a verdict.
@@ -45,18 +46,19 @@ pub fn run(args: &CertifyArgs) -> u8 {
         _ => return many::run(args),
     };
     let done = guarded(|| {
+        let piped = to_stdout([&args.report, &args.svg, &args.png, &args.certificate, &args.coq])?;
         let answered = one(path, args)?;
         // A picture or a file that fails takes no verdict with it.
         let written = guarded(|| write_files(&answered, args));
         let shown = if args.quiet { String::new() } else { printed(&answered, args) };
-        Ok((answered, shown, written))
+        Ok((answered, shown, written, piped))
     });
     match done {
-        Ok((answered, shown, written)) => {
+        Ok((answered, shown, written, piped)) => {
             if !args.quiet {
                 note(&answered);
             }
-            print(&shown);
+            say(&shown, piped);
             match written {
                 Ok(()) => exit_code(answered.findings.verdict_on(&args.require)),
                 Err(problem) => {
@@ -207,8 +209,8 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         let written = rendered(path, &answered.findings, level);
         (path, written)
     });
-    let svg = args.svg.as_deref().map(|path| Ok((path, answered.picture(args.draw == Drawn::Cones)?))).transpose()?;
-    let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap()?))).transpose()?;
+    let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args)?))).transpose()?;
+    let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap(args.size.unwrap_or(PIXELS))?))).transpose()?;
     let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
     let coq = args.coq.as_deref().map(|path| Ok((path, replay(&answered.findings)?))).transpose()?;
     for (path, content) in report.into_iter().chain(svg).chain(coq) {
@@ -225,6 +227,12 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         write_file(path, &image)?;
     }
     Ok(())
+}
+
+/// The picture, as wide as was asked for.
+fn picture(answered: &Answered, args: &CertifyArgs) -> Result<String, Problem> {
+    let svg = answered.picture(args.draw == Drawn::Cones)?;
+    Ok(args.size.map_or(svg.clone(), |width| resized(&svg, width)))
 }
 
 /// The file for Coq.
@@ -246,7 +254,10 @@ fn printed(answered: &Answered, args: &CertifyArgs) -> String {
         data["path"] = args.cases.first().map(|p| p.display().to_string()).into();
         return json_text(&data, args.json);
     }
-    text::render(&findings::summary(&answered.findings, &args.require, args.verbose), stdout_colour())
+    shown(&match args.brief {
+        true => findings::brief(&answered.findings, &args.require),
+        false => findings::summary(&answered.findings, &args.require, args.verbose),
+    })
 }
 
 /// A value as JSON text, indented or in one line.

@@ -1,11 +1,10 @@
 //! `secant explain`: the statements, and the words of the glossary.
 
-use super::output::{complain, print, stdout_colour};
+use super::output::{complain, print, shown};
 use super::{BAD_INPUT, PROVED};
 use crate::diagnostic::Problem;
 use crate::glossary;
 use crate::report::document::{Block, Document, Inline, Line, line, words};
-use crate::report::text;
 use crate::statement::Statement;
 
 /// Prints one statement, or the list of their names.
@@ -59,5 +58,5 @@ fn unknown(name: &str) -> Problem {
 }
 
 fn show(title: &str, blocks: Vec<Block>) {
-    print(&text::render(&Document { title: title.to_owned(), blocks }, stdout_colour()));
+    print(&shown(&Document { title: title.to_owned(), blocks }));
 }

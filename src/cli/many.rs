@@ -1,7 +1,7 @@
 //! `secant certify` of several cases: in parallel, printed in the order given, and resumed where results were kept.
 
 use super::certify::{exit_code, json_text};
-use super::output::{complain, print, problem_code, stdout_colour};
+use super::output::{complain, print, problem_code, stdout_look};
 use super::progress::Progress;
 use super::question::question;
 use super::resume::{Kept, Store};
@@ -12,7 +12,8 @@ use crate::case::Subject;
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::report::document::{Block, Document, Inline, Line, Table, Tone, words};
-use crate::report::{json, text, words as phrases};
+use crate::report::text::{self, Look};
+use crate::report::{json, words as phrases};
 use rayon::prelude::*;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -63,7 +64,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
         }
     };
     let outcomes = outcomes(args, &|path| case(path, args, store.as_ref()));
-    print(&shown(args, &outcomes, stdout_colour()));
+    print(&shown(args, &outcomes, stdout_look()));
     for problem in outcomes.iter().filter_map(|o| o.as_ref().err()) {
         complain(problem);
     }
@@ -91,7 +92,7 @@ fn outcomes(args: &CertifyArgs, examine: &(dyn Fn(&Path) -> Outcome + Sync)) -> 
 }
 
 /// The lines of JSON or the table, whichever is asked for.
-fn shown(args: &CertifyArgs, outcomes: &[Outcome], colour: bool) -> String {
+fn shown(args: &CertifyArgs, outcomes: &[Outcome], look: Look) -> String {
     let names: Vec<String> = args.cases.iter().map(|p| p.display().to_string()).collect();
     if args.jsonl {
         let line = |(name, outcome): (&String, &Outcome)| match outcome {
@@ -102,7 +103,7 @@ fn shown(args: &CertifyArgs, outcomes: &[Outcome], colour: bool) -> String {
     } else if args.quiet {
         String::new()
     } else {
-        text::render(&table(&names, outcomes), colour)
+        text::render_as(&table(&names, outcomes), look)
     }
 }
 
@@ -258,7 +259,7 @@ mod tests {
         let found = failing(&args);
         assert_eq!(found.iter().map(code).collect::<Vec<_>>(), [PROVED, INTERNAL, REFUTED]);
         assert_eq!(gravest(found.iter().map(code)), INTERNAL);
-        let text = shown(&args, &found, false);
+        let text = shown(&args, &found, Look::default());
         let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
         assert_eq!(lines.len(), 3);
         assert_eq!((&lines[0]["verdict"], &lines[2]["verdict"]), (&"proved".into(), &"refuted".into()));
@@ -287,7 +288,7 @@ mod tests {
     fn the_table_has_a_row_for_it() {
         let mut args = arguments(&[]);
         args.quiet = false;
-        let text = shown(&args, &failing(&args), false);
+        let text = shown(&args, &failing(&args), Look::default());
         let words: Vec<&str> = text.split_whitespace().filter(|w| *w != "–").collect();
         let text = words.join(" ");
         assert!(text.contains("internal error, no verdict: a broken step"), "{text}");

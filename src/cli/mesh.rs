@@ -2,12 +2,12 @@
 
 use super::CertifyArgs;
 use super::certify::{exit_code, extension, json_text};
-use super::output::{print, stdout_colour, write_file};
+use super::output::{self, say, to_stdout, write_file};
 use super::progress::Progress;
 use crate::diagnostic::Problem;
 use crate::mesh::{Found, Model, Scheme, certify};
 use crate::picture::mesh::{ply, svg};
-use crate::report::{html, latex, markdown, mesh as report, text};
+use crate::report::{html, latex, markdown, mesh as report};
 use std::path::Path;
 
 /// Certifies one mesh, prints and writes what was asked for; the exit code.
@@ -16,6 +16,7 @@ use std::path::Path;
 /// The [`Problem`] of the file, of an option, or of an output.
 pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
     check(args)?;
+    let piped = to_stdout([&args.report, &args.svg, &args.ply])?;
     let names = Scheme::ALL.map(Scheme::name).join(", ");
     let name = args.scheme.as_deref().ok_or_else(|| {
         Problem::new("secant::usage::scheme", "a mesh has no scheme of its own")
@@ -32,7 +33,7 @@ pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
     let found = found?;
     write(&model, name, &found, args)?;
     if !args.quiet {
-        print(&shown(&model, name, &found, args));
+        say(&shown(&model, name, &found, args), piped);
     }
     Ok(exit_code(found.regular()))
 }
@@ -43,6 +44,7 @@ fn check(args: &CertifyArgs) -> Result<(), Problem> {
         (args.png.is_some(), "--png", "--svg draws the mesh"),
         (!args.address.is_empty(), "--address", "the report lists every vertex"),
         (args.valence.is_some(), "--valence", "the valences are those of the mesh"),
+        (args.size.is_some(), "--size", "the picture of a mesh has one size"),
         (args.approx, "--approx", "there is no quick look at a mesh"),
         (args.resume.is_some(), "--resume", "a mesh is certified anew"),
     ];
@@ -58,7 +60,7 @@ fn shown(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Stri
     if args.json || args.jsonl {
         return json_text(&report::json(model, scheme, found), args.json);
     }
-    text::render(&report::document(model, scheme, found, false), stdout_colour())
+    output::shown(&report::document(model, scheme, found, false))
 }
 
 fn write(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Result<(), Problem> {

@@ -13,6 +13,7 @@ mod init;
 mod irrational;
 mod jsr;
 mod junction;
+mod manual;
 mod many;
 mod mesh;
 mod output;
@@ -25,6 +26,8 @@ mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
+#[cfg(feature = "studio")]
+mod studio;
 
 use crate::budget::{Budget, Effort};
 use crate::guard::guarded;
@@ -123,13 +126,23 @@ enum Command {
     /// Hold verdicts on random cases against the laws that they obey; print the simplest case that breaks one (exit code 1).
     #[cfg(feature = "strategies")]
     Fuzz(fuzz::FuzzArgs),
+    /// Open a page in the browser on which schemes, control points and cases can be changed and are proved at once; it is served
+    /// by this program to this machine only, and needs no network.
+    #[cfg(feature = "studio")]
+    Studio(studio::StudioArgs),
     /// Print the completions for a shell.
     Completions {
         /// The shell.
         shell: clap_complete::Shell,
     },
-    /// Print the manual page (roff).
-    Man,
+    /// Print a manual page (roff), or write all of them.
+    Man {
+        /// The command; without it the page of the program.
+        command: Option<String>,
+        /// Write the pages of the program and of all commands to this directory.
+        #[arg(long, value_name = "DIR", conflicts_with = "command")]
+        out: Option<PathBuf>,
+    },
 }
 
 #[derive(Debug, Clone, Args)]
@@ -170,6 +183,9 @@ struct CertifyArgs {
     /// The same as PNG, without the words in the picture.
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
+    /// The width of the picture in pixels.
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
+    size: Option<u32>,
     /// What --svg draws: the shape with its tangents, or the cones of Theorem 6 along a curve.
     #[arg(long, value_name = "WHAT", value_enum, default_value_t = Drawn::Shape, requires = "svg")]
     draw: Drawn,
@@ -188,14 +204,14 @@ struct CertifyArgs {
     #[arg(long, value_name = "DIR", conflicts_with = "approx")]
     resume: Option<PathBuf>,
     /// Take only the I-th of N parts of the cases: tasks 1 … N of a job array do all of them, each once.
-    #[arg(long, value_name = "I/N", value_parser = shard, conflicts_with = "approx")]
+    #[arg(long, value_name = "I/N", value_parser = question::shard, conflicts_with = "approx")]
     shard: Option<(usize, usize)>,
     /// What decides the exit code: a list of ends, joints, dense, points (those asked for), g1, c1, c2, …, or `tangents` for the
     /// first four; with `?` behind it a claim decides only where it is refuted.
     #[arg(long, value_name = "CLAIMS", value_parser = Required::parse, default_value = "ends,joints,dense,points,inside?", hide_default_value = false)]
     require: Required,
     /// How hard to try: which questions stay undetermined depends on it, never what an answer is.
-    #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
+    #[arg(long, value_name = "EFFORT", value_parser = question::effort, default_value = "normal")]
     effort: Effort,
     /// Cells into which the ring of a branch may be divided (normal: 6000).
     #[arg(long, value_name = "COUNT")]
@@ -212,12 +228,15 @@ struct CertifyArgs {
     /// Print whole spectra, rates and exponents.
     #[arg(short, long)]
     verbose: bool,
+    /// Print the answers, the points and the verdict only.
+    #[arg(long, conflicts_with_all = ["verbose", "quiet", "json", "jsonl"])]
+    brief: bool,
 }
 
 impl CertifyArgs {
     /// The same with each parameter `name=value` joined to the scheme before it.
     fn with_parameters(self) -> Self {
-        Self { cases: joined(self.cases), ..self }
+        Self { cases: question::joined(self.cases), ..self }
     }
 
     /// The budget that the options name.
@@ -227,43 +246,6 @@ impl CertifyArgs {
         budget.words = self.words.unwrap_or(budget.words);
         budget
     }
-}
-
-/// What is asked about, each parameter `name=value` joined to the scheme before it.
-fn joined(given: Vec<PathBuf>) -> Vec<PathBuf> {
-    let mut cases: Vec<PathBuf> = Vec::new();
-    for case in given {
-        let parameter = case.to_str().is_some_and(is_parameter) && !case.exists();
-        match cases.last_mut().filter(|_| parameter) {
-            Some(scheme) => {
-                let joined = scheme.as_mut_os_string();
-                joined.push(" ");
-                joined.push(case);
-            }
-            None => cases.push(case),
-        }
-    }
-    cases
-}
-
-/// Whether a word is of the form `name=value`.
-fn is_parameter(text: &str) -> bool {
-    let name = text.split_once('=').map(|(name, _)| name.trim());
-    name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_alphanumeric() || c == '_'))
-}
-
-fn shard(text: &str) -> Result<(usize, usize), String> {
-    let (part, parts) = text.split_once('/').ok_or("write I/N, as in 3/16")?;
-    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("`{s}` is no whole number"));
-    let (part, parts) = (number(part)?, number(parts)?);
-    if part == 0 || part > parts { Err(format!("{part} is not from 1 to {parts}")) } else { Ok((part, parts)) }
-}
-
-fn effort(word: &str) -> Result<Effort, String> {
-    [Effort::Quick, Effort::Normal, Effort::Hard]
-        .into_iter()
-        .find(|e| e.word() == word)
-        .ok_or_else(|| "it is quick, normal or hard".to_owned())
 }
 
 #[derive(Debug, Args)]
@@ -300,6 +282,9 @@ struct RenderArgs {
     /// Write a PNG image.
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
+    /// The width of the picture in pixels (800).
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
+    size: Option<u32>,
     /// Write a Wavefront OBJ file.
     #[arg(long, value_name = "FILE")]
     obj: Option<PathBuf>,
@@ -453,13 +438,13 @@ pub fn main() -> ExitCode {
 fn run(command: Command) -> u8 {
     match command {
         Command::Certify(args) => certify::run(&args.with_parameters()),
-        Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: joined(args.files), ..args }),
+        Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: question::joined(args.files), ..args }),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
-        Command::Expand { cases, output, json } => expand::run(&joined(cases), output.as_deref(), json),
+        Command::Expand { cases, output, json } => expand::run(&question::joined(cases), output.as_deref(), json),
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
-        Command::Render(args) => render::run(&RenderArgs { cases: joined(args.cases), ..args }),
+        Command::Render(args) => render::run(&RenderArgs { cases: question::joined(args.cases), ..args }),
         Command::Solve(args) => solve::run(&args),
         Command::Junction(args) => junction::run(&args),
         Command::Refine(args) => refine::run(&args),
@@ -472,22 +457,16 @@ fn run(command: Command) -> u8 {
         Command::Gallery(args) => gallery::run(&args),
         #[cfg(feature = "strategies")]
         Command::Fuzz(args) => fuzz::run(&args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(&args),
         Command::Completions { shell } => completions(shell),
-        Command::Man => man(),
+        Command::Man { command, out } => manual::run(command.as_deref(), out.as_deref()),
     }
 }
 
 fn completions(shell: clap_complete::Shell) -> u8 {
     let mut text = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "secant", &mut text);
-    output::print(&String::from_utf8_lossy(&text));
-    PROVED
-}
-
-fn man() -> u8 {
-    let mut text = Vec::new();
-    // Writing to memory does not fail.
-    let _ = clap_mangen::Man::new(Cli::command()).render(&mut text);
     output::print(&String::from_utf8_lossy(&text));
     PROVED
 }

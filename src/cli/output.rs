@@ -2,16 +2,24 @@
 
 use super::{BAD_INPUT, INTERNAL};
 use crate::diagnostic::Problem;
+use crate::report::document::Document;
+use crate::report::text::{self, Look};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-/// Writes a file so that it is either there in full or not touched: a temporary file beside it, then a rename.
+/// Writes a file so that it is either there in full or not touched: a temporary file beside it, then a rename. `-` is the
+/// standard output.
 ///
 /// A target that exists and is no regular file (such as `/dev/stdout`) is written to directly.
 ///
 /// # Errors
 /// A [`Problem`] that names the file.
 pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem> {
+    if path.as_os_str() == "-" {
+        let mut out = std::io::stdout().lock();
+        let _ = out.write_all(content.as_ref()).and_then(|()| out.flush());
+        return Ok(());
+    }
     let problem = |error: &std::io::Error| {
         Problem::new("secant::output", format!("{} cannot be written: {error}", path.display()))
             .with_help("the directory must exist and be writable; nothing was left half-written")
@@ -52,6 +60,28 @@ pub fn write_certificate(path: &Path, certificate: String, expanded: Option<Stri
         eprintln!("note: the certificate is about the expanded case, which is in {case}: secant-check {case} {path}");
     }
     Ok(())
+}
+
+/// Whether one of several outputs goes to the standard output.
+///
+/// # Errors
+/// A [`Problem`] where more than one does.
+pub fn to_stdout<const N: usize>(outputs: [&Option<PathBuf>; N]) -> Result<bool, Problem> {
+    match outputs.iter().filter(|o| o.as_deref().is_some_and(|p| p.as_os_str() == "-")).count() {
+        0 => Ok(false),
+        1 => Ok(true),
+        n => Err(Problem::new("secant::usage::output", format!("{n} files are to be written to the standard output"))
+            .with_help("give `-` once, and names to the others")),
+    }
+}
+
+/// Says something beside a file that may be on the standard output.
+pub fn say(text: &str, piped: bool) {
+    if piped {
+        let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    } else {
+        print(text);
+    }
 }
 
 /// Prints to the standard output; a reader that went away is no mistake.
@@ -101,10 +131,19 @@ pub fn complain(problem: &Problem) {
     let _ = err.write_all(problem.render(colour).as_bytes());
 }
 
-/// Whether the standard output takes colours.
+/// How text is shown on the standard output: of a terminal as wide as it is, within what can be read.
 #[must_use]
-pub fn stdout_colour() -> bool {
-    colour_for(std::io::stdout().is_terminal())
+pub fn stdout_look() -> Look {
+    let out = std::io::stdout();
+    let terminal = out.is_terminal();
+    let columns = terminal_size::terminal_size_of(&out).filter(|_| terminal).map(|(width, _)| usize::from(width.0));
+    Look { colour: colour_for(terminal), width: columns.map_or(text::WIDTH, |c| c.clamp(40, 120)) }
+}
+
+/// A document as the standard output shows it.
+#[must_use]
+pub fn shown(document: &Document) -> String {
+    text::render_as(document, stdout_look())
 }
 
 fn colour_for(terminal: bool) -> bool {

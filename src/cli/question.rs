@@ -1,9 +1,10 @@
 //! The question that the command line asks.
 
 use super::CertifyArgs;
+use crate::budget::Effort;
 use crate::case::{Question, Valences};
 use crate::diagnostic::Problem;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The question of a file with the addresses and valences of the command line.
 ///
@@ -22,4 +23,43 @@ fn valences(text: &str) -> Result<Valences, Problem> {
         Problem::new("secant::usage::valence", error)
             .with_help("write --valence 5, --valence 3..32 (both ends included), --valence 3,5,8 or --valence all")
     })
+}
+
+/// What is asked about, each parameter `name=value` joined to the scheme before it.
+pub fn joined(given: Vec<PathBuf>) -> Vec<PathBuf> {
+    let mut cases: Vec<PathBuf> = Vec::new();
+    for case in given {
+        let parameter = case.to_str().is_some_and(is_parameter) && !case.exists();
+        match cases.last_mut().filter(|_| parameter) {
+            Some(scheme) => {
+                let joined = scheme.as_mut_os_string();
+                joined.push(" ");
+                joined.push(case);
+            }
+            None => cases.push(case),
+        }
+    }
+    cases
+}
+
+/// Whether a word is of the form `name=value`.
+pub fn is_parameter(text: &str) -> bool {
+    let name = text.split_once('=').map(|(name, _)| name.trim());
+    name.is_some_and(|n| !n.is_empty() && n.chars().all(|c| c.is_alphanumeric() || c == '_'))
+}
+
+/// The part and the number of parts of `I/N`.
+pub fn shard(text: &str) -> Result<(usize, usize), String> {
+    let (part, parts) = text.split_once('/').ok_or("write I/N, as in 3/16")?;
+    let number = |s: &str| s.parse::<usize>().map_err(|_| format!("`{s}` is no whole number"));
+    let (part, parts) = (number(part)?, number(parts)?);
+    if part == 0 || part > parts { Err(format!("{part} is not from 1 to {parts}")) } else { Ok((part, parts)) }
+}
+
+/// The effort that a word names.
+pub fn effort(word: &str) -> Result<Effort, String> {
+    [Effort::Quick, Effort::Normal, Effort::Hard]
+        .into_iter()
+        .find(|e| e.word() == word)
+        .ok_or_else(|| "it is quick, normal or hard".to_owned())
 }

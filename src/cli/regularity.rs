@@ -27,7 +27,7 @@ fn inputs(args: &RegularityArgs) -> Vec<(String, Vec<String>)> {
     for text in &args.more {
         let text = text.trim();
         match list.last_mut() {
-            Some((_, parameters)) if super::is_parameter(text) && !Path::new(text).exists() => {
+            Some((_, parameters)) if super::question::is_parameter(text) && !Path::new(text).exists() => {
                 parameters.push(text.to_owned())
             }
             _ => list.push((text.to_owned(), Vec::new())),

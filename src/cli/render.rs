@@ -1,16 +1,17 @@
 //! `secant render`: exact points of a shape, drawn.
 
 use super::certify::{extension, mistaken};
-use super::output::{deliver, write_file};
+use super::output::{say, settle, to_stdout, write_file};
 use super::progress::Progress;
 use super::{PROVED, RenderArgs};
 use crate::arith::{parse_rational, to_f64};
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
-use crate::picture::Plot;
+use crate::picture::{PLOT_PIXELS, Plot, resized};
 use crate::shape::{
-    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, level, random_sample, sample,
+    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
+    sample,
 };
 use std::path::Path;
 
@@ -21,7 +22,11 @@ const DEFAULT_POINTS: usize = 20_000;
 
 /// Renders the case into the files asked for.
 pub fn run(args: &RenderArgs) -> u8 {
-    deliver(render(args).map(|text| (text, PROVED)))
+    let done = to_stdout([&args.svg, &args.png, &args.obj, &args.ply]).and_then(|piped| Ok((render(args)?, piped)));
+    settle(done.map(|(text, piped)| {
+        say(&text, piped);
+        PROVED
+    }))
 }
 
 fn render(args: &RenderArgs) -> Result<String, Problem> {
@@ -52,11 +57,12 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
     })?;
     let mut files: Vec<(&Path, Vec<u8>)> = Vec::new();
     if let Some(path) = &args.svg {
-        files.push((path, plot.svg(&case.title).into_bytes()));
+        let svg = plot.svg(&case.title);
+        files.push((path, args.size.map_or(svg.clone(), |width| resized(&svg, width)).into_bytes()));
     }
     if let Some(path) = &args.png {
         let image = plot
-            .png()
+            .png(args.size.unwrap_or(PLOT_PIXELS))
             .ok_or_else(|| Problem::new("secant::render", "the image cannot be encoded").with_help("try --svg"))?;
         files.push((path, image));
     }
@@ -121,19 +127,8 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
 
 /// The largest depth with not too many words, and a patch not finer than can be seen.
 fn depth(shape: &Shape) -> usize {
-    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
-    let limit = if shape.states.iter().any(|s| s.kind == CellKind::Face) { 3_000 } else { DEFAULT_POINTS };
-    let mut counts = vec![1usize; shape.states.len()];
-    let mut depth = 0;
-    while most > 1 && depth < 24 {
-        let next = |s: &crate::shape::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
-        counts = shape.states.iter().map(next).collect();
-        if counts[shape.start] > limit {
-            break;
-        }
-        depth += 1;
-    }
-    depth.max(1)
+    let faces = shape.states.iter().any(|s| s.kind == CellKind::Face);
+    depth_within(shape, if faces { 3_000 } else { DEFAULT_POINTS })
 }
 
 /// How often each piece is drawn: by its determinant where it has one, and never too seldom.

@@ -22,7 +22,7 @@ pub use diagram::{Arrow, Dot, Drawing, automaton, spectrum};
 pub use field::{ConeField, cone_field};
 pub use germ::{profile, turning, zoom};
 pub use invariant::polytope;
-pub use plot::Plot;
+pub use plot::{PLOT_PIXELS, Plot};
 pub use projection::Projection;
 
 use crate::arith::Rational;
@@ -58,8 +58,40 @@ pub enum MarkStyle {
     Cusp,
     /// A corner.
     Corner,
-    /// No tangent, or not decided.
-    Open,
+    /// No tangent.
+    Refuted,
+    /// Not decided: a ring, so that it is told apart without colours too.
+    Undecided,
+}
+
+impl MarkStyle {
+    /// All of them, as a legend lists them.
+    const ALL: [Self; 5] = [Self::Tangent, Self::Cusp, Self::Corner, Self::Refuted, Self::Undecided];
+
+    /// The words of the legend.
+    fn word(self) -> &'static str {
+        match self {
+            Self::Tangent => "tangent",
+            Self::Cusp => "cusp",
+            Self::Corner => "corner",
+            Self::Refuted => "no tangent",
+            Self::Undecided => "undetermined",
+        }
+    }
+}
+
+/// An SVG document of this crate at another width on the page; what it shows stays the same.
+#[must_use]
+pub fn resized(svg: &str, width: u32) -> String {
+    let number = |key: &str, text: &str| -> Option<f64> {
+        let (_, rest) = text.split_once(&format!(" {key}=\""))?;
+        rest.split_once('"')?.0.parse().ok()
+    };
+    let Some((head, body)) = svg.split_once('>') else { return svg.to_owned() };
+    let (Some(w), Some(h)) = (number("width", head), number("height", head)) else { return svg.to_owned() };
+    let own = format!("width=\"{}\" height=\"{}\"", svg::fixed(w), svg::fixed(h));
+    let new = format!("width=\"{width}\" height=\"{}\"", svg::fixed(h * f64::from(width) / w));
+    format!("{}>{body}", head.replace(&own, &new))
 }
 
 /// A picture with the words that belong to it.
@@ -86,7 +118,8 @@ pub struct Picture {
 #[must_use]
 pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> {
     let projection = Projection::of(shape);
-    let canvas = draw(shape, &projection, title, marks)?;
+    let mut canvas = draw(shape, &projection, title, marks)?;
+    canvas.legend(&MarkStyle::ALL.map(|style| (style, marks.iter().any(|m| m.style == style))));
     let what = match shape.states[shape.start].kind {
         CellKind::Edge => "curve",
         CellKind::Face => "face",
@@ -116,15 +149,36 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
     })
 }
 
-/// The drawing of [`attractor`] as a PNG file on white, without the words; the same input gives the same bytes.
+/// A shape as points of the plane, for a drawing that is made elsewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    /// Points of the shape: of a curve in its order.
+    pub points: Vec<[f64; 2]>,
+    /// The corners of the control polygon; none of affine maps.
+    pub polygon: Vec<[f64; 2]>,
+    /// How it was projected, in one sentence.
+    pub words: &'static str,
+}
+
+/// The points that [`attractor`] draws; `None` where it draws nothing.
+#[must_use]
+pub fn outline(shape: &Shape) -> Option<Outline> {
+    let projection = Projection::of(shape);
+    let points = Tracer::new(shape)?.points(&projection);
+    let polygon = polygon(shape, &projection);
+    let finite = points.iter().chain(&polygon).flatten().all(|x| x.is_finite());
+    (finite && !points.is_empty()).then(|| Outline { points, polygon, words: projection.words() })
+}
+
+/// The drawing of [`attractor`] as a PNG file on white, without the words, so many pixels wide; the same input gives the same bytes.
 ///
 /// Returns `None` where [`attractor`] does.
 #[cfg(feature = "png")]
 #[must_use]
-pub fn attractor_png(shape: &Shape, marks: &[Mark]) -> Option<Vec<u8>> {
+pub fn attractor_png(shape: &Shape, marks: &[Mark], pixels: u32) -> Option<Vec<u8>> {
     let canvas = draw(shape, &Projection::of(shape), "", marks)?;
     let [width, height] = canvas.size();
-    png::render(canvas.elements(), width, height)
+    png::render(canvas.elements(), [width, height], f64::from(pixels) / width)
 }
 
 /// The control polygon; the control points of a surface have no such order.
@@ -158,6 +212,9 @@ fn draw(shape: &Shape, projection: &Projection, title: &str, marks: &[Mark]) -> 
     Some(canvas)
 }
 
+/// The width of an image where nobody says another, in pixels.
+pub const PIXELS: u32 = 1280;
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -185,11 +242,42 @@ mod tests {
         assert!(a.svg.len() < 200_000, "{}", a.svg.len());
     }
 
+    #[test]
+    fn what_is_not_decided_is_not_drawn_as_refuted() {
+        let at =
+            |style| Mark { at: vec![ratio(1, 2), ratio(1, 2), ratio(0, 1)], rays: vec![], style, label: String::new() };
+        let drawn = |styles: &[MarkStyle]| {
+            attractor(&spline(), "t", &styles.iter().map(|s| at(*s)).collect::<Vec<_>>()).unwrap().svg
+        };
+        let body = |svg: String| svg.split_once("</style>").unwrap().1.to_owned();
+        let (refuted, open) = (body(drawn(&[MarkStyle::Refuted])), body(drawn(&[MarkStyle::Undecided])));
+        assert!(refuted.contains("no tangent") && refuted.contains("sc-none") && !refuted.contains("sc-open"));
+        assert!(open.contains("undetermined") && open.contains("sc-open") && !open.contains("sc-none"));
+        let both = body(drawn(&[MarkStyle::Refuted, MarkStyle::Undecided]));
+        assert!(both.contains("no tangent") && both.contains("undetermined") && !both.contains(">cusp<"));
+        assert!(!body(drawn(&[])).contains("<text"));
+    }
+
+    #[test]
+    fn a_picture_of_another_size_shows_the_same() {
+        let svg = attractor(&spline(), "t", &[]).unwrap().svg;
+        let large = resized(&svg, 1280);
+        assert!(svg.contains(" width=\"640\"") && large.contains(" width=\"1280\""));
+        let rest = |text: &str| text.split_once('>').unwrap().1.to_owned();
+        assert_eq!(rest(&svg), rest(&large));
+        let view = |text: &str| text.split("viewBox").nth(1).unwrap().split('"').nth(1).unwrap().to_owned();
+        assert_eq!(view(&svg), view(&large));
+    }
+
     #[cfg(feature = "png")]
     #[test]
     fn an_image_has_the_same_bytes_every_time() {
-        let png = attractor_png(&spline(), &[]).unwrap();
-        assert!(png.starts_with(b"\x89PNG") && attractor_png(&spline(), &[]).unwrap() == png);
+        let png = attractor_png(&spline(), &[], PIXELS).unwrap();
+        assert!(png.starts_with(b"\x89PNG") && attractor_png(&spline(), &[], PIXELS).unwrap() == png);
+        for pixels in [100, 1000] {
+            let png = attractor_png(&spline(), &[], pixels).unwrap();
+            assert_eq!(u32::from_be_bytes(png[16..20].try_into().unwrap()), pixels);
+        }
     }
 
     #[test]

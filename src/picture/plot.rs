@@ -9,6 +9,8 @@ use std::fmt::Write;
 
 const SIZE: f64 = 800.0;
 const MARGIN: f64 = 24.0;
+/// The width of an image where nobody says another, in pixels.
+pub const PLOT_PIXELS: u32 = 800;
 /// Number of colours.
 const COLOURS: usize = 48;
 
@@ -149,15 +151,17 @@ impl Plot {
         )
     }
 
-    /// A PNG image on white; `None` where it cannot be encoded.
+    /// A PNG image on white, so many pixels wide; `None` where it cannot be encoded.
     #[cfg(feature = "png")]
     #[must_use]
-    pub fn png(&self) -> Option<Vec<u8>> {
+    pub fn png(&self, width: u32) -> Option<Vec<u8>> {
         use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, Transform};
+        let scale = f64::from(width) / SIZE;
+        let place = Transform::from_scale(scale as f32, scale as f32);
         let step = |path: &mut PathBuilder, k: usize, [x, y]: [f64; 2]| {
             if k == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
         };
-        let mut pixels = Pixmap::new(SIZE as u32, (self.height.ceil() as u32).max(1))?;
+        let mut pixels = Pixmap::new(width, ((self.height * scale - 1e-6).ceil() as u32).max(1))?;
         pixels.fill(Color::WHITE);
         let mut stroke =
             Stroke { width: 1.5, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
@@ -185,11 +189,11 @@ impl Plot {
             let mut paint = Paint::default();
             paint.set_color_rgba8(colour[0], colour[1], colour[2], 255);
             if close {
-                pixels.fill_path(&path, &paint, FillRule::Winding, Transform::identity(), None);
+                pixels.fill_path(&path, &paint, FillRule::Winding, place, None);
                 paint.set_color_rgba8(51, 51, 51, 255);
                 stroke.width = 0.4;
             }
-            pixels.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
+            pixels.stroke_path(&path, &paint, &stroke, place, None);
         }
         pixels.encode_png().ok()
     }

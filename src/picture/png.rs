@@ -3,9 +3,6 @@
 use super::svg::Element;
 use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
 
-/// Pixels of the image for each unit of the drawing.
-const SCALE: f32 = 2.0;
-
 /// How a class of elements looks.
 struct Look {
     colour: [u8; 3],
@@ -22,16 +19,20 @@ fn look(class: &str) -> Look {
         "sc-tangent" => ([0x1a, 0x8a, 0x4a], 2.0, false),
         "sc-cusp" => ([0xb0, 0x6a, 0x00], 2.0, false),
         "sc-corner" => ([0xc4, 0x33, 0x2b], 2.0, false),
+        "sc-open" => ([0x6b, 0x71, 0x7b], 2.0, false),
         _ => ([0x7a, 0x4f, 0xb5], 2.0, false),
     };
     Look { colour, width, dashed }
 }
 
-/// The elements as a PNG file; the same input gives the same bytes. `None` where nothing finite can be drawn.
-pub(super) fn render(elements: &[Element], width: f64, height: f64) -> Option<Vec<u8>> {
-    let pixels = |x: f64| (x as f32 * SCALE).ceil() as u32;
-    let mut image = Pixmap::new(pixels(width), pixels(height))?;
-    image.fill(Color::WHITE);
+/// The elements as a PNG file, with so many pixels for each unit of the drawing; the same input gives the same bytes. `None`
+/// where nothing finite can be drawn.
+pub(super) fn render(elements: &[Element], [width, height]: [f64; 2], scale: f64) -> Option<Vec<u8>> {
+    // Rounding never adds a pixel to a whole number of them.
+    let pixels = |x: f64| (x * scale - 1e-6).ceil() as u32;
+    let mut pixmap = Pixmap::new(pixels(width), pixels(height))?;
+    pixmap.fill(Color::WHITE);
+    let mut image = Sheet { pixmap, transform: Transform::from_scale(scale as f32, scale as f32) };
     for element in elements {
         match element {
             Element::Path { class, points } => {
@@ -49,7 +50,7 @@ pub(super) fn render(elements: &[Element], width: f64, height: f64) -> Option<Ve
             Element::Label { .. } => {}
         }
     }
-    image.encode_png().ok()
+    image.pixmap.encode_png().ok()
 }
 
 fn paint(look: &Look) -> Paint<'static> {
@@ -68,7 +69,13 @@ fn line(points: &[[f64; 2]]) -> Option<Path> {
     path.finish()
 }
 
-fn stroke(image: &mut Pixmap, path: &Path, look: &Look) {
+/// The image in the making.
+struct Sheet {
+    pixmap: Pixmap,
+    transform: Transform,
+}
+
+fn stroke(image: &mut Sheet, path: &Path, look: &Look) {
     let dash = if look.dashed { StrokeDash::new(vec![4.0, 3.0], 0.0) } else { None };
     let stroke = Stroke {
         width: look.width,
@@ -77,11 +84,11 @@ fn stroke(image: &mut Pixmap, path: &Path, look: &Look) {
         dash,
         ..Stroke::default()
     };
-    image.stroke_path(path, &paint(look), &stroke, Transform::from_scale(SCALE, SCALE), None);
+    image.pixmap.stroke_path(path, &paint(look), &stroke, image.transform, None);
 }
 
-fn disc(image: &mut Pixmap, at: [f64; 2], radius: f64, look: &Look) {
+fn disc(image: &mut Sheet, at: [f64; 2], radius: f64, look: &Look) {
     if let Some(path) = PathBuilder::from_circle(at[0] as f32, at[1] as f32, radius as f32) {
-        image.fill_path(&path, &paint(look), FillRule::Winding, Transform::from_scale(SCALE, SCALE), None);
+        image.pixmap.fill_path(&path, &paint(look), FillRule::Winding, image.transform, None);
     }
 }

@@ -5,6 +5,8 @@ use std::fmt::Write;
 const WIDTH: f64 = 640.0;
 const MARGIN: f64 = 36.0;
 const RAY: f64 = 78.0;
+/// Height of the legend.
+const LEGEND: f64 = 26.0;
 
 /// Colours that can be told apart on light and on dark paper.
 pub(super) const STYLE: &str = ".sc-p{fill:none;stroke:#8a8f98;stroke-width:1;stroke-dasharray:4 3}\
@@ -15,14 +17,14 @@ pub(super) const STYLE: &str = ".sc-p{fill:none;stroke:#8a8f98;stroke-width:1;st
 .sc-x{fill:#1f5fbf;fill-opacity:.22;stroke:#1f5fbf;stroke-width:.8}\
 .sc-y{fill:#b06a00;fill-opacity:.22;stroke:#b06a00;stroke-width:.8}\
 .sc-tangent{stroke:#1a8a4a;fill:#1a8a4a}.sc-cusp{stroke:#b06a00;fill:#b06a00}\
-.sc-corner{stroke:#c4332b;fill:#c4332b}.sc-open{stroke:#7a4fb5;fill:#7a4fb5}\
+.sc-corner{stroke:#c4332b;fill:#c4332b}.sc-none{stroke:#7a4fb5;fill:#7a4fb5}.sc-open{stroke:#6b717b}\
 .sc-m{fill:none;stroke-linejoin:round;stroke:#1f5fbf;stroke-width:1}.sc-m.sc-m1{stroke:#1a8a4a;stroke-width:.8}\
 .sc-m.sc-m2{stroke:#8a8f98;stroke-width:.6}\
 path.sc-r{fill:none}\
 @media screen and (prefers-color-scheme:dark){.sc-c,.sc-s{stroke:#7fb0ff}.sc-t{fill:#d4d8de}.sc-a{stroke:#9aa2ae}\
 .sc-x{fill:#7fb0ff;stroke:#7fb0ff}.sc-y{fill:#f0b050;stroke:#f0b050}\
 .sc-tangent{stroke:#5fd08f;fill:#5fd08f}.sc-cusp{stroke:#f0b050;fill:#f0b050}\
-.sc-corner{stroke:#ff8077;fill:#ff8077}.sc-open{stroke:#c0a0f0;fill:#c0a0f0}\
+.sc-corner{stroke:#ff8077;fill:#ff8077}.sc-none{stroke:#c0a0f0;fill:#c0a0f0}.sc-open{stroke:#9aa2ae}\
 .sc-m{stroke:#7fb0ff}.sc-m.sc-m1{stroke:#5fd08f}}";
 
 /// Where a label stands with respect to its point.
@@ -133,12 +135,7 @@ impl Canvas {
 
     /// A point with its rays, each as an arrow of fixed length.
     pub fn mark(&mut self, style: MarkStyle, at: [f64; 2], rays: &[[f64; 2]]) {
-        let class = match style {
-            MarkStyle::Tangent => "sc-tangent",
-            MarkStyle::Cusp => "sc-cusp",
-            MarkStyle::Corner => "sc-corner",
-            MarkStyle::Open => "sc-open",
-        };
+        let class = mark_class(style);
         let at = self.place(at);
         for ray in rays {
             let norm = ray[0].hypot(ray[1]);
@@ -146,7 +143,23 @@ impl Canvas {
                 self.arrow(class, at, [ray[0] / norm, -ray[1] / norm]);
             }
         }
-        self.elements.push(Element::Disc { class, at, radius: 4.0 });
+        self.elements.push(spot(style, at));
+    }
+
+    /// What the marks mean, in a line below the drawing: those that are there.
+    pub fn legend(&mut self, styles: &[(MarkStyle, bool)]) {
+        let there: Vec<MarkStyle> = styles.iter().filter(|(_, there)| *there).map(|(style, _)| *style).collect();
+        if there.is_empty() {
+            return;
+        }
+        self.height += LEGEND;
+        let (mut x, y) = (MARGIN, self.height - LEGEND / 2.0);
+        for style in there {
+            self.elements.push(spot(style, [x, y]));
+            let label = Element::Label { at: [x + 9.0, y + 4.0], anchor: Anchor::Start, text: style.word().to_owned() };
+            x += 24.0 + Frame::of(&label).map_or(0.0, |f| f.hi[0] - f.lo[0]);
+            self.elements.push(label);
+        }
     }
 
     /// Words beside a point, where they cover least; left out where they would cover other words.
@@ -234,6 +247,27 @@ impl Canvas {
     pub fn elements(&self) -> &[Element] {
         &self.elements
     }
+}
+
+fn mark_class(style: MarkStyle) -> &'static str {
+    match style {
+        MarkStyle::Tangent => "sc-tangent",
+        MarkStyle::Cusp => "sc-cusp",
+        MarkStyle::Corner => "sc-corner",
+        MarkStyle::Refuted => "sc-none",
+        MarkStyle::Undecided => "sc-open",
+    }
+}
+
+/// The spot of a mark: a disc, or a ring where nothing is decided.
+fn spot(style: MarkStyle, at: [f64; 2]) -> Element {
+    let (class, radius) = (mark_class(style), 4.0);
+    if style != MarkStyle::Undecided {
+        return Element::Disc { class, at, radius };
+    }
+    let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / 16.0;
+    let points = (0..=16).map(|k| [at[0] + radius * turn(k).cos(), at[1] + radius * turn(k).sin()]).collect();
+    Element::Path { class, points }
 }
 
 /// About how many steps of some pixels of a segment lie in a frame.

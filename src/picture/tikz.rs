@@ -27,7 +27,8 @@ fn colour(class: &str) -> &'static str {
         "sc-tangent" => "tangent,thick",
         "sc-cusp" => "cusp,thick",
         "sc-corner" => "corner,thick",
-        _ => "undecided,thick",
+        "sc-open" => "neutral,thick",
+        _ => "notangent,thick",
     }
 }
 

@@ -74,6 +74,30 @@ pub struct Table {
     pub rows: Vec<Vec<Line>>,
 }
 
+/// Rows from which on a narrow table is set beside itself.
+const LONG_ROWS: usize = 12;
+/// Cells of a line of such a table.
+const LINE_CELLS: usize = 8;
+
+impl Table {
+    /// The same, its later rows beside the earlier ones where it is long and narrow: read line by line.
+    #[must_use]
+    pub fn beside(self) -> Self {
+        let width = self.header.len();
+        let parts = LINE_CELLS / width.max(1);
+        if self.rows.len() <= LONG_ROWS || parts < 2 {
+            return self;
+        }
+        let line = |rows: &[Vec<Line>]| {
+            let mut cells = rows.concat();
+            cells.resize(width * parts, Line::new());
+            cells
+        };
+        let rows = self.rows.chunks(parts).map(line).collect();
+        Self { caption: self.caption, header: vec![self.header; parts].concat(), rows }
+    }
+}
+
 /// Text with formulas.
 pub type Line = Vec<Inline>;
 
@@ -209,6 +233,22 @@ impl Document {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_long_table_stands_beside_itself() {
+        let table = |rows: usize, columns: usize| Table {
+            caption: Line::new(),
+            header: vec![words("h"); columns],
+            rows: (0..rows).map(|r| (0..columns).map(|c| words(format!("{r}.{c}"))).collect()).collect(),
+        };
+        let wide = table(14, 2).beside();
+        assert_eq!((wide.header.len(), wide.rows.len()), (8, 4));
+        assert_eq!((&wide.rows[1][0], &wide.rows[1][7]), (&words("4.0"), &words("7.1")));
+        assert_eq!((&wide.rows[3][3], &wide.rows[3][4]), (&words("13.1"), &Line::new()));
+        for same in [table(12, 2), table(40, 5)] {
+            assert_eq!(same.clone().beside(), same);
+        }
+    }
 
     #[test]
     fn markup_splits_into_runs() {

@@ -30,12 +30,12 @@ pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
     Some(picture)
 }
 
-/// The picture of [`attractor`] as a PNG file, without the words in it.
+/// The picture of [`attractor`] as a PNG file, so many pixels wide, without the words in it.
 #[cfg(feature = "png")]
 #[must_use]
-pub fn attractor_png(case: &Case, found: &Certified) -> Option<Vec<u8>> {
+pub fn attractor_png(case: &Case, found: &Certified, pixels: u32) -> Option<Vec<u8>> {
     let marks: Vec<Mark> = found.points.iter().take(MAX_MARKS).map(mark).collect();
-    picture::attractor_png(&case.shape, &marks)
+    picture::attractor_png(&case.shape, &marks, pixels)
 }
 
 fn figure(drawing: Drawing, alt: String, caption: Line) -> Block {
@@ -75,7 +75,11 @@ const MAX_LABELS: usize = 8;
 
 /// The eigenvalues of a cycle in the complex plane.
 #[must_use]
-pub fn spectrum(spectrum: &Spectrum) -> Block {
+pub fn spectrum(spectrum: &Spectrum) -> Option<Block> {
+    let rational = |member| spectrum.factor(member).poly.degree() == Some(1);
+    if spectrum.classes.iter().flat_map(|c| &c.members).all(|m| rational(*m)) {
+        return None;
+    }
     let members: Vec<_> =
         spectrum.classes.iter().enumerate().flat_map(|(k, c)| c.members.iter().map(move |m| (k, *m))).collect();
     let mut dots = Vec::new();
@@ -96,7 +100,7 @@ pub fn spectrum(spectrum: &Spectrum) -> Block {
     }
     let alt = format!("Eigenvalues in the complex plane: {}.", listed(&told));
     let text = "The eigenvalues in the complex plane, those of the largest modulus in green, with the circles of their moduli.";
-    figure(picture::spectrum(&dots, "Eigenvalues"), alt, words(text))
+    Some(figure(picture::spectrum(&dots, "Eigenvalues"), alt, words(text)))
 }
 
 /// The cones of Theorem 6 along the curve; `None` where there are none, or they are not seen in the plane of the drawing.
@@ -255,12 +259,15 @@ fn verdict_word(point: &PointReport) -> &'static str {
     point.kind.word()
 }
 
-fn mark(point: &PointReport) -> Mark {
+/// What is drawn at an examined point of a curve or a set.
+#[must_use]
+pub fn mark(point: &PointReport) -> Mark {
     let style = match (point.verdict, point.kind) {
         (_, Kind::Cusp) => MarkStyle::Cusp,
         (_, Kind::Corner) => MarkStyle::Corner,
         (Verdict::Proved, _) => MarkStyle::Tangent,
-        _ => MarkStyle::Open,
+        (Verdict::Refuted, _) => MarkStyle::Refuted,
+        (Verdict::Undetermined, _) => MarkStyle::Undecided,
     };
     let mut rays: Vec<Vec<f64>> = point.left.iter().chain(&point.right).map(|d| d.to_f64()).collect();
     if rays.is_empty()

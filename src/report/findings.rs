@@ -31,6 +31,15 @@ pub fn summary(findings: &Findings, required: &Required, verbose: bool) -> Docum
     }
 }
 
+/// The same in a few lines: the answers, the points and the verdict; vertices have a table anyway.
+#[must_use]
+pub fn brief(findings: &Findings, required: &Required) -> Document {
+    match findings {
+        Findings::Tangents { case, found } => summary::brief(case, found, required),
+        Findings::Vertices { case, found, every } => vertex::document(case, found, every.as_ref(), false),
+    }
+}
+
 /// The JSON report (docs/json.md).
 #[must_use]
 pub fn json(findings: &Findings, required: &Required) -> Value {

@@ -24,7 +24,7 @@ const PREAMBLE: &str = "\\documentclass[11pt,a4paper]{article}
 \\definecolor{tangent}{HTML}{1A8A4A}
 \\definecolor{cusp}{HTML}{B06A00}
 \\definecolor{corner}{HTML}{C4332B}
-\\definecolor{undecided}{HTML}{7A4FB5}
+\\definecolor{notangent}{HTML}{7A4FB5}
 \\sloppy
 \\setlength{\\parindent}{0pt}
 \\setlength{\\parskip}{6pt}

@@ -3,6 +3,7 @@
 pub mod claims;
 pub mod document;
 pub mod every;
+mod every_plane;
 pub mod field_spectrum;
 pub mod figures;
 pub mod findings;

@@ -3,7 +3,7 @@
 use super::claims;
 use super::document::{Block, Document, Inline, Line, Table, Tone, code, formula, line, words};
 use super::math::Math;
-use super::proof::parameter;
+use super::proof::{parameter, results_table};
 use super::reasons;
 use super::values::{decimals_math, direction_decimals};
 use super::words::{
@@ -44,6 +44,8 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
         blocks.extend(point_blocks(case, point, verbose));
     }
     if let Some(surface) = &found.surface {
+        blocks.push(Block::heading(2, "Every point"));
+        blocks.push(Block::Facts(super::every_plane::facts(surface)));
         blocks.extend(super::surface::summary(surface, verbose));
     }
     blocks.push(Block::heading(2, "Verdict"));
@@ -52,6 +54,22 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
     if !limits.is_empty() {
         blocks.push(Block::List(limits));
     }
+    Document { title: case.name.clone(), blocks }
+}
+
+/// The answers with the statements behind them, the examined points, and the verdict.
+#[must_use]
+pub fn brief(case: &Case, found: &Certified, required: &Required) -> Document {
+    let row = |claim: &Claim| {
+        let by = claim.statement().map_or_else(|| words("–"), |s| words(statement(s)));
+        vec![words(claims::label(&claim.what)), vec![mark(claim.verdict())], by]
+    };
+    let header = ["about", "answer", "by"].map(words).to_vec();
+    let rows = found.claims.iter().map(row).collect();
+    let mut blocks: Vec<Block> = mask_line(case).map(Block::Paragraph).into_iter().collect();
+    blocks.push(Block::Table(Table { caption: Line::new(), header, rows }));
+    blocks.extend(points_table(case, found).or_else(|| results_table(case, found)));
+    blocks.push(Block::Paragraph(overall_line(found, required)));
     Document { title: case.name.clone(), blocks }
 }
 
@@ -107,7 +125,8 @@ fn points_table(case: &Case, found: &Certified) -> Option<Block> {
 }
 
 /// What holds, what fails, what is open, and what decides.
-pub(super) fn overall_line(found: &Certified, required: &Required) -> Line {
+#[must_use]
+pub fn overall_line(found: &Certified, required: &Required) -> Line {
     let of = |verdict: Verdict| {
         let labels: Vec<String> =
             found.claims.iter().filter(|c| c.verdict() == verdict).map(|c| claims::label(&c.what)).collect();

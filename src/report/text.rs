@@ -1,18 +1,40 @@
-//! Documents as text for a terminal, at most 80 columns wide.
+//! Documents as text for a terminal.
 
 use super::document::{Block, Check, Document, Inline, Line, Table, Tone, hypothesis, line};
 use super::math::{Math, Spacing, parts, sign_and_size, spacing};
 use unicode_width::UnicodeWidthStr;
 
-/// Columns that a line of text may have.
+/// Columns that a line of text may have where nobody says how many there are.
 pub const WIDTH: usize = 80;
+
+/// How a text is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// Whether headings and verdicts carry ANSI colours.
+    pub colour: bool,
+    /// Columns that a line may have.
+    pub width: usize,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self { colour: false, width: WIDTH }
+    }
+}
+
 /// Longest number that is written in full; longer ones are shortened (the JSON and the other reports have all digits).
 const MAX_NUMBER: usize = 40;
 
-/// Writes a document as text; with `colour`, headings and verdicts carry ANSI colours.
+/// Writes a document as text of 80 columns; with `colour`, headings and verdicts carry ANSI colours.
 #[must_use]
 pub fn render(document: &Document, colour: bool) -> String {
-    let mut out = Writer { out: String::new(), colour };
+    render_as(document, Look { colour, ..Look::default() })
+}
+
+/// Writes a document as text.
+#[must_use]
+pub fn render_as(document: &Document, look: Look) -> String {
+    let mut out = Writer { out: String::new(), look };
     out.raw(&out.painted("1", &document.title));
     out.blocks(&document.blocks, 0);
     out.out
@@ -20,7 +42,7 @@ pub fn render(document: &Document, colour: bool) -> String {
 
 struct Writer {
     out: String,
-    colour: bool,
+    look: Look,
 }
 
 /// A word of a line: its plain text and how it is shown.
@@ -32,7 +54,7 @@ struct Word {
 
 impl Writer {
     fn painted(&self, style: &str, text: &str) -> String {
-        if self.colour && !text.is_empty() { format!("\u{1b}[{style}m{text}\u{1b}[0m") } else { text.to_owned() }
+        if self.look.colour && !text.is_empty() { format!("\u{1b}[{style}m{text}\u{1b}[0m") } else { text.to_owned() }
     }
 
     fn raw(&mut self, text: &str) {
@@ -131,7 +153,7 @@ impl Writer {
     }
 
     fn paragraph(&mut self, text: &[Inline], first: &str, next: &str) {
-        for row in self.wrapped(text, first, next, WIDTH) {
+        for row in self.wrapped(text, first, next, self.look.width) {
             self.raw(row.trim_end());
         }
     }
@@ -181,7 +203,7 @@ impl Writer {
                 cells.map(|cell| plain(cell).width()).max().unwrap_or(0).max(1)
             })
             .collect();
-        let widths = fitted(natural, WIDTH.saturating_sub(indent + 2 * columns.saturating_sub(1)));
+        let widths = fitted(natural, self.look.width.saturating_sub(indent + 2 * columns.saturating_sub(1)));
         self.table_row(&table.header, &widths, &pad, true);
         let rule: Vec<String> = widths.iter().map(|w| "─".repeat(*w)).collect();
         self.raw(&format!("{pad}{}", rule.join("  ")));
@@ -480,6 +502,11 @@ mod tests {
         let text = render(&document, false);
         assert!(text.lines().all(|l| l.width() <= WIDTH), "{text}");
         assert_eq!(text.matches('x').count(), 4 * 300);
+        for width in [50, 120] {
+            let text = render_as(&document, Look { width, ..Look::default() });
+            let widest = text.lines().map(|l| l.width()).max();
+            assert!(widest.is_some_and(|w| w <= width && w > width - 8), "{width}: {text}");
+        }
         assert!(!text.contains('\u{1b}'));
         assert!(render(&document, true).contains('\u{1b}'));
     }

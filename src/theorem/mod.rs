@@ -37,7 +37,7 @@ pub use components::{Component, Components};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
-pub use gap::{BranchGap, Defect, EveryGap, NoChart, NoGerm, PlaneGap, PointGap, TopRow};
+pub use gap::{BranchGap, Defect, EveryGap, EverySurfaceGap, NoChart, NoGerm, PlaneGap, PointGap, TopRow};
 pub use hodograph::{Hodograph, Span, Turn};
 pub use parameter::Parameter;
 pub use require::{Required, Topic, UnknownTopic};

@@ -129,7 +129,7 @@ fn code_words(shape: &Shape, proof: &Contracting) -> Block {
     if several {
         header.insert(0, words("state"));
     }
-    let table = Block::Table(Table { caption: Line::new(), header, rows });
+    let table = Block::Table(Table { caption: Line::new(), header, rows }.beside());
     if total > 12 { Block::Details { summary: caption, blocks: vec![table] } } else { table }
 }
 
@@ -236,7 +236,7 @@ pub(super) fn vertices<'a>(shape: &Shape, of: impl Fn(usize) -> &'a [Vec<crate::
     let row = |(e, vertex): (usize, &Vec<_>)| vec![words(shape.states[e].name.clone()), formula(Math::vector(vertex))];
     let rows = shape.reachable().into_iter().flat_map(|e| of(e).iter().map(move |v| (e, v))).map(row).collect();
     let header = vec![words("state"), words("vertex")];
-    Block::Table(by_state(shape, Table { caption: Line::new(), header, rows }))
+    Block::Table(by_state(shape, Table { caption: Line::new(), header, rows }).beside())
 }
 
 fn uses_polygons(branch: &BranchReport) -> bool {

@@ -65,9 +65,7 @@ pub(super) fn section(case: &Case, spaces: &Spaces, branch: &BranchReport, k: us
         blocks.push(Block::text(&format!("In these coordinates $M$ acts on {on} by"), []));
         blocks.push(matrix(Math::Letter('L'), &branch.linear));
         blocks.extend(spectrum_blocks(&branch.spectrum));
-        if branch.linear.rows() > 1 {
-            blocks.push(figures::spectrum(&branch.spectrum));
-        }
+        blocks.extend(figures::spectrum(&branch.spectrum));
         blocks.extend(ring_blocks(branch, seen));
     }
     blocks.extend(statements::blocks(case, branch, seen));

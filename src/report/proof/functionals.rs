@@ -154,7 +154,7 @@ pub(super) fn cell_table(proof: &RingProof, letter: &str) -> Block {
     if several {
         header.insert(1, words("functional"));
     }
-    let table = Block::Table(Table { caption: Line::new(), header, rows: rows.collect() });
+    let table = Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }.beside());
     let shown = proof.discharged.len().min(MAX_CELLS);
     let what = if several { "The values of one functional".to_owned() } else { format!("The values of ${letter}$") };
     let all = if shown < proof.discharged.len() {

@@ -14,7 +14,7 @@ use crate::theorem::{Certified, PointReport};
 const MAX_ROWS: usize = 16;
 
 /// One row for every examined point.
-pub(super) fn table(case: &Case, found: &Certified) -> Option<Block> {
+pub(in crate::report) fn table(case: &Case, found: &Certified) -> Option<Block> {
     let (header, mut rows) = match &found.surface {
         Some(surface) => (["point", "address", "parameters", "found", "tangent plane"], surface_rows(surface)),
         None => (
@@ -66,7 +66,8 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
 
 /// The parameter of an address in the uniform parameter, in which the pieces of a cell take equal parts of its interval;
 /// `None` where a state on the way is no curve.
-pub(crate) fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
+#[must_use]
+pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
     let after = shape.path(shape.start, &address.prefix);
     let (slope, offset) = affine(shape, *after.last()?, &address.cycle)?;
     let fixed = offset / (Rational::from(1) - slope);

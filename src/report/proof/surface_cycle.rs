@@ -47,9 +47,7 @@ pub(super) fn section(case: &Case, branch: &SurfaceBranch, k: usize, quotes: &mu
         blocks: vec![matrix(Math::Letter('C'), &branch.chart), matrix(Math::Letter('L'), &branch.linear)],
     });
     blocks.extend(spectrum_blocks(&branch.spectrum));
-    if seen > 1 {
-        blocks.push(figures::spectrum(&branch.spectrum));
-    }
+    blocks.extend(figures::spectrum(&branch.spectrum));
     blocks.extend(ring(branch, quotes));
     for (statement, evidence) in applied(branch) {
         blocks.push(quotes.once(statement));
@@ -348,7 +346,7 @@ fn path(winding: &Winding) -> Block {
         vec![code(word_text(&d.word)), name, words(half)]
     });
     let header = vec![words("cell"), words("functional"), words("sign")];
-    let table = Block::Table(Table { caption: Line::new(), header, rows: rows.collect() });
+    let table = Block::Table(Table { caption: Line::new(), header, rows: rows.collect() }.beside());
     Block::Details { summary: words("The cells along the boundary, in cyclic order:"), blocks: vec![table] }
 }
 
