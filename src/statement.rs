@@ -134,6 +134,8 @@ statements! {
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",
+    FamilyWords = "family-words",
+    FamilyHulls = "family-hulls",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",
 }

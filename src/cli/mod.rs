@@ -20,6 +20,7 @@ mod output;
 mod progress;
 mod question;
 mod refine;
+mod region;
 mod regularity;
 mod render;
 mod resume;
@@ -71,6 +72,9 @@ enum Command {
     Jsr(JsrArgs),
     /// The regularity of the subdivision scheme of a mask, from a joint spectral radius.
     Regularity(RegularityArgs),
+    /// For which values of a parameter a scheme converges and is smooth: open intervals and single points, with exact ends.
+    #[command(after_help = CODES)]
+    Region(region::RegionArgs),
     /// List the named schemes, or write one as a case.
     Schemes {
         /// Its name; without it the schemes are listed.
@@ -441,6 +445,7 @@ fn run(command: Command) -> u8 {
         Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: question::joined(args.files), ..args }),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
+        Command::Region(args) => region::run(&args),
         Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { cases, output, json } => expand::run(&question::joined(cases), output.as_deref(), json),
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),

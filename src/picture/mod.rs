@@ -1,6 +1,7 @@
 //! Pictures of attractors as SVG. Floats are used here and prove nothing; exact points only start the computation.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
+pub mod bar;
 pub mod characteristic;
 mod chart;
 mod diagram;

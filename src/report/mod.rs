@@ -18,6 +18,7 @@ pub mod mesh;
 pub mod proof;
 pub mod radius;
 pub mod reasons;
+pub mod region;
 pub mod regularity;
 pub mod spectrum;
 pub mod summary;

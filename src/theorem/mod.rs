@@ -18,6 +18,7 @@ mod hodograph;
 pub mod lattice;
 pub mod parameter;
 mod point;
+pub mod region;
 pub mod regularity;
 mod require;
 mod ring;
