@@ -131,7 +131,9 @@ fn determinant(rows: &[Vec<i64>]) -> i64 {
     if n == 0 {
         return 1;
     }
-    (0..n).map(|k| if k % 2 == 0 { rows[0][k] * minor(rows, 0, k) } else { -rows[0][k] * minor(rows, 0, k) }).sum()
+    (0..n)
+        .map(|k| if k.is_multiple_of(2) { rows[0][k] * minor(rows, 0, k) } else { -rows[0][k] * minor(rows, 0, k) })
+        .sum()
 }
 
 fn minor(rows: &[Vec<i64>], i: usize, j: usize) -> i64 {
@@ -184,7 +186,8 @@ impl Dilation {
         let determinant = determinant(&rows);
         need((2..=MAX_ENTRY).contains(&determinant.abs()), "case", "the determinant is not from 2 to 64 in modulus")?;
         need(is_similarity(&rows, determinant), "case", "the dilation is no similarity in any coordinates")?;
-        let cofactor = |i: usize, j: usize| if (i + j) % 2 == 0 { minor(&rows, j, i) } else { -minor(&rows, j, i) };
+        let cofactor =
+            |i: usize, j: usize| if (i + j).is_multiple_of(2) { minor(&rows, j, i) } else { -minor(&rows, j, i) };
         let adjugate = (0..s).map(|i| (0..s).map(|j| cofactor(i, j)).collect()).collect();
         let mut made = Self { rows, determinant, adjugate, digits: vec![vec![0; s]] };
         let mut next = 0;

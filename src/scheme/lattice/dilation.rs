@@ -179,7 +179,7 @@ fn whole(x: &Rational) -> Option<i64> {
 }
 
 fn determinant(m: &Matrix) -> Rational {
-    let sign = if m.rows() % 2 == 0 { 1 } else { -1 };
+    let sign = if m.rows().is_multiple_of(2) { 1 } else { -1 };
     crate::linalg::char_poly(m).coeffs().first().map_or_else(|| Rational::from(0), |c| c * Rational::from(sign))
 }
 

@@ -118,7 +118,7 @@ fn box_spline(given: &Given) -> Result<LatticeMask, LatticeError> {
 fn directions(text: &str) -> Result<Vec<Vec<i64>>, LatticeError> {
     let bad = || wrong(format!("`{text}` is no list of directions such as (1,0)^2 (0,1)^2 (1,1)^2"));
     let inner = text.trim().strip_prefix("[[").and_then(|t| t.strip_suffix("]]")).map(|t| format!("[{t}]"));
-    let text_of = inner.as_deref().map_or(text, |t| t);
+    let text_of = inner.as_deref().unwrap_or(text);
     let mut all: Vec<Vec<i64>> = Vec::new();
     for part in text_of.split(['(', '[']).skip(1) {
         let (numbers, rest) = part.split_once([')', ']']).ok_or_else(bad)?;
@@ -186,7 +186,7 @@ fn determinant(rows: &[Vec<i64>]) -> i64 {
         let without = |row: &Vec<i64>| row.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, x)| *x).collect();
         determinant(&below.iter().map(without).collect::<Vec<Vec<i64>>>())
     };
-    let sign = |k: usize| if k % 2 == 0 { 1 } else { -1 };
+    let sign = |k: usize| if k.is_multiple_of(2) { 1 } else { -1 };
     top.iter().enumerate().filter(|(_, x)| **x != 0).map(|(k, x)| sign(k) * x * minor(k)).sum()
 }
 
@@ -239,7 +239,7 @@ fn tensor(given: &Given) -> Result<LatticeMask, LatticeError> {
 /// A mask in one variable with its arity: a named scheme with parameters, a symbol of arity 2, or coefficients.
 fn univariate(text: &str) -> Result<(Laurent, i64), LatticeError> {
     let mut words = text.split_whitespace();
-    let name = words.next().map_or("", |w| w);
+    let name = words.next().unwrap_or_default();
     if scheme::list().iter().any(|s| s.name == name) {
         let mut values = BTreeMap::new();
         for word in words {

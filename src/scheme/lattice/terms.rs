@@ -136,7 +136,7 @@ impl Terms {
 
 /// The number of points of a box with these sides; where it is huge, the largest number.
 fn volume(sides: impl Iterator<Item = i64>) -> usize {
-    sides.fold(1, |v: usize, side| v.saturating_mul(usize::try_from(side).map_or(usize::MAX, |k| k)))
+    sides.fold(1, |v: usize, side| v.saturating_mul(usize::try_from(side).unwrap_or(usize::MAX)))
 }
 
 /// Symbols are read with as many variables as there may be.

@@ -158,7 +158,7 @@ struct Symbol {
 impl Symbol {
     fn new(points: &[Vec<i64>], row: &[Rational]) -> Self {
         let s = points.first().map_or(0, Vec::len);
-        let top = row.iter().map(abs).max().map_or_else(|| Rational::from(0), |x| x);
+        let top = row.iter().map(abs).max().unwrap_or_else(|| Rational::from(0));
         let centre = row.iter().position(|x| abs(x) == top).map_or_else(|| vec![0; s], |k| points[k].clone());
         let moved = |p: &Vec<i64>| p.iter().zip(&centre).map(|(x, c)| x - c).collect::<Vec<i64>>();
         let terms: Vec<(Vec<i64>, Rational)> =
@@ -204,8 +204,8 @@ fn powers(sign: i64, t: &Rational, reach: i64) -> Vec<Complex> {
     let size = (&one + &square) * Rational::from(sign);
     let z = Complex { re: (&one - &square) / &size, im: t * Rational::from(2) / &size };
     let mut up = vec![Complex { re: one, im: Rational::from(0) }];
-    for k in 0..usize::try_from(reach).map_or(0, |r| r) {
-        up.push(up[k].times(&z));
+    for _ in 0..reach {
+        up.push(up[up.len() - 1].times(&z));
     }
     let down = up.iter().skip(1).rev().map(|p| Complex { re: p.re.clone(), im: -&p.im });
     down.chain(up.iter().cloned()).collect()
