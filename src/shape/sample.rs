@@ -52,10 +52,10 @@ pub fn sample(complex: &Complex, depth: usize, progress: &mut dyn FnMut(usize)) 
 /// The largest depth, from 1 to 24, with at most `cells` words.
 #[must_use]
 pub fn depth_within(shape: &Shape, cells: usize) -> usize {
-    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
+    let divides = shape.states.iter().any(|s| s.pieces.len() > 1);
     let mut counts = vec![1usize; shape.states.len()];
     let mut depth = 0;
-    while most > 1 && depth < 24 {
+    while divides && depth < 24 {
         let next = |s: &super::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
         counts = shape.states.iter().map(next).collect();
         if counts[shape.start] > cells {
