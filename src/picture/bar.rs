@@ -47,24 +47,36 @@ pub fn bars(parameter: &str, rows: &[(String, Vec<Span>)]) -> Option<(String, St
             for span in spans.iter().filter(|s| (s.from >= s.to) == point) {
                 let (a, b) = (x(span.from), x(span.to));
                 let class = span.verdict.word();
-                let (over, width) = if point { (3.0, 0.0) } else { (0.0, b - a) };
-                let _ = write!(
-                    svg,
-                    "<rect class=\"{class}\" x=\"{a:.2}\" y=\"{:.1}\" width=\"{width:.2}\" height=\"{:.1}\" stroke-width=\"1\"/>",
-                    top - over,
-                    22.0 + 2.0 * over
-                );
+                // A rectangle without width is not drawn.
+                let _ = if point {
+                    write!(
+                        svg,
+                        "<line class=\"{class}\" x1=\"{a:.2}\" x2=\"{a:.2}\" y1=\"{:.1}\" y2=\"{:.1}\" stroke-width=\"2\"/>",
+                        top - 4.0,
+                        top + 26.0
+                    )
+                } else {
+                    write!(
+                        svg,
+                        "<rect class=\"{class}\" x=\"{a:.2}\" y=\"{top:.1}\" width=\"{:.2}\" height=\"22\" stroke-width=\"0\"/>",
+                        (b - a).max(0.01)
+                    )
+                };
                 let colour = match span.verdict {
                     Verdict::Proved => "green!60!black",
                     Verdict::Refuted => "red!75!black",
                     Verdict::Undetermined => "violet",
                 };
-                let _ = writeln!(
-                    tikz,
-                    "\\filldraw[{colour}] ({a:.2},{:.1}) rectangle ({b:.2},{:.1});",
-                    top - over,
-                    top + 22.0 + over
-                );
+                let _ = if point {
+                    writeln!(
+                        tikz,
+                        "\\draw[{colour},line width=1bp] ({a:.2},{:.1}) -- ({a:.2},{:.1});",
+                        top - 4.0,
+                        top + 26.0
+                    )
+                } else {
+                    writeln!(tikz, "\\fill[{colour}] ({a:.2},{top:.1}) rectangle ({b:.2},{:.1});", top + 22.0)
+                };
             }
         }
     }
