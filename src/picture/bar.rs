@@ -82,7 +82,8 @@ pub fn bars(parameter: &str, rows: &[(String, Vec<Span>)]) -> Option<(String, St
     }
     let base = 10.0 + ROW * rows.len() as f64 + 14.0;
     for p in [lo, f64::midpoint(lo, hi), hi] {
-        let at = x(p);
+        let (at, digits) = (x(p), format!("{p:.5}"));
+        let p = digits.trim_end_matches('0').trim_end_matches('.');
         let _ = write!(svg, "<text x=\"{at:.2}\" y=\"{base:.1}\" text-anchor=\"middle\">{p}</text>");
         let _ = writeln!(tikz, "\\node at ({at:.2},{base:.1}) {{${p}$}};");
     }
