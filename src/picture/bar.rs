@@ -25,7 +25,7 @@ const ROW: f64 = 34.0;
 pub fn bars(parameter: &str, rows: &[(String, Vec<Span>)]) -> Option<(String, String)> {
     let spans = rows.first().map(|r| &r.1)?;
     let (lo, hi) = (spans.first()?.from, spans.last()?.to);
-    if !(lo < hi) {
+    if lo.partial_cmp(&hi) != Some(std::cmp::Ordering::Less) {
         return None;
     }
     let height = ROW * rows.len() as f64 + 44.0;
