@@ -117,6 +117,11 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
     if depth > MAX_DEPTH {
         return Err(failed(&format!("a depth of at most {MAX_DEPTH} is drawn")));
     }
+    if args.depth.is_some() && words_of(&case.shape, depth) > MAX_SAMPLES {
+        return Err(failed(&format!(
+            "there are more than {MAX_SAMPLES} words of {depth} letters; take a smaller --depth, or --chaos"
+        )));
+    }
     let progress = Progress::of(0, "points", false);
     let found = sample(&complex, depth, &mut |n| progress.advance(n));
     progress.finish();
@@ -128,17 +133,21 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
 fn depth(shape: &Shape) -> usize {
     let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
     let limit = if shape.states.iter().any(|s| s.kind == CellKind::Face) { 3_000 } else { DEFAULT_POINTS };
-    let mut counts = vec![1usize; shape.states.len()];
     let mut depth = 0;
-    while most > 1 && depth < 24 {
-        let next = |s: &crate::shape::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
-        counts = shape.states.iter().map(next).collect();
-        if counts[shape.start] > limit {
-            break;
-        }
+    while most > 1 && depth < 24 && words_of(shape, depth + 1) <= limit {
         depth += 1;
     }
     depth.max(1)
+}
+
+/// The number of words of a length from the start.
+fn words_of(shape: &Shape, length: usize) -> usize {
+    let mut counts = vec![1usize; shape.states.len()];
+    for _ in 0..length {
+        let next = |s: &crate::shape::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
+        counts = shape.states.iter().map(next).collect();
+    }
+    counts.get(shape.start).copied().unwrap_or(usize::MAX)
 }
 
 /// How often each piece is drawn: by its determinant where it has one, and never too seldom.
