@@ -81,6 +81,8 @@ pub mod shape;
 pub mod statement;
 #[cfg(feature = "strategies")]
 pub mod strategies;
+#[cfg(feature = "studio")]
+pub mod studio;
 pub mod theorem;
 pub mod vertex;
 

@@ -129,9 +129,13 @@ statements! {
     Components = "theorem-13",
     Radius = "radius",
     Smoothness = "smoothness",
+    TensorEveryPoint = "tensor-every-point",
+    PatchDerivative = "patch-derivative",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",
+    FamilyWords = "family-words",
+    FamilyHulls = "family-hulls",
 }
 
 impl Statement {

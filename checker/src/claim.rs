@@ -77,6 +77,8 @@ pub enum Claim {
         /// Whether it is about the surface before the projection by the control points.
         projected: bool,
     },
+    /// The surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously.
+    PlaneTurns,
     /// For almost all control points the surface is C¹ at vertices of this valence.
     SmoothAtVertex(usize),
     /// For almost all control points the surface has a tangent plane at vertices of this valence.
@@ -130,6 +132,17 @@ pub enum Claim {
         /// The numbers.
         sizes: Vec<usize>,
     },
+    /// For every value of a parameter in a part of its range the scheme has limits of an order of smoothness.
+    Region {
+        /// 0: the scheme converges; otherwise it does and its limits are `C^k`.
+        order: usize,
+        /// The parameter.
+        parameter: String,
+        /// The lower end of an open interval, or the point.
+        from: Real,
+        /// The upper end; the same for a point.
+        to: Real,
+    },
     /// The unknown entries have values that satisfy all equations.
     Solvable {
         /// The number of unknowns.
@@ -141,6 +154,28 @@ pub enum Claim {
         /// The equations, by number, that contradict each other.
         conflict: Vec<usize>,
     },
+}
+
+/// A real number: the only root of a polynomial (lowest coefficient first) in an interval.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Real {
+    /// The polynomial.
+    pub polynomial: Vec<Q>,
+    /// The interval; both ends are the number where that is rational.
+    pub interval: [Q; 2],
+}
+
+impl Display for Real {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        let [lo, hi] = &self.interval;
+        if lo == hi {
+            return write!(f, "{lo}");
+        }
+        // Towards 0, to twelve digits.
+        let scale = crate::base::whole(1_000_000_000_000);
+        let near = (lo * &scale).to_integer();
+        write!(f, "the root of {} near {}", polynomial(&self.polynomial), Q::from(near) / scale)
+    }
 }
 
 /// A claim with what was found about it.
@@ -168,9 +203,21 @@ impl Display for Decided {
                 let listed = list(conflict);
                 write!(f, "{word}: {}; the equations {listed} contradict each other", self.claim)
             }
+            Claim::Region { order, parameter, from, to } => {
+                let part = if from == to { format!("at {from}") } else { format!("strictly between {from} and {to}") };
+                write!(f, "{word} for every {parameter} {part}: {}", region(*order))
+            }
             Claim::Point { place, kind } => write!(f, "{word}: {place}, {kind}"),
             claim => write!(f, "{word}: {claim}"),
         }
+    }
+}
+
+/// What is claimed of a scheme at one value of its parameter.
+fn region(order: usize) -> String {
+    match order {
+        0 => "the scheme converges uniformly for all control points".to_owned(),
+        k => format!("the scheme converges and all its limits are C^{k} in the uniform parameter"),
     }
 }
 
@@ -270,6 +317,9 @@ impl Display for Claim {
                 "before the projection the surface has a tangent plane at a point inside every cell, and the projection has \
                  one where it does not fold that plane",
             ),
+            Self::PlaneTurns => f.write_str(
+                "the surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously",
+            ),
             Self::SmoothAtVertex(n) => {
                 write!(f, "for almost all control points the surface is C¹ at a vertex of valence {n}")
             }
@@ -300,6 +350,9 @@ impl Display for Claim {
             }
             Self::Moduli { operator, sizes } => {
                 write!(f, "{}: different eigenvalues by modulus, the largest first: {}", of(*operator), list(sizes))
+            }
+            Self::Region { order, parameter, from, to } => {
+                write!(f, "for every {parameter} from {from} to {to}, the ends left out: {}", region(*order))
             }
             Self::Solvable { unknowns, equations, free, .. } => {
                 let what = "values that satisfy";

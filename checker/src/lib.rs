@@ -9,6 +9,7 @@ mod curve;
 mod jsr;
 mod literal;
 pub mod reader;
+mod region;
 mod regularity;
 mod solve;
 mod spectrum;
@@ -17,7 +18,7 @@ mod vertex;
 
 pub use base::{Accepted, Checked, Rejected, Verdict, number};
 use base::{Json, Node, need, reject, unreadable};
-pub use claim::{Address, Claim, Decided, End, Joints, Place, Subject};
+pub use claim::{Address, Claim, Decided, End, Joints, Place, Real, Subject};
 use curve::case;
 
 /// The version of the certificate format that is read.
@@ -49,6 +50,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
     let found = match kind.text()? {
         "certify" => curve::check(&case::read(case, false)?, &proof)?,
         "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
+        "region" => region::check(case, &proof)?,
         "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => spectrum::check(case, &proof)?,
         "jsr" => jsr::check(case, &proof)?,

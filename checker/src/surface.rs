@@ -2,6 +2,7 @@
 
 mod branch;
 mod chart;
+mod derivative;
 mod product;
 
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
@@ -63,8 +64,20 @@ fn questions(
 /// Checks the proof of a certificate of the kind `surface`.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let case = case::read(source, false)?;
-    let [contraction, product, further, points, dense, answers] =
-        node.fields("contraction product further points dense answers")?;
+    let every = node.get("every");
+    let [contraction, product, further, points, dense] = match &every {
+        None => {
+            let [contraction, product, further, points, dense, _] =
+                node.fields("contraction product further points dense answers")?;
+            [contraction, product, further, points, dense]
+        }
+        Some(_) => {
+            let [contraction, product, further, points, dense, _, _] =
+                node.fields("contraction product further points dense every answers")?;
+            [contraction, product, further, points, dense]
+        }
+    };
+    let answers = node.field("answers")?;
     let shape = &case.shape;
     let model = if contraction.is_null() { Model::unenclosed(shape)? } else { Model::read(shape, &contraction)? };
     let chart = Chart::read(source, shape)?;
@@ -108,6 +121,9 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         found.push(decided);
     }
     let verdict = together(found.iter().map(|d| d.verdict));
+    if let Some(every) = every {
+        found.push(Claim::PlaneTurns.is(surface.every(&root, chart.as_ref(), &found_at, &every)?));
+    }
     Ok(Accepted { case: case.name, verdict, claims: found, points: found_at })
 }
 
@@ -146,6 +162,37 @@ impl Surface<'_> {
         }
         let verdict = conclude(rule.text()?, &tangent, root.view.rows, &found)?;
         Ok((addresses, verdict))
+    }
+
+    /// Whether the surface is G¹: a point without a tangent plane, or the curves of a product.
+    fn every(&self, root: &Root, chart: Option<&Chart>, points: &[Decided], node: &Node<'_>) -> Checked<Verdict> {
+        let chart = node.some(chart, "every", "a patch with parameters is needed")?;
+        let found = match node.tag("by")? {
+            "derivative" => {
+                node.need(self.cover, "contraction", "without contraction only a product has an answer")?;
+                derivative::check(self.model, chart, node)?;
+                Verdict::Proved
+            }
+            "point" => {
+                let [_, _, point] = node.fields("by verdict point")?;
+                let broken = points[point.index(points.len())?].verdict == Verdict::Refuted;
+                point.need(broken, "every", "the point has a tangent plane like any other")?;
+                Verdict::Refuted
+            }
+            "product" => {
+                let [_, _, curves] = node.fields("by verdict curves")?;
+                let product = curves.some(self.product.as_ref(), "every", "the patch is no product")?;
+                let basis = &self.model.spaces.of(root.state)?.basis;
+                let seen = root.view.times(basis)?.rank()? == basis.cols;
+                curves.need(seen, "every", "the view must be injective")?;
+                product.every(&curves)?
+            }
+            _ => return node.reject("every", "a point, a product or a derivative is needed"),
+        };
+        let decided = found != Verdict::Undetermined;
+        node.need(decided, "every", "this decides nothing")?;
+        node.field("verdict")?.follows("every", found.word())?;
+        Ok(found)
     }
 
     /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.

@@ -88,6 +88,7 @@ fn is_proved_again(claim: &Claim, certificate: &Certificate, orders: &[Assertion
     }
     match &claim.what {
         Assertion::G1 => certificate.decides_every_point(claim.verdict()),
+        Assertion::PlaneEverywhere => certificate.decides_every_plane(claim.verdict()),
         what if what.is_of_dense_joints() => !certificate.leaves_out_joints(),
         what if what.is_of_parameter() => orders.contains(what),
         _ => true,

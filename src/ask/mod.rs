@@ -4,12 +4,14 @@
 
 mod answered;
 mod radius;
+mod region;
 mod regularity;
 mod solve;
 mod spectra;
 
 pub use answered::{Answered, Checked, Evidence, NOT_ASKED, ONCE, answered};
 pub use radius::{Radius, radius};
+pub use region::{Regions, regions};
 pub use regularity::{Smooth, certified_regularity, regularity, regularity_of_case};
 pub use solve::{Solved, solve, unsolvable};
 pub use spectra::{Entries, ExactSpectrum, Matrices, Named, exact_spectrum};

@@ -144,6 +144,10 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
         let own = words.map(str::to_owned);
         return scheme_named(name, &own.chain(parameters.iter().cloned()).collect::<Vec<_>>());
     }
+    if !parameters.is_empty() && Path::new(what).is_file() {
+        let source = case::asked(&format!("{what} {}", parameters.join(" ")))?;
+        return subject_of_case(&source.name, &source.text);
+    }
     if let Some(extra) = parameters.first() {
         return Err(wrong(format!("`{extra}` is a parameter, but only named schemes have parameters")));
     }

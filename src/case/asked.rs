@@ -1,6 +1,7 @@
 //! What somebody writes instead of a file: the name of a scheme, a mask, a symbol, a wavelet, the matrices of the pieces.
 
 use super::node::clipped;
+use super::parameters::{member_text, with_settings};
 use super::{Case, Question, VertexCase};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
@@ -117,12 +118,18 @@ fn sums_to_one(rows: &[Vec<Rational>]) -> bool {
     (0..width).all(|j| rows.iter().filter_map(|r| r.get(j)).fold(Rational::from(0), |s, x| s + x) == 1)
 }
 
-/// The text of the case that somebody means: that of a file; from the standard input (`-`) a case, or what stands for one, in a
+/// The text of the case that somebody means: that of a file; of a file with values of its parameters behind it (`six-point.toml
+/// t=1/50`) the member; from the standard input (`-`) a case, or what stands for one, in a
 /// line; what is written instead of a file becomes a case.
 ///
 /// # Errors
 /// A [`Problem`] where a file cannot be read, or a text is none of these, with what is near.
 pub fn asked(text: &str) -> Result<SourceText, Problem> {
+    if let Some((path, set)) = with_settings(text)? {
+        let source = SourceText::read(&path)?;
+        let member = member_text(&source.name, &source.text, &set)?;
+        return Ok(member.map_or(source.clone(), |text| SourceText::new(&source.name, text)));
+    }
     let path = Path::new(text);
     if text == "-" {
         let source = SourceText::read(path)?;
@@ -139,6 +146,17 @@ pub fn asked(text: &str) -> Result<SourceText, Problem> {
         Some(case) => Ok(SourceText::new(text, case?)),
         None => Err(nothing(text)),
     }
+}
+
+/// The text of the case that a text is or stands for, where no file can be meant: none is read.
+///
+/// # Errors
+/// A [`Problem`] where the text is no case and stands for none, with what is near.
+pub fn written(text: &str) -> Result<String, Problem> {
+    if text.contains('=') && text.trim().contains('\n') {
+        return Ok(text.to_owned());
+    }
+    text_of(text.trim()).unwrap_or_else(|| if is_case(text) { Ok(text.to_owned()) } else { Err(nothing(text.trim())) })
 }
 
 /// Whether a text is meant to be a case.

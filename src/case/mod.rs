@@ -4,6 +4,7 @@
 
 mod asked;
 mod chain;
+mod control;
 mod expect;
 mod faces;
 mod field;
@@ -11,6 +12,7 @@ mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod parameters;
 mod question;
 mod read;
 mod schema;
@@ -19,9 +21,11 @@ mod source;
 mod states;
 mod vertex;
 
-pub use asked::{asked, is_case, nothing};
+pub use asked::{asked, is_case, nothing, written};
+pub use control::with_control;
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
+pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting};
 pub use question::{Question, Subject};
 pub use schema::schema;
 pub use vertex::{Valences, VertexCase};
@@ -258,10 +262,13 @@ impl Case {
     }
 
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
-    /// chains, which the checker does not build: a certificate is about this text, and it is written beside it.
+    /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
+    /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::States)).then(|| self.expanded())
+        let built = matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::States));
+        let member = self.text.text.starts_with(parameters::MEMBER);
+        (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }
 
     /// A problem of one operator, shown at its matrix in the file.

@@ -154,6 +154,7 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
             .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
     }
+    super::parameters::left_free(case).map_or(Ok(()), Err)?;
     if let Some(span) = case.key_span("matrices") {
         return Err(case
             .file

@@ -104,6 +104,14 @@ fn root() -> Value {
         ("examine", list_of(&examine, MAX_ADDRESSES)),
         ("expect", expect()),
         ("vertex", vertex()),
+        (
+            "parameters",
+            json!({
+                "type": "object",
+                "description": "numbers that are left to whoever asks: a range \"-1/2..1/2\", or a value",
+                "additionalProperties": reference("number")
+            }),
+        ),
     ])
 }
 

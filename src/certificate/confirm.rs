@@ -37,10 +37,25 @@ pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
     if !same_verdict(found.verdict, accepted.verdict) {
         return Err(Doubt::Differs(accepted.verdict.word()));
     }
-    if found.surface.is_none() {
-        same_claims(found, &certificate, &accepted)?;
+    match &found.surface {
+        None => same_claims(found, &certificate, &accepted)?,
+        Some(surface) => same_every_plane(surface.every.verdict(), &certificate, &accepted)?,
     }
     Ok(certificate)
+}
+
+/// Whether the checker says of every point of a surface what was found, where the certificate has it.
+fn same_every_plane(found: Verdict, certificate: &Certificate, accepted: &Accepted) -> Result<(), Doubt> {
+    let known = |d: &&Decided| d.claim == secant_check::Claim::PlaneTurns;
+    let said = accepted.claims.iter().find(known);
+    if certificate.json()["proof"]["every"].is_null() && said.is_none() {
+        return Ok(());
+    }
+    match said {
+        Some(said) if same_verdict(found, said.verdict) => Ok(()),
+        Some(said) => Err(Doubt::Claims(said.to_string())),
+        None => Err(Doubt::Claims("nothing about every point".to_owned())),
+    }
 }
 
 /// Whether the checker's claims about curves and sets say of what secant's claims are said: the verdicts are those of the

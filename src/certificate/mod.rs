@@ -11,6 +11,7 @@ mod frames;
 mod hull;
 mod joint;
 mod radius;
+mod region;
 mod regularity;
 mod solve;
 mod spectrum;
@@ -21,6 +22,7 @@ mod vertex;
 
 pub use confirm::{Doubt, checked, confirm, confirm_orders};
 pub use joint::radius_certificate;
+pub use region::region_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
 pub use vertex::{confirm_vertices, vertex_certificate};
@@ -91,6 +93,12 @@ impl Certificate {
     #[must_use]
     pub fn leaves_out_joints(&self) -> bool {
         self.left_out.iter().any(|why| why.place == JOINTS)
+    }
+
+    /// Whether it has the answer about every point of a surface with this verdict.
+    #[must_use]
+    pub fn decides_every_plane(&self, verdict: Verdict) -> bool {
+        self.json["proof"]["every"]["verdict"] == verdict.word()
     }
 
     /// The certificate as JSON.

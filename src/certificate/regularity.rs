@@ -31,21 +31,25 @@ pub fn regularity_certificate(
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
 }
 
+/// The bounds of the radius of a system; `null` where all spaces are 0.
+pub fn radius(system: Option<&System>, found: Option<&JointRadius>, place: &str) -> Result<Value, Unsupported> {
+    match (system, found) {
+        (None, _) => Ok(Value::Null),
+        (Some(system), Some(found)) => radius_proof(system, &radius_with_a_rational_word(system, found)),
+        (Some(_), None) => unsupported("a radius without bounds", place),
+    }
+}
+
 pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
-    let radius = match (&order.system, &order.radius) {
-        (None, _) => Value::Null,
-        (Some(system), Some(radius)) => {
-            let radius = radius_with_a_rational_word(system, radius);
-            if order.outcome == Outcome::Cycle {
-                let lower = radius.lower.as_ref().map(|lower| stated(system, lower)).transpose()?;
-                if lower.is_none_or(|lower| lower < order.threshold) {
-                    return unsupported("an eigenvalue on the threshold itself", format!("order {}", order.order));
-                }
-            }
-            radius_proof(system, &radius)?
+    let place = format!("order {}", order.order);
+    if let (Outcome::Cycle, Some(system), Some(found)) = (&order.outcome, &order.system, &order.radius) {
+        let lower = radius_with_a_rational_word(system, found).lower;
+        let lower = lower.as_ref().map(|lower| stated(system, lower)).transpose()?;
+        if lower.is_none_or(|lower| lower < order.threshold) {
+            return unsupported("an eigenvalue on the threshold itself", place);
         }
-        (Some(_), None) => return unsupported("a radius without bounds", format!("order {}", order.order)),
-    };
+    }
+    let radius = radius(order.system.as_ref(), order.radius.as_ref(), &place)?;
     let outcome = match &order.outcome {
         Outcome::Curve => "curve",
         Outcome::Holds => "holds",
@@ -53,7 +57,7 @@ pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
         Outcome::Cycle => "cycle",
         Outcome::Chord(_) => "chord",
         Outcome::Exponent => "exponent",
-        Outcome::Open => return unsupported("an order that is not decided", format!("order {}", order.order)),
+        Outcome::Open => return unsupported("an order that is not decided", place),
     };
     Ok(json!({"order": order.order, "dims": order.dims, "radius": radius, "outcome": outcome}))
 }

@@ -2,13 +2,17 @@
 
 use super::top::{elements, mirrored, top};
 use super::{Certificate, Unsupported, address_json, branch, contraction, number, numbers, tree, unsupported};
+use crate::answer::Answer;
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
-use crate::theorem::surface::{ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint, SurfaceWitness};
-use crate::theorem::{Assertion, Certified, Direction, Functional, RingProof, Statement, Verdict};
+use crate::theorem::surface::{
+    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint,
+    SurfaceWitness,
+};
+use crate::theorem::{Assertion, Certified, Direction, Functional, PointReport, RingProof, Statement, Verdict};
 use serde_json::{Value, json};
 
 /// Letters by which the addresses of a point are told apart and put in order.
@@ -36,6 +40,7 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
         factors: surface.factors.as_ref(),
         always: by_product,
         injective: injective && found.states.iter().all(|s| s.visible == s.relevant),
+        needed: false,
         points: Default::default(),
     };
     if surface.simplex && !by_product {
@@ -56,6 +61,9 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     let mut dense = Value::Null;
     let (mut asked, mut answers): (Vec<&Address>, Vec<&str>) = (Vec::new(), Vec::new());
     for claim in &found.claims {
+        if claim.what == Assertion::PlaneEverywhere {
+            continue;
+        }
         if let Some((address, _)) = claim.what.asked() {
             if asked.contains(&address) {
                 continue;
@@ -81,8 +89,47 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
     };
     let further = asked.iter().filter(|a| !own.contains(a) && !fixed(a));
     let further: Vec<Value> = further.map(|a| address_json(a)).collect();
-    let proof = json!({"contraction": states, "product": product.json()?, "further": further, "points": points, "dense": dense, "answers": answers});
-    Ok(Certificate::new("surface", &case.name, found.verdict.word(), proof))
+    let (every, left_out) = match every_point(surface, &mut product) {
+        Ok(every) => (every, None),
+        Err(why) => (None, Some(why)),
+    };
+    let product = product.json()?;
+    let proof = match every {
+        None => {
+            json!({"contraction": states, "product": product, "further": further, "points": points, "dense": dense,
+                   "answers": answers})
+        }
+        Some(every) => {
+            json!({"contraction": states, "product": product, "further": further, "points": points, "dense": dense,
+                   "every": every, "answers": answers})
+        }
+    };
+    Ok(Certificate::new("surface", &case.name, found.verdict.word(), proof).without(left_out))
+}
+
+/// The answer about every point, which is no question of the case, so that the certificate of the others stands without it.
+fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>, Unsupported> {
+    Ok(Some(match &surface.every {
+        Answer::Open(_) => return Ok(None),
+        Answer::Refuted(EverySurfaceBreak::Point(index)) => {
+            json!({"by": "point", "verdict": "refuted", "point": index})
+        }
+        Answer::Proved(EverySurfaceProof::Product(curves)) => {
+            json!({"by": "product", "verdict": "proved", "curves": product.every([Some(&curves[0]), Some(&curves[1])])?})
+        }
+        Answer::Proved(EverySurfaceProof::Derivative(found)) => {
+            let radius = super::regularity::radius(found.system.as_ref(), found.radius.as_ref(), "every point")?;
+            let (length, cells) = match &found.cells {
+                Some((length, cells)) => (json!(length), json!(cells)),
+                None => (Value::Null, Value::Null),
+            };
+            json!({"by": "derivative", "verdict": "proved", "radius": radius, "length": length, "cells": cells})
+        }
+        Answer::Refuted(EverySurfaceBreak::Curve { curves, curve, .. }) => {
+            let of = |k: usize| (k == *curve).then(|| &curves[k]);
+            json!({"by": "product", "verdict": "refuted", "curves": product.every([of(0), of(1)])?})
+        }
+    }))
 }
 
 fn name(b: &SurfaceBranch) -> String {
@@ -96,6 +143,8 @@ struct Product<'a> {
     always: bool,
     /// Whether the surface is seen through a map that is injective on its relevant space.
     injective: bool,
+    /// Whether the curves are needed for the answer about every point.
+    needed: bool,
     /// Places and certificates of points of each.
     points: [Vec<(Value, Value)>; 2],
 }
@@ -110,22 +159,45 @@ impl Product<'_> {
         if p.verdict != evidence.verdict || !self.injective {
             return unsupported("a tensor product seen through a map that is not injective", at());
         }
-        let mut indices = [0, 0];
-        for (k, report) in [&evidence.first, &evidence.second].into_iter().enumerate() {
-            let (place, known) = (super::place_json(report), &mut self.points[k]);
-            indices[k] = match known.iter().position(|(p, _)| *p == place) {
-                Some(index) => index,
-                None => {
-                    known.push((place.clone(), branch::point(&factors[k].shape, report, &place)?));
-                    known.len() - 1
-                }
-            };
+        Ok([self.index(0, &factors[0].shape, &evidence.first)?, self.index(1, &factors[1].shape, &evidence.second)?])
+    }
+
+    /// The index of a point of a curve, which is listed where it was not yet.
+    fn index(&mut self, k: usize, curve: &Shape, report: &PointReport) -> Result<usize, Unsupported> {
+        let (place, known) = (super::place_json(report), &mut self.points[k]);
+        if let Some(index) = known.iter().position(|(p, _)| *p == place) {
+            return Ok(index);
         }
-        Ok(indices)
+        known.push((place.clone(), branch::point(curve, report, &place)?));
+        Ok(known.len() - 1)
+    }
+
+    /// The answers about every point of the curves.
+    fn every(&mut self, curves: [Option<&Certified>; 2]) -> Result<Vec<Value>, Unsupported> {
+        let Some(factors) = self.factors else { return unsupported("a product without curves", "every point") };
+        if !self.injective {
+            return unsupported("a tensor product seen through a map that is not injective", "every point");
+        }
+        let mut answers = Vec::new();
+        for (k, curve) in curves.into_iter().enumerate() {
+            let (shape, me) = (&factors[k].shape, std::cell::RefCell::new(&mut *self));
+            let position = |point: &PointReport| me.borrow_mut().index(k, shape, point);
+            answers.push(match curve {
+                None => Value::Null,
+                Some(found) => match super::everywhere::answer(shape, found, position)? {
+                    Some(answer) => answer,
+                    None => return unsupported("a curve of which nothing is decided", "every point"),
+                },
+            });
+        }
+        self.needed = true;
+        Ok(answers)
     }
 
     fn json(&self) -> Result<Value, Unsupported> {
-        let Some(factors) = self.factors.filter(|_| !self.points[0].is_empty()) else { return Ok(Value::Null) };
+        let Some(factors) = self.factors.filter(|_| self.needed || !self.points[0].is_empty()) else {
+            return Ok(Value::Null);
+        };
         let curve = |k: usize| {
             let ProductFactor { shape, contraction: found, states, polygons } = &factors[k];
             let rows = |m: &Matrix| -> Value { (0..m.rows()).map(|i| numbers(m.row(i))).collect() };

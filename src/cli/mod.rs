@@ -20,12 +20,15 @@ mod output;
 mod progress;
 mod question;
 mod refine;
+mod region;
 mod regularity;
 mod render;
 mod resume;
 mod schemes;
 mod solve;
 mod spectrum;
+#[cfg(feature = "studio")]
+mod studio;
 
 use crate::budget::{Budget, Effort};
 use crate::guard::guarded;
@@ -69,6 +72,9 @@ enum Command {
     Jsr(JsrArgs),
     /// The regularity of the subdivision scheme of a mask, from a joint spectral radius.
     Regularity(RegularityArgs),
+    /// For which values of a parameter a scheme converges and is smooth: open intervals and single points, with exact ends.
+    #[command(after_help = CODES)]
+    Region(region::RegionArgs),
     /// List the named schemes, or write one as a case.
     Schemes {
         /// Its name; without it the schemes are listed.
@@ -127,6 +133,10 @@ enum Command {
     /// Hold verdicts on random cases against the laws that they obey; print the simplest case that breaks one (exit code 1).
     #[cfg(feature = "strategies")]
     Fuzz(fuzz::FuzzArgs),
+    /// Open a page in the browser on which schemes, control points and cases can be changed and are proved at once; it is served
+    /// by this program to this machine only, and needs no network.
+    #[cfg(feature = "studio")]
+    Studio(studio::StudioArgs),
     /// Print the completions for a shell.
     Completions {
         /// The shell.
@@ -432,6 +442,7 @@ fn run(command: Command) -> u8 {
         Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: question::joined(args.files), ..args }),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
+        Command::Region(args) => region::run(&args),
         Command::Schemes { json: true, .. } => schemes::data(),
         Command::Schemes { name, parameters, .. } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { cases, output, json } => expand::run(&question::joined(cases), output.as_deref(), json),
@@ -449,6 +460,8 @@ fn run(command: Command) -> u8 {
         Command::Gallery(args) => gallery::run(&args),
         #[cfg(feature = "strategies")]
         Command::Fuzz(args) => fuzz::run(&args),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(&args),
         Command::Completions { shell } => completions(shell),
         Command::Man { command, out } => manual::run(command.as_deref(), out.as_deref()),
     }

@@ -10,7 +10,8 @@ use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::{PLOT_PIXELS, Plot, resized};
 use crate::shape::{
-    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, level, random_sample, sample,
+    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
+    sample, words_of_length,
 };
 use std::path::Path;
 
@@ -117,7 +118,7 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
     if depth > MAX_DEPTH {
         return Err(failed(&format!("a depth of at most {MAX_DEPTH} is drawn")));
     }
-    if args.depth.is_some() && words_of(&case.shape, depth) > MAX_SAMPLES {
+    if args.depth.is_some() && words_of_length(&case.shape, depth) > MAX_SAMPLES {
         return Err(failed(&format!(
             "there are more than {MAX_SAMPLES} words of {depth} letters; take a smaller --depth, or --chaos"
         )));
@@ -131,23 +132,8 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
 
 /// The largest depth with not too many words, and a patch not finer than can be seen.
 fn depth(shape: &Shape) -> usize {
-    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
-    let limit = if shape.states.iter().any(|s| s.kind == CellKind::Face) { 3_000 } else { DEFAULT_POINTS };
-    let mut depth = 0;
-    while most > 1 && depth < 24 && words_of(shape, depth + 1) <= limit {
-        depth += 1;
-    }
-    depth.max(1)
-}
-
-/// The number of words of a length from the start.
-fn words_of(shape: &Shape, length: usize) -> usize {
-    let mut counts = vec![1usize; shape.states.len()];
-    for _ in 0..length {
-        let next = |s: &crate::shape::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
-        counts = shape.states.iter().map(next).collect();
-    }
-    counts.get(shape.start).copied().unwrap_or(usize::MAX)
+    let faces = shape.states.iter().any(|s| s.kind == CellKind::Face);
+    depth_within(shape, if faces { 3_000 } else { DEFAULT_POINTS })
 }
 
 /// How often each piece is drawn: by its determinant where it has one, and never too seldom.

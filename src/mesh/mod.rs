@@ -35,6 +35,7 @@ pub use limit::{Limit, Stencil};
 pub use number::{Number, Numbers};
 pub use patch::Regular;
 pub use read::{MAX_BYTES, MAX_FACES, Model, Point, is_mesh};
+pub use refine::refined;
 pub use scheme::Scheme;
 pub use tail::Rings;
 pub use topology::{Fault, Frame, Star, Topology};

@@ -1,7 +1,7 @@
 //! One step of Catmull and Clark's and of Loop's scheme on a whole mesh, over floats with bounds and over the rationals.
 
 use super::interval::Float;
-use super::read::Point;
+use super::read::{Model, Point};
 use super::scheme::Scheme;
 use super::topology::{Star, Topology};
 use crate::arith::Rational;
@@ -227,6 +227,25 @@ impl Level {
         new.extend(faces);
         new
     }
+}
+
+/// A mesh after some steps in floating point, for drawings: points, and faces by the numbers of their corners. Faces at the
+/// border, where points are missing, are left out.
+#[must_use]
+pub fn refined(model: &Model, scheme: Scheme, steps: usize) -> (Vec<[f64; 3]>, Vec<Vec<u32>>) {
+    let triangles = scheme.triangles();
+    let mut level = Level::of(model.topology.clone());
+    let mut points: Vec<[Float; 3]> = model.points.iter().map(|p| [0, 1, 2].map(|k| Float::of(&p[k]))).collect();
+    for _ in 0..steps {
+        let space = Floats::new(scheme, level.valence.iter().map(|n| *n as usize));
+        points = level.points(&space, triangles, &points);
+        level = level.refined(triangles);
+    }
+    let points: Vec<[f64; 3]> = points.iter().map(|p| p.map(Float::mid)).collect();
+    let known = |v: &u32| points[*v as usize].iter().all(|x| x.is_finite());
+    let faces = (0..level.topology.faces()).map(|f| level.topology.polygon(f).to_vec());
+    let faces = faces.filter(|corners| corners.iter().all(known)).collect();
+    (points, faces)
 }
 
 /// Catmull and Clark's new point of a vertex: `(n − 2)/n` of itself, the means of its neighbours and of the new points of the

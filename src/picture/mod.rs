@@ -1,6 +1,7 @@
 //! Pictures of attractors as SVG. Floats are used here and prove nothing; exact points only start the computation.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
+pub mod bar;
 pub mod characteristic;
 mod chart;
 mod diagram;
@@ -147,6 +148,27 @@ pub fn attractor(shape: &Shape, title: &str, marks: &[Mark]) -> Option<Picture> 
         caption,
         alt,
     })
+}
+
+/// A shape as points of the plane, for a drawing that is made elsewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outline {
+    /// Points of the shape: of a curve in its order.
+    pub points: Vec<[f64; 2]>,
+    /// The corners of the control polygon; none of affine maps.
+    pub polygon: Vec<[f64; 2]>,
+    /// How it was projected, in one sentence.
+    pub words: &'static str,
+}
+
+/// The points that [`attractor`] draws; `None` where it draws nothing.
+#[must_use]
+pub fn outline(shape: &Shape) -> Option<Outline> {
+    let projection = Projection::of(shape);
+    let points = Tracer::new(shape)?.points(&projection);
+    let polygon = polygon(shape, &projection);
+    let finite = points.iter().chain(&polygon).flatten().all(|x| x.is_finite());
+    (finite && !points.is_empty()).then(|| Outline { points, polygon, words: projection.words() })
 }
 
 /// The drawing of [`attractor`] as a PNG file on white, without the words, so many pixels wide; the same input gives the same bytes.

@@ -62,14 +62,16 @@ impl Projection {
     }
 
     /// Where a point of the start state is drawn.
-    pub(super) fn point(&self, x: &[Rational]) -> [f64; 2] {
+    #[must_use]
+    pub fn point(&self, x: &[Rational]) -> [f64; 2] {
         let x = DMatrix::from_fn(x.len(), 1, |i, _| to_f64(&x[i]));
         let p = &self.whole * x;
         [p[0], p[1]]
     }
 
     /// The drawn direction of a vector of the space where the shape is looked at; 0 where the sizes differ.
-    pub(super) fn direction(&self, v: &[f64]) -> [f64; 2] {
+    #[must_use]
+    pub fn direction(&self, v: &[f64]) -> [f64; 2] {
         if v.len() != self.plane.ncols() {
             return [0.0, 0.0];
         }

@@ -13,6 +13,7 @@ mod disc;
 mod driver;
 mod enclose;
 mod exact;
+pub mod family;
 pub mod file;
 mod fixed;
 mod float;

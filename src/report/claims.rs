@@ -69,6 +69,9 @@ pub fn assertion(what: &Assertion) -> String {
                  the plane before the projection; every cell contains such a vertex, so that they are dense"
             }
         },
+        Assertion::PlaneEverywhere => {
+            "the surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously"
+        }
         Assertion::PlaneAt { address, about, .. } => {
             return match about {
                 AboutPlane::Surface => format!("the parametrised surface has a tangent plane at the address {address}"),
@@ -219,6 +222,7 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
             }
             _ => unknown(),
         },
+        Reason::EverySurfacePoint => found.surface.as_ref().and_then(reasons::every_surface).unwrap_or_else(unknown),
         Reason::TooManyCells => "there are too many cells around a vertex".to_owned(),
         Reason::SurfaceNotInjective { .. } => "an operator is not injective on the visible relevant space".to_owned(),
         Reason::SurfacePoint(_) | Reason::SurfaceVertex(_) | Reason::VertexInside(_) => {

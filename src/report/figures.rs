@@ -259,7 +259,9 @@ fn verdict_word(point: &PointReport) -> &'static str {
     point.kind.word()
 }
 
-fn mark(point: &PointReport) -> Mark {
+/// What is drawn at an examined point of a curve or a set.
+#[must_use]
+pub fn mark(point: &PointReport) -> Mark {
     let style = match (point.verdict, point.kind) {
         (_, Kind::Cusp) => MarkStyle::Cusp,
         (_, Kind::Corner) => MarkStyle::Corner,

@@ -35,7 +35,10 @@ pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
         "claims": found.claims.iter().map(|c| claim(case, found, c)).collect::<Vec<_>>(),
         "limits": found.limits().iter().map(limit).collect::<Vec<_>>(),
         "contraction": contraction(&found.contraction),
-        "every_point": super::every::value(found),
+        "every_point": match &found.surface {
+            Some(surface) => super::every_plane::value(surface),
+            None => super::every::value(found),
+        },
         "parameter": match &found.parameter {
             Some(Parameter::Orders(orders)) => super::regularity::curve_data(&case.shape, orders),
             _ => Value::Null,

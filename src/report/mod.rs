@@ -3,6 +3,7 @@
 pub mod claims;
 pub mod document;
 pub mod every;
+mod every_plane;
 pub mod field_spectrum;
 pub mod figures;
 pub mod findings;
@@ -16,6 +17,7 @@ pub mod mesh;
 pub mod proof;
 pub mod radius;
 pub mod reasons;
+pub mod region;
 pub mod regularity;
 pub mod spectrum;
 pub mod summary;

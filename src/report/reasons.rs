@@ -1,10 +1,11 @@
 //! The words of why branches, points, curves and surfaces are refuted or open.
 
+use crate::answer::Answer;
 use crate::shape::word_text;
-use crate::theorem::surface::{SurfaceBranch, SurfacePoint};
+use crate::theorem::surface::{EverySurfaceBreak, Surface, SurfaceBranch, SurfacePoint};
 use crate::theorem::{
-    BranchGap, BranchReport, Certified, Defect, EveryGap, Everywhere, Hodograph, Kind, NoGerm, Outcome, PlaneGap,
-    PointGap, PointReport, Role, TopRow, Turn,
+    BranchGap, BranchReport, Certified, Defect, EveryGap, EverySurfaceGap, Everywhere, Hodograph, Kind, NoGerm,
+    Outcome, PlaneGap, PointGap, PointReport, Role, TopRow, Turn,
 };
 
 /// Why there are no points of the shape near the point of a branch.
@@ -149,6 +150,66 @@ pub fn everywhere(found: &Certified, every: &Everywhere) -> Option<String> {
         ),
         EveryGap::NoCone => "no common cone was found within the budget".to_owned(),
     })
+}
+
+/// Why it is refuted or open that a surface is G¹; `None` where it is proved.
+#[must_use]
+pub fn every_surface(surface: &Surface) -> Option<String> {
+    match &surface.every {
+        Answer::Proved(_) => None,
+        Answer::Refuted(EverySurfaceBreak::Point(index)) => Some(match surface.points.get(*index) {
+            Some(point) => {
+                let why = plane(point).unwrap_or_else(|| UNKNOWN.to_owned());
+                let at = point.branches.first().map_or_else(String::new, |b| format!("at {}: ", b.address));
+                format!("{at}{why}")
+            }
+            None => UNKNOWN.to_owned(),
+        }),
+        Answer::Refuted(EverySurfaceBreak::Curve { curves, curve, point }) => {
+            let found = curves.get(*curve).and_then(|c| c.points.get(*point));
+            let what = found.map_or_else(|| UNKNOWN.to_owned(), broken);
+            Some(format!("{} curve of the product: {what}", ordinal(*curve)))
+        }
+        Answer::Open(gaps) if gaps.is_empty() => Some(UNKNOWN.to_owned()),
+        Answer::Open(gaps) => Some(gaps.iter().map(|g| every_surface_gap(*g)).collect::<Vec<_>>().join("; ")),
+    }
+}
+
+fn ordinal(curve: usize) -> &'static str {
+    if curve == 0 { "the first" } else { "the second" }
+}
+
+fn every_surface_gap(gap: EverySurfaceGap) -> String {
+    match gap {
+        EverySurfaceGap::Unparametrised => {
+            "the shape has no parameters: it starts at no face, or its faces are not divided evenly".to_owned()
+        }
+        EverySurfaceGap::NoProduct => {
+            "the patch is no tensor product of two curves of one state, none of whose pieces is a point".to_owned()
+        }
+        EverySurfaceGap::Folded => {
+            "the tensor product is seen through control points that fold some of its relevant space".to_owned()
+        }
+        EverySurfaceGap::Curve(curve) => {
+            format!("it is not decided whether {} curve of the product is G¹", ordinal(curve))
+        }
+        EverySurfaceGap::Large => "there are too many coordinates for the derivative in the parameters".to_owned(),
+        EverySurfaceGap::Unequal => "not all faces are divided into the same number of parts along every side".to_owned(),
+        EverySurfaceGap::Radius => {
+            "the joint spectral radius on the differences of the derivative is not seen to be below the size of the pieces"
+                .to_owned()
+        }
+        EverySurfaceGap::Edge { letters: [i, j], .. } => {
+            format!("the derivatives on the two sides of the edge between the pieces {i} and {j} of a face differ")
+        }
+        EverySurfaceGap::Rank => {
+            "the derivative in the parameters is continuous, but the control points are not seen to keep its rank".to_owned()
+        }
+        EverySurfaceGap::Contradiction => {
+            "the proof for every point and the tangent subspace of a point disagree: a mistake in secant"
+                .to_owned()
+        }
+    }
 }
 
 /// What is wrong with the leading eigenvalues of a cycle.

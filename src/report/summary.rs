@@ -44,6 +44,8 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
         blocks.extend(point_blocks(case, point, verbose));
     }
     if let Some(surface) = &found.surface {
+        blocks.push(Block::heading(2, "Every point"));
+        blocks.push(Block::Facts(super::every_plane::facts(surface)));
         blocks.extend(super::surface::summary(surface, verbose));
     }
     blocks.push(Block::heading(2, "Verdict"));
@@ -123,7 +125,8 @@ fn points_table(case: &Case, found: &Certified) -> Option<Block> {
 }
 
 /// What holds, what fails, what is open, and what decides.
-pub(super) fn overall_line(found: &Certified, required: &Required) -> Line {
+#[must_use]
+pub fn overall_line(found: &Certified, required: &Required) -> Line {
     let of = |verdict: Verdict| {
         let labels: Vec<String> =
             found.claims.iter().filter(|c| c.verdict() == verdict).map(|c| claims::label(&c.what)).collect();

@@ -35,7 +35,7 @@ pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use mesh::Sector;
 pub use ordered::{Ordered, PointOrder, ordered};
 pub use patch::{disc, disc_complex, patch};
-pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask};
+pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask, mask_family};
 pub use rule::{AllValences, MeshRule, RuleInfo, Spline, Split, rational_cosine};
 pub(crate) use rule::{Corners, Lattice};
 pub use rules::{mesh_rule, mesh_rules};

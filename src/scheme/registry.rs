@@ -3,6 +3,8 @@
 use super::mask::with_vertices;
 use super::{Mask, SchemeError, curves, univariate};
 use crate::arith::{Rational, parse_rational};
+use crate::poly::Poly;
+use crate::ring::{Fraction, Functions};
 use crate::shape::Shape;
 use std::collections::BTreeMap;
 
@@ -35,7 +37,18 @@ pub struct SchemeInfo {
 #[derive(Debug, Clone, Copy)]
 enum Build {
     Mask(fn(&Values) -> Result<Mask, SchemeError>),
+    /// A mask of this arity whose coefficients are polynomials in one parameter.
+    Family(Family),
     Shape(fn(&Values) -> Result<Shape, SchemeError>),
+}
+
+/// A mask whose coefficients depend on one parameter.
+#[derive(Debug, Clone, Copy)]
+struct Family {
+    arity: usize,
+    parameter: &'static str,
+    member: fn(&Rational) -> Result<Mask, SchemeError>,
+    coefficients: fn(&Functions, &Fraction) -> Vec<Fraction>,
 }
 
 /// Values of parameters by name, defaults filled in.
@@ -87,6 +100,7 @@ pub fn build(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<Shap
     let (build, values) = find(name, parameters)?;
     match build {
         Build::Mask(mask) => mask(&values)?.curve(),
+        Build::Family(family) => family.mask(&values)?.curve(),
         Build::Shape(shape) => shape(&values),
     }
 }
@@ -100,6 +114,7 @@ pub fn build_with_vertices(name: &str, parameters: &BTreeMap<String, Rational>) 
     let (build, values) = find(name, parameters)?;
     match build {
         Build::Mask(mask) => mask(&values)?.curve_with_vertices(),
+        Build::Family(family) => family.mask(&values)?.curve_with_vertices(),
         Build::Shape(shape) => with_vertices(shape(&values)?),
     }
 }
@@ -112,7 +127,37 @@ pub fn mask(name: &str, parameters: &BTreeMap<String, Rational>) -> Result<Optio
     let (build, values) = find(name, parameters)?;
     match build {
         Build::Mask(mask) => mask(&values).map(Some),
+        Build::Family(family) => family.mask(&values).map(Some),
         Build::Shape(_) => Ok(None),
+    }
+}
+
+/// The arity and the coefficients of the mask of a named scheme whose parameter is a polynomial in another one; `None` where
+/// the scheme has no mask with such a parameter.
+///
+/// # Errors
+/// [`SchemeError::Unknown`]; [`SchemeError::Parameter`] for a parameter that the scheme does not have.
+///
+/// # Examples
+/// ```
+/// use secant::{arith::ratio, poly::Poly, scheme};
+/// let w = Poly::new(vec![ratio(0, 1), ratio(1, 1)]);
+/// let (arity, mask) = scheme::mask_family("four-point", "w", &w)?.expect("a mask");
+/// assert_eq!((arity, mask[2].eval(&ratio(1, 16))), (2, ratio(9, 16)));
+/// # Ok::<(), scheme::SchemeError>(())
+/// ```
+pub fn mask_family(name: &str, parameter: &str, value: &Poly) -> Result<Option<(usize, Vec<Poly>)>, SchemeError> {
+    let given = [(parameter.to_owned(), Rational::from(0))].into();
+    let Build::Family(family) = find(name, &given)?.0 else { return Ok(None) };
+    let field = Functions::anywhere();
+    let all = (family.coefficients)(&field, &Fraction::polynomial(value.clone()));
+    let whole = |f: Fraction| (f.den.degree() == Some(0)).then_some(f.num);
+    Ok(all.into_iter().map(whole).collect::<Option<Vec<_>>>().map(|mask| (family.arity, mask)))
+}
+
+impl Family {
+    fn mask(&self, values: &Values) -> Result<Mask, SchemeError> {
+        (self.member)(values.number(self.parameter))
     }
 }
 
@@ -234,7 +279,12 @@ const LIST: &[SchemeInfo] = &[
         parameters: &[p("w", Some("1/16"), "tension")],
         source: "N. Dyn, D. Levin, J. Gregory, CAGD 4 (1987)",
         summary: "interpolatory 4-point scheme with tension",
-        build: Build::Mask(|v| univariate::four_point(v.number("w"))),
+        build: Build::Family(Family {
+            arity: 2,
+            parameter: "w",
+            member: univariate::four_point,
+            coefficients: univariate::four_point_over,
+        }),
     },
     SchemeInfo {
         name: "hilbert",
@@ -318,13 +368,23 @@ const LIST: &[SchemeInfo] = &[
         parameters: &[p("mu", Some("1/11"), "tension; C² for 1/15 < mu < 1/9")],
         source: "M. Hassan, I. Ivrissimtzis, N. Dodgson, M. Sabin, CAGD 19 (2002)",
         summary: "ternary interpolatory 4-point scheme",
-        build: Build::Mask(|v| univariate::ternary_four_point(v.number("mu"))),
+        build: Build::Family(Family {
+            arity: 3,
+            parameter: "mu",
+            member: univariate::ternary_four_point,
+            coefficients: univariate::ternary_four_point_over,
+        }),
     },
     SchemeInfo {
         name: "ternary-three-point",
         parameters: &[p("b", Some("4/15"), "tension; C¹ for 2/9 < b < 1/3")],
         source: "M. Hassan, N. Dodgson, Curve and Surface Fitting: Saint-Malo 2002",
         summary: "ternary interpolatory 3-point scheme",
-        build: Build::Mask(|v| univariate::ternary_three_point(v.number("b"))),
+        build: Build::Family(Family {
+            arity: 3,
+            parameter: "b",
+            member: univariate::ternary_three_point,
+            coefficients: univariate::ternary_three_point_over,
+        }),
     },
 ];

@@ -2,6 +2,7 @@
 
 use super::{Laurent, Mask, SchemeError};
 use crate::arith::{Rational, ratio};
+use crate::ring::{Field, Rationals};
 
 /// Largest degree of the families with a degree.
 pub const MAX_DEGREE: usize = 48;
@@ -57,8 +58,13 @@ pub fn dubuc_deslauriers(points: usize) -> Result<Mask, SchemeError> {
 /// # Errors
 /// Those of [`Mask::new`].
 pub fn four_point(w: &Rational) -> Result<Mask, SchemeError> {
-    let (o, side) = (Rational::from(0), ratio(1, 2) + w);
-    Mask::new(2, vec![-w, o.clone(), side.clone(), Rational::from(1), side, o, -w])
+    Mask::new(2, four_point_over(&Rationals, w))
+}
+
+/// The coefficients of [`four_point`] over any field.
+pub(super) fn four_point_over<K: Field>(k: &K, w: &K::E) -> Vec<K::E> {
+    let (o, side) = (k.zero(), k.add(&k.rational(&ratio(1, 2)), w));
+    mirrored(k, &[k.neg(w), o, side])
 }
 
 /// Hormann and Sabin's family with cubic precision, `a(z) = (1+z)^k/2^(k−1) (1 − (k/8)(1−z)²/z)` (*A family of subdivision
@@ -81,9 +87,14 @@ pub fn hormann_sabin(k: usize) -> Result<Mask, SchemeError> {
 /// # Errors
 /// Those of [`Mask::new`].
 pub fn ternary_three_point(b: &Rational) -> Result<Mask, SchemeError> {
-    let (a, c, o) = (b - ratio(1, 3), ratio(4, 3) - Rational::from(2) * b, Rational::from(0));
-    let half = [a, o, b.clone(), c];
-    Mask::new(3, mirrored(&half))
+    Mask::new(3, ternary_three_point_over(&Rationals, b))
+}
+
+/// The coefficients of [`ternary_three_point`] over any field.
+pub(super) fn ternary_three_point_over<K: Field>(k: &K, b: &K::E) -> Vec<K::E> {
+    let number = |p, q| k.rational(&ratio(p, q));
+    let (a, c) = (k.sub(b, &number(1, 3)), k.sub(&number(4, 3), &k.scale(b, &ratio(2, 1))));
+    mirrored(k, &[a, k.zero(), b.clone(), c])
 }
 
 /// The ternary interpolatory 4-point scheme with parameter `mu` (Hassan, Ivrissimtzis, Dodgson and Sabin, *An interpolating
@@ -92,16 +103,22 @@ pub fn ternary_three_point(b: &Rational) -> Result<Mask, SchemeError> {
 /// # Errors
 /// Those of [`Mask::new`].
 pub fn ternary_four_point(mu: &Rational) -> Result<Mask, SchemeError> {
-    let (sixth, half) = (mu * ratio(1, 6), mu * ratio(1, 2));
-    let outer = [ratio(-1, 18) + &sixth, ratio(-1, 18) - sixth, Rational::from(0)];
-    let inner = [ratio(7, 18) - &half, ratio(13, 18) + half];
-    Mask::new(3, mirrored(&[outer.as_slice(), inner.as_slice()].concat()))
+    Mask::new(3, ternary_four_point_over(&Rationals, mu))
+}
+
+/// The coefficients of [`ternary_four_point`] over any field.
+pub(super) fn ternary_four_point_over<K: Field>(k: &K, mu: &K::E) -> Vec<K::E> {
+    let number = |p, q| k.rational(&ratio(p, q));
+    let (sixth, half) = (k.scale(mu, &ratio(1, 6)), k.scale(mu, &ratio(1, 2)));
+    let outer = [k.add(&number(-1, 18), &sixth), k.sub(&number(-1, 18), &sixth), k.zero()];
+    let inner = [k.sub(&number(7, 18), &half), k.add(&number(13, 18), &half)];
+    mirrored(k, &[outer.as_slice(), inner.as_slice()].concat())
 }
 
 /// `half`, 1, `half` backwards.
-fn mirrored(half: &[Rational]) -> Vec<Rational> {
+fn mirrored<K: Field>(k: &K, half: &[K::E]) -> Vec<K::E> {
     let mut all = half.to_vec();
-    all.push(Rational::from(1));
+    all.push(k.one());
     all.extend(half.iter().rev().cloned());
     all
 }

@@ -119,6 +119,8 @@ pub enum Assertion {
         /// What the control points leave of it.
         seen: Seen,
     },
+    /// The surface is G¹: immersed, with a tangent plane at every point, which turns continuously.
+    PlaneEverywhere,
     /// There is a tangent plane at the address.
     PlaneAt {
         /// The address, normalised.
@@ -166,6 +168,7 @@ impl Assertion {
             Self::Exponent(_) => "exponent",
             Self::PlaneAtVertices => "plane-at-vertices",
             Self::DensePlanes { .. } => "dense-planes",
+            Self::PlaneEverywhere => "plane-everywhere",
             Self::PlaneAt { .. } => "plane-at",
             Self::C1AtVertex { .. } => "c1-at-vertex",
             Self::PlaneAtVertex { .. } => "plane-at-vertex",
@@ -279,6 +282,8 @@ pub enum Reason {
     SurfacePoint(usize),
     /// What was found at a vertex, by its index in the surface's points.
     SurfaceVertex(usize),
+    /// What was found about every point of the surface ([`super::surface::Surface::every`]).
+    EverySurfacePoint,
     /// Too many cells meet at a vertex.
     TooManyCells,
     /// An operator of a surface is not injective on the visible relevant space.

@@ -91,6 +91,37 @@ pub enum EveryGap {
     NoCone,
 }
 
+/// Why it is open whether a surface is G¹.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum EverySurfaceGap {
+    /// It has no parameters: it starts at no face, or its parts are not placed evenly.
+    Unparametrised,
+    /// It is no tensor product of two curves of one state each, none of whose pieces is a point.
+    NoProduct,
+    /// It is a tensor product that is seen through control points that are not injective on its relevant space.
+    Folded,
+    /// One of the two curves of a product, 0 or 1, of which it is not decided whether it is G¹.
+    Curve(usize),
+    /// There are too many coordinates for the derivative in the parameters.
+    Large,
+    /// Not all faces are divided into the same number of parts along every side.
+    Unequal,
+    /// The joint spectral radius on the differences of the derivative is not seen to be below that size.
+    Radius,
+    /// The derivatives on the two sides of an edge differ at some point.
+    Edge {
+        /// The state inside which it is.
+        state: usize,
+        /// The pieces that share it.
+        letters: [usize; 2],
+    },
+    /// The derivative is not seen to keep its rank under the control points.
+    Rank,
+    /// It is proved, and at a point there is no tangent plane.
+    Contradiction,
+}
+
 /// What is wrong with the leading eigenvalues of a cycle, so that it has no strictly invariant cone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]

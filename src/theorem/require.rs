@@ -17,7 +17,7 @@ pub enum Topic {
     Dense,
     /// The points of a curve that are neither ends nor joints: refuted where one of them refutes G¹.
     Inside,
-    /// Every point of a curve: G¹.
+    /// Every point of a curve or a surface: G¹.
     G1,
     /// `C^k` in the uniform parameter.
     C(usize),
@@ -77,7 +77,7 @@ impl Assertion {
             | Self::SeenJoints
             | Self::UnkilledJoints
             | Self::DensePlanes { .. } => Topic::Dense,
-            Self::G1 => Topic::G1,
+            Self::G1 | Self::PlaneEverywhere => Topic::G1,
             Self::Smooth { order } => Topic::C(*order),
             // Every order is smaller than this one.
             Self::Polynomial => Topic::C(usize::MAX),
@@ -89,7 +89,7 @@ impl Assertion {
     /// Whether it is one of the tangents that were examined: neither about every point nor about the parameter.
     #[must_use]
     pub fn is_of_tangents(&self) -> bool {
-        !matches!(self, Self::G1 | Self::Smooth { .. } | Self::Polynomial | Self::Exponent(_))
+        !matches!(self, Self::G1 | Self::PlaneEverywhere | Self::Smooth { .. } | Self::Polynomial | Self::Exponent(_))
     }
 
     /// Whether it is about the curve in its uniform parameter.

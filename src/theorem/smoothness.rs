@@ -224,7 +224,7 @@ fn power(base: &Rational, exponent: usize) -> Rational {
 }
 
 /// The joint spectral radius of these operators; 0 without them.
-fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
+pub(super) fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
     let Some(system) = system else { return (None, Some(Interval::point(Rational::from(0)))) };
     let Ok(radius) = joint_radius(system, options) else { return (None, None) };
     let enclosure = radius.upper.clone().map(|upper| match &radius.lower {

@@ -6,6 +6,8 @@ use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
 use crate::claim::{Claim, Decided, Joints, Subject};
 use num_traits::Signed;
 
+/// The question whether the curve is G¹, answered by cones or by a point.
+const EVERY: &str = "every point";
 /// The question whether the curve is G¹, answered by Theorem 12.
 const DERIVATIVE: &str = "every point by its derivative";
 /// The same in a parameter of which the pieces take given shares.
@@ -48,7 +50,7 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
         {
             return Ok((NOT_KILLED, None));
         }
-        "every point" if asked.iter().all(|(what, _)| *what != "every point") => return Ok(("every point", None)),
+        EVERY if asked.iter().all(|(what, _)| *what != EVERY) => return Ok((EVERY, None)),
         _ => {}
     }
     let [_, of, _, _] = item.fields("question address verdict points")?;
@@ -58,6 +60,34 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
     let new = normal && !asked.contains(&question);
     of.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
     Ok(question)
+}
+
+/// The answer to one of the questions whether a curve is G¹.
+fn every_point(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<everywhere::Answer> {
+    let (radius, shares) = match node.tag("question")? {
+        EVERY => return everywhere::check(model, points, node),
+        DERIVATIVE => {
+            let [_, _, radius] = node.fields("question verdict radius")?;
+            (radius, None)
+        }
+        SHARES => {
+            let [_, _, shares, radius] = node.fields("question verdict shares radius")?;
+            (radius, Some(shares))
+        }
+        _ => return node.reject("answers", "this is no question about every point of a curve"),
+    };
+    radius.at(crate::regularity::graph(model, shares.as_ref(), &radius))?;
+    let claims = vec![Claim::TangentTurns { rate: None }.is(Verdict::Proved)];
+    Ok(everywhere::Answer { witness: None, claims })
+}
+
+/// Whether a curve is G¹, by such an answer.
+pub fn turns(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<Verdict> {
+    let found = every_point(model, points, node)?;
+    let decided = found.claims.iter().find(|d| matches!(d.claim, Claim::TangentTurns { .. }));
+    let verdict = node.some(decided, "answers", "nothing is said of every point")?.verdict;
+    node.field("verdict")?.follows("answers", verdict.word())?;
+    Ok(verdict)
 }
 
 /// Checks the proof of a certificate of the kind `certify`.
@@ -81,7 +111,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, "every point" | DERIVATIVE | SHARES | NOT_KILLED)).then_some(verdict));
+        found.extend((!matches!(question.0, EVERY | DERIVATIVE | SHARES | NOT_KILLED)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -134,22 +164,12 @@ impl<'a> Claims<'a> {
                 self.not_killed(&theorem, &upstairs)?;
                 (stated, Verdict::Proved, Claim::TangentAtJoints(Joints::OnlyNotKilled))
             }
-            ("every point", _) => {
-                let mut found = everywhere::check(self.model, self.points, node)?;
+            (what, None) if matches!(*what, EVERY | DERIVATIVE | SHARES) => {
+                let mut found = every_point(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
                 more = found.claims.split_off(1);
                 let first = found.claims.swap_remove(0);
                 (node.field("verdict")?, first.verdict, first.claim)
-            }
-            (what, None) if *what == DERIVATIVE => {
-                let [_, stated, radius] = node.fields("question verdict radius")?;
-                radius.at(crate::regularity::graph(self.model, None, &radius))?;
-                (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
-            }
-            (what, None) if *what == SHARES => {
-                let [_, stated, shares, radius] = node.fields("question verdict shares radius")?;
-                radius.at(crate::regularity::graph(self.model, Some(&shares), &radius))?;
-                (stated, Verdict::Proved, Claim::TangentTurns { rate: None })
             }
             (_, None) => {
                 let [_, stated, products] = node.fields("question verdict products")?;

@@ -14,7 +14,7 @@ mod shape;
 mod top;
 
 pub use case::Case;
-pub use claims::{check, injective};
+pub use claims::{check, injective, turns};
 pub use germ::{Germ, Root};
 pub use model::Model;
 pub use points::{Place, Point, complete};

@@ -3,7 +3,7 @@
 use crate::base::{Checked, MAX_PIECES, Matrix, Node, Q, index, need, number::ratio, some, spend, whole};
 use crate::curve::{Address, Kind, Piece, Shape, State, case};
 use num_bigint::BigInt;
-use num_traits::{One, Signed};
+use num_traits::{One, Signed, Zero};
 
 /// Cells that may be visited in search of the addresses of a parameter.
 const MAX_STEPS: usize = 20_000;
@@ -98,6 +98,31 @@ impl Chart {
             }
             Ok(Some(Self { maps: Shape::new(maps, shape.start, Matrix::identity(3)), triangle }))
         })
+    }
+
+    /// The corners of a face, in their order.
+    pub fn corners(&self) -> Vec<Matrix> {
+        corners(self.triangle)
+    }
+
+    /// The affine map of a piece.
+    pub fn map(&self, face: usize, letter: usize) -> &Matrix {
+        &self.maps.states[face].pieces[letter].op
+    }
+
+    /// `1/N` and `U^-t`, where a piece is placed by `x ↦ U x / N + p` with a matrix `U` of 0, 1, −1 and determinant ±1.
+    pub fn turn(&self, face: usize, letter: usize) -> Checked<(Q, Matrix)> {
+        let column = |k: usize| self.map(face, letter).columns(&[k]).minus(&self.map(face, letter).columns(&[0]));
+        let linear = column(1).part(1..3, 0..1).beside(&column(2).part(1..3, 0..1));
+        let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().map(|(i, j)| linear.at(i, j));
+        let share = some(entries().map(|x| x.abs()).max(), "every", "a piece without a size")?;
+        need(share.is_positive(), "every", "a piece without a size")?;
+        let turn = linear.scaled(&share.recip());
+        let det = turn.at(0, 0) * turn.at(1, 1) - turn.at(0, 1) * turn.at(1, 0);
+        let whole = entries().all(|x| x.is_zero() || x.abs() == share) && det.abs() == Q::one();
+        need(whole, "every", "a face is not divided into the same number of parts along every side")?;
+        let inverse = some(turn.solve(&Matrix::identity(2))?, "every", "a piece that is no cell")?;
+        Ok((share, inverse.transpose()))
     }
 
     /// Whether a piece of the start lies in its part of a division into columns and rows without a turn.

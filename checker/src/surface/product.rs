@@ -1,8 +1,8 @@
 //! Tensor products of two curves: `p(s, t) = a(s) ⊗ b(t)` (docs/certificate.md, section 8.1).
 
 use super::chart::Chart;
-use crate::base::{Checked, Matrix, Node, Verdict, need};
-use crate::curve::{Address, Kind, Model, Piece, Place, Point, Root, Shape, State, kronecker};
+use crate::base::{Checked, Matrix, Node, Verdict, need, together};
+use crate::curve::{Address, Kind, Model, Piece, Place, Point, Root, Shape, State, kronecker, turns};
 
 /// The operators of a curve of one state, whose columns sum to 1.
 pub fn curve(node: &Node<'_>) -> Checked<Shape> {
@@ -56,6 +56,15 @@ impl<'a> Product<'a> {
             read.push((model, points));
         }
         Ok(Self { curves: read })
+    }
+
+    /// Whether both curves are G¹; one of them refutes it, and then nothing need be said of the other.
+    pub fn every(&self, node: &Node<'_>) -> Checked<Verdict> {
+        let mut found = Vec::new();
+        for ((model, points), item) in self.curves.iter().zip(node.exactly(2, "every")?) {
+            found.push(if item.is_null() { Verdict::Undetermined } else { item.at(turns(model, points, &item))? });
+        }
+        Ok(together(found))
     }
 
     /// Whether both curves are differentiable at the parameters of an address; their points are named by two indices.

@@ -31,8 +31,7 @@ pub(super) fn evidence(case: &Case, found: &Components) -> Evidence {
                 kinds.0 = true;
                 let rays = cone.cones.iter().find(|c| c.state == *state).map_or(0, |c| c.rays.cols());
                 let text = format!(
-                    "{}: a cone of {}, with which the hypotheses of the theorem hold for all states it reaches, and {} that are \
-                     regular.",
+                    "{}: a cone of {}, with which the hypotheses of the theorem hold for all states it reaches; regular: {}.",
                     name(*state),
                     count(rays, "ray"),
                     count(joints.len(), "joint")
@@ -43,7 +42,7 @@ pub(super) fn evidence(case: &Case, found: &Components) -> Evidence {
                 kinds.1 = true;
                 let (root, factor) = (pull.spectrum.root(pull.lead), pull.spectrum.factor(pull.lead));
                 let text = format!(
-                    "{}: piece {letter} leads back, with $λ=@>0$ in the one longest block, of length $@$, of largest modulus",
+                    "{}: piece {letter} leads back, with $@$, positive, in the one longest block, of length $@$, of largest modulus",
                     name(*state)
                 );
                 let mut text = line(&text, [lambda_math(root), Math::count(factor.blocks[0])]);

@@ -6,6 +6,7 @@ mod contracts;
 mod cycles;
 mod dense;
 mod every;
+mod every_plane;
 mod evidence;
 mod frames;
 mod functionals;
@@ -20,17 +21,20 @@ mod surface;
 mod surface_cycle;
 mod vertex;
 
-pub(super) use results::{parameter, table as results_table};
+pub use results::parameter;
+pub(super) use results::table as results_table;
 pub use vertex::vertex_document;
 
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
 use super::summary::{claim_line, mask_line, overall_line, shape_line};
+use super::text::plain;
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, Spaces};
 use crate::statement::Statement;
+use crate::theorem::surface::Surface;
 use crate::theorem::{BranchReport, Certified, Required, Verdict};
 
 /// Matrices with more rows or columns than this are folded.
@@ -91,6 +95,7 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     if let Some(surface) = &found.surface {
         blocks.extend(definitions(start, surface.unparametrised.is_none()));
         blocks.extend(surface::section(case, surface, &mut seen));
+        blocks.extend(every_plane::section(case, surface, &mut seen));
     }
     blocks.extend(dense::section(case, found, &mut seen));
     blocks.extend(every::section(case, found, &mut seen));
@@ -100,6 +105,36 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     let mut document = Document { title: case.title.clone(), blocks };
     document.insert_contents(first_page);
     document
+}
+
+/// What the proof says of one examined point, by its number: its cycles, and what follows at the point; `None` where there is no
+/// such point.
+#[must_use]
+pub fn point_document(case: &Case, found: &Certified, number: usize) -> Option<Document> {
+    let mut seen = Quoted::default();
+    let start = case.shape.states[case.shape.start].kind;
+    let (title, mut blocks, parametrised) = match &found.surface {
+        Some(surface) => {
+            let point = surface.points.get(number)?;
+            let one = Surface { points: vec![point.clone()], ..surface.clone() };
+            let title = plain(&super::surface::head(point));
+            (title, surface::section(case, &one, &mut seen), surface.unparametrised.is_none())
+        }
+        None => {
+            let point = found.points.get(number)?;
+            let one = Certified { points: vec![point.clone()], ..found.clone() };
+            let cycles = cycles::distinct(&one);
+            let spaces = Spaces::new(&case.shape)?;
+            let mut blocks = vec![Block::heading(2, "The cycles")];
+            for (k, branch) in cycles.iter().enumerate() {
+                blocks.extend(cycles::section(case, &spaces, branch, k, &mut seen));
+            }
+            blocks.extend(points::section(case, &one, &cycles, &mut seen));
+            (super::words::point_name(&case.shape, point), blocks, true)
+        }
+    };
+    blocks.extend(definitions(start, parametrised));
+    Some(Document { title: format!("{}: {title}", case.title), blocks })
 }
 
 /// The statements quoted so far, in order: each is quoted in full where it is first used.

@@ -66,7 +66,8 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
 
 /// The parameter of an address in the uniform parameter, in which the pieces of a cell take equal parts of its interval;
 /// `None` where a state on the way is no curve.
-pub(crate) fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
+#[must_use]
+pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
     let after = shape.path(shape.start, &address.prefix);
     let (slope, offset) = affine(shape, *after.last()?, &address.cycle)?;
     let fixed = offset / (Rational::from(1) - slope);

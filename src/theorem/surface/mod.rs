@@ -2,6 +2,9 @@
 
 mod branch;
 mod dense;
+mod derivative;
+mod edges;
+mod every;
 mod place;
 mod span;
 mod tensor;
@@ -9,6 +12,8 @@ mod verdict;
 mod winding;
 
 pub use branch::leading_functionals;
+pub use derivative::PatchDerivative;
+pub use every::{EverySurface, EverySurfaceBreak, EverySurfaceProof};
 pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
 pub use tensor::{factors, product_point};
@@ -21,6 +26,7 @@ use super::{
     AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Statement, Verdict,
     Viewpoint, decide_contraction, state_report, without_contraction,
 };
+use crate::answer::Answer;
 use crate::budget::Budget;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Spaces};
 use branch::{Setting, examine};
@@ -90,13 +96,18 @@ pub fn certify_complex_within(
         factors: None,
         unparametrised: chart.as_ref().err().copied(),
         simplex: balls.in_simplex(),
+        every: Answer::Open(Vec::new()),
     };
     let start_is_face = shape.states[shape.start].kind == CellKind::Face;
-    if start_is_face && let Ok(chart) = &chart {
-        parametrised(&setting, chart, product.as_ref(), &asked, &mut surface, &mut found.claims);
-    } else {
-        branches_only(&setting, &asked, &mut surface, &mut found.claims);
+    let chart = chart.as_ref().ok().filter(|_| start_is_face);
+    match chart {
+        Some(chart) => parametrised(&setting, chart, product.as_ref(), &asked, &mut surface, &mut found.claims),
+        None => branches_only(&setting, &asked, &mut surface, &mut found.claims),
     }
+    let (every, claim) = every::claim(&setting, chart, product.as_ref(), &surface);
+    surface.every = every;
+    found.claims.push(claim);
+    found.claims.sort_by_key(|c| c.what.topic());
     found.polygons = setting.cx.polygons();
     surface.factors = product.as_ref().map(tensor::Product::factors);
     found.surface = Some(surface);

@@ -5,6 +5,7 @@
 //! through the cells that contain it.
 
 use crate::arith::Rational;
+use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Complex, Layout};
 use crate::theorem::NoChart;
 
@@ -141,7 +142,8 @@ impl<'a> Chart<'a> {
         Ok(chart)
     }
 
-    fn layout(&self, state: usize) -> Layout {
+    /// How a face is divided.
+    pub fn layout(&self, state: usize) -> Layout {
         self.complex.faces[&state].layout
     }
 
@@ -160,6 +162,28 @@ impl<'a> Chart<'a> {
         let last = c.len() - 1;
         let edge = |k: usize| [&c[k][0] - &c[0][0], &c[k][1] - &c[0][1]];
         Affine { p: c[0].clone(), a: edge(1), b: edge(last) }
+    }
+
+    /// The corners of a face in its own parameters.
+    pub fn corners(&self, state: usize) -> Vec<Param> {
+        corners(self.layout(state))
+    }
+
+    /// The map of the parameters that places a piece, on columns `1, u, v`.
+    pub fn placement(&self, state: usize, letter: usize) -> Matrix {
+        let Affine { p, a, b } = self.map(state, letter);
+        let column = |first: u8, x: Param| [vec![Rational::from(first)], x.into()].concat();
+        Matrix::from_columns(3, &[column(1, p), column(0, a), column(0, b)])
+    }
+
+    /// `1/N`, where these states are all divided into `N` parts along every side.
+    pub fn share(&self, states: &[usize]) -> Option<Rational> {
+        let parts = |&e: &usize| match self.layout(e) {
+            Layout::Quad { columns, rows } => (columns == rows).then_some(columns),
+            Layout::Triangle => Some(2),
+        };
+        let first = parts(states.first()?)?;
+        states.iter().all(|e| parts(e) == Some(first)).then(|| Rational::from(1) / Rational::from(first))
     }
 
     /// Whether all corners of a piece lie where the affine map through three of them has them.

@@ -9,7 +9,8 @@ use crate::budget::Budget;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
-    Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction, point,
+    Certified, Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction,
+    point,
 };
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -97,6 +98,16 @@ impl Product {
     /// Both curves, and why they contract.
     pub fn factors(&self) -> [ProductFactor; 2] {
         [self.first.evidence(), self.second.evidence()]
+    }
+
+    /// What is found of every point of both curves; `None` where one of them is refused.
+    pub fn everywhere(&self) -> Option<[Certified; 2]> {
+        let certify = |f: &Factor| crate::theorem::certify_within(&f.shape, &[], &f.budget).ok();
+        let first = certify(&self.first)?;
+        let ops = |f: &Factor| f.shape.states[f.shape.start].pieces.iter().map(|p| p.op.clone()).collect::<Vec<_>>();
+        let same = ops(&self.first) == ops(&self.second);
+        let second = if same { first.clone() } else { certify(&self.second)? };
+        Some([first, second])
     }
 
     /// Why the product contracts, and a ball that holds it: `|x ⊗ y − a ⊗ b| ≤ |x − a| |y| + |a| |y − b|`.

@@ -181,4 +181,6 @@ pub struct Surface {
     pub unparametrised: Option<NoChart>,
     /// Whether cells were enclosed by the simplex of the coordinates instead of balls: all operators are nonnegative.
     pub simplex: bool,
+    /// Whether it is G¹, and why.
+    pub every: super::every::EverySurface,
 }

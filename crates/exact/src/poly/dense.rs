@@ -45,6 +45,22 @@ impl Poly {
         Self { coeffs: vec![-root, Rational::from(1)] }
     }
 
+    /// The polynomial of least degree with these values at different numbers (Newton).
+    ///
+    /// # Panics
+    /// If there are not as many values as numbers, or two numbers are equal.
+    #[must_use]
+    pub fn through(at: &[Rational], mut values: Vec<Rational>) -> Self {
+        assert_eq!(at.len(), values.len(), "a value for every number");
+        for step in 1..at.len() {
+            for k in (step..at.len()).rev() {
+                values[k] = (&values[k] - &values[k - 1]) / (&at[k] - &at[k - step]);
+            }
+        }
+        let next = |f: Self, k: usize| &(&f * &Self::linear(&at[k])) + &Self::constant(values[k].clone());
+        (0..at.len()).rev().fold(Self::zero(), next)
+    }
+
     /// The coefficients, low degree first.
     #[must_use]
     pub fn coeffs(&self) -> &[Rational] {

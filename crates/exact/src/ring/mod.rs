@@ -22,9 +22,11 @@
 
 mod enclosures;
 mod functions;
+mod models;
 
 pub use enclosures::{Enclosures, Fixed};
 pub use functions::{Fraction, Functions};
+pub use models::{Model, Models};
 
 use crate::algebraic::Elem;
 use crate::algebraic::field::NumberField;

@@ -4,6 +4,7 @@ use super::{FieldBuilder, FieldError, MAX_FIELD_DEGREE, Number, NumberField};
 use crate::algebraic::Elem;
 use crate::arith::{MAX_DIGITS, ParseNumberError, Rational, parse_rational, ratio};
 use crate::poly::Poly;
+use std::collections::BTreeMap;
 use thiserror::Error;
 
 /// Deepest nesting of brackets.
@@ -420,8 +421,7 @@ impl<'a> Expression<'a> {
 
     /// A polynomial with rational coefficients in one unknown, a letter or `#`.
     fn polynomial(&mut self, depth: usize) -> Read<Poly> {
-        let mut unknown = None;
-        let f = self.polynomial_sum(&mut unknown, depth)?;
+        let f = self.polynomial_sum(&mut Names::One(None), depth)?;
         match f.degree() {
             Some(d) if d > MAX_FIELD_DEGREE => Err(error("limit", self.at, format!("a polynomial of degree {d}"))
                 .help(format!("polynomials up to degree {MAX_FIELD_DEGREE} are read"))),
@@ -429,14 +429,14 @@ impl<'a> Expression<'a> {
         }
     }
 
-    fn polynomial_sum(&mut self, unknown: &mut Option<&'a str>, depth: usize) -> Read<Poly> {
+    fn polynomial_sum(&mut self, names: &mut Names<'a, '_>, depth: usize) -> Read<Poly> {
         if depth > MAX_DEPTH {
             return Err(error("limit", self.at, "the brackets are nested too deeply"));
         }
         let mut sum = Poly::zero();
         let mut negative = self.accept('-');
         loop {
-            let term = self.polynomial_product(unknown, depth)?;
+            let term = self.polynomial_product(names, depth)?;
             sum = if negative { &sum - &term } else { &sum + &term };
             if self.accept('+') {
                 negative = false;
@@ -448,26 +448,26 @@ impl<'a> Expression<'a> {
         }
     }
 
-    fn polynomial_product(&mut self, unknown: &mut Option<&'a str>, depth: usize) -> Read<Poly> {
-        let mut product = self.polynomial_power(unknown, depth)?;
+    fn polynomial_product(&mut self, names: &mut Names<'a, '_>, depth: usize) -> Read<Poly> {
+        let mut product = self.polynomial_power(names, depth)?;
         loop {
             self.skip();
             let at = self.at;
             match self.peek() {
                 Some('*') => {
                     self.at += 1;
-                    product = &product * &self.polynomial_power(unknown, depth)?;
+                    product = &product * &self.polynomial_power(names, depth)?;
                 }
                 Some('/') => {
                     self.at += 1;
-                    let divisor = self.polynomial_power(unknown, depth)?;
+                    let divisor = self.polynomial_power(names, depth)?;
                     if divisor.degree() != Some(0) {
                         return Err(error("root", at, "a polynomial is divided by rational numbers only, not by zero"));
                     }
                     product = product.scale(&(Rational::from(1) / divisor.coeff(0)));
                 }
                 Some(c) if c.is_alphabetic() || c == '(' || c == '#' => {
-                    product = &product * &self.polynomial_power(unknown, depth)?;
+                    product = &product * &self.polynomial_power(names, depth)?;
                 }
                 _ => return Ok(product),
             }
@@ -477,12 +477,12 @@ impl<'a> Expression<'a> {
         }
     }
 
-    fn polynomial_power(&mut self, unknown: &mut Option<&'a str>, depth: usize) -> Read<Poly> {
+    fn polynomial_power(&mut self, names: &mut Names<'a, '_>, depth: usize) -> Read<Poly> {
         self.skip();
         let base = match self.peek() {
             Some('(') => {
                 self.at += 1;
-                let inner = self.polynomial_sum(unknown, depth + 1)?;
+                let inner = self.polynomial_sum(names, depth + 1)?;
                 self.expect(')')?;
                 inner
             }
@@ -490,13 +490,9 @@ impl<'a> Expression<'a> {
                 let rest = self.rest();
                 let length = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '#')).unwrap_or(rest.len());
                 let name = &rest[..length];
-                if unknown.is_some_and(|u| u != name) {
-                    return Err(error("root", self.at, format!("a second unknown `{name}` in the polynomial"))
-                        .help("the polynomial of a root has one unknown and rational coefficients"));
-                }
-                *unknown = Some(name);
+                let value = names.value(name, self.at)?;
                 self.at += length;
-                Poly::new(vec![0.into(), 1.into()])
+                value
             }
             _ => Poly::constant(self.digits()?),
         };
@@ -520,6 +516,61 @@ impl<'a> Expression<'a> {
     fn accept_caret(&mut self) -> bool {
         self.accept('^')
     }
+}
+
+/// What the names in a polynomial stand for.
+enum Names<'a, 'b> {
+    /// One unknown, whatever its name.
+    One(Option<&'a str>),
+    /// These polynomials.
+    Given(&'b BTreeMap<String, Poly>),
+}
+
+impl<'a> Names<'a, '_> {
+    fn value(&mut self, name: &'a str, at: usize) -> Read<Poly> {
+        match self {
+            Self::One(unknown) => {
+                if unknown.is_some_and(|u| u != name) {
+                    return Err(error("root", at, format!("a second unknown `{name}` in the polynomial"))
+                        .help("the polynomial of a root has one unknown and rational coefficients"));
+                }
+                *unknown = Some(name);
+                Ok(Poly::new(vec![0.into(), 1.into()]))
+            }
+            Self::Given(values) => values.get(name).cloned().ok_or_else(|| {
+                let shown: String = name.chars().take(40).collect();
+                error("name", at, format!("`{shown}` is no parameter of this case"))
+                    .help("declare it under [parameters], as in  w = \"-1/2..1/2\"")
+            }),
+        }
+    }
+}
+
+/// A polynomial in one parameter, from an expression with `+ - * / ^`, brackets and these names; divisors are numbers.
+///
+/// # Errors
+/// [`ExpressionError`] with the byte where it goes wrong.
+///
+/// # Examples
+/// ```
+/// use secant_exact::algebraic::field::polynomial;
+/// use secant_exact::arith::ratio;
+/// use secant_exact::poly::Poly;
+/// let w = Poly::new(vec![ratio(0, 1), ratio(1, 1)]);
+/// let names = [("w".to_owned(), w)].into();
+/// assert_eq!(polynomial("1/2 + 2w(1 - w)", &names)?.eval(&ratio(1, 4)), ratio(7, 8));
+/// assert!(polynomial("1/w", &names).is_err() && polynomial("v", &names).is_err());
+/// # Ok::<(), secant_exact::algebraic::field::ExpressionError>(())
+/// ```
+pub fn polynomial(text: &str, names: &BTreeMap<String, Poly>) -> Result<Poly, ExpressionError> {
+    let mut reader = Expression::new(text, 0, false);
+    let f = reader.polynomial_sum(&mut Names::Given(names), 0)?;
+    reader.skip();
+    if reader.at < text.len() {
+        let found = reader.found();
+        return Err(error("syntax", reader.at, format!("{found} does not belong here")).help(WRITE));
+    }
+    Ok(f)
 }
 
 fn unknown(name: &str, at: usize) -> ExpressionError {

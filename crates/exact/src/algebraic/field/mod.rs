@@ -17,7 +17,7 @@ mod over;
 
 pub use builder::{FieldBuilder, FieldError, Number};
 pub use expression::Expression;
-pub use expression::ExpressionError;
+pub use expression::{ExpressionError, polynomial};
 pub use extension::Extension;
 pub(crate) use extension::place;
 pub use matrix::FieldMatrix;

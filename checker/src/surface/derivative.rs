@@ -1,0 +1,406 @@
+//! Patches that are C¹ in their parameters and immersed (docs/certificate.md, section 8.1, every point).
+
+use super::chart::Chart;
+use crate::base::{Checked, Matrix, Node, Q, need, some, whole};
+use crate::curve::{Model, Way, close, kronecker};
+use crate::jsr::{System, bounds};
+use num_traits::{One, Signed, Zero};
+
+/// Longest words by which the derivative is bounded, and the most products.
+const MAX_WORDS: (usize, usize) = (6, 5_000);
+/// Most cells of a cover, and the most letters of one.
+const MAX_CELLS: (usize, usize) = (20_000, 12);
+/// Most pairs of faces.
+const MAX_PAIRS: usize = 500;
+
+/// The surfaces of all states: what pieces do to points or to derivatives, by state and letter, and vectors of each state, as rows.
+struct Level {
+    maps: Vec<Vec<Matrix>>,
+}
+
+/// A patch whose pieces are placed by `x ↦ U x / N + p`.
+struct Patch<'a> {
+    model: &'a Model<'a>,
+    chart: &'a Chart,
+    /// `1/N`.
+    share: Q,
+    /// By state and letter: `U^-t`, which goes with the derivative as two rows.
+    turns: Vec<Vec<Matrix>>,
+    /// `N T_i` on the visible quotients.
+    scaled: Vec<Vec<Matrix>>,
+    /// What pieces make of derivatives, one row after the other.
+    derivatives: Level,
+    /// `T_i` on barycentric coordinates.
+    points: Level,
+    /// By state: the two differences of corners as rows, and the differences of the derivative in echelon form.
+    chords: Vec<Matrix>,
+    families: Vec<Matrix>,
+}
+
+/// Two faces that share an edge, with the place of the second one in the parameters of the first one.
+#[derive(Clone, PartialEq)]
+struct Pair {
+    states: [usize; 2],
+    place: Matrix,
+}
+
+/// A step along an edge: the two letters, and the pair of these pieces.
+type Step = ([usize; 2], usize);
+
+/// Checks `{"by": "derivative", "verdict", "radius", "length", "cells"}`: it proves that the surface is G¹ or is rejected.
+pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
+    let [_, _, radius, length, cells] = node.fields("by verdict radius length cells")?;
+    let patch = Patch::read(model, chart)?;
+    radius.need(patch.radius(&radius)? < patch.share, "every", "the radius is not below 1/N")?;
+    let (pairs, steps, inner) = patch.pairs()?;
+    need(!inner.is_empty(), "every", "a face without inner edges")?;
+    patch.meets(&patch.points, &pairs, &steps, &inner, &|e, word| patch.point(e, word))?;
+    patch.meets(&patch.derivatives, &pairs, &steps, &inner, &|e, word| patch.derivative(e, word))?;
+    if cells.is_null() {
+        length.need(length.is_null(), "every", "words bound the derivative where there are cells")?;
+        let seen = patch.view()?.transpose();
+        let start = model.shape.start;
+        let family = patch.families[start].times(&seen)?;
+        let all = family.stack(&patch.chords[start].times(&seen)?).rank()?;
+        return cells.need(all == family.rank()? + 2, "every", "the derivative is not seen to have rank 2");
+    }
+    let radii = length.at(patch.radii(length.index(MAX_WORDS.0 + 1)?))?;
+    cells.at(patch.covered(&radii, &cells))
+}
+
+impl<'a> Patch<'a> {
+    fn read(model: &'a Model<'a>, chart: &'a Chart) -> Checked<Self> {
+        let shape = model.shape;
+        let none = || vec![Vec::new(); shape.states.len()];
+        let mut patch = Self {
+            model,
+            chart,
+            share: Q::zero(),
+            turns: none(),
+            scaled: none(),
+            derivatives: Level { maps: none() },
+            points: Level { maps: none() },
+            chords: shape.no_rows(),
+            families: shape.no_rows(),
+        };
+        for (e, piece) in shape.pieces() {
+            let (share, turn) = chart.turn(e, patch.turns[e].len())?;
+            let one = patch.share.is_zero() || patch.share == share;
+            need(one && share < Q::one(), "every", "all pieces must be of one size")?;
+            let scaled = model.spaces.on_visible(e, piece)?.scaled(&share.recip());
+            patch.derivatives.maps[e].push(kronecker(&turn, &scaled)?);
+            patch.points.maps[e].push(piece.op.clone());
+            patch.scaled[e].push(scaled);
+            patch.turns[e].push(turn);
+            patch.share = share;
+        }
+        for &e in &shape.reachable {
+            let (chords, defect) = patch.corners(e)?;
+            (patch.chords[e], patch.families[e]) = (chords, defect);
+        }
+        for (e, i, d) in patch.arrows() {
+            let image = patch.carried(e, i, d)?;
+            patch.families[e] = patch.families[e].stack(&image.minus(&patch.chords[e]));
+        }
+        let image = |e: usize, p: &_, span: &Matrix| span.times(&model.spaces.on_visible(e, p)?.transpose());
+        patch.families = close(shape, patch.families, Way::Up, image)?;
+        Ok(patch)
+    }
+
+    /// What a piece makes of the differences of corners of its target.
+    fn carried(&self, e: usize, i: usize, d: usize) -> Checked<Matrix> {
+        self.turns[e][i].times(&self.chords[d])?.times(&self.scaled[e][i].transpose())
+    }
+
+    /// All pieces: state, letter, target.
+    fn arrows(&self) -> Vec<(usize, usize, usize)> {
+        let shape = self.model.shape;
+        let of = |&e: &usize| shape.states[e].pieces.iter().enumerate().map(move |(i, p)| (e, i, p.target));
+        shape.reachable.iter().flat_map(of).collect()
+    }
+
+    /// The differences of the corners 1 and last to corner 0 in the visible quotient, and the defect of the parallelogram.
+    fn corners(&self, e: usize) -> Checked<(Matrix, Matrix)> {
+        let (shape, space) = (self.model.shape, self.model.spaces.of(e)?);
+        let mut points = Vec::new();
+        for corner in self.chart.corners() {
+            let addresses = self.chart.addresses(e, &corner)?;
+            points.push(shape.point(e, some(addresses.first(), "every", "a corner without an address")?)?);
+        }
+        let seen = |v: &Matrix| Ok(space.visible.times(&space.reading.times(v)?)?.transpose());
+        let last = points.len() - 1;
+        let (first, second) = (points[1].minus(&points[0]), points[last].minus(&points[0]));
+        let chords = seen(&first)?.stack(&seen(&second)?);
+        let defect = match last {
+            3 => seen(&points[2].minus(&points[1]).minus(&second))?,
+            _ => Matrix::empty(space.visible.rows),
+        };
+        Ok((chords, defect))
+    }
+
+    /// Coordinates of vectors of `F_e` (rows) in its echelon basis.
+    fn local(&self, e: usize, vectors: &Matrix) -> Checked<Matrix> {
+        let pivots = self.families[e].echelon()?.1;
+        let local = vectors.columns(&pivots);
+        let inside = local.times(&self.families[e])? == *vectors;
+        need(inside, "every", "an operator does not act on the differences of the derivative")?;
+        Ok(local)
+    }
+
+    /// `N T_i` on the differences, on columns.
+    fn step(&self, e: usize, i: usize, d: usize) -> Checked<Matrix> {
+        let images = self.families[d].times(&self.scaled[e][i].transpose())?;
+        Ok(self.local(e, &images)?.transpose())
+    }
+
+    /// An upper bound of the joint spectral radius of the `T_i` on the differences.
+    fn radius(&self, node: &Node<'_>) -> Checked<Q> {
+        let reachable = &self.model.shape.reachable;
+        if node.is_null() {
+            let zero = reachable.iter().all(|&e| self.families[e].rows == 0);
+            node.need(zero, "every", "bounds of a radius are needed here")?;
+            return Ok(Q::zero());
+        }
+        let place = |e: usize| some(reachable.iter().position(|r| *r == e), "every", "a state that is not reached");
+        let mut arrows = Vec::new();
+        for (e, i, d) in self.arrows() {
+            arrows.push((place(e)?, place(d)?, self.step(e, i, d)?.scaled(&self.share)));
+        }
+        let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
+        Ok(bounds(&System { name: String::new(), dims, arrows }, node)?.upper)
+    }
+
+    /// The pairs of faces that share an edge, how each is divided, and the inner edges of faces with their pairs.
+    fn pairs(&self) -> Checked<(Vec<Pair>, Vec<Vec<Step>>, Vec<(usize, Step)>)> {
+        let (mut pairs, mut steps, mut inner): (Vec<Pair>, Vec<Vec<Step>>, Vec<_>) = Default::default();
+        let number = |pairs: &mut Vec<Pair>, pair: Pair| -> Checked<usize> {
+            if let Some(known) = pairs.iter().position(|p| *p == pair) {
+                return Ok(known);
+            }
+            need(pairs.len() < MAX_PAIRS, "limit", "too many pairs of faces")?;
+            pairs.push(pair);
+            Ok(pairs.len() - 1)
+        };
+        for &e in &self.model.shape.reachable {
+            for ([i, j], pair) in self.divided(&Pair { states: [e, e], place: Matrix::identity(3) })? {
+                if i < j {
+                    inner.push((e, ([i, j], number(&mut pairs, pair)?)));
+                }
+            }
+        }
+        while steps.len() < pairs.len() {
+            let mut own = Vec::new();
+            for (letters, pair) in self.divided(&pairs[steps.len()].clone())? {
+                own.push((letters, number(&mut pairs, pair)?));
+            }
+            need(!own.is_empty(), "every", "an edge without parts")?;
+            steps.push(own);
+        }
+        Ok((pairs, steps, inner))
+    }
+
+    /// The pieces of two faces that share an edge.
+    fn divided(&self, pair: &Pair) -> Checked<Vec<([usize; 2], Pair)>> {
+        let pieces = |k: usize| &self.model.shape.states[pair.states[k]].pieces;
+        let corners = self.chart.corners();
+        let mut found = Vec::new();
+        for (i, first) in pieces(0).iter().enumerate() {
+            for (j, second) in pieces(1).iter().enumerate() {
+                let there = pair.place.times(self.chart.map(pair.states[1], j))?;
+                let place = some(self.chart.map(pair.states[0], i).solve(&there)?, "every", "a place that is no cell")?;
+                let mut common = 0;
+                for corner in &corners {
+                    common += usize::from(corners.contains(&place.times(corner)?));
+                }
+                if common == 2 {
+                    found.push(([i, j], Pair { states: [first.target, second.target], place }));
+                }
+            }
+        }
+        Ok(found)
+    }
+
+    /// Whether what two pieces of a face that share an edge have along it is the same, for every such edge: on the span of the values
+    /// at both sides, which is the closure of those at one of its points.
+    fn meets(
+        &self,
+        level: &Level,
+        pairs: &[Pair],
+        steps: &[Vec<Step>],
+        inner: &[(usize, Step)],
+        value: &dyn Fn(usize, &[Vec<usize>; 2]) -> Checked<Matrix>,
+    ) -> Checked<()> {
+        let mut spans = Vec::new();
+        for (start, pair) in pairs.iter().enumerate() {
+            let [first, second] = along(steps, start);
+            let both = value(pair.states[0], &first)?.beside(&value(pair.states[1], &second)?);
+            spans.push(both.echelon()?.0);
+        }
+        let mut grown = true;
+        while std::mem::take(&mut grown) {
+            for (from, own) in steps.iter().enumerate() {
+                for &([i, j], to) in own {
+                    let [e, d] = pairs[from].states;
+                    let width = level.maps[e][i].cols;
+                    let (a, b) = (
+                        spans[to].part(0..spans[to].rows, 0..width),
+                        spans[to].part(0..spans[to].rows, width..spans[to].cols),
+                    );
+                    let image =
+                        a.times(&level.maps[e][i].transpose())?.beside(&b.times(&level.maps[d][j].transpose())?);
+                    if let Some((joined, _)) = spans[from].joined(&image)? {
+                        (spans[from], grown) = (joined, true);
+                    }
+                }
+            }
+        }
+        for (e, ([i, j], pair)) in inner {
+            let width = level.maps[*e][*i].cols;
+            let span = &spans[*pair];
+            let first = span.part(0..span.rows, 0..width).times(&level.maps[*e][*i].transpose())?;
+            let second = span.part(0..span.rows, width..span.cols).times(&level.maps[*e][*j].transpose())?;
+            need(
+                first == second,
+                "every",
+                format_args!("pieces {i} and {j} of state {e} do not fit along their edge"),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// The point with an eventually periodic address, as a row.
+    fn point(&self, e: usize, [prefix, cycle]: &[Vec<usize>; 2]) -> Checked<Matrix> {
+        let (before, home) = self.model.shape.product(e, prefix)?;
+        let (turn, _) = self.model.shape.product(home, cycle)?;
+        let fixed = some(turn.fixed_point()?, "every", "the fixed point of a cycle is not unique")?;
+        Ok(before.times(&fixed)?.transpose())
+    }
+
+    /// The derivative there, one row after the other: that of the cycle is the fixed one in `c + F`.
+    fn derivative(&self, e: usize, [prefix, cycle]: &[Vec<usize>; 2]) -> Checked<Matrix> {
+        let (before, home) = self.product(e, prefix)?;
+        let (turn, back) = self.product(home, cycle)?;
+        need(home == back, "every", "the cycle of an edge does not return to its state")?;
+        let shifted = turn.minus(&Matrix::identity(turn.rows));
+        let family = kronecker(&Matrix::identity(2), &self.families[home].transpose())?;
+        let chords = self.chords[home].row(0).beside(&self.chords[home].row(1)).transpose();
+        let y = shifted.times(&family)?.solve(&shifted.times(&chords.scaled(&-Q::one()))?)?;
+        let y = some(y, "every", "the derivative is not unique at a point of an edge")?;
+        Ok(before.times(&chords.plus(&Q::one(), &family.times(&y)?))?.transpose())
+    }
+
+    /// What a word makes of derivatives, and where it ends.
+    fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
+        let (mut product, mut at) = (Matrix::identity(2 * self.chords[from].cols), from);
+        for &i in word {
+            let map = some(self.derivatives.maps[at].get(i), "word", "a letter that does not exist")?;
+            product = product.times(map)?;
+            at = self.model.shape.states[at].pieces[i].target;
+        }
+        Ok((product, at))
+    }
+
+    /// Any lift of a vector of the visible quotient of the start is seen as the same vector.
+    fn view(&self) -> Checked<Matrix> {
+        let space = self.model.spaces.of(self.model.shape.start)?;
+        Ok(self.model.shape.view.times(&space.basis)?.columns(&space.leading))
+    }
+
+    /// By state: a bound of the 1-norm of the coordinates of each column of `D_e − c_e`, by words of a length.
+    fn radii(&self, length: usize) -> Checked<Vec<Q>> {
+        let states = &self.model.shape.states;
+        let (mut offsets, mut largest) = (vec![Q::zero(); states.len()], Q::zero());
+        for &e in &self.model.shape.reachable {
+            let size = self.families[e].rows;
+            let mut layer = vec![(Matrix::identity(size), Matrix::identity(2), Matrix::zeros(size, 2), e)];
+            for _ in 0..length {
+                let mut next = Vec::new();
+                for (product, turn, offset, at) in &layer {
+                    for (i, piece) in states[*at].pieces.iter().enumerate() {
+                        let d = piece.target;
+                        let own = self.local(*at, &self.carried(*at, i, d)?.minus(&self.chords[*at]))?.transpose();
+                        let moved = offset.plus(&Q::one(), &product.times(&own)?.times(&turn.transpose())?);
+                        let turned = turn.times(&self.turns[*at][i])?;
+                        next.push((product.times(&self.step(*at, i, d)?)?, turned, moved, d));
+                    }
+                }
+                need(next.len() <= MAX_WORDS.1, "limit", "too many words")?;
+                layer = next;
+            }
+            for (product, turn, offset, _) in &layer {
+                offsets[e] = offsets[e].clone().max(column_norm(offset));
+                largest = largest.max(column_norm(product) * column_norm(&turn.transpose()));
+            }
+        }
+        need(length > 0 && largest < Q::one(), "every", "words of this length do not shrink the differences")?;
+        let most = offsets.iter().max().cloned().map_or_else(Q::zero, |m| m / (Q::one() - &largest));
+        Ok(offsets.iter().map(|own| own + &largest * &most).collect())
+    }
+
+    /// The words are a complete prefix code, and on the cell of each the columns of the derivative stay independent.
+    fn covered(&self, radii: &[Q], node: &Node<'_>) -> Checked<()> {
+        let mut words = node.list()?.into_iter();
+        let mut open = vec![(Vec::new(), self.view()?, self.model.shape.start)];
+        let mut given = words.next();
+        let mut steps = 0;
+        while let Some((word, seen, e)) = open.pop() {
+            steps += 1;
+            need(steps <= MAX_CELLS.0, "limit", "too many cells")?;
+            let item = node.some(given.as_ref(), "every", "the cells are no cover")?;
+            let wanted = item.word()?;
+            if wanted == word {
+                item.need(self.keeps_rank(&seen, e, &radii[e])?, "every", "the derivative may lose its rank here")?;
+                given = words.next();
+                continue;
+            }
+            let below = wanted.len() > word.len() && wanted.starts_with(&word) && word.len() < MAX_CELLS.1;
+            item.need(below, "every", "the cells are no cover, in their order")?;
+            for (i, piece) in self.model.shape.states[e].pieces.iter().enumerate().rev() {
+                let longer = [word.as_slice(), &[i]].concat();
+                open.push((longer, seen.times(&self.scaled[e][i])?, piece.target));
+            }
+        }
+        node.need(given.is_none(), "every", "a cell twice")
+    }
+
+    /// The 2-form `(x·p)(y·q) − (x·q)(y·p)`, `p` and `q` the columns for no differences, is positive on the columns `x`, `y` of the
+    /// derivative, which are these up to differences of 1-norm `radius`.
+    fn keeps_rank(&self, seen: &Matrix, e: usize, radius: &Q) -> Checked<bool> {
+        let centre = self.chords[e].times(&seen.transpose())?;
+        let moved = self.families[e].times(&seen.transpose())?.times(&centre.transpose())?;
+        let own = centre.times(&centre.transpose())?;
+        let form = |a: &Matrix, i: usize, b: &Matrix, j: usize| a.at(i, 0) * b.at(j, 1) - a.at(i, 1) * b.at(j, 0);
+        let (mut first, mut second, mut both) = (Q::zero(), Q::zero(), Q::zero());
+        for k in 0..moved.rows {
+            first = first.max(form(&moved, k, &own, 1).abs());
+            second = second.max(form(&own, 0, &moved, k).abs());
+            for l in 0..k {
+                both = both.max(form(&moved, k, &moved, l).abs());
+            }
+        }
+        Ok(form(&own, 0, &own, 1) > radius * (first + second) + radius * radius * both)
+    }
+}
+
+/// The largest 1-norm of a column.
+fn column_norm(m: &Matrix) -> Q {
+    let column = |j: usize| (0..m.rows).fold(whole(0), |s, i| s + m.at(i, j).abs());
+    (0..m.cols).map(column).max().map_or_else(Q::zero, |x| x)
+}
+
+/// The addresses on both sides of an edge, along its first parts: prefix and cycle of each.
+fn along(steps: &[Vec<Step>], start: usize) -> [[Vec<usize>; 2]; 2] {
+    let (mut seen, mut letters): (Vec<usize>, Vec<[usize; 2]>) = (vec![start], Vec::new());
+    loop {
+        let (pair, next) = steps[seen[seen.len() - 1]][0];
+        letters.push(pair);
+        if let Some(k) = seen.iter().position(|p| *p == next) {
+            let side = |s: usize| {
+                let all: Vec<usize> = letters.iter().map(|l| l[s]).collect();
+                [all[..k].to_vec(), all[k..].to_vec()]
+            };
+            return [side(0), side(1)];
+        }
+        seen.push(next);
+    }
+}

@@ -1,0 +1,100 @@
+//! For which values of a parameter a scheme converges and is smooth.
+
+use crate::answer::Verdict;
+use crate::case::{MaskFamilyCase, Setting, named_family};
+use crate::diagnostic::Problem;
+use crate::radius::family::Search;
+use crate::report::document::Document;
+use crate::report::region as report;
+use crate::scheme;
+use crate::theorem::region::{MaskFamily, OrderRegion};
+use serde_json::Value;
+use std::path::Path;
+
+/// The regions of a mask with a parameter.
+#[derive(Debug, Clone)]
+pub struct Regions {
+    /// What was asked about.
+    pub case: MaskFamilyCase,
+    /// The mask.
+    pub family: MaskFamily,
+    /// The orders, from convergence up.
+    pub orders: Vec<OrderRegion>,
+}
+
+/// The regions of a case file with `[parameters]`, or of a named scheme with a range, as in `four-point w=-1/2..1/2`, up to an order.
+///
+/// # Errors
+/// A [`Problem`] where the input is no mask with one parameter that is left free.
+///
+/// # Examples
+/// ```
+/// use secant::{arith::ratio, case::setting, radius::family::Search};
+/// let set = [setting("mu=0..1/6")?];
+/// let found = secant::ask::regions("ternary-four-point", &set, 2, &Search::default())?;
+/// let at = |p, q| found.orders[2].at(&secant::algebraic::Root::from_rational(&ratio(p, q))).and_then(|f| f.answer());
+/// assert_eq!((at(1, 15), at(1, 11), at(1, 9)), (Some(false), Some(true), Some(false)));
+/// # Ok::<(), secant::diagnostic::Problem>(())
+/// ```
+pub fn regions(what: &str, set: &[(String, Setting)], most: usize, search: &Search) -> Result<Regions, Problem> {
+    let case = if scheme::list().iter().any(|s| s.name == what) {
+        named_family(what, set)?
+    } else {
+        MaskFamilyCase::read(Path::new(what), set)?
+    };
+    let wrong = |e: crate::theorem::region::RegionError| {
+        Problem::new("secant::region", format!("{}: {e}", case.name))
+            .with_help("a mask with a parameter must satisfy the sum rules of order 1 for every value of it")
+    };
+    let family = MaskFamily::new(case.arity, &case.mask, &case.parameter).map_err(wrong)?;
+    let orders = family.regions(&case.range, most, search).map_err(wrong)?;
+    Ok(Regions { case, family, orders })
+}
+
+impl Regions {
+    /// The whole as one verdict: proved where every order is proved on the whole range, refuted where a value refutes one.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let parts: Vec<Verdict> =
+            self.orders.iter().flat_map(|o| &o.parts).map(|part| report::verdict(&part.finding)).collect();
+        Verdict::all(parts.len().max(1), parts)
+    }
+
+    /// The tables.
+    #[must_use]
+    pub fn document(&self) -> Document {
+        report::document(&self.case, &self.family, &self.orders)
+    }
+
+    /// The tables with the statements and a picture.
+    #[must_use]
+    pub fn report(&self) -> Document {
+        report::report(&self.case, &self.family, &self.orders)
+    }
+
+    /// The picture as SVG.
+    #[must_use]
+    pub fn svg(&self) -> Option<String> {
+        report::picture(&self.case, &self.orders).map(|p| p.0)
+    }
+
+    /// The certificate, accepted by the checker, and the family in the plain form that it is about. Parts without a certificate
+    /// (single members that were asked) are undetermined in it.
+    ///
+    /// # Errors
+    /// A [`Problem`] where the checker does not accept it.
+    pub fn certificate(&self) -> Result<(String, String), Problem> {
+        let plain = self.case.plain();
+        let made = crate::certificate::region_certificate(&self.case.name, &self.family, &self.orders);
+        let made = crate::certificate::checked(&plain, made).map_err(|e| {
+            Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; nothing was written")
+        })?;
+        Ok((made.text(), plain))
+    }
+
+    /// The tables as data (docs/json.md).
+    #[must_use]
+    pub fn data(&self) -> Value {
+        report::data(&self.case, &self.family, &self.orders)
+    }
+}

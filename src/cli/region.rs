@@ -1,0 +1,104 @@
+//! `secant region`.
+
+use super::output::{print, settle, shown, write_certificate, write_file};
+use super::{PROVED, REFUTED, UNDETERMINED};
+use crate::answer::Verdict;
+use crate::arith::{Rational, parse_rational};
+use crate::ask::{Regions, regions};
+use crate::case::setting;
+use crate::diagnostic::Problem;
+use crate::radius::family::Search;
+use crate::report::document::Document;
+use crate::report::{html, latex, markdown};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+#[derive(Debug, Args)]
+pub struct RegionArgs {
+    /// A case file with `[parameters]` and a mask, or the name of a scheme, with the range of its parameter behind it, as in
+    /// `four-point w=-1/2..1/2`.
+    #[arg(value_name = "CASE")]
+    what: String,
+    /// A range or a value of a parameter, instead of what the file says.
+    #[arg(value_name = "NAME=FROM..TO|NAME=VALUE")]
+    parameters: Vec<String>,
+    /// The same.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// The highest order of smoothness that is asked about; without it all that the sum rules allow.
+    #[arg(long, value_name = "K")]
+    order: Option<usize>,
+    /// Gaps that are narrower are left.
+    #[arg(long, value_name = "WIDTH", value_parser = width, default_value = "1e-6")]
+    width: Rational,
+    /// Hulls that may be tried for each order.
+    #[arg(long, value_name = "COUNT")]
+    hulls: Option<usize>,
+    /// Print data (docs/json.md).
+    #[arg(long)]
+    json: bool,
+    /// Write the tables with the statements to a file: .html, .md or .tex.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Draw a bar for each order, coloured by verdict.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a certificate that secant-check proves again (docs/certificate.md), and the family beside it.
+    #[arg(long, value_name = "FILE")]
+    certificate: Option<PathBuf>,
+}
+
+fn width(text: &str) -> Result<Rational, String> {
+    let width = parse_rational(text).map_err(|e| e.to_string())?;
+    if width > 0 { Ok(width) } else { Err("a positive number is needed".to_owned()) }
+}
+
+/// Prints the regions of a scheme.
+pub fn run(args: &RegionArgs) -> u8 {
+    settle(answered(args))
+}
+
+fn answered(args: &RegionArgs) -> Result<u8, Problem> {
+    let render = args.report.as_deref().map(format_of).transpose()?;
+    let set = args.parameters.iter().chain(&args.set).map(|t| setting(t)).collect::<Result<Vec<_>, _>>()?;
+    let mut search = Search { width: args.width.clone(), ..Search::default() };
+    search.hulls = args.hulls.unwrap_or(search.hulls);
+    let found = regions(&args.what, &set, args.order.unwrap_or(usize::MAX), &search)?;
+    files(args, &found, render)?;
+    if args.json {
+        print(&format!("{:#}\n", found.data()));
+    } else {
+        print(&shown(&found.document()));
+    }
+    Ok(match found.verdict() {
+        Verdict::Proved => PROVED,
+        Verdict::Refuted => REFUTED,
+        Verdict::Undetermined => UNDETERMINED,
+    })
+}
+
+fn files(args: &RegionArgs, found: &Regions, render: Option<fn(&Document) -> String>) -> Result<(), Problem> {
+    let certificate = args.certificate.as_ref().map(|_| found.certificate()).transpose()?;
+    if let (Some(path), Some(render)) = (&args.report, render) {
+        write_file(path, render(&found.report()))?;
+    }
+    if let Some(path) = &args.svg {
+        let svg = found.svg().ok_or_else(|| Problem::new("secant::region", "there is nothing to draw"))?;
+        write_file(path, svg)?;
+    }
+    if let (Some(path), Some((text, family))) = (&args.certificate, certificate) {
+        write_certificate(path, text, Some(family))?;
+    }
+    Ok(())
+}
+
+/// The writer of a report that its ending names.
+fn format_of(path: &Path) -> Result<fn(&Document) -> String, Problem> {
+    match path.extension().and_then(|e| e.to_str()) {
+        Some("html") => Ok(html::render),
+        Some("md") => Ok(markdown::render),
+        Some("tex") => Ok(latex::render),
+        _ => Err(Problem::new("secant::usage::report", format!("no format is known for {}", path.display()))
+            .with_help("the ending of --report says the format: .html, .md or .tex")),
+    }
+}

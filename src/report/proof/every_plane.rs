@@ -1,0 +1,98 @@
+//! The section on every point of a surface.
+
+use super::super::document::{Block, Tone, words};
+use super::super::every_plane;
+use super::super::math::Math;
+use super::super::radius::decimal;
+use super::super::words::{count, listed, mark};
+use super::Quoted;
+use super::evidence::Evidence;
+use crate::answer::Answer;
+use crate::case::Case;
+use crate::shape::Spaces;
+use crate::statement::Statement;
+use crate::theorem::Certified;
+use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface};
+
+pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<Block> {
+    let mut blocks = vec![Block::heading(2, "Every point")];
+    match &surface.every {
+        Answer::Proved(EverySurfaceProof::Product(curves))
+        | Answer::Refuted(EverySurfaceBreak::Curve { curves, .. }) => {
+            blocks.extend(seen.once_id(Statement::TensorEveryPoint));
+            blocks.push(product(case, surface, curves).block());
+        }
+        Answer::Proved(EverySurfaceProof::Derivative(found)) => {
+            blocks.extend(seen.once_id(Statement::PatchDerivative));
+            blocks.push(derivative(found).block());
+        }
+        Answer::Refuted(EverySurfaceBreak::Point(_)) | Answer::Open(_) => {}
+    }
+    blocks.push(Block::Facts(every_plane::facts(surface)));
+    blocks
+}
+
+/// What was verified of the statement on the derivative of a patch.
+fn derivative(found: &PatchDerivative) -> Evidence {
+    let dims = listed(&found.dims.iter().map(ToString::to_string).collect::<Vec<_>>());
+    let hi = decimal(&found.enclosure.hi, true, 6);
+    let radius = format!(
+        "the spaces $F$ have the dimensions {dims}, state by state; the joint spectral radius on them is at most {hi}, which is below \
+         $@$."
+    );
+    let rank = match &found.cells {
+        None => "the differences of the corners of the start are independent modulo the differences of the derivative, as they are \
+                 seen."
+            .to_owned(),
+        Some((length, cells)) => format!(
+            "a 2-form is positive on the derivative on each of {}; words of {} bound it.",
+            count(cells.len(), "cell"),
+            count(*length, "letter")
+        ),
+    };
+    let edges = format!("the equations hold in {} of two faces along an edge.", count(found.edges, "position"));
+    Evidence::of(Statement::PatchDerivative)
+        .holds(
+            "patch",
+            "all faces are divided evenly; the pieces have the size $1/N=@$ in the parameters.",
+            [Math::number(&found.share)],
+        )
+        .holds("radius", &radius, [Math::number(&found.share)])
+        .holds("edges", &edges, [])
+        .holds("rank", &rank, [])
+}
+
+/// What was verified of the theorem on tensor products at every point.
+fn product(case: &Case, surface: &Surface, curves: &[Certified; 2]) -> Evidence {
+    let mut evidence = Evidence::of(Statement::TensorEveryPoint).holds(
+        "product",
+        "the operators of the surface are the tensor products of those of the two curves.",
+        [],
+    );
+    let moves = surface.factors.as_ref().is_some_and(|factors| {
+        factors.iter().all(|f| {
+            Spaces::new(&f.shape).is_some_and(|spaces| {
+                let pieces = &f.shape.states[f.shape.start].pieces;
+                pieces.iter().all(|p| !f.shape.is_point(&spaces, p))
+            })
+        })
+    });
+    let text = if moves { "no piece of the two curves is a point." } else { "a piece may be a point." };
+    evidence.push("no-point", if moves { Tone::Good } else { Tone::Bad }, words(text));
+    for (which, curve) in ["first", "second"].into_iter().zip(curves) {
+        let Some(every) = &curve.everywhere else {
+            evidence.push("curves", Tone::Open, words(format!("nothing is known of the {which} curve.")));
+            continue;
+        };
+        let mut text = words(format!("the {which} curve: "));
+        text.push(mark(every.verdict));
+        let by = every.statement().map_or_else(String::new, |s| format!(", by {}", s.name()));
+        text.extend(words(format!("{by}.")));
+        evidence.push("curves", super::super::words::tone(every.verdict), text);
+    }
+    let text = match case.shape.control {
+        None => "there are no control points.",
+        Some(_) => "the control points are injective on the relevant space.",
+    };
+    evidence.holds("view", text, [])
+}
