@@ -52,9 +52,9 @@ pub fn sample(complex: &Complex, depth: usize, progress: &mut dyn FnMut(usize)) 
 /// The largest depth, from 1 to 24, with at most `cells` words.
 #[must_use]
 pub fn depth_within(shape: &Shape, cells: usize) -> usize {
-    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
+    let divided = shape.states.iter().any(|s| s.pieces.len() > 1);
     let mut depth = 0;
-    while most > 1 && depth < 24 && words_of_length(shape, depth + 1) <= cells {
+    while divided && depth < 24 && words_of_length(shape, depth + 1) <= cells {
         depth += 1;
     }
     depth.max(1)
