@@ -136,6 +136,8 @@ statements! {
     Refinement = "refinement",
     FamilyWords = "family-words",
     FamilyHulls = "family-hulls",
+    LatticeMask = "lattice-mask",
+    StableShifts = "stable-shifts",
 }
 
 impl Statement {

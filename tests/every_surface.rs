@@ -278,3 +278,16 @@ fn forged_derivatives_are_rejected() {
     proof.insert("answers".to_owned(), answers);
     assert!(secant_check::check(&hidden.checked_text(), &own.to_string()).is_err());
 }
+
+/// A bilinear patch, and one in three parts along each side, of which there are many words.
+#[test]
+fn patches_of_few_and_of_many_words() {
+    let hat = "mask = [\"1/2\", 1, \"1/2\"]";
+    let three = "name = \"bspline\", degree = 2, arity = 3";
+    let grid = |n: i64, bump: i64| {
+        let point = |k: i64| format!("[{}, {}, {}]", 5 * (k / n) + bump * (k % 2), 5 * (k % n), (k / n) * (k % n));
+        format!("control = [{}]", (0..n * n).map(point).collect::<Vec<_>>().join(", "))
+    };
+    assert_eq!(verdict(&product(hat, hat, &grid(2, 1))), Verdict::Proved);
+    assert_eq!(verdict(&product(three, three, &grid(3, 1))), Verdict::Proved);
+}

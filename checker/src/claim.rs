@@ -113,6 +113,25 @@ pub enum Claim {
         /// The greatest `r`.
         high: Q,
     },
+    /// All limits of a mask on a lattice are C^k; of order 0: the scheme converges uniformly.
+    LatticeSmooth {
+        /// `k`.
+        order: usize,
+    },
+    /// All limits of a mask on a lattice have the Hölder exponents below the logarithm of `1/J` to the base
+    /// `index^(1/dimensions)`, for a number `J` from `low` to `high`.
+    LatticeExponent {
+        /// The number of dimensions.
+        dimensions: usize,
+        /// The determinant of the dilation, in modulus.
+        index: usize,
+        /// The least `J`.
+        low: Q,
+        /// The greatest `J`.
+        high: Q,
+        /// Whether this is the supremum of the exponents that all limits have.
+        exact: bool,
+    },
     /// Bounds of the joint spectral radius on the differences of derivatives of this order.
     RadiusOfOrder(usize, Q, Q),
     /// Each root of a polynomial (lowest coefficient first) is an eigenvalue of an operator (state and piece; none of a plain
@@ -339,6 +358,16 @@ impl Display for Claim {
                  logarithm of 1/r to the base {pieces}, at least {order} and at most {}, for a number r from {low} to {high}",
                 order + 1
             ),
+            Self::LatticeSmooth { order: 0 } => f.write_str("the scheme converges uniformly for all bounded nets"),
+            Self::LatticeSmooth { order } => write!(f, "all limits of the scheme are C^{order}"),
+            Self::LatticeExponent { dimensions, index, low, high, exact } => {
+                let what = if *exact {
+                    "the supremum of the exponents that all limits have is"
+                } else {
+                    "the exponents that all limits have reach up to at least"
+                };
+                write!(f, "{what} {dimensions} times the logarithm of 1/J to the base {index}, for a number J from {low} to {high}")
+            }
             Self::RadiusOfOrder(order, low, high) => write!(
                 f,
                 "the joint spectral radius on the differences of derivatives of order {order} is at least {low} and at most \

@@ -7,6 +7,7 @@ mod base;
 mod claim;
 mod curve;
 mod jsr;
+mod lattice;
 mod literal;
 pub mod reader;
 mod region;
@@ -54,6 +55,7 @@ pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
         "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => spectrum::check(case, &proof)?,
         "jsr" => jsr::check(case, &proof)?,
+        "lattice" => lattice::check(case, &proof)?,
         "surface" => surface::check(case, &proof)?,
         "vertex" => vertex::check(case, &proof)?,
         _ => return kind.reject("format", "unknown kind of certificate"),

@@ -33,7 +33,13 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-const WORDS: [&str; 49] = [
+const WORDS: [&str; 55] = [
+    "smooth",
+    "rough",
+    "rules",
+    "interpolatory",
+    "unimodular",
+    "samples",
     "proved",
     "refuted",
     "undetermined",
@@ -181,6 +187,10 @@ fn weaker(found: &Decided, original: &Decided) -> bool {
     match (&found.claim, &original.claim) {
         (Claim::Radius(a, b), Claim::Radius(c, d)) => verdicts && wider((a, b), (c, d)),
         (Claim::RadiusOfOrder(k, a, b), Claim::RadiusOfOrder(l, c, d)) => verdicts && k == l && wider((a, b), (c, d)),
+        (
+            Claim::LatticeExponent { low: a, high: b, exact, dimensions: s, index: n },
+            Claim::LatticeExponent { low: c, high: d, exact: best, dimensions: t, index: m },
+        ) => verdicts && s == t && n == m && wider((a, b), (c, d)) && (*best || !exact),
         (Claim::TangentTurns { rate: None }, Claim::TangentTurns { .. }) => verdicts,
         // More letters with no better a ratio say less; the original is rounded up a little.
         (Claim::TangentTurns { rate: Some((n, d)) }, Claim::TangentTurns { rate: Some((least, low)) }) => {
@@ -231,6 +241,14 @@ fn same(found: &Accepted, original: &Accepted) -> bool {
                 && smooth.len() == found.points.len()
                 && all_weaker(&found.points, &original.points[..smooth.len()])
                 && exponent(last, end)
+        }
+        // Fewer orders; a wider exponent, or only a bound of it.
+        Claim::LatticeSmooth { .. } => {
+            let is_order = |d: &&Decided| matches!(d.claim, Claim::LatticeSmooth { .. });
+            let [mine, all] = [found, original].map(|x| x.claims.iter().filter(is_order).cloned().collect::<Vec<_>>());
+            let known =
+                found.claims.iter().filter(|d| !is_order(d)).all(|d| original.claims.iter().any(|o| weaker(d, o)));
+            verdicts && all.starts_with(&mine) && known
         }
         // Fewer valences, or no plane without a half-plane.
         Claim::SmoothAtVertex(_) => {

@@ -1,7 +1,8 @@
 //! The smoothness of schemes, curves and scaling functions, from joint spectral radii.
 
+use super::lattice::{lattice_answer, lattice_case, lattice_certified};
 use crate::arith::{Rational, parse_rational};
-use crate::case::{self, Case, Origin};
+use crate::case::{self, Case, LatticeCase, Origin};
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
@@ -48,7 +49,30 @@ pub struct Smooth {
 /// # Ok::<(), secant::diagnostic::Problem>(())
 /// ```
 pub fn regularity(what: &str, parameters: &[String], arity: usize) -> Result<Smooth, Problem> {
-    answer(what, &subject(what, parameters, arity)?)
+    dilated_regularity(what, parameters, arity, None)
+}
+
+/// As [`regularity`]; with a dilation such as `[[1,1],[1,-1]]` or `quincunx` for a symbol in several variables.
+///
+/// # Errors
+/// As [`regularity`]; also where the input is no such symbol, or says its dilation itself.
+///
+/// # Examples
+/// ```
+/// let found = secant::ask::dilated_regularity("(1+x)^2*(1+y)^2/8", &[], 2, Some("quincunx"))?;
+/// assert_eq!(found.data["smoothness"], 3);
+/// # Ok::<(), secant::diagnostic::Problem>(())
+/// ```
+pub fn dilated_regularity(
+    what: &str,
+    parameters: &[String],
+    arity: usize,
+    dilation: Option<&str>,
+) -> Result<Smooth, Problem> {
+    match lattice_case(what, parameters, dilation)? {
+        Some(case) => lattice_answer(case.mask).map(|(smooth, _)| smooth),
+        None => answer(what, &subject(what, parameters, arity)?),
+    }
 }
 
 /// As [`regularity`] for the text of a case; `name` is shown in diagnostics.
@@ -56,6 +80,9 @@ pub fn regularity(what: &str, parameters: &[String], arity: usize) -> Result<Smo
 /// # Errors
 /// As [`regularity`].
 pub fn regularity_of_case(name: &str, text: &str) -> Result<Smooth, Problem> {
+    if LatticeCase::is_meant(text) {
+        return lattice_answer(LatticeCase::parse(name, text)?.mask).map(|(smooth, _)| smooth);
+    }
     answer(name, &subject_of_case(name, text)?)
 }
 
@@ -295,11 +322,23 @@ fn contracting(case: &Case) -> Result<Contraction, Problem> {
 }
 
 /// The smoothness of the curve of a case file with its certificate, accepted by the checker, and the expanded case that the
-/// certificate is about where that is not the file itself; of a mask after the table of the mask.
+/// certificate is about where that is not the file itself; of a mask after the table of the mask. Of a mask on a lattice the
+/// certificate is about the mask, which need not be in a file.
 ///
 /// # Errors
 /// As [`regularity`]; where the input is no case file, and where there is no certificate.
-pub fn certified_regularity(what: &str, arity: usize) -> Result<(Smooth, String, Option<String>), Problem> {
+pub fn certified_regularity(
+    what: &str,
+    parameters: &[String],
+    arity: usize,
+    dilation: Option<&str>,
+) -> Result<(Smooth, String, Option<String>), Problem> {
+    if let Some(case) = lattice_case(what, parameters, dilation)? {
+        return lattice_certified(case);
+    }
+    if let Some(extra) = parameters.first() {
+        return Err(wrong(format!("`{extra}` is a parameter, and certificates are about case files")));
+    }
     if !what.ends_with(".toml") && !Path::new(what).is_file() {
         return Err(Problem::new("secant::regularity", format!("{what} is no case file, which a certificate is about"))
             .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; wavelets have no certificates"));

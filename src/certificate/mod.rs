@@ -10,6 +10,7 @@ mod everywhere;
 mod frames;
 mod hull;
 mod joint;
+mod lattice;
 mod radius;
 mod region;
 mod regularity;
@@ -22,6 +23,7 @@ mod vertex;
 
 pub use confirm::{Doubt, checked, confirm, confirm_orders};
 pub use joint::radius_certificate;
+pub use lattice::lattice_certificate;
 pub use region::region_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;

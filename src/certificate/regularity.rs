@@ -67,7 +67,7 @@ const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 
 /// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
 /// words a certificate says more than an inequality with room.
-fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
+pub(super) fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
     let irrational = radius.lower.as_ref().filter(|l| l.rational().is_none());
     let power = irrational.and_then(|lower| {
         let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));

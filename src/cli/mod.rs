@@ -336,7 +336,8 @@ struct SolveArgs {
 #[derive(Debug, Args)]
 struct RegularityArgs {
     /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet (haar, db1 to db20, bior2.2, rbio2.2, …), a
-    /// mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4".
+    /// mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4". In two variables: a symbol
+    /// such as "(1+x)^2*(1+y)^2/4", a file with a `[mask]`, box-spline, butterfly, four-eight, loop, sqrt3 or tensor.
     #[arg(allow_hyphen_values = true, value_name = "CASE")]
     what: String,
     /// Parameters of the scheme before, as in `w=1/16`, and further cases (after `--` also masks that begin with a minus sign).
@@ -345,7 +346,12 @@ struct RegularityArgs {
     /// The arity of masks and symbols.
     #[arg(long, default_value_t = 2)]
     arity: usize,
-    /// Write a certificate of the orders of smoothness of the curve of a case file (docs/certificate.md).
+    /// The dilation of a symbol in several variables, such as "(1+x)^2*(1+y)^2/8": [[1,1],[1,-1]], quincunx, sqrt3, or a whole
+    /// number for a multiple of the unit matrix (2 where none is given).
+    #[arg(long, value_name = "MATRIX", allow_hyphen_values = true)]
+    dilation: Option<String>,
+    /// Write a certificate of the orders of smoothness of the curve of a case file, or of a mask in several variables
+    /// (docs/certificate.md).
     #[arg(long, value_name = "FILE")]
     certificate: Option<PathBuf>,
     /// Print data; of several cases a list.

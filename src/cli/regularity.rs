@@ -2,7 +2,7 @@
 
 use super::output::{complain, print, settle, write_certificate};
 use super::{BAD_INPUT, PROVED, RegularityArgs, UNDETERMINED};
-use crate::ask::{Smooth, certified_regularity, regularity};
+use crate::ask::{Smooth, certified_regularity, dilated_regularity};
 use crate::diagnostic::Problem;
 use serde_json::{Value, json};
 use std::path::Path;
@@ -13,7 +13,7 @@ pub fn run(args: &RegularityArgs) -> u8 {
     let [(what, parameters)] = inputs.as_slice() else { return settle(many(args, &inputs)) };
     let answer = match &args.certificate {
         Some(path) => certified(what, parameters, args, path),
-        None => regularity(what, parameters, args.arity),
+        None => dilated_regularity(what, parameters, args.arity, args.dilation.as_deref()),
     };
     settle(answer.map(|a| {
         print(&shown(args, what, &a));
@@ -61,7 +61,7 @@ fn many(args: &RegularityArgs, inputs: &[(String, Vec<String>)]) -> Result<u8, P
     }
     let (mut code, mut list) = (PROVED, Vec::new());
     for (what, parameters) in inputs {
-        let made = regularity(what, parameters, args.arity);
+        let made = dilated_regularity(what, parameters, args.arity, args.dilation.as_deref());
         let answer = made.unwrap_or_else(|problem| {
             code = BAD_INPUT;
             if !args.json && !args.jsonl {
@@ -90,11 +90,7 @@ fn many(args: &RegularityArgs, inputs: &[(String, Vec<String>)]) -> Result<u8, P
 
 /// The answer for a case file, whose certificate is written.
 fn certified(what: &str, parameters: &[String], args: &RegularityArgs, path: &Path) -> Result<Smooth, Problem> {
-    if let Some(extra) = parameters.first() {
-        let message = format!("`{extra}` is a parameter, but only named schemes have parameters");
-        return Err(Problem::new("secant::regularity", message).with_help("leave it out"));
-    }
-    let (smooth, certificate, beside) = certified_regularity(what, args.arity)?;
+    let (smooth, certificate, beside) = certified_regularity(what, parameters, args.arity, args.dilation.as_deref())?;
     write_certificate(path, certificate, beside)?;
     Ok(smooth)
 }

@@ -4,6 +4,7 @@
 
 use super::{Arrow, System};
 use crate::arith::Rational;
+use crate::arith::modular::{PrimeField, large_primes};
 use crate::jordan::Spectrum;
 use crate::linalg::Matrix;
 
@@ -57,6 +58,15 @@ pub fn flag(system: &System) -> Vec<Step> {
     let mut steps = Vec::new();
     refine(&whole, system, &mut steps);
     steps
+}
+
+/// The flag of one step: the whole system as one block.
+#[must_use]
+pub(super) fn undivided(system: &System) -> Vec<Step> {
+    let arrows = system.arrows.iter().enumerate().map(|(k, a)| Arrow { label: k, ..a.clone() }).collect();
+    let own = System { dims: system.dims.clone(), arrows };
+    let block = Block { system: own, states: (0..system.dims.len()).collect(), irreducible: false };
+    vec![Step { frame: system.dims.iter().map(|d| Matrix::identity(*d)).collect(), block: Some(block) }]
 }
 
 fn refine(part: &Part, whole: &System, steps: &mut Vec<Step>) {
@@ -255,8 +265,62 @@ fn random_cycle(system: &System, home: usize, random: &mut Random) -> Option<Vec
     None
 }
 
+/// Whether the smallest invariant family of [`spin`] is everything, seen modulo a prime: ranks modulo a prime are at most those over
+/// the rationals. `false` says nothing.
+fn spins_to_all(system: &System, state: usize, seed: &Matrix, dual: bool) -> bool {
+    let Some(field) = large_primes().next().map(PrimeField::new) else { return false };
+    let residues = |m: &Matrix| -> Option<Vec<Vec<u64>>> {
+        (0..m.rows()).map(|i| m.row(i).iter().map(|x| field.from_rational(x)).collect()).collect()
+    };
+    let turned = |a: &Arrow| residues(&if dual { a.matrix.clone() } else { a.matrix.transpose() });
+    let maps: Option<Vec<Vec<Vec<u64>>>> = system.arrows.iter().map(turned).collect();
+    let (Some(maps), Some(rows)) = (maps, residues(seed)) else { return false };
+    let mut spaces: Vec<ModSpan> = system.dims.iter().map(|_| ModSpan::default()).collect();
+    let mut open: Vec<(usize, Vec<u64>)> = rows.into_iter().map(|row| (state, row)).collect();
+    while let Some((s, row)) = open.pop() {
+        let Some(own) = spaces[s].extend(&field, row) else { continue };
+        for (a, map) in system.arrows.iter().zip(&maps) {
+            let (source, target) = if dual { (a.from, a.to) } else { (a.to, a.from) };
+            if source == s && spaces[target].rows.len() < system.dims[target] {
+                let mut image = vec![0; system.dims[target]];
+                for (x, line) in own.iter().zip(map).filter(|(x, _)| **x != 0) {
+                    image.iter_mut().zip(line).for_each(|(y, m)| *y = field.add(*y, field.mul(*x, *m)));
+                }
+                open.push((target, image));
+            }
+        }
+    }
+    spaces.iter().zip(&system.dims).all(|(space, dim)| space.rows.len() == *dim)
+}
+
+/// A space of rows modulo a prime, in echelon form: each with its leading column, where it has a one.
+#[derive(Default)]
+struct ModSpan {
+    rows: Vec<(usize, Vec<u64>)>,
+}
+
+impl ModSpan {
+    /// What is left of a row, which then belongs to the space; `None` where nothing is left.
+    fn extend(&mut self, field: &PrimeField, mut row: Vec<u64>) -> Option<Vec<u64>> {
+        for (column, known) in &self.rows {
+            let factor = field.neg(row[*column]);
+            if factor != 0 {
+                row.iter_mut().zip(known).for_each(|(x, y)| *x = field.add(*x, field.mul(factor, *y)));
+            }
+        }
+        let column = row.iter().position(|x| *x != 0)?;
+        let inverse = field.inverse(row[column]);
+        row.iter_mut().for_each(|x| *x = field.mul(*x, inverse));
+        self.rows.push((column, row.clone()));
+        Some(row)
+    }
+}
+
 /// The smallest invariant family that contains the rows of `seed` at a state; with `dual`, of the transposed system.
 fn spin(system: &System, state: usize, seed: &Matrix, dual: bool) -> Vec<Matrix> {
+    if spins_to_all(system, state, seed, dual) {
+        return system.dims.iter().map(|d| Matrix::identity(*d)).collect();
+    }
     let mut family: Vec<Matrix> = system.dims.iter().map(|d| Matrix::zero(0, *d)).collect();
     family[state] = seed.echelon().rows;
     let mut changed = vec![state];

@@ -11,6 +11,9 @@ pub struct Options {
     pub longest: usize,
     /// Most vertices of a polytope.
     pub vertices: usize,
+    /// Largest dimension in which common invariant subspaces are looked for: in large ones that takes long, and the coordinates
+    /// that come of it spoil norms.
+    pub split: usize,
     /// Relative width of the bounds that is good enough: the search ends when it is reached. 0 goes on until the radius is exact
     /// or the budget is spent.
     pub width: f64,
@@ -23,7 +26,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { longest: 16, vertices: 10_000, width: 1e-11, work: None, time: None }
+        Self { longest: 16, vertices: 10_000, split: usize::MAX, width: 1e-11, work: None, time: None }
     }
 }
 

@@ -2,7 +2,7 @@
 #![allow(clippy::float_arithmetic, reason = "compares candidates; every bound is computed exactly")]
 
 use super::answer::{BlockProof, Ended, Growth, JointRadius};
-use super::blocks::{Block, flag};
+use super::blocks::{Block, flag, undivided};
 use super::budget::{Budget, Options};
 use super::invariant::growth as growth_of;
 use super::leading::{Lower, longest_block};
@@ -24,7 +24,7 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
     let dim = system.widest();
     let budget = Budget::new(options, dim);
     let work = options.work_for(dim);
-    let flag = flag(&system);
+    let flag = if system.widest() > options.split { undivided(&system) } else { flag(&system) };
     let blocks: Vec<Block> = flag.iter().filter_map(|s| s.block.clone()).collect();
     let share = work / 10 / blocks.len().max(1) as u64;
     let short = options.longest.min(SHORT);

@@ -27,6 +27,7 @@ mod radius_field;
 mod search;
 mod simplex;
 mod strategy;
+mod sums;
 mod system;
 mod tree;
 mod turning;

@@ -4,8 +4,9 @@ use super::System;
 use super::answer::Proof;
 use super::budget::Budget;
 use super::strategy::{Found, Outcome, Strategy, Target};
-use crate::arith::Rational;
+use crate::arith::{Integer, Rational};
 use crate::linalg::Matrix;
+use malachite_base::num::arithmetic::traits::DivExact;
 
 /// Positive definite forms, one for every state, that no arrow expands by more than `r`.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -116,31 +117,34 @@ fn preserved(system: &System, square: &Rational, arrows: &[usize]) -> Option<Vec
     Some(forms)
 }
 
-/// Whether a symmetric matrix is positive definite (or, not `strict`, positive semidefinite), by exact elimination.
+/// Whether a symmetric matrix is positive definite (or, not `strict`, positive semidefinite), by exact elimination without
+/// fractions.
 #[must_use]
 pub(super) fn definite(m: &Matrix, strict: bool) -> bool {
     let n = m.rows();
-    let mut a = m.clone();
+    let whole = m.cleared().1;
+    let mut a: Vec<Vec<Integer>> = (0..n).map(|i| whole.row(i).to_vec()).collect();
+    let mut before = Integer::from(1);
     for k in 0..n {
-        let pivot = a[(k, k)].clone();
+        let pivot = a[k][k].clone();
         if pivot < 0 || (strict && pivot == 0) {
             return false;
         }
         if pivot == 0 {
-            if (k..n).any(|j| a[(k, j)] != 0) {
+            if a[k][k..].iter().any(|x| *x != 0) {
                 return false;
             }
             continue;
         }
-        for i in k + 1..n {
-            let factor = &a[(i, k)] / &pivot;
-            if factor != 0 {
-                for j in k..n {
-                    let change = &factor * &a[(k, j)];
-                    a[(i, j)] -= change;
-                }
+        let (top, below) = a.split_at_mut(k + 1);
+        let row = &top[k];
+        // The rows keep what is on and above the diagonal.
+        for (i, line) in below.iter_mut().enumerate().map(|(i, line)| (i + k + 1, line)) {
+            for (x, y) in line[i..].iter_mut().zip(&row[i..]) {
+                *x = (&*x * &pivot - &row[i] * y).div_exact(&before);
             }
         }
+        before = pivot;
     }
     true
 }
@@ -159,5 +163,16 @@ mod tests {
         let system = System::plain(&[rotation((3, 5), (4, 5)), rotation((5, 13), (12, 13))]).unwrap();
         assert!(Quadratic::find(&system, &ratio(1, 1), &[]).is_some());
         assert!(Quadratic::find(&system, &ratio(99, 100), &[]).is_none());
+    }
+
+    #[test]
+    fn definite_forms() {
+        let form = |rows: [[i64; 3]; 3]| Matrix::from_fn(3, 3, |i, j| ratio(rows[i][j], 7));
+        assert!(definite(&form([[2, -1, 0], [-1, 2, -1], [0, -1, 2]]), true));
+        let flat = form([[1, 1, 2], [1, 1, 2], [2, 2, 5]]);
+        assert!(definite(&flat, false) && !definite(&flat, true));
+        assert!(!definite(&form([[0, 1, 0], [1, 0, 0], [0, 0, 1]]), false));
+        assert!(!definite(&form([[1, 2, 0], [2, 3, 0], [0, 0, 1]]), false));
+        assert!(definite(&form([[0, 0, 0], [0, 3, 1], [0, 1, 2]]), false));
     }
 }

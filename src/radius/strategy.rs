@@ -9,6 +9,7 @@ use super::leading::Lower;
 use super::norms::LetterNorms;
 use super::quadratic::QuadraticNorm;
 use super::search::Candidate;
+use super::sums::Sums;
 use super::tree::Words;
 use super::turning::Turning;
 use crate::arith::Rational;
@@ -128,6 +129,7 @@ pub(super) fn leading() -> Vec<Box<dyn Strategy>> {
         Box::new(Transposed(LetterNorms)),
         Box::new(QuadraticNorm),
         Box::new(Words { most: 60, share: 20 }),
+        Box::new(Sums),
         Box::new(AtRadius { vertices: 120, share: 60 }),
         Box::new(Transposed(AtRadius { vertices: 120, share: 60 })),
         Box::new(Turning { vertices: 60, share: 60 }),

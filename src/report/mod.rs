@@ -10,6 +10,7 @@ pub mod findings;
 pub mod html;
 pub mod json;
 pub mod latex;
+pub mod lattice;
 pub mod markdown;
 pub mod math;
 pub mod mathml;

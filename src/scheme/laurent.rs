@@ -1,19 +1,11 @@
 //! Laurent polynomials: the symbols of masks, and how they are written.
 
 use super::SchemeError;
-use crate::arith::{Rational, parse_rational};
-use malachite_base::num::logic::traits::SignificantBits;
+use super::symbol::Symbol;
+use crate::arith::Rational;
 
 /// Largest number of coefficients of a symbol.
 pub const MAX_WIDTH: usize = 1024;
-/// Largest exponent in the text of a symbol.
-const MAX_EXPONENT: i64 = 1024;
-/// Longest text, in bytes.
-const MAX_TEXT: usize = 10_000;
-/// Deepest nesting of brackets.
-const MAX_DEPTH: usize = 64;
-/// Longest coefficient, in bits.
-const MAX_BITS: u64 = 65_536;
 
 /// `Σ c_k z^(low + k)`, with nonzero first and last coefficient; the zero polynomial has none.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -140,210 +132,60 @@ impl Laurent {
     /// # Errors
     /// [`SchemeError::Symbol`] with the position, and [`SchemeError::Large`].
     pub fn parse(text: &str) -> Result<Self, SchemeError> {
-        if text.len() > MAX_TEXT {
-            return Err(SchemeError::Large { what: "a symbol of length", size: text.len(), limit: MAX_TEXT });
-        }
-        let mut parser = Parser { text: text.chars().collect(), at: 0, depth: 0 };
-        let result = parser.sum()?;
-        match parser.peek() {
-            None => Ok(result),
-            Some(c) => Err(parser.error(&format!("`{c}` is not expected here"))),
-        }
+        super::symbol::parse(text)
     }
 }
 
-struct Parser {
-    text: Vec<char>,
-    at: usize,
-    depth: usize,
-}
+impl Symbol for Laurent {
+    const VARIABLES: &'static str = "`z`";
+    const LIMIT: usize = MAX_WIDTH;
 
-impl Parser {
-    fn error(&self, message: &str) -> SchemeError {
-        SchemeError::Symbol { position: self.at, message: message.to_owned() }
+    fn begins_variable(c: char) -> bool {
+        c == 'z'
     }
 
-    fn peek(&mut self) -> Option<char> {
-        while self.text.get(self.at).is_some_and(|c| c.is_whitespace()) {
-            self.at += 1;
-        }
-        self.text.get(self.at).copied()
+    fn variable(name: &str) -> Option<Self> {
+        (name == "z").then(|| Self::new(1, vec![Rational::from(1)]))
     }
 
-    fn accept(&mut self, wanted: char) -> bool {
-        let found = self.peek() == Some(wanted);
-        self.at += usize::from(found);
-        found
+    fn constant(c: Rational) -> Self {
+        Self::constant(c)
     }
 
-    fn sum(&mut self) -> Result<Laurent, SchemeError> {
-        let mut total = self.product()?;
-        loop {
-            let sign = match self.peek() {
-                Some('+') => 1,
-                Some('-') => -1,
-                _ => return Ok(total),
-            };
-            self.at += 1;
-            let term = self.product()?.scale(&Rational::from(sign));
-            total = self.limited(total.add(&term))?;
-        }
+    fn is_zero(&self) -> bool {
+        Self::is_zero(self)
     }
 
-    fn product(&mut self) -> Result<Laurent, SchemeError> {
-        let mut total = self.factor()?;
-        loop {
-            match self.peek() {
-                Some('/') => {
-                    self.at += 1;
-                    let divisor = self.factor()?;
-                    let quotient = total.divide(&divisor).ok_or_else(|| {
-                        self.error(if divisor.is_zero() {
-                            "division by zero"
-                        } else {
-                            "this division leaves a remainder"
-                        })
-                    })?;
-                    total = self.limited(quotient)?;
-                }
-                Some('*') => {
-                    self.at += 1;
-                    let factor = self.factor()?;
-                    total = self.times(&total, &factor)?;
-                }
-                Some(c) if c == '(' || c == 'z' || c.is_ascii_digit() || c == '.' => {
-                    let factor = self.factor()?;
-                    total = self.times(&total, &factor)?;
-                }
-                _ => return Ok(total),
-            }
-        }
+    fn add(&self, other: &Self) -> Self {
+        Self::add(self, other)
     }
 
-    fn factor(&mut self) -> Result<Laurent, SchemeError> {
-        if self.depth > MAX_DEPTH {
-            return Err(self.error("nested too deeply"));
-        }
-        self.depth += 1;
-        let result = if self.accept('-') {
-            self.factor().map(|f| f.scale(&Rational::from(-1)))
-        } else if self.accept('+') {
-            self.factor()
-        } else {
-            self.power()
-        };
-        self.depth -= 1;
-        result
+    fn scale(&self, factor: &Rational) -> Self {
+        Self::scale(self, factor)
     }
 
-    fn power(&mut self) -> Result<Laurent, SchemeError> {
-        let base = self.base()?;
-        self.lost_power()?;
-        if !self.accept('^') {
-            return Ok(base);
-        }
-        let exponent = self.exponent()?;
-        let start = if exponent < 0 {
-            Laurent::constant(Rational::from(1))
-                .divide(&base)
-                .ok_or_else(|| self.error("only a single power of z can be raised to a negative power"))?
-        } else {
-            base
-        };
-        let mut result = Laurent::constant(Rational::from(1));
-        for _ in 0..exponent.unsigned_abs() {
-            result = self.times(&result, &start)?;
-        }
-        Ok(result)
+    fn mul(&self, other: &Self) -> Self {
+        Self::mul(self, other)
     }
 
-    /// Refuses a digit right behind `z` or a bracket, as a text has that lost its superscripts, and other ways to write a power.
-    fn lost_power(&self) -> Result<(), SchemeError> {
-        let behind = self.at.checked_sub(1).and_then(|k| self.text.get(k));
-        if !matches!(behind, Some('z' | ')')) {
-            return Ok(());
-        }
-        let digits: String = self.text[self.at..].iter().take_while(|c| c.is_ascii_digit()).collect();
-        let rest = &self.text[self.at..];
-        let power = match rest {
-            [c, ..] if c.is_ascii_digit() => digits,
-            ['*', '*', ..] => rest[2..].iter().take_while(|c| c.is_ascii_digit()).collect(),
-            [c, ..] => match "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().position(|s| s == *c) {
-                Some(value) => value.to_string(),
-                None => return Ok(()),
-            },
-            [] => return Ok(()),
-        };
-        Err(self.error(&format!("a power is written with `^`: did you mean `^{power}`? A factor is written with `*`")))
+    fn divide(&self, divisor: &Self) -> Option<Self> {
+        Self::divide(self, divisor)
     }
 
-    fn exponent(&mut self) -> Result<i64, SchemeError> {
-        let close = if self.accept('(') {
-            Some(')')
-        } else if self.accept('{') {
-            Some('}')
-        } else {
-            None
-        };
-        let negative = self.accept('-');
-        self.peek();
-        let start = self.at;
-        while self.text.get(self.at).is_some_and(char::is_ascii_digit) {
-            self.at += 1;
-        }
-        let digits: String = self.text[start..self.at].iter().collect();
-        let size: i64 = digits.parse().map_err(|_| self.error("an integer exponent is expected"))?;
-        if size > MAX_EXPONENT {
-            return Err(self.error("exponents go up to 1024"));
-        }
-        match close {
-            Some(bracket) if !self.accept(bracket) => Err(self.error(&format!("`{bracket}` is expected"))),
-            _ => Ok(if negative { -size } else { size }),
-        }
+    fn width(&self) -> usize {
+        self.coefficients.len()
     }
 
-    fn base(&mut self) -> Result<Laurent, SchemeError> {
-        match self.peek() {
-            Some('(') => {
-                self.at += 1;
-                let inner = self.sum()?;
-                if self.accept(')') { Ok(inner) } else { Err(self.error("`)` is expected")) }
-            }
-            Some('z') => {
-                self.at += 1;
-                Ok(Laurent::new(1, vec![Rational::from(1)]))
-            }
-            Some(c) if c.is_ascii_digit() || c == '.' => {
-                let start = self.at;
-                while self.text.get(self.at).is_some_and(|c| c.is_ascii_digit() || *c == '.') {
-                    self.at += 1;
-                }
-                let digits: String = self.text[start..self.at].iter().collect();
-                parse_rational(&digits).map(Laurent::constant).map_err(|e| self.error(&e.to_string()))
-            }
-            Some(c) => Err(self.error(&format!("`{c}` is not expected here; a number, `z` or `(` is"))),
-            None => Err(self.error("the symbol ends too early")),
-        }
+    fn width_of_product(&self, other: &Self) -> usize {
+        (self.coefficients.len() + other.coefficients.len()).saturating_sub(1)
     }
 
-    fn times(&self, a: &Laurent, b: &Laurent) -> Result<Laurent, SchemeError> {
-        if a.coefficients.len() + b.coefficients.len() > MAX_WIDTH + 1 {
-            let size = a.coefficients.len() + b.coefficients.len() - 1;
-            return Err(SchemeError::Large { what: "a symbol of width", size, limit: MAX_WIDTH });
-        }
-        self.limited(a.mul(b))
+    fn farthest(&self) -> i64 {
+        self.low.abs()
     }
 
-    fn limited(&self, p: Laurent) -> Result<Laurent, SchemeError> {
-        if p.coefficients.len() > MAX_WIDTH {
-            let size = p.coefficients.len();
-            return Err(SchemeError::Large { what: "a symbol of width", size, limit: MAX_WIDTH });
-        }
-        let bits = |c: &Rational| c.numerator_ref().significant_bits() + c.denominator_ref().significant_bits();
-        if p.coefficients.iter().any(|c| bits(c) > MAX_BITS) || p.low.abs() > 64 * MAX_EXPONENT {
-            return Err(self.error("the numbers grow too large"));
-        }
-        Ok(p)
+    fn numbers(&self) -> impl Iterator<Item = &Rational> {
+        self.coefficients.iter()
     }
 }
 

@@ -15,6 +15,7 @@ mod frames;
 pub mod gap;
 pub mod graph;
 mod hodograph;
+pub mod lattice;
 pub mod parameter;
 mod point;
 pub mod region;

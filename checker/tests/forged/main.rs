@@ -4,6 +4,7 @@
 
 mod curves;
 mod empty;
+mod lattices;
 mod radii;
 mod solutions;
 mod spectra;

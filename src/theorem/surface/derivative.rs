@@ -213,7 +213,10 @@ impl<'a> Patch<'a> {
 
     /// Words such that on the cell of each the derivative, as it is seen, keeps its rank, and the length of the words that bound it.
     fn covered(&self) -> Option<(usize, Vec<Vec<usize>>)> {
-        let (length, radii) = (1..=MAX_LENGTH).find_map(|m| Some((m, self.radii(m)?)))?;
+        // Words that shrink the differences well make fewer cells.
+        let by = |least: &Rational| (1..=MAX_LENGTH).find_map(|m| Some((m, self.radii(m, least)?)));
+        let half = Rational::from(1) / Rational::from(2);
+        let (length, radii) = by(&half).or_else(|| by(&Rational::from(0)))?;
         let (mut open, mut found) = (vec![(Vec::new(), self.view(), 0)], Vec::new());
         while let Some((word, seen, e)) = open.pop() {
             crate::stop::check();
@@ -232,9 +235,9 @@ impl<'a> Patch<'a> {
         Some((length, found))
     }
 
-    /// By state, the 1-norm of the coordinates of each column of `D_e − c_e` is at most this number, by words of a length whose products shrink the
-    /// differences; `None` where they do not all do that.
-    fn radii(&self, length: usize) -> Option<Vec<Rational>> {
+    /// By state, the 1-norm of the coordinates of each column of `D_e − c_e` is at most this number, by words of a length; `None` where
+    /// there are too many, or the product of one leaves 1 − `wanted` of the differences or more.
+    fn radii(&self, length: usize, wanted: &Rational) -> Option<Vec<Rational>> {
         let one = Rational::from(1);
         let (mut largest, mut least) = (vec![Rational::from(0); self.states.len()], one.clone());
         let all = |e: usize| 0..self.targets[e].len();
@@ -255,6 +258,9 @@ impl<'a> Patch<'a> {
                         next.push((product * &steps[*at][i], turn * &self.turns[*at][i], moved, to));
                     }
                 }
+                if next.len() > MAX_WORDS {
+                    return None;
+                }
                 layer = next;
             }
             for (product, turn, offset, _) in &layer {
@@ -262,8 +268,11 @@ impl<'a> Patch<'a> {
                 least = least.min(&one - norm1(product) * norm1(&turn.transpose()));
             }
         }
+        if least <= *wanted {
+            return None;
+        }
         let bound = largest.iter().max()? / &least;
-        (least > 0).then(|| largest.iter().map(|own| own + (&one - &least) * &bound).collect())
+        Some(largest.iter().map(|own| own + (&one - &least) * &bound).collect())
     }
 
     /// Whether the two columns of `seen (c_e + f)` are independent for all differences `f` up to a radius: a 2-form that is made of
@@ -286,6 +295,8 @@ impl<'a> Patch<'a> {
 
 /// Longest words by which the derivative is bounded.
 const MAX_LENGTH: usize = 5;
+/// Most of these words from one state.
+const MAX_WORDS: usize = 2000;
 /// Most letters of a cell.
 const MAX_DEPTH: usize = 7;
 /// Most cells.
