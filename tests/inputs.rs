@@ -70,6 +70,12 @@ fn several_inputs_and_data_of_all() {
         (&spectra[0]["path"], &spectra[2]["path"]),
         (&"bspline degree=2".into(), &"[[1, 0], [1/2, 1/2]]".into())
     );
+    let schemes = data(&["schemes", "--json"]);
+    let named = |kind: &str, name: &str| {
+        let found = schemes.as_array().unwrap().iter().find(|s| s["kind"] == kind && s["name"] == name);
+        found.unwrap_or_else(|| panic!("{name}"))["parameters"].clone()
+    };
+    assert_eq!((&named("curve", "four-point")[0]["name"], named("mesh", "loop")), (&"w".into(), serde_json::json!([])));
     let cases = data(&["expand", "--json", "bspline", "four-point", "w=1/20"]);
     assert_eq!(cases[1]["path"], "four-point w=1/20");
     let lines = run(&["certify", "--jsonl", "bspline", "cases/bspline/degree-2.toml"], "", 0).0;
@@ -222,6 +228,14 @@ fn mistakes_are_told_with_a_remedy() {
         (&["certify", "four-point", "--svg", "x.png"], "", "--png x.png"),
         (&["render", "four-point", "--png", "x.svg"], "", "--svg x.svg"),
         (&["regularity", "1/4,w,1/4"], "", "a letter has no value"),
+        (&["render", "four-point", "--depth", "40", "--svg", "/tmp/none.svg"], "", "words of 40 letters"),
+        (
+            &["certify", "four-point", "-q", "--svg", "/nonexistent/x.svg"],
+            "",
+            "No such file or directory (os error 2) help",
+        ),
+        (&["jsr", "cases/bspline/degree-2.toml"], "", "this is a case"),
+        (&["gallery", "cases/bspline"], "", "DIR/FAMILY/CASE.toml"),
     ] {
         let text = told(args, input);
         assert!(text.contains(piece), "{args:?}: {piece} is missing in\n{text}");

@@ -245,6 +245,9 @@ fn the_program_answers() {
     for file in ["a.html", "a.svg", "a.json", "a.case.toml"] {
         assert!(std::fs::metadata(dir.path().join(file)).is_ok_and(|m| m.len() > 100), "{file}");
     }
+    let svg = std::fs::read_to_string(dir.path().join("a.svg")).unwrap();
+    // The border is a line of its own: what has no width is not drawn otherwise.
+    assert!(svg.contains("<line class=\"refuted\"") && !svg.contains("width=\"0.00\""), "{svg}");
     let (code, data, _) = run(&["region", "ternary-four-point", "mu=7/100..1/10", "--json"]);
     let data: serde_json::Value = serde_json::from_str(&data).unwrap();
     assert_eq!((code, &data["parameter"]), (Some(1), &"mu".into()));

@@ -255,6 +255,26 @@ fn meshes_and_vertices_are_answered() {
     assert!(server.get(&format!("answer/{}/picture", value["id"])).body.starts_with("<svg"));
 }
 
+#[test]
+fn the_parts_of_a_slider_are_those_of_the_region() {
+    let server = Server::start();
+    let asked = |name: &str, parameter: &str| {
+        server.post("api/region", &json!({"page": "p", "name": name, "parameter": parameter}))
+    };
+    let value = asked("ternary-four-point", "mu").json();
+    let smooth = &value["orders"][2]["parts"];
+    // C² between 1/15 and 1/9, on a slider from 1/495 to 98/495.
+    let proved: Vec<&Value> = smooth.as_array().unwrap().iter().filter(|p| p["verdict"] == "proved").collect();
+    let place = |x: f64| (x * 495.0 - 1.0) / 97.0;
+    let near = |value: &Value, x: f64| (value.as_f64().unwrap() - place(x)).abs() < 1e-9;
+    assert!(proved.len() == 1 && near(&proved[0]["from"], 1.0 / 15.0) && near(&proved[0]["to"], 1.0 / 9.0), "{smooth}");
+    for (name, parameter) in
+        [("cases/schemes/dd4.toml", "w"), ("four-point", "x"), ("koch", "pieces"), ("bspline", "degree")]
+    {
+        assert_eq!(asked(name, parameter).status, 422, "{name}");
+    }
+}
+
 /// Bodies that are no requests, or ask for what is refused: each with the status of the answer.
 fn broken() -> Vec<(u16, String)> {
     let text = |text: &str| quick("p", json!({"kind": "text", "text": text})).to_string();

@@ -37,7 +37,15 @@ fn wrong(message: String, help: &str) -> Problem {
 pub fn radius(name: &str, text: &str, options: &Options) -> Result<Radius, Problem> {
     let file = file::parse(text).map_err(|e| {
         let source = SourceText::new(name, text);
-        wrong(e.problem.to_string(), "see docs/radius.md for the format").with_source(&source).with_mark(e.span)
+        let of_case = ["convention", "pieces", "scheme", "map", "state", "control", "title"];
+        let help = match &e.problem {
+            file::FileProblem::Unknown(key) if of_case.contains(&key.as_str()) => {
+                "this is a case: `secant regularity` bounds the radii that say how smooth it is; docs/radius.md has the format of \
+                 files for `secant jsr`"
+            }
+            _ => "see docs/radius.md for the format",
+        };
+        wrong(e.problem.to_string(), help).with_source(&source).with_mark(e.span)
     })?;
     let found = joint_radius(&file.system, options).map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md"))?;
     let name = if file.name.is_empty() { name } else { &file.name }.to_owned();

@@ -29,6 +29,11 @@ pub fn run(args: &GalleryArgs) -> u8 {
 
 fn make(args: &GalleryArgs) -> Result<u8, Problem> {
     let files = case_files(&args.cases)?;
+    if files.is_empty() {
+        let message = format!("{} has no directories with cases", args.cases.display());
+        return Err(Problem::new("secant::gallery", message)
+            .with_help("the cases of a gallery are in directories of it, one for each family: DIR/FAMILY/CASE.toml"));
+    }
     let progress = Progress::new(files.len(), false);
     let any = files.iter().any(|path| is_selected(path));
     let wanted = |path: &Path| match (args.all || !any, args.check) {

@@ -81,6 +81,9 @@ enum Command {
         name: Option<String>,
         /// Its parameters, as in `degree=3`.
         parameters: Vec<String>,
+        /// List the schemes as JSON.
+        #[arg(long, conflicts_with = "name")]
+        json: bool,
     },
     /// Write a case with every operator written out: what `[scheme]` stands for, and what the checker reads.
     Expand {
@@ -446,7 +449,8 @@ fn run(command: Command) -> u8 {
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
         Command::Region(args) => region::run(&args),
-        Command::Schemes { name, parameters } => schemes::run(name.as_deref(), &parameters),
+        Command::Schemes { json: true, .. } => schemes::data(),
+        Command::Schemes { name, parameters, .. } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { cases, output, json } => expand::run(&question::joined(cases), output.as_deref(), json),
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
         Command::Render(args) => render::run(&RenderArgs { cases: question::joined(args.cases), ..args }),

@@ -21,7 +21,10 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem>
         return Ok(());
     }
     let problem = |error: &std::io::Error| {
-        Problem::new("secant::output", format!("{} cannot be written: {error}", path.display()))
+        // The name of a temporary file says nothing to anybody.
+        let error = error.to_string();
+        let why = error.split(" at path ").next().unwrap_or(&error);
+        Problem::new("secant::output", format!("{} cannot be written: {why}", path.display()))
             .with_help("the directory must exist and be writable; nothing was left half-written")
     };
     // A link stays a link: what it points to is replaced.

@@ -11,7 +11,7 @@ use crate::linalg::char_poly;
 use crate::picture::{PLOT_PIXELS, Plot, resized};
 use crate::shape::{
     CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
-    sample,
+    sample, words_of_length,
 };
 use std::path::Path;
 
@@ -117,6 +117,11 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
     let depth = proved.or(args.depth).unwrap_or_else(|| depth(&case.shape));
     if depth > MAX_DEPTH {
         return Err(failed(&format!("a depth of at most {MAX_DEPTH} is drawn")));
+    }
+    if args.depth.is_some() && words_of_length(&case.shape, depth) > MAX_SAMPLES {
+        return Err(failed(&format!(
+            "there are more than {MAX_SAMPLES} words of {depth} letters; take a smaller --depth, or --chaos"
+        )));
     }
     let progress = Progress::of(0, "points", false);
     let found = sample(&complex, depth, &mut |n| progress.advance(n));

@@ -6,6 +6,7 @@ use super::output::{deliver, print};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::Problem;
 use crate::scheme::{self, Heading, case_text};
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
 /// Lists the schemes, or writes one as a case file to the standard output.
@@ -24,6 +25,19 @@ pub fn run(name: Option<&str>, parameters: &[String]) -> u8 {
             .with_help("`secant schemes` lists the schemes; parameters are written as in degree=3")
     };
     deliver(text.map(|text| (text, PROVED)).map_err(problem))
+}
+
+/// Prints the list as JSON.
+pub fn data() -> u8 {
+    let parameter = |p: &scheme::Parameter| json!({ "name": p.name, "default": p.default, "summary": p.summary });
+    let one = |kind: &str, name: &str, summary: &str, parameters: &[scheme::Parameter], source: &str| {
+        let parameters: Vec<Value> = parameters.iter().map(parameter).collect();
+        json!({ "kind": kind, "name": name, "summary": summary, "source": source, "parameters": parameters })
+    };
+    let curves = scheme::list().iter().map(|i| one("curve", i.name, i.summary, i.parameters, i.source));
+    let meshes = scheme::mesh_rules().iter().map(|i| one("mesh", i.name, i.summary, i.parameters, i.source));
+    print(&format!("{:#}\n", curves.chain(meshes).collect::<Value>()));
+    PROVED
 }
 
 fn entry(name: &str, summary: &str, parameters: &[scheme::Parameter], source: &str) -> String {

@@ -25,7 +25,7 @@ const ROW: f64 = 34.0;
 pub fn bars(parameter: &str, rows: &[(String, Vec<Span>)]) -> Option<(String, String)> {
     let spans = rows.first().map(|r| &r.1)?;
     let (lo, hi) = (spans.first()?.from, spans.last()?.to);
-    if !(lo < hi) {
+    if lo.partial_cmp(&hi) != Some(std::cmp::Ordering::Less) {
         return None;
     }
     let height = ROW * rows.len() as f64 + 44.0;
@@ -47,30 +47,43 @@ pub fn bars(parameter: &str, rows: &[(String, Vec<Span>)]) -> Option<(String, St
             for span in spans.iter().filter(|s| (s.from >= s.to) == point) {
                 let (a, b) = (x(span.from), x(span.to));
                 let class = span.verdict.word();
-                let (over, width) = if point { (3.0, 0.0) } else { (0.0, b - a) };
-                let _ = write!(
-                    svg,
-                    "<rect class=\"{class}\" x=\"{a:.2}\" y=\"{:.1}\" width=\"{width:.2}\" height=\"{:.1}\" stroke-width=\"1\"/>",
-                    top - over,
-                    22.0 + 2.0 * over
-                );
+                // A rectangle without width is not drawn.
+                let _ = if point {
+                    write!(
+                        svg,
+                        "<line class=\"{class}\" x1=\"{a:.2}\" x2=\"{a:.2}\" y1=\"{:.1}\" y2=\"{:.1}\" stroke-width=\"2\"/>",
+                        top - 4.0,
+                        top + 26.0
+                    )
+                } else {
+                    write!(
+                        svg,
+                        "<rect class=\"{class}\" x=\"{a:.2}\" y=\"{top:.1}\" width=\"{:.2}\" height=\"22\" stroke-width=\"0\"/>",
+                        (b - a).max(0.01)
+                    )
+                };
                 let colour = match span.verdict {
                     Verdict::Proved => "green!60!black",
                     Verdict::Refuted => "red!75!black",
                     Verdict::Undetermined => "violet",
                 };
-                let _ = writeln!(
-                    tikz,
-                    "\\filldraw[{colour}] ({a:.2},{:.1}) rectangle ({b:.2},{:.1});",
-                    top - over,
-                    top + 22.0 + over
-                );
+                let _ = if point {
+                    writeln!(
+                        tikz,
+                        "\\draw[{colour},line width=1bp] ({a:.2},{:.1}) -- ({a:.2},{:.1});",
+                        top - 4.0,
+                        top + 26.0
+                    )
+                } else {
+                    writeln!(tikz, "\\fill[{colour}] ({a:.2},{top:.1}) rectangle ({b:.2},{:.1});", top + 22.0)
+                };
             }
         }
     }
     let base = 10.0 + ROW * rows.len() as f64 + 14.0;
     for p in [lo, f64::midpoint(lo, hi), hi] {
-        let at = x(p);
+        let (at, digits) = (x(p), format!("{p:.5}"));
+        let p = digits.trim_end_matches('0').trim_end_matches('.');
         let _ = write!(svg, "<text x=\"{at:.2}\" y=\"{base:.1}\" text-anchor=\"middle\">{p}</text>");
         let _ = writeln!(tikz, "\\node at ({at:.2},{base:.1}) {{${p}$}};");
     }

@@ -1,5 +1,6 @@
 //! Joint spectral radii, regularity and cones as text for a terminal.
 
+use super::words::count;
 use crate::arith::{Integer, Interval, Rational, abs};
 use crate::radius::{BlockProof, Ended, Growth, JointRadius, Leading, Lower, Proof};
 use crate::shape::word_text;
@@ -56,7 +57,7 @@ pub fn joint_radius(radius: &JointRadius) -> String {
     };
     let value = lower.enclosure(64);
     let power = if lower.length == 1 { String::new() } else { format!(" to the power 1/{}", lower.length) };
-    let _ = writeln!(out, "word        {} ({} letters)", word_text(&lower.word), lower.length);
+    let _ = writeln!(out, "word        {} ({})", word_text(&lower.word), count(lower.length, "letter"));
     let _ = writeln!(out, "eigenvalue  {}, its modulus{power}", eigenvalue(lower));
     match (&radius.upper, radius.exact) {
         (_, true) => _ = writeln!(out, "radius      = {}  (proved: the word attains it)", interval(&value)),

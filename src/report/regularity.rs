@@ -1,6 +1,7 @@
 //! The answers of `secant regularity` as text and as data.
 
 use super::radius::{decimal, interval, joint_radius};
+use super::words::count;
 use crate::arith::{Integer, Interval, Rational};
 use crate::radius::JointRadius;
 use crate::scheme::Normalisation;
@@ -121,7 +122,7 @@ pub fn enclosed(title: &str, e: &Enclosed, meaning: Meaning<'_>) -> String {
     let factor: Vec<String> = e.factor.iter().map(interval).collect();
     let _ = writeln!(out, "factor b    {}", factor.join(" "));
     if let Some(lower) = &e.radius.lower {
-        let _ = writeln!(out, "word        {} ({} letters)", word_text(&lower.word), lower.length);
+        let _ = writeln!(out, "word        {} ({})", word_text(&lower.word), count(lower.length, "letter"));
     }
     let _ = writeln!(out, "radius      {}  (of the matrices of b)", interval(&e.enclosure));
     condition(&mut out, e.arity);

@@ -158,7 +158,7 @@ impl Writer {
         }
     }
 
-    /// Breaks a line of text; words longer than a row are cut.
+    /// Breaks a line of text; words longer than a row are cut, formulas of several words at their blanks.
     fn wrapped(&self, text: &[Inline], first: &str, next: &str, width: usize) -> Vec<String> {
         let room = width.saturating_sub(next.width()).max(8);
         let mut rows = vec![first.to_owned()];
@@ -181,11 +181,17 @@ impl Writer {
             let mut chunk = String::new();
             for c in word.plain.chars() {
                 if chunk.width() == room {
+                    let rest = match chunk.rfind(' ').filter(|_| c != ' ') {
+                        Some(at) => chunk.split_off(at).trim_start().to_owned(),
+                        None => String::new(),
+                    };
                     last(&mut rows).push_str(&chunk);
                     rows.push(next.to_owned());
-                    chunk.clear();
+                    chunk = rest;
                 }
-                chunk.push(c);
+                if c != ' ' || !chunk.is_empty() {
+                    chunk.push(c);
+                }
             }
             size = chunk.width();
             last(&mut rows).push_str(&chunk);
@@ -509,6 +515,17 @@ mod tests {
         }
         assert!(!text.contains('\u{1b}'));
         assert!(render(&document, true).contains('\u{1b}'));
+    }
+
+    #[test]
+    fn a_long_vector_breaks_between_its_entries() {
+        let entries: Vec<_> = [-1, 9, -118, 118, -9, 1].map(|n| crate::arith::ratio(n, 1)).to_vec();
+        let cell = vec![Inline::Math(Math::vector(&entries))];
+        let table = Table { caption: Line::new(), header: vec![words("v")], rows: vec![vec![cell]] };
+        let document = Document { title: "t".into(), blocks: vec![Block::Table(table)] };
+        let text = render_as(&document, Look { colour: false, width: 22 });
+        let rows: Vec<&str> = text.lines().skip(3).map(str::trim).collect();
+        assert_eq!(rows, ["(−1, 9, −118, 118,", "−9, 1)"]);
     }
 
     #[test]

@@ -132,7 +132,7 @@ impl Shape {
             seen.push((at, t.clone()));
             let state = self.states.get(at).filter(|s| s.kind == CellKind::Edge)?;
             let scaled = &t * Rational::from(state.pieces.len());
-            let letter = (0..state.pieces.len()).rev().find(|k| scaled >= Rational::from(*k))?;
+            let letter = (0..state.pieces.len()).rev().find(|k| scaled >= *k)?;
             t = scaled - Rational::from(letter);
             if state.pieces[letter].reversed {
                 t = Rational::from(1) - t;

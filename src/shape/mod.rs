@@ -28,6 +28,6 @@ pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
 pub use own::OwnPoints;
 pub use polytope::{Polytopes, Weights};
 pub use resolution::{MAX_CELLS, Resolution, level};
-pub use sample::{MAX_SAMPLES, Sample, depth_within, random_sample, sample};
+pub use sample::{MAX_SAMPLES, Sample, depth_within, random_sample, sample, words_of_length};
 pub use space::{Spaces, StateSpace, difference};
 pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError};

@@ -52,18 +52,23 @@ pub fn sample(complex: &Complex, depth: usize, progress: &mut dyn FnMut(usize)) 
 /// The largest depth, from 1 to 24, with at most `cells` words.
 #[must_use]
 pub fn depth_within(shape: &Shape, cells: usize) -> usize {
-    let most = shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1);
-    let mut counts = vec![1usize; shape.states.len()];
+    let divided = shape.states.iter().any(|s| s.pieces.len() > 1);
     let mut depth = 0;
-    while most > 1 && depth < 24 {
-        let next = |s: &super::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
-        counts = shape.states.iter().map(next).collect();
-        if counts[shape.start] > cells {
-            break;
-        }
+    while divided && depth < 24 && words_of_length(shape, depth + 1) <= cells {
         depth += 1;
     }
     depth.max(1)
+}
+
+/// The number of words of a length from the start, or the largest number there is.
+#[must_use]
+pub fn words_of_length(shape: &Shape, length: usize) -> usize {
+    let mut counts = vec![1usize; shape.states.len()];
+    for _ in 0..length {
+        let next = |s: &super::State| s.pieces.iter().fold(0usize, |n, p| n.saturating_add(counts[p.target]));
+        counts = shape.states.iter().map(next).collect();
+    }
+    counts[shape.start]
 }
 
 /// The chaos game, made exact: `count` points with random addresses, in the order drawn. `next(n)` draws from `0 … n−1` with

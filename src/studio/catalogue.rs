@@ -63,6 +63,12 @@ fn entry(name: &str, summary: &str, source: &str, parameters: &[Parameter]) -> V
     })
 }
 
+/// The values of the slider of a scheme's parameter; `None` where there is no such scheme or parameter.
+pub fn slider(scheme: &str, parameter: &str) -> Option<Vec<Rational>> {
+    let info = scheme::list().iter().find(|s| s.name == scheme)?;
+    Some(values(scheme, info.parameters.iter().find(|p| p.name == parameter)?))
+}
+
 /// The exact values of a slider, in ascending order, the default among them. Other values can be typed.
 fn values(scheme: &str, parameter: &Parameter) -> Vec<Rational> {
     let steps = |from: i64, to: i64, over: i64| (from..=to).map(|k| ratio(k, over)).collect::<Vec<_>>();

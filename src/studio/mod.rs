@@ -9,6 +9,7 @@ mod catalogue;
 mod door;
 mod drawing;
 mod input;
+mod region;
 mod server;
 mod work;
 

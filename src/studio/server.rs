@@ -5,6 +5,7 @@ use super::catalogue::catalogue;
 use super::door::Door;
 use super::drawing::drawing;
 use super::input::Input;
+use super::region::region;
 use super::work::{Stop, Weight, Work};
 use crate::budget::Effort;
 use crate::diagnostic::Problem;
@@ -89,6 +90,14 @@ struct Draw {
 #[serde(deny_unknown_fields)]
 struct Page {
     page: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Slider {
+    page: String,
+    name: String,
+    parameter: String,
 }
 
 impl Studio {
@@ -221,6 +230,7 @@ async fn answer(state: Arc<State>, request: Request<Incoming>) -> Answer {
     let answered = match path {
         "api/draw" => draw(&state, &body).await,
         "api/prove" => prove(&state, &body).await,
+        "api/region" => colours(&state, &body).await,
         "api/stop" => read::<Page>(&body).map(|asked| data(&json!({ "stopped": state.work.stop(&asked.page) }))),
         _ => return refused(StatusCode::NOT_FOUND),
     };
@@ -270,6 +280,14 @@ async fn draw(state: &State, body: &[u8]) -> Result<Answer, Problem> {
     };
     let text = state.work.run(Weight::Light, LIGHT, &Stop::unnamed(), work).await?;
     Ok(response(StatusCode::OK, "application/json", PAGE, text))
+}
+
+/// The coloured parts of a slider; of each page one search at a time.
+async fn colours(state: &State, body: &[u8]) -> Result<Answer, Problem> {
+    let asked: Slider = read(body)?;
+    let stop = state.work.newer(&format!("{}/region", asked.page))?;
+    let work = move || region(&asked.name, &asked.parameter);
+    Ok(data(&state.work.run(Weight::Search, LIGHT, &stop, work).await?))
 }
 
 async fn prove(state: &State, body: &[u8]) -> Result<Answer, Problem> {

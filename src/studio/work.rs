@@ -24,6 +24,8 @@ pub struct Work {
     proving: Arc<Semaphore>,
     /// Drawings and files at once.
     light: Arc<Semaphore>,
+    /// Searches for regions at once, which do not look whether they are to stop.
+    searching: Arc<Semaphore>,
     /// The flag of the proof that each page waits for.
     running: Mutex<BTreeMap<String, Arc<AtomicBool>>>,
     kept: Mutex<(u64, VecDeque<(u64, Arc<Kept>)>)>,
@@ -36,6 +38,8 @@ pub enum Weight {
     Light,
     /// A proof.
     Proof,
+    /// A search for the region of a parameter.
+    Search,
 }
 
 /// Stops its work when it goes out of scope: the answer came, or nobody waits for it.
@@ -79,6 +83,7 @@ impl Work {
         Self {
             proving: Arc::new(Semaphore::new(processors)),
             light: Arc::new(Semaphore::new(processors)),
+            searching: Arc::new(Semaphore::new(1)),
             running: Mutex::default(),
             kept: Mutex::default(),
         }
@@ -116,7 +121,11 @@ impl Work {
         stop: &Stop,
         work: impl FnOnce() -> Result<T, Problem> + Send + 'static,
     ) -> Result<T, Problem> {
-        let slots = Arc::clone(if weight == Weight::Proof { &self.proving } else { &self.light });
+        let slots = Arc::clone(match weight {
+            Weight::Proof => &self.proving,
+            Weight::Light => &self.light,
+            Weight::Search => &self.searching,
+        });
         let busy = || problem("busy", "too much is asked at once", "wait a moment");
         let slot = timeout(limit, slots.acquire_owned()).await.map_err(|_| busy())?.map_err(|_| busy())?;
         let (tell, told) = oneshot::channel();

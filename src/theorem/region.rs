@@ -335,7 +335,11 @@ fn digits_over(mask: &[Poly], arity: usize) -> Vec<Matrix<Poly>> {
     // The places of the coefficients: their numbers, from 1.
     let numbers: Vec<Rational> = (1..=mask.len()).map(|k| Rational::from(k as u64)).collect();
     let coefficient = |x: &Rational| usize::try_from(x).ok().and_then(|k| k.checked_sub(1)).map(|k| mask[k].clone());
-    digits(&numbers, arity).iter().map(|m| m.map(|x| coefficient(x).map_or_else(Poly::zero, |f| f))).collect()
+    let entry = |x: &Rational| match coefficient(x) {
+        Some(f) => f,
+        None => Poly::zero(),
+    };
+    digits(&numbers, arity).iter().map(|m| m.map(entry)).collect()
 }
 
 /// Polynomials in the parameter one of which does not vanish where the values `T_u x − x` span all vectors of sum 0.
@@ -433,7 +437,7 @@ fn determinant(matrices: &[Matrix<Poly>], (column, words): &(usize, Vec<Vec<usiz
         let mut columns = vec![x.clone()];
         columns.extend(words.iter().map(|w| moved(&here, w, &x)));
         let chi = char_poly(&Matrix::from_columns(n, &columns));
-        values.push(if n % 2 == 0 { chi.coeff(0) } else { -chi.coeff(0) });
+        values.push(if n.is_multiple_of(2) { chi.coeff(0) } else { -chi.coeff(0) });
         places.push(p);
     }
     Poly::through(&places, values)

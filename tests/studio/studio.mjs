@@ -98,6 +98,15 @@ const steps = {
     await context.close();
   },
 
+  async "the slider is coloured where the scheme is smooth"() {
+    const { page, complaints, context } = await opened();
+    await page.waitForSelector(".slot:not([hidden]) .bar .proved-part", { timeout: 60_000 });
+    assert.match(await page.getAttribute(".slot .order:nth-child(2) .bar", "aria-label"), /^C¹, for all control points. proved: 0 to .*0\.1927/);
+    await page.screenshot({ path: join(shots, "region.png") });
+    assert.deepEqual(complaints, []);
+    await context.close();
+  },
+
   async "a mask is pasted, a point dragged, and the verdict changes"() {
     const { page, complaints, context } = await opened();
     await page.check("input[value=text]");

@@ -2,7 +2,7 @@
 
 use super::model::{self, Model, characteristic, dot, image, product, unit};
 use super::polynomial::{End, Poly};
-use crate::base::{Checked, Matrix, Node, Q, need, whole};
+use crate::base::{Checked, Matrix, Node, Q, need, some, whole};
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_traits::{One, Signed, Zero};
@@ -192,8 +192,7 @@ impl Inverse {
         let short = |x: &BigInt| Q::new(x >> (model::BITS - 48), BigInt::one() << 48);
         let rows: Vec<Vec<Q>> = (0..n).map(|i| basis.iter().map(|b| short(&points[*b][i].mid)).collect()).collect();
         let inverse = Matrix::from_rows(n, &rows).solve(&Matrix::identity(n))?;
-        need(inverse.is_some(), "hull", "the vertices of a basis are dependent")?;
-        let inverse = inverse.map_or_else(|| Matrix::identity(n), |m| m);
+        let inverse = some(inverse, "hull", "the vertices of a basis are dependent")?;
         let coarse = |q: Q| {
             let scaled: BigInt = q.numer() << 60;
             Q::new(scaled.div_floor(q.denom()), BigInt::one() << 60)

@@ -28,14 +28,20 @@ pub fn value(f: &[Q], x: &Q) -> Q {
 }
 
 pub fn minus(a: &[Q], b: &[Q]) -> Poly {
-    let zero = Q::zero();
-    let at = |f: &[Q], k: usize| f.get(k).unwrap_or(&zero).clone();
-    trimmed((0..a.len().max(b.len())).map(|k| at(a, k) - at(b, k)).collect())
+    let mut difference = vec![Q::zero(); a.len().max(b.len())];
+    a.iter().enumerate().for_each(|(k, c)| difference[k] += c);
+    b.iter().enumerate().for_each(|(k, c)| difference[k] -= c);
+    trimmed(difference)
 }
 
 /// The numbers 0, −1, 1, −2, 2, …, at which polynomials are evaluated.
 pub fn places(count: usize) -> Vec<Q> {
     (0..count as i64).map(|k| whole(if k % 2 == 0 { k / 2 } else { -(k + 1) / 2 })).collect()
+}
+
+/// The bits of the longest of some numbers, for the budget.
+fn most_bits(numbers: &[Q]) -> u64 {
+    numbers.iter().map(bits).fold(1, u64::max)
 }
 
 /// The polynomial of least degree with these values (Newton).
@@ -44,7 +50,7 @@ pub fn through(at: &[Q], mut values: Vec<Q>) -> Checked<Poly> {
         for k in (step..at.len()).rev() {
             values[k] = (&values[k] - &values[k - 1]) / (&at[k] - &at[k - step]);
         }
-        spend(at.len() - step, values.iter().map(bits).max().map_or(1, |b| b))?;
+        spend(at.len() - step, most_bits(&values))?;
     }
     let mut f: Poly = Vec::new();
     for k in (0..at.len()).rev() {
@@ -55,7 +61,7 @@ pub fn through(at: &[Q], mut values: Vec<Q>) -> Checked<Poly> {
             next[j] -= c * &at[k];
         }
         next[0] += &values[k];
-        spend(next.len(), next.iter().map(bits).max().map_or(1, |b| b))?;
+        spend(next.len(), most_bits(&next))?;
         f = next;
     }
     Ok(trimmed(f))
@@ -126,7 +132,7 @@ fn quotient(f: &[BigInt], g: &[BigInt]) -> Checked<Vec<BigInt>> {
         g.iter().enumerate().for_each(|(k, x)| r[shift + k] -= &c * x);
         r.pop();
         q.push(c);
-        spend(g.len(), r.iter().map(bits).max().map_or(1, |b| b))?;
+        spend(g.len(), most_bits(&r))?;
     }
     need(r.iter().all(Zero::is_zero), "limit", "a division left a remainder")?;
     q.reverse();
@@ -177,7 +183,7 @@ pub fn is_stable(m: &Matrix) -> Checked<bool> {
         }
         let ratio = &p[0] / &p[n];
         p = (1..=n).map(|k| &p[k] - &ratio * &p[n - k]).collect();
-        spend(p.len(), p.iter().map(bits).max().map_or(1, |b| b))?;
+        spend(p.len(), most_bits(&p))?;
     }
     Ok(true)
 }

@@ -160,7 +160,7 @@ impl Growing {
             if self.gauge(&x) < self.inside {
                 continue;
             }
-            if self.points.len() >= MAX_VERTICES || x.iter().any(|c| !(c.abs() < FAR)) {
+            if self.points.len() >= MAX_VERTICES || x.iter().any(|c| c.is_nan() || c.abs() >= FAR) {
                 return None;
             }
             let vertex = &self.hull.vertices[v];
@@ -214,7 +214,7 @@ pub(super) fn piece(pencil: &Pencil, hull: &Hull, from: &Rational, to: &Rational
             if *image == Image::Inside {
                 let x = letters[letter].apply(&points[v]);
                 let (found, _) = gauge(Body::Symmetric, &body, &x, 0.0, f64::INFINITY);
-                if !(found.value < 1.0) {
+                if found.value.is_nan() || found.value >= 1.0 {
                     return None;
                 }
                 bases.push(completed(found.terms.iter().map(|t| t.0).collect(), &points)?);
@@ -255,7 +255,7 @@ fn completed(mut chosen: Vec<usize>, points: &[Vec<f64>]) -> Option<Vec<usize>> 
         let next = (0..points.len()).filter(|k| !chosen.contains(k)).max_by(|a, b| far(a).total_cmp(&far(b)))?;
         let r = rest(&frame, &points[next]);
         let norm = size(&r);
-        if !(norm > 1e-9) {
+        if norm.is_nan() || norm <= 1e-9 {
             return None;
         }
         frame.push(r.iter().map(|x| x / norm).collect());

@@ -16,9 +16,10 @@ const size = text => {
 };
 
 export class Inputs {
-  /** `changed` is called after every change. */
-  constructor(catalogue, changed) {
+  /** `changed` is called after every change; `region(name, parameter)` promises the parts of a slider. */
+  constructor(catalogue, changed, region) {
     this.catalogue = catalogue;
+    this.region = region;
     this.changed = changed;
     this.parameters = {};
     this.points = null;
@@ -130,6 +131,7 @@ export class Inputs {
     at("summary").textContent = `${entry.summary}. ${entry.source}.`;
     this.parameters = Object.fromEntries(list.filter(p => p.needed || p.name === "valence" || kind === "schemes").map(p => [p.name, p.value]));
     at("sliders").replaceChildren(...list.map(parameter => this.slider(parameter)));
+    if (this.kind === "scheme" && kind === "schemes" && list.length === 1 && list[0].values.some(text => text.includes("/"))) this.colour(entry, list[0]);
     this.changed();
   }
 
@@ -160,8 +162,30 @@ export class Inputs {
       range.value = place(field.value);
       set(field.value.trim());
     });
-    // The slot is for intervals of the parameter with their verdicts.
+    // The slot is for intervals of the parameter with their verdicts, see `colour`.
     return make("div", { class: "slider" }, make("label", { for: id }, `${name}: ${summary}`), range, field, make("div", { class: "slot", hidden: true, "data-parameter": name }));
+  }
+
+  /** Colours the slot of a slider by where the scheme converges and is smooth, for all control points. */
+  async colour(entry, parameter) {
+    const found = await this.region(entry.name, parameter.name);
+    const slot = document.querySelector(`.slot[data-parameter="${parameter.name}"]`);
+    // Another scheme may have been chosen meanwhile.
+    if (!found || !slot || this.entry[1] !== entry || this.kind !== "scheme") return;
+    const bar = ({ order, parts }) => {
+      const label = order === 0 ? "converges" : `C${[...`${order}`].map(d => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("")}`;
+      const said = verdict => parts.filter(p => p.verdict === verdict).map(p => p.text).join("; ");
+      const told = ["proved", "refuted", "undetermined"].filter(v => said(v) !== "").map(v => `${v}: ${said(v)}`).join(". ");
+      const pieces = parts.map(part => {
+        const piece = make("i", { class: `${part.verdict}-part`, title: `${label}, ${part.verdict}: ${part.text}` });
+        piece.style.left = `${part.from * 100}%`;
+        piece.style.width = `${(part.to - part.from) * 100}%`;
+        return piece;
+      });
+      return make("div", { class: "order" }, make("b", {}, label), make("div", { class: "bar", role: "img", "aria-label": `${label}, for all control points. ${told}` }, ...pieces));
+    };
+    slot.replaceChildren(...found.orders.map(bar), make("p", { class: "soft" }, `green: proved for all control points; red: refuted; striped: undetermined`));
+    slot.hidden = found.orders.length === 0;
   }
 
   /** Other control points. */

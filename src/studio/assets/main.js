@@ -28,6 +28,14 @@ const view = new View({
 });
 let inputs;
 
+/** The coloured parts of a slider, or nothing where they are not known. */
+const regions = new Map();
+function region(name, parameter) {
+  const key = `${name} ${parameter}`;
+  if (!regions.has(key)) regions.set(key, post("api/region", { page, name, parameter }).catch(() => (regions.delete(key), null)));
+  return regions.get(key);
+}
+
 function say(text) {
   at("status").textContent = text;
 }
@@ -156,7 +164,7 @@ at("anew").addEventListener("click", anew, { capture: true });
 document.querySelectorAll("input[name=kind]").forEach(radio => radio.addEventListener("change", anew, { capture: true }));
 
 try {
-  inputs = new Inputs(await get("api/catalogue"), changed);
+  inputs = new Inputs(await get("api/catalogue"), changed, region);
   changed();
 } catch (error) {
   problem(error);

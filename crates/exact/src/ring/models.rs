@@ -57,7 +57,7 @@ impl Models {
         let near = |q: &Rational| {
             let scaled = q * &unit;
             let floor = (&scaled).floor();
-            let exact = Rational::from(&floor) == scaled;
+            let exact = floor == scaled;
             (floor, Integer::from(u8::from(!exact)))
         };
         let ((mid, a), (slope, b)) = (near(mid), near(slope));
