@@ -88,8 +88,7 @@ fn whole_numbers(node: &Node<'_>, what: &str) -> Result<Vec<i64>, Problem> {
 
 fn whole(node: &Node<'_>) -> Result<i64, Problem> {
     let x = node.number()?;
-    let small =
-        (x.is_integer() && crate::arith::abs(&x) <= Rational::from(MAX_PLACE)).then(|| x.to_string().parse().ok());
+    let small = (x.is_integer() && crate::arith::abs(&x) <= MAX_PLACE).then(|| x.to_string().parse().ok());
     small.flatten().ok_or_else(|| {
         node.problem(
             "range",

@@ -63,7 +63,7 @@ fn proof(system: &System, forms: &[Matrix], radius: f64) -> Option<(Rational, Pr
     }
     let bound = Rational::from(digits as i64) / Rational::from(4096);
     let proof = Quadratic { forms: forms.to_vec(), square: &bound * &bound };
-    proof.holds(system).then(|| (bound, Proof::Quadratic(proof)))
+    proof.holds(system).then_some((bound, Proof::Quadratic(proof)))
 }
 
 fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {

@@ -43,7 +43,7 @@ const LIST: [Named; 6] = [
         name: "four-eight",
         parameters: &[],
         summary: "one step of the 4-8 scheme on the regular net, with the quincunx dilation",
-        build: |_| Ok(LatticeMask::new(Terms::parse("(1+x)^2*(1+y)^2/8", 2)?, Dilation::parse("quincunx")?)?),
+        build: |_| LatticeMask::new(Terms::parse("(1+x)^2*(1+y)^2/8", 2)?, Dilation::parse("quincunx")?),
     },
     Named {
         name: "loop",
