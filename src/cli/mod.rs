@@ -346,7 +346,7 @@ struct RegularityArgs {
     /// The arity of masks and symbols.
     #[arg(long, default_value_t = 2)]
     arity: usize,
-    /// The dilation of a symbol in several variables, such as "(1+x)^2*(1+y)^2/8": [[1,1],[1,-1]], quincunx, sqrt3, or a whole
+    /// The dilation of a symbol in several variables, such as "(1+x)^2*(1+y)^2/8": `[[1,1],[1,-1]]`, quincunx, sqrt3, or a whole
     /// number for a multiple of the unit matrix (2 where none is given).
     #[arg(long, value_name = "MATRIX", allow_hyphen_values = true)]
     dilation: Option<String>,

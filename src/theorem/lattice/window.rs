@@ -124,7 +124,7 @@ impl Window {
         })
     }
 
-    /// The operators on nets modulo polynomials, in the coordinates of [`Window::coordinates`]; `None` where polynomials are not
+    /// The operators on nets modulo polynomials, in the coordinates of this window; `None` where polynomials are not
     /// kept.
     #[must_use]
     pub fn quotient(&self, mask: &LatticeMask) -> Option<Vec<Matrix>> {
