@@ -37,11 +37,13 @@ fn end_near(order: &OrderRegion, near: f64) -> Root {
 }
 
 /// What is said of a member by itself.
-fn alone(found: &Regions, order: usize, p: &Rational) -> Option<bool> {
+fn alone(found: &Regions, p: &Rational) -> impl Fn(usize) -> Option<bool> {
     let options = Options { work: Some(150_000_000), ..Options::default() };
     let own = regularity(&found.family.member(p), found.family.arity, &options).unwrap();
-    let row = own.orders.iter().find(|o| o.order == order || o.smooth != Some(true))?;
-    row.smooth.filter(|holds| *holds || order == 0 || own.independent)
+    move |order| {
+        let row = own.orders.iter().find(|o| o.order == order || o.smooth != Some(true))?;
+        row.smooth.filter(|holds| *holds || order == 0 || own.independent)
+    }
 }
 
 /// Members all over the range, and a little beside every end, are asked by themselves; how many of them answered.
@@ -58,8 +60,9 @@ fn compare(found: &Regions, count: i64) -> usize {
     points.dedup();
     let mut decided = 0;
     for p in &points {
+        let alone = alone(found, p);
         for order in &found.orders {
-            if let (Some(own), Some(here)) = (alone(found, order.order, p), answer(order, p)) {
+            if let (Some(own), Some(here)) = (alone(order.order), answer(order, p)) {
                 assert_eq!(own, here, "C^{} at {p} = {}", order.order, to_f64(p));
                 decided += 1;
             }
