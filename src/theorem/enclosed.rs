@@ -94,7 +94,7 @@ fn sign_change(product: &Matrix, value: &Rational, step: &Rational, change: &Rat
     let mut signs = Vec::new();
     for x in [value - step, value + step] {
         let shifted = &Matrix::identity(n).scale(&x) - product;
-        let det = determinant(&shifted);
+        let det = shifted.determinant();
         // |det(A + E) − det A| <= n ‖E‖ (‖A‖ + ‖E‖)^{n−1} in the 1-norm.
         let mut allowance = Rational::from(n as u64) * change;
         for _ in 1..n {
@@ -182,32 +182,4 @@ fn value(p: &[Interval], z: &(Interval, Interval)) -> (Interval, Interval) {
 /// The largest 1-norm of a column; 0 of a matrix without columns.
 fn norm(m: &Matrix) -> Rational {
     (0..m.cols()).map(|j| crate::shape::norm1(&m.column(j))).fold(Rational::from(0), Rational::max)
-}
-
-fn determinant(m: &Matrix) -> Rational {
-    let mut a = m.clone();
-    let n = a.rows();
-    let mut det = Rational::from(1);
-    for k in 0..n {
-        let Some(found) = (k..n).find(|&r| a[(r, k)] != 0) else { return Rational::from(0) };
-        if found != k {
-            for j in 0..n {
-                let t = a[(k, j)].clone();
-                a[(k, j)] = a[(found, j)].clone();
-                a[(found, j)] = t;
-            }
-            det = -det;
-        }
-        det *= &a[(k, k)];
-        for i in k + 1..n {
-            let factor = &a[(i, k)] / &a[(k, k)];
-            if factor != 0 {
-                for j in k..n {
-                    let change = &factor * &a[(k, j)];
-                    a[(i, j)] -= change;
-                }
-            }
-        }
-    }
-    det
 }

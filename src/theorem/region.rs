@@ -12,7 +12,8 @@ use crate::arith::{Rational, ratio};
 use crate::linalg::{Matrix, char_poly};
 use crate::poly::Poly;
 use crate::radius::Options;
-use crate::radius::family::{Below, Pencil, Place, Search, below, between, roots_within, sorted};
+use crate::radius::family::{Below, Pencil, Place, Search, below, between, interpolated, roots_within, sorted};
+use crate::ring::Rationals;
 use thiserror::Error;
 
 /// Why a mask with a parameter has no regions.
@@ -170,7 +171,7 @@ impl MaskFamily {
             }
             (sum_rules, factor) = (sum_rules + 1, quotient);
         };
-        let independent = Independence::of(&digits_over(&mask, arity));
+        let independent = Pencil::new(digits_over(&mask, arity)).as_ref().and_then(Independence::of);
         Ok(Self { arity, mask, sum_rules, factor, independent, further })
     }
 
@@ -357,11 +358,11 @@ const CHOICES: [(i64, i64); 4] = [(37, 101), (-53, 211), (2, 3), (1, 29)];
 
 impl Independence {
     /// `None` where the translates are dependent for every value, as far as this shows.
-    fn of(matrices: &[Matrix<Poly>]) -> Option<Self> {
+    fn of(pencil: &Pencil) -> Option<Self> {
         let mut found: Option<Self> = None;
         for (k, (p, q)) in CHOICES.into_iter().enumerate() {
-            let Some(choice) = chosen(&at(matrices, &ratio(p, q)), k) else { continue };
-            let own = determinant(matrices, &choice);
+            let Some(choice) = chosen(&pencil.at(&ratio(p, q)), k) else { continue };
+            let own = determinant(pencil, &choice);
             let (mut choices, guard) = found.take().map_or((Vec::new(), Poly::zero()), |f| (f.choices, f.guard));
             let common = guard.gcd(&own);
             if guard.is_zero() || common.degree() < guard.degree() {
@@ -373,22 +374,9 @@ impl Independence {
     }
 }
 
-fn at(matrices: &[Matrix<Poly>], p: &Rational) -> Vec<Matrix> {
-    matrices.iter().map(|m| m.map(|f| f.eval(p))).collect()
-}
-
-/// A column of the adjugate of `1 − T`: `Σ y_k`, `y_{n−1} = e`, `y_{k−1} = T y_k + c_k e` with the coefficients `c_k` of the
-/// characteristic polynomial. `T` fixes it.
-fn adjugate_column(m: &Matrix, column: usize) -> Vec<Rational> {
-    let (n, chi) = (m.rows(), char_poly(m));
-    let mut y: Vec<Rational> = (0..n).map(|i| Rational::from(u8::from(i == column))).collect();
-    let mut sum = y.clone();
-    for power in (1..n).rev() {
-        y = m.apply(&y);
-        y[column] += chi.coeff(power);
-        sum.iter_mut().zip(&y).for_each(|(s, c)| *s += c);
-    }
-    sum
+/// A vector that a matrix fixes, as it has the eigenvalue 1: a column of the adjugate of `1 − T`.
+fn fixed(m: &Matrix, column: usize) -> Vec<Rational> {
+    m.adjugate_column_over(&Rationals, char_poly(m).coeffs(), column, &Rational::from(1))
 }
 
 /// `T_u x − x`.
@@ -402,8 +390,8 @@ fn chosen(matrices: &[Matrix], number: usize) -> Option<(usize, Vec<Vec<usize>>)
     let n = matrices[0].rows();
     let sum = |v: &[Rational]| v.iter().fold(Rational::from(0), |s, c| s + c);
     let order = (0..n).map(|k| (k + number * n / 2) % n);
-    let column = order.into_iter().find(|&c| sum(&adjugate_column(&matrices[0], c)) != 0)?;
-    let x = adjugate_column(&matrices[0], column);
+    let column = order.into_iter().find(|&c| sum(&fixed(&matrices[0], c)) != 0)?;
+    let x = fixed(&matrices[0], column);
     let mut queue = std::collections::VecDeque::from([Vec::new()]);
     let (mut words, mut rows): (Vec<Vec<usize>>, Matrix) = (Vec::new(), Matrix::zero(0, n));
     while words.len() + 1 < n {
@@ -423,24 +411,20 @@ fn chosen(matrices: &[Matrix], number: usize) -> Option<(usize, Vec<Vec<usize>>)
 }
 
 /// The determinant of `x` and the differences as a polynomial.
-fn determinant(matrices: &[Matrix<Poly>], (column, words): &(usize, Vec<Vec<usize>>)) -> Poly {
-    let n = matrices[0].rows();
-    let degree = matrices.iter().flat_map(|m| m.entries()).filter_map(Poly::degree).fold(0, usize::max);
+fn determinant(pencil: &Pencil, (column, words): &(usize, Vec<Vec<usize>>)) -> Poly {
+    let n = pencil.dim();
     let letters = words.iter().fold(0, |s, w| s + w.len());
     // Every column has the degree of x, a column of an adjugate; a letter adds that of an entry.
-    let most = degree * (n * (n - 1) + letters);
-    let (mut places, mut values) = (Vec::new(), Vec::new());
-    for k in 0..=most {
-        let p = ratio(if k % 2 == 0 { k as i64 / 2 } else { -(k as i64 + 1) / 2 }, 1);
-        let here = at(matrices, &p);
-        let x = adjugate_column(&here[0], *column);
+    let most = pencil.degree() * (n * (n - 1) + letters);
+    let value = |p: &Rational| {
+        let here = pencil.at(p);
+        let x = fixed(&here[0], *column);
         let mut columns = vec![x.clone()];
         columns.extend(words.iter().map(|w| moved(&here, w, &x)));
-        let chi = char_poly(&Matrix::from_columns(n, &columns));
-        values.push(if n.is_multiple_of(2) { chi.coeff(0) } else { -chi.coeff(0) });
-        places.push(p);
-    }
-    Poly::through(&places, values)
+        [Matrix::from_columns(n, &columns).determinant()]
+    };
+    let [found] = interpolated(most, value);
+    found
 }
 
 #[cfg(test)]

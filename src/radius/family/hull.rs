@@ -135,21 +135,10 @@ impl Moving {
         (*rest > 0 && signs[0] * signs[1] < 0).then(|| k.linear(mid, slope, rest))
     }
 
-    /// The column of the adjugate of `λ − T_w`: `Σ λ^k y_k`, `y_{n−1} = e`, `y_{k−1} = T_w y_k + c_k e` with the coefficients `c_k`
-    /// of the characteristic polynomial.
+    /// The column of the adjugate of `λ − T_w`.
     pub fn eigenvector(&self, word: &[usize], column: usize, value: &Model) -> Option<Vec<Model>> {
-        let k = &self.field;
         let m = self.product(word)?;
-        let chi = m.char_poly_over(k);
-        let n = m.rows();
-        let mut y: Vec<Model> = (0..n).map(|i| if i == column { k.one() } else { k.zero() }).collect();
-        let mut sum = y.clone();
-        for power in (1..n).rev() {
-            y = apply(k, &m, &y);
-            y[column] = k.add(&y[column], &chi[power]);
-            sum = sum.iter().zip(&y).map(|(s, x)| k.add(&k.mul(s, value), x)).collect();
-        }
-        Some(sum)
+        Some(m.adjugate_column_over(&self.field, &m.char_poly_over(&self.field), column, value))
     }
 }
 

@@ -96,18 +96,22 @@ fn critical(pencil: &Pencil, word: &[usize]) -> Option<Vec<Poly>> {
     if most > MAX_DEGREE {
         return None;
     }
-    let (mut at, mut rows) = (Vec::new(), Vec::new());
-    for k in 0..=most {
-        let p = ratio(if k % 2 == 0 { k as i64 / 2 } else { -(k as i64 + 1) / 2 }, 1);
-        let m = product(pencil, word, &p);
+    let one = ratio(1, 1);
+    let values = |p: &Rational| {
+        let m = product(pencil, word, p);
         let chi = char_poly(&m);
-        let one = ratio(1, 1);
         let exterior = if n > 1 { char_poly(&exterior(&m)).eval(&one) } else { one.clone() };
-        rows.push([chi.eval(&one), chi.eval(&-&one), exterior]);
-        at.push(p);
-    }
-    let through = |k: usize| Poly::through(&at, rows.iter().map(|r| r[k].clone()).collect());
-    Some((0..3).map(through).collect())
+        [chi.eval(&one), chi.eval(&-&one), exterior]
+    };
+    Some(interpolated(most, values).to_vec())
+}
+
+/// Polynomials of at most this degree, by their values at small whole numbers.
+pub(crate) fn interpolated<const N: usize>(degree: usize, values: impl Fn(&Rational) -> [Rational; N]) -> [Poly; N] {
+    let small = |k: usize| ratio(if k.is_multiple_of(2) { k as i64 / 2 } else { -(k as i64 + 1) / 2 }, 1);
+    let at: Vec<Rational> = (0..=degree).map(small).collect();
+    let rows: Vec<[Rational; N]> = at.iter().map(values).collect();
+    std::array::from_fn(|k| Poly::through(&at, rows.iter().map(|r| r[k].clone()).collect()))
 }
 
 /// The second exterior power.

@@ -41,7 +41,7 @@ impl Dilation {
             return Err(LatticeError::Entry(MAX_ENTRY));
         }
         let matrix = Matrix::from_fn(s, s, |i, j| Rational::from(rows[i][j]));
-        let determinant = whole(&determinant(&matrix)).ok_or(LatticeError::Square)?;
+        let determinant = whole(&matrix.determinant()).ok_or(LatticeError::Square)?;
         if !(2..=MAX_INDEX).contains(&determinant.abs()) {
             return Err(LatticeError::Index { found: determinant.abs(), most: MAX_INDEX });
         }
@@ -178,18 +178,13 @@ fn whole(x: &Rational) -> Option<i64> {
     i64::try_from(&Integer::try_from(x.clone()).ok()?).ok()
 }
 
-fn determinant(m: &Matrix) -> Rational {
-    let sign = if m.rows().is_multiple_of(2) { 1 } else { -1 };
-    crate::linalg::char_poly(m).coeffs().first().map_or_else(|| Rational::from(0), |c| c * Rational::from(sign))
-}
-
 /// Whether a power is a multiple of the unit matrix, or there are two eigenvalues, conjugate and not real: then the matrix is
 /// diagonalisable, and its eigenvalues have one modulus.
 fn is_similarity(m: &Matrix) -> bool {
     let s = m.rows();
     if s == 2 {
         let trace = &m[(0, 0)] + &m[(1, 1)];
-        if &trace * &trace < determinant(m) * Rational::from(4) {
+        if &trace * &trace < m.determinant() * Rational::from(4) {
             return true;
         }
     }

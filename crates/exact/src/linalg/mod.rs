@@ -3,6 +3,7 @@
 
 mod char_poly;
 pub(crate) mod dependency;
+mod determinant;
 pub(crate) mod echelon;
 mod elimination;
 pub(crate) mod lifting;
