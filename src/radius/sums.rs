@@ -11,6 +11,7 @@ use super::strategy::{Found, Outcome, Strategy, Target};
 use super::system::System;
 use crate::arith::{Rational, to_f64};
 use crate::linalg::Matrix;
+use nalgebra::DMatrix;
 
 /// From which dimension on it is tried: polytopes are better in small ones.
 const LEAST: usize = 30;
@@ -35,13 +36,13 @@ impl Strategy for Sums {
         if dim < LEAST || !budget.spend(work) {
             return Outcome::Nothing;
         }
-        let letters: Vec<Vec<f64>> =
-            system.arrows.iter().map(|a| a.matrix.entries().iter().map(to_f64).collect()).collect();
-        let form = rounded(&summed(&letters, dim), dim);
-        let Some(found) = expansion(&letters, &form, dim).filter(|r| r.is_finite() && *r < known) else {
+        let letters: Vec<DMatrix<f64>> =
+            system.arrows.iter().map(|a| DMatrix::from_fn(dim, dim, |i, j| to_f64(&a.matrix[(i, j)]))).collect();
+        let form = rounded(&summed(&letters, dim));
+        let Some(found) = expansion(&letters, &form).filter(|r| r.is_finite() && *r < known) else {
             return Outcome::Nothing;
         };
-        let forms = vec![Matrix::from_fn(dim, dim, |i, j| Rational::from(form[i * dim + j] as i64))];
+        let forms = vec![Matrix::from_fn(dim, dim, |i, j| Rational::from(form[(i, j)] as i64))];
         match ROOM.iter().find_map(|room| proof(system, &forms, found * (1.0 + room))) {
             Some((bound, proof)) if to_f64(&bound) < known => {
                 Outcome::Found(Box::new(Found { bound, proof, attains: false, roots: Vec::new() }))
@@ -66,107 +67,44 @@ fn proof(system: &System, forms: &[Matrix], radius: f64) -> Option<(Rational, Pr
     proof.holds(system).then_some((bound, Proof::Quadratic(proof)))
 }
 
-fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
-    let mut out = vec![0.0; n * n];
-    for i in 0..n {
-        for k in 0..n {
-            let x = a[i * n + k];
-            if x != 0.0 {
-                for j in 0..n {
-                    out[i * n + j] += x * b[k * n + j];
-                }
-            }
-        }
-    }
-    out
-}
-
-fn transposed(a: &[f64], n: usize) -> Vec<f64> {
-    (0..n * n).map(|k| a[(k % n) * n + k / n]).collect()
-}
-
 /// The form, with the largest entry 1; without a finite one no bound is found.
-fn summed(letters: &[Vec<f64>], n: usize) -> Vec<f64> {
-    let turned: Vec<Vec<f64>> = letters.iter().map(|t| transposed(t, n)).collect();
-    let step = |form: &[f64], factor: f64| {
-        let mut sum = vec![0.0; n * n];
-        for (t, u) in letters.iter().zip(&turned) {
-            sum.iter_mut().zip(product(u, &product(form, t, n), n)).for_each(|(x, y)| *x += factor * y);
-        }
-        sum
+fn summed(letters: &[DMatrix<f64>], n: usize) -> DMatrix<f64> {
+    let step = |form: &DMatrix<f64>, factor: f64| {
+        letters.iter().fold(DMatrix::zeros(n, n), |sum: DMatrix<f64>, t| sum + t.tr_mul(&(form * t)) * factor)
     };
-    let trace = |form: &[f64]| (0..n).map(|i| form[i * n + i]).sum::<f64>();
-    let unit: Vec<f64> = (0..n * n).map(|k| if k / n == k % n { 1.0 } else { 0.0 }).collect();
-    let (mut form, mut sigma) = (unit.clone(), 0.0);
+    let (mut form, mut sigma) = (DMatrix::identity(n, n), 0.0);
     for _ in 0..POWERS {
-        let before = trace(&form);
-        form = step(&form, 1.0 / before);
-        sigma = trace(&form);
+        form = step(&form, 1.0 / form.trace());
+        sigma = form.trace();
     }
-    let (mut term, mut sum) = (unit.clone(), unit);
+    let mut term: DMatrix<f64> = DMatrix::identity(n, n);
+    let mut sum = term.clone();
     for _ in 0..TERMS {
         term = step(&term, 1.0 / (SLACK * sigma));
-        sum.iter_mut().zip(&term).for_each(|(x, y)| *x += y);
+        sum += &term;
     }
-    let most = sum.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    sum.iter().map(|x| x / most).collect()
+    let most = sum.amax();
+    sum / most
 }
 
 /// In whole numbers, and symmetric.
-fn rounded(form: &[f64], n: usize) -> Vec<f64> {
-    let upper = |k: usize| form[(k / n).min(k % n) * n + (k / n).max(k % n)];
-    (0..n * n).map(|k| (upper(k) * SCALE).round()).collect()
+fn rounded(form: &DMatrix<f64>) -> DMatrix<f64> {
+    DMatrix::from_fn(form.nrows(), form.ncols(), |i, j| (form[(i.min(j), i.max(j))] * SCALE).round())
 }
 
-/// The largest factor by which a letter expands a form, by Cholesky's decomposition and the power method.
-fn expansion(letters: &[Vec<f64>], form: &[f64], n: usize) -> Option<f64> {
-    let lower = cholesky(form, n)?;
-    let back = |v: &mut [f64]| {
-        // Solves Lᵗ x = v.
-        for i in (0..n).rev() {
-            let rest: f64 = (i + 1..n).map(|k| lower[k * n + i] * v[k]).sum();
-            v[i] = (v[i] - rest) / lower[i * n + i];
-        }
-    };
-    let forth = |v: &mut [f64]| {
-        for i in 0..n {
-            let rest: f64 = (0..i).map(|k| lower[i * n + k] * v[k]).sum();
-            v[i] = (v[i] - rest) / lower[i * n + i];
-        }
-    };
-    let apply = |m: &[f64], v: &[f64]| (0..n).map(|i| (0..n).map(|j| m[i * n + j] * v[j]).sum()).collect::<Vec<f64>>();
+/// The largest factor by which a letter expands a form `L Lᵗ`: the roots of the eigenvalues of `L⁻¹ TᵗPT L⁻ᵗ`.
+fn expansion(letters: &[DMatrix<f64>], form: &DMatrix<f64>) -> Option<f64> {
+    let lower = form.clone().cholesky()?.unpack();
     let mut most = 0.0_f64;
     for t in letters {
-        let image = product(&transposed(t, n), &product(form, t, n), n);
-        let mut v: Vec<f64> = (0..n).map(|i| 1.0 + (i as f64 * 0.7).sin()).collect();
-        let mut value = 0.0;
-        for _ in 0..100 {
-            let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            v.iter_mut().for_each(|x| *x /= size);
-            back(&mut v);
-            v = apply(&image, &v);
-            forth(&mut v);
-            value = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let half = lower.solve_lower_triangular(&t.tr_mul(&(form * t)))?;
+        let image = lower.solve_lower_triangular(&half.transpose())?;
+        if image.iter().any(|x| !x.is_finite()) {
+            return None;
         }
-        most = most.max(value);
+        most = image.symmetric_eigenvalues().iter().fold(most, |m, x| m.max(*x));
     }
     Some(most.sqrt())
-}
-
-fn cholesky(form: &[f64], n: usize) -> Option<Vec<f64>> {
-    let mut lower = vec![0.0; n * n];
-    for i in 0..n {
-        for j in 0..=i {
-            let known: f64 = (0..j).map(|k| lower[i * n + k] * lower[j * n + k]).sum();
-            let rest = form[i * n + j] - known;
-            lower[i * n + j] = match i == j {
-                true if rest > 0.0 => rest.sqrt(),
-                true => return None,
-                false => rest / lower[j * n + j],
-            };
-        }
-    }
-    Some(lower)
 }
 
 #[cfg(test)]
