@@ -61,7 +61,8 @@ impl Soft {
     #[must_use]
     pub fn steps(&self) -> usize {
         let most = self.edges.values().chain(self.vertices.values()).max();
-        (0..INFINITE).find(|k| most.is_none_or(|s| *s <= *k)).map_or(0, |k| k as usize)
+        // All of them are below INFINITE.
+        (0..INFINITE).find(|k| most.is_none_or(|s| *s <= *k)).map_or(INFINITE as usize, |k| k as usize)
     }
 
     /// What is left after a step.

@@ -235,6 +235,9 @@ fn listed(v: &AtVertex) -> Line {
     let rings = around(v).filter(|_| v.smooth == Verdict::Proved);
     line.extend(words(match rings {
         Some(rings) => format!(" at the vertex; around it: {rings}"),
+        None if v.smooth == Verdict::Proved => {
+            format!(" at the vertex: {}; the rings around it are under no common bound", reason(v))
+        }
         None => format!(": {}", reason(v)),
     }));
     line
