@@ -9,7 +9,8 @@ pub use model::model_problem;
 use crate::budget::Budget;
 use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
-use crate::scheme::mesh_rules;
+use crate::mesh::Fan;
+use crate::scheme::{Sector, mesh_rules};
 use crate::stop;
 use crate::theorem::surface::certify_complex_within;
 use crate::vertex::{AtValence, Every, at_valence_within, every};
@@ -93,8 +94,13 @@ fn examine(
     step: &(dyn Fn() + Sync),
 ) -> Result<Vec<AtValence>, Problem> {
     let flag = stop::flag();
+    let triangles = case.rule.sector() == Sector::Triangles;
+    let at = |n: usize| match case.border {
+        Some(smooth) => Ok(Fan { triangles, smooth, faces: n }.at(budget)),
+        None => at_valence_within(&case.rule, n, budget),
+    };
     let one = |&n: &usize| {
-        let found = stop::stoppable(flag.clone(), || at_valence_within(&case.rule, n, budget));
+        let found = stop::stoppable(flag.clone(), || at(n));
         step();
         found.map_err(|error| {
             Problem::new("secant::scheme", format!("{} at valence {n}: {error}", case.name)).with_source(&case.text)

@@ -5,24 +5,9 @@ use super::border::Fan;
 use super::step::Step;
 use crate::answer::Verdict;
 use crate::budget::Budget;
+use crate::vertex::AtValence;
+pub use crate::vertex::BorderGround as Ground;
 use std::cmp::Ordering;
-
-/// What a verdict on a fan rests on, or would.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ground {
-    /// The characteristic map is affine.
-    Affine,
-    /// It is regular and maps the fan into a wedge.
-    Map,
-    /// A Jordan block of 1/2.
-    Jordan,
-    /// One face at a smooth border.
-    OneFace,
-    /// Two inner modes go before the border: the normals inside tend to another one than those on the border.
-    Modes,
-    /// An inner mode goes before the two sides of a corner.
-    Sides,
-}
 
 /// What holds at a fan for almost all points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,6 +41,13 @@ impl Fan {
             (_, Ordering::Equal, _) => Ground::Affine,
             _ => Ground::Map,
         }
+    }
+
+    /// The verdict for almost all points, as that at a valence.
+    #[must_use]
+    pub fn at(self, budget: &Budget) -> AtValence {
+        let row = self.row(budget);
+        AtValence::on_border(self.faces, self.smooth, row.ground, row.verdict)
     }
 
     /// The verdict for almost all points.

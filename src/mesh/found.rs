@@ -181,10 +181,7 @@ impl Found {
         let mut all = BTreeSet::new();
         for v in self.vertices.iter().filter(|v| v.smooth != Verdict::Undetermined) {
             all.insert(match v.reason {
-                Reason::Fan(Ground::Affine | Ground::Map) => Statement::BorderVertex,
-                Reason::Fan(Ground::Jordan) => Statement::BorderJordan,
-                Reason::Fan(Ground::OneFace) => Statement::BorderOneFace,
-                Reason::Fan(Ground::Modes | Ground::Sides) => Statement::BorderRefuted,
+                Reason::Fan(ground) => ground.statement(),
                 _ => Statement::MeshVertex,
             });
             if v.kind.inside().is_some() {

@@ -1,6 +1,7 @@
 //! Reports on meshes: what holds of the limit surface, by valence, and the bad vertices with their lines.
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
+use super::vertex_reasons;
 use super::words::{count, mark};
 use crate::answer::Verdict;
 use crate::mesh::{
@@ -46,20 +47,8 @@ pub fn reason(v: &AtVertex) -> String {
              or edge-and-corner"
                 .to_owned()
         }
-        Reason::Fan(ground) => match ground {
-            Ground::Affine | Ground::Map => "the leading coefficients are independent (Border vertices)".to_owned(),
-            Ground::Jordan => {
-                "the leading coefficients are independent (Border vertices with a Jordan block)".to_owned()
-            }
-            Ground::OneFace => "the leading coefficients are independent (Border vertices with one face)".to_owned(),
-            Ground::Modes => {
-                "the tangent planes inside tend to another one than those on the border (Border vertices with too many faces)"
-                    .to_owned()
-            }
-            Ground::Sides => {
-                "there are three independent limit directions (Border vertices with too many faces)".to_owned()
-            }
-        },
+        Reason::Fan(ground @ (Ground::Modes | Ground::Sides)) => vertex_reasons::border(*ground).to_owned(),
+        Reason::Fan(ground) => format!("the leading coefficients are independent ({})", ground.statement().name()),
         Reason::Flat => {
             "the three coefficients that would refute a tangent plane are not certainly independent, as those of a plane net"
                 .to_owned()
