@@ -466,7 +466,9 @@ fn the_gallery_is_written_and_checked() {
     // A flat directory, with reports of all.
     assert_eq!(run(&["gallery", "cases/some", "--reports", "--out", "flat"]), Some(0));
     let flat = std::fs::read_to_string(dir.path().join("flat/index.html")).unwrap();
-    assert!(flat.contains("href=\"some/half-tangent.html\"") && dir.path().join("flat/some/half-tangent.html").exists());
+    assert!(
+        flat.contains("href=\"some/half-tangent.html\"") && dir.path().join("flat/some/half-tangent.html").exists()
+    );
 }
 
 #[test]

@@ -235,7 +235,7 @@ fn mistakes_are_told_with_a_remedy() {
             "No such file or directory (os error 2) help",
         ),
         (&["jsr", "cases/bspline/degree-2.toml"], "", "this is a case"),
-        (&["gallery", "src"], "", "DIR/FAMILY/CASE.toml"),
+        (&["gallery", "docs"], "", "DIR/FAMILY/CASE.toml"),
     ] {
         let text = told(args, input);
         assert!(text.contains(piece), "{args:?}: {piece} is missing in\n{text}");

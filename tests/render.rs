@@ -142,7 +142,7 @@ fn the_ending_says_the_format() {
     let given: Vec<&str> = files.iter().flat_map(|f| ["-o", f.as_str()]).collect();
     secant(&[&["render", "koch", "--depth", "3"][..], &given].concat(), 0);
     let starts = files.each_ref().map(|f| std::fs::read(f).unwrap()[..4].to_vec());
-    assert_eq!(starts.map(|s| String::from_utf8_lossy(&s).into_owned()), ["<svg", "\u{fffd}PNG", "# Ko", "ply\n"]);
+    assert_eq!(starts.map(|s| String::from_utf8_lossy(&s).into_owned()), ["<svg", "\u{fffd}PNG", "# ko", "ply\n"]);
     for wrong in [&["-o", "a.gif"][..], &["-o", "a.svg", "--svg", "b.svg"], &["-o", "a.png", "-o", "b.png"]] {
         secant(&[&["render", "koch"][..], wrong].concat(), 2);
     }

@@ -70,17 +70,13 @@ impl MeshFindings {
     /// The results as `html`, `latex` or `markdown`.
     fn report(&self, py: Python<'_>, format: String) -> PyResult<String> {
         let whole = Arc::clone(&self.0);
-        outside(py, move || {
-            Ok(rendered(&report::document(&whole.model, whole.scheme, &whole.found, true), &format))
-        })
+        outside(py, move || Ok(rendered(&report::document(&whole.model, whole.scheme, &whole.found, true), &format)))
     }
 
     /// What the program prints.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
         let whole = Arc::clone(&self.0);
-        outside(py, move || {
-            Ok(text::render(&report::document(&whole.model, whole.scheme, &whole.found, false), false))
-        })
+        outside(py, move || Ok(text::render(&report::document(&whole.model, whole.scheme, &whole.found, false), false)))
     }
 
     /// The mesh with its verdicts, where it can be drawn.

@@ -175,7 +175,12 @@ fn misspelt(table: &Table<'_>) -> Option<Problem> {
         let form = FORMS.iter().find(|form| strsim::jaro_winkler(&clipped(&key).to_lowercase(), form) > 0.85)?;
         let span = table.key_span(&key)?;
         let message = format!("{} has no key `{}`", table.what, clipped(&key));
-        Some(table.file.problem("unknown-key", message, span, "unknown key").with_help(format!("did you mean `{form}`?")))
+        Some(
+            table
+                .file
+                .problem("unknown-key", message, span, "unknown key")
+                .with_help(format!("did you mean `{form}`?")),
+        )
     })
 }
 
@@ -310,10 +315,15 @@ fn interpolation(case: &Table<'_>, table: &Table<'_>) -> Result<Shape, Problem> 
         points.push([x.number()?, y.number()?]);
     }
     let factors = table.need("vertical", "[\"1/3\", \"-1/4\"]").map_err(|p| {
-        p.with_help("add a line such as  vertical = [\"1/3\", \"-1/4\"]  with one factor between −1 and 1 for each interval")
+        p.with_help(
+            "add a line such as  vertical = [\"1/3\", \"-1/4\"]  with one factor between −1 and 1 for each interval",
+        )
     })?;
-    let vertical =
-        factors.array(|k| format!("factor {k} of `vertical`"))?.iter().map(Node::number).collect::<Result<Vec<_>, _>>()?;
+    let vertical = factors
+        .array(|k| format!("factor {k} of `vertical`"))?
+        .iter()
+        .map(Node::number)
+        .collect::<Result<Vec<_>, _>>()?;
     if points.len() > MAX_PIECES {
         return Err(node
             .problem("limit", format!("{} points are over the limit of {MAX_PIECES}", points.len()), "too many")
@@ -323,9 +333,9 @@ fn interpolation(case: &Table<'_>, table: &Table<'_>) -> Result<Shape, Problem> 
         SchemeError::Value { parameter, .. } if parameter == "alpha" => factors
             .problem("scheme-parameter", e.to_string(), "these factors")
             .with_help("the vertical factors of the intervals, from left to right, each between −1 and 1"),
-        SchemeError::Value { .. } => node
-            .problem("scheme-parameter", e.to_string(), "these points")
-            .with_help("the points run from left to right, three at least; the curve is the graph of a function through them"),
+        SchemeError::Value { .. } => node.problem("scheme-parameter", e.to_string(), "these points").with_help(
+            "the points run from left to right, three at least; the curve is the graph of a function through them",
+        ),
         _ => refused(table, &node, &e, &[]),
     })
 }

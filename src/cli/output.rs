@@ -81,8 +81,11 @@ pub fn by_ending(path: PathBuf, slots: &mut Slots<'_>) -> Result<(), Problem> {
             .with_help(format!("the ending says the format: {}", known.join(", "))));
     };
     if slot.is_some() {
-        return Err(Problem::new("secant::usage::format", format!("{} is the second file of its format", path.display()))
-            .with_help("one file of each format is written"));
+        return Err(Problem::new(
+            "secant::usage::format",
+            format!("{} is the second file of its format", path.display()),
+        )
+        .with_help("one file of each format is written"));
     }
     **slot = Some(path);
     Ok(())

@@ -1,9 +1,9 @@
 //! `secant render`: exact points of a shape, drawn.
 
+use super::PROVED;
 use super::certify::{extension, mistaken};
 use super::output::{self, say, settle, to_stdout, write_file};
 use super::progress::Progress;
-use super::PROVED;
 use super::question::joined;
 use crate::arith::{parse_rational, to_f64};
 use crate::case::Case;
@@ -111,8 +111,9 @@ fn check(args: &RenderArgs) -> Result<(), Problem> {
 fn view(case: &Case, args: &RenderArgs) -> Result<Option<View>, Problem> {
     let Some(text) = &args.view else { return Ok(None) };
     let view = View::parse(text).ok_or_else(|| {
-        Problem::new("secant::usage::view", format!("--view {text} is no direction"))
-            .with_help("write front, back, left, right, top, bottom, or two angles such as 30,20 (the second from -90 to 90)")
+        Problem::new("secant::usage::view", format!("--view {text} is no direction")).with_help(
+            "write front, back, left, right, top, bottom, or two angles such as 30,20 (the second from -90 to 90)",
+        )
     })?;
     if case.shape.control.as_ref().is_none_or(|c| c.rows() < 3) {
         let message = format!("--view: {} is not in space", case.name);

@@ -1,8 +1,8 @@
 //! Plain drawings of exact points, coloured by address: SVG, PNG, OBJ and PLY. Points become floats here and nowhere before.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
-use super::{Projection, View};
 use super::svg::fixed;
+use super::{Projection, View};
 use crate::arith::to_f64;
 use crate::shape::{Frame, Sample, Shape};
 use std::fmt::Write;

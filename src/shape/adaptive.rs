@@ -154,7 +154,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 fn extent(points: &Floats) -> f64 {
     let width = points.first().map_or(0, Vec::len);
     let span = |k: usize| {
-        let (lo, hi) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p[k]), hi.max(p[k])));
+        let (lo, hi) =
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), p| (lo.min(p[k]), hi.max(p[k])));
         hi - lo
     };
     (0..width).map(span).fold(0.0, |a, b| if b > a { b } else { a })
