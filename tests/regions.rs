@@ -177,7 +177,7 @@ fn a_search_without_work_or_time_leaves_a_gap_that_says_so() {
     let quick = [
         (Search { work: 1, ..known.clone() }, Ended::Work),
         (Search { hulls: 0, ..known.clone() }, Ended::Exhausted),
-        (known.clone().within(1e-9), Ended::Clock),
+        (Search { time: Some(std::time::Duration::ZERO), ..known.clone() }, Ended::Clock),
     ];
     for (search, ended) in quick {
         let found = regions("four-point", &set, 1, &search).unwrap();
@@ -188,6 +188,7 @@ fn a_search_without_work_or_time_leaves_a_gap_that_says_so() {
     }
     let whole = regions("four-point", &set, 1, &known).unwrap();
     assert!(whole.orders.iter().all(|o| o.radius.as_ref().is_some_and(|r| r.ended == Ended::Done && r.spent > 0)));
+    assert!(known.clone().within(2.0).work < known.work);
     let halves = Budget::of(Effort::Quick).regions;
     assert!(halves.work < known.work && halves.hulls < known.hulls);
 }
