@@ -4,7 +4,7 @@ use super::contraction::{Contracting, norm1};
 use super::hull::{Hulls, hulls};
 use super::{Contraction, OwnPoints, Polytopes, Shape, Spaces, Weights, difference};
 use crate::arith::{Interval, Rational};
-use crate::linalg::dot;
+use crate::linalg::{Scaled, dot};
 
 /// For every reachable state a ball `B(base, radius)` of the 1-norm that holds its attractor.
 #[derive(Debug, Clone)]
@@ -45,11 +45,15 @@ impl Balls {
 
     /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
     fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
+        let operators = shape.scaled_operators();
         let mut shifts: Vec<Vec<(Rational, &Rational, usize)>> = Vec::new();
         for (e, code) in proof.codes.iter().enumerate() {
+            let base = |state: usize| Scaled::column(&spaces.of(state).base);
             let shift = |c: &super::ContractingWord| {
-                let (op, _) = shape.product(e, &c.word);
-                norm1(&difference(&op.apply(&spaces.of(c.end).base), &spaces.of(e).base))
+                let path = shape.path(e, &c.word);
+                let along = path.iter().zip(&c.word).rev();
+                let image = along.fold(base(c.end), |v, (&state, &letter)| operators[state][letter].times(&v));
+                image.distance1(&base(e))
             };
             shifts.push(code.iter().map(|c| (shift(c), &c.tau, c.end)).collect());
         }
@@ -60,13 +64,16 @@ impl Balls {
             .max()
             .unwrap_or_else(|| Rational::from(0));
         let mut radius = vec![round_up(&common); shape.states.len()];
+        let short = |x: &Rational| Interval::point(x.clone()).outward(64).hi;
+        let bounds = shifts.iter().map(|code| code.iter().map(|(shift, tau, end)| (short(shift), short(tau), *end)));
+        let bounds: Vec<Vec<_>> = bounds.map(Iterator::collect).collect();
         // Each round starts from valid radii and is therefore valid itself.
         for _ in 0..8 {
-            radius = shifts
+            radius = bounds
                 .iter()
                 .zip(&radius)
                 .map(|(words, old)| {
-                    let bound = words.iter().map(|(shift, tau, end)| shift + *tau * &radius[*end]).max();
+                    let bound = words.iter().map(|(shift, tau, end)| shift + tau * &radius[*end]).max();
                     bound.map_or_else(|| Rational::from(0), |b| round_up(&b)).min(old.clone())
                 })
                 .collect();
