@@ -198,7 +198,8 @@ fn table(case: &VertexCase, found: &[AtValence]) -> Table {
     if let Some(smooth) = case.border {
         let row = |f: &AtValence| vec![words(f.valence.to_string()), vec![mark(f.plane)], vec![mark(f.smooth)]];
         let at = if smooth { "a vertex of a smooth border" } else { "a corner" };
-        let caption = format!("{}: C¹ up to the border at {at} for almost all control points, by number of faces", case.title);
+        let caption =
+            format!("{}: C¹ up to the border at {at} for almost all control points, by number of faces", case.title);
         let header = ["faces", "tangent plane", "C¹ up to the border"].map(words).to_vec();
         return Table { caption: words(caption), header, rows: found.iter().map(row).collect() };
     }

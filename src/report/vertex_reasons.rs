@@ -65,9 +65,7 @@ pub fn border(ground: BorderGround) -> &'static str {
         BorderGround::Modes => {
             "the tangent planes inside tend to another one than those on the border (Border vertices with too many faces)"
         }
-        BorderGround::Sides => {
-            "there are three independent limit directions (Border vertices with too many faces)"
-        }
+        BorderGround::Sides => "there are three independent limit directions (Border vertices with too many faces)",
     }
 }
 

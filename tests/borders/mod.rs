@@ -153,7 +153,7 @@ fn limits_and_normals_of_every_row() {
                 // The points inside tend to the border: what decides is the difference.
                 let fan = Fan::random(faces, triangles, smooth, 7 + k as u128);
                 let bend = minus(mix(&[(0.5, fan.spokes[0]), (0.5, fan.spokes[1])]), fan.own);
-                let osculating = unit(cross(minus(fan.spokes[0], fan.spokes[1]), bend));
+                let osculating = self::unit(cross(minus(fan.spokes[0], fan.spokes[1]), bend));
                 assert!(far(osculating, unit) < 1e-9, "{place}");
                 continue;
             }
