@@ -53,7 +53,7 @@ impl Spend {
     /// The limits: steps of the search for cones, and work for each order of smoothness.
     fn budget(self) -> Budget {
         let (effort, limits) = match self {
-            Self::First => (Effort::Quick, Some((60_000, 20_000))),
+            Self::First => (Effort::Quick, Some((6_000, 20_000))),
             Self::Quick => (Effort::Quick, Some((600_000, 1_000_000))),
             Self::Whole(effort) => (effort, None),
         };
