@@ -7,9 +7,9 @@ use super::super::radius::decimal;
 use super::super::words::{count, listed, mark};
 use super::Quoted;
 use super::evidence::Evidence;
+use super::product::moves;
 use crate::answer::Answer;
 use crate::case::Case;
-use crate::shape::Spaces;
 use crate::statement::Statement;
 use crate::theorem::Certified;
 use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface};
@@ -69,16 +69,10 @@ fn product(case: &Case, surface: &Surface, curves: &[Certified; 2]) -> Evidence 
         "the operators of the surface are the tensor products of those of the two curves.",
         [],
     );
-    let moves = surface.factors.as_ref().is_some_and(|factors| {
-        factors.iter().all(|f| {
-            Spaces::new(&f.shape).is_some_and(|spaces| {
-                let pieces = &f.shape.states[f.shape.start].pieces;
-                pieces.iter().all(|p| !f.shape.is_point(&spaces, p))
-            })
-        })
-    });
-    let text = if moves { "no piece of the two curves is a point." } else { "a piece may be a point." };
-    evidence.push("no-point", if moves { Tone::Good } else { Tone::Bad }, words(text));
+    for (k, factor) in surface.factors.iter().flatten().enumerate() {
+        let (tone, text) = moves(["first", "second"][k.min(1)], factor);
+        evidence.push("no-point", tone, text);
+    }
     for (which, curve) in ["first", "second"].into_iter().zip(curves) {
         let Some(every) = &curve.everywhere else {
             evidence.push("curves", Tone::Open, words(format!("nothing is known of the {which} curve.")));
