@@ -5,9 +5,9 @@ use super::super::every_plane;
 use super::super::math::Math;
 use super::super::radius::decimal;
 use super::super::words::{count, listed, mark};
-use super::Quoted;
 use super::evidence::Evidence;
 use super::product::moves;
+use super::{Quoted, every};
 use crate::answer::Answer;
 use crate::case::Case;
 use crate::statement::Statement;
@@ -19,6 +19,13 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
     match &surface.every {
         Answer::Proved(EverySurfaceProof::Product(curves))
         | Answer::Refuted(EverySurfaceBreak::Curve { curves, .. }) => {
+            for (k, (which, found)) in ["first", "second"].into_iter().zip(curves.iter()).enumerate() {
+                let Some(factor) = surface.factors.as_ref().and_then(|f| f.get(k)) else { continue };
+                let mut own = case.clone();
+                own.shape.clone_from(&factor.shape);
+                blocks.push(Block::heading(3, &format!("Every point of the {which} curve")));
+                blocks.extend(every::curve(&own, found, seen));
+            }
             blocks.extend(seen.once_id(Statement::TensorEveryPoint));
             blocks.push(product(case, surface, curves).block());
         }
