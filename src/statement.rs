@@ -138,6 +138,7 @@ statements! {
     FamilyHulls = "family-hulls",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",
+    Border = "border",
 }
 
 impl Statement {

@@ -48,12 +48,9 @@ impl LatticeCase {
         let table = node.table()?;
         table.only(&["dilation", "grid", "origin", "symbol", "name", "parameters", "directions"])?;
         let dilation = table.get("dilation").map(|n| dilation(&n)).transpose()?;
-        let mask = match (table.get("grid"), table.get("symbol"), table.get("name")) {
-            (Some(grid), None, None) => of_grid(&table, &grid, dilation)?,
-            (None, Some(symbol), None) => {
-                LatticeMask::parse(symbol.text()?, dilation).map_err(|e| problem(&symbol, &e))?
-            }
-            (None, None, Some(named)) => of_name(&table, &named, dilation)?,
+        let mask = match (written(&table, dilation.clone())?, table.get("name")) {
+            (Some(mask), None) => mask,
+            (None, Some(named)) => of_name(&table, &named, dilation)?,
             _ => {
                 return Err(table
                     .problem("mask", "a [mask] has one of `grid`, `symbol` and `name`", "this table")
@@ -61,6 +58,17 @@ impl LatticeCase {
             }
         };
         Ok(Self { name, mask })
+    }
+}
+
+/// The mask of a table with one of `grid` and `symbol`.
+pub(super) fn written(table: &Table<'_>, dilation: Option<Dilation>) -> Result<Option<LatticeMask>, Problem> {
+    match (table.get("grid"), table.get("symbol")) {
+        (Some(grid), None) => of_grid(table, &grid, dilation).map(Some),
+        (None, Some(symbol)) => {
+            LatticeMask::parse(symbol.text()?, dilation).map(Some).map_err(|e| problem(&symbol, &e))
+        }
+        _ => Ok(None),
     }
 }
 
@@ -81,12 +89,12 @@ fn dilation(node: &Node<'_>) -> Result<Dilation, Problem> {
     Dilation::new(rows).map_err(|e| problem(node, &e))
 }
 
-fn whole_numbers(node: &Node<'_>, what: &str) -> Result<Vec<i64>, Problem> {
+pub(super) fn whole_numbers(node: &Node<'_>, what: &str) -> Result<Vec<i64>, Problem> {
     let numbers = node.array(|k| format!("{what} {k}"))?;
     numbers.iter().map(whole).collect()
 }
 
-fn whole(node: &Node<'_>) -> Result<i64, Problem> {
+pub(super) fn whole(node: &Node<'_>) -> Result<i64, Problem> {
     let x = node.number()?;
     let small = (x.is_integer() && crate::arith::abs(&x) <= MAX_PLACE).then(|| x.to_string().parse().ok());
     small.flatten().ok_or_else(|| {

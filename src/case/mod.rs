@@ -3,6 +3,7 @@
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
 mod asked;
+mod border;
 mod chain;
 mod control;
 mod expect;
@@ -23,6 +24,7 @@ mod states;
 mod vertex;
 
 pub use asked::{asked, is_case, nothing, written};
+pub use border::BorderCase;
 pub use control::with_control;
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;

@@ -1,5 +1,6 @@
 //! Schemes turned into shapes: masks, named curves, tensor products, mesh rules at extraordinary vertices, imports.
 
+mod border;
 mod curves;
 mod error;
 mod fractint;
@@ -24,6 +25,7 @@ mod univariate;
 mod vertex;
 mod wavelets;
 
+pub use border::{BorderError, BorderScheme, BorderSide, MAX_COLUMN, NamedSide, averaged_border};
 pub use curves::{
     PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, fractal_interpolation, hilbert, koch, lebesgue, levy,
     minkowski_sausage, okamoto, peano, plane_shape, sierpinski, takagi, terdragon,

@@ -193,13 +193,17 @@ impl LatticeMask {
     #[must_use]
     pub fn case_text(&self, name: &str) -> String {
         let rows: Vec<String> = self.dilation.rows().iter().map(|r| format!("{r:?}")).collect();
-        let mut out = format!("name = {name:?}\n\n[mask]\ndilation = [{}]\n", rows.join(", "));
-        let Some((low, high)) = self.terms.corners() else { return out };
-        let _ = writeln!(out, "origin = {low:?}\ngrid = {}", self.grid(&low, &high, &mut Vec::new()));
+        let mut out = format!("name = {name:?}\n\n[mask]\ndilation = [{}]\n{}", rows.join(", "), self.grid_text());
         if let Some(splines) = &self.splines {
             let _ = writeln!(out, "directions = {:?}", splines.directions);
         }
         out
+    }
+
+    /// The lines of a case with the coefficients.
+    pub(in crate::scheme) fn grid_text(&self) -> String {
+        let Some((low, high)) = self.terms.corners() else { return String::new() };
+        format!("origin = {low:?}\ngrid = {}\n", self.grid(&low, &high, &mut Vec::new()))
     }
 
     fn grid(&self, low: &[i64], high: &[i64], at: &mut Vec<i64>) -> String {
