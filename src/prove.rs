@@ -6,13 +6,14 @@ mod model;
 pub use findings::{Findings, confirm, unconfirmed};
 pub use model::model_problem;
 
+use crate::answer::Verdict;
 use crate::budget::Budget;
-use crate::case::{Question, Valences, VertexCase};
+use crate::case::{Origin, Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
-use crate::scheme::mesh_rules;
+use crate::scheme::{MeshRule, mesh_rules};
 use crate::stop;
-use crate::theorem::surface::certify_complex_within;
-use crate::vertex::{AtValence, Every, at_valence_within, every};
+use crate::theorem::surface::{around_vertex, certify_complex_within};
+use crate::vertex::{AtValence, Every, Ground, at_valence_within, every};
 use std::sync::Arc;
 
 /// Answers a question: the verdict depends on the case and the budget only.
@@ -41,8 +42,13 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
     match question {
         Question::Tangents { case, further } => {
             let addresses = [case.examine.as_slice(), further].concat();
-            let found = certify_complex_within(&case.complex(), &addresses, budget)
+            let mut found = certify_complex_within(&case.complex(), &addresses, budget)
                 .map_err(|error| model_problem(case, &error))?;
+            if let Some(Origin::Mesh { rule, valence, .. }) = &case.scheme
+                && holds_theorem_7(rule, *valence, budget)
+            {
+                around_vertex(&mut found, &case.shape, *valence);
+            }
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
@@ -50,6 +56,12 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
             Ok(Findings::Vertices { case: Arc::clone(case), found, every })
         }
     }
+}
+
+/// Whether Theorem 7 is proved at a vertex of a rule with polynomial patches.
+fn holds_theorem_7(rule: &MeshRule, valence: usize, budget: &Budget) -> bool {
+    at_valence_within(rule, valence, budget)
+        .is_ok_and(|at| at.polynomial && at.smooth == Verdict::Proved && at.ground == Some(Ground::Regular))
 }
 
 fn no_valence() -> Problem {

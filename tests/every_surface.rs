@@ -1,11 +1,14 @@
 //! Every point of a surface: proved, refuted with a witness, or open, and certificates that the checker proves again.
 
 use secant::answer::Answer;
-use secant::case::Case;
+use secant::budget::Budget;
+use secant::case::{Case, Question};
 use secant::certificate::confirm;
+use secant::prove::prove;
 use secant::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface, certify_complex};
 use secant::theorem::{Assertion, Certified, EverySurfaceGap, Kind, Required, Statement, Verdict};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 fn parse(text: &str) -> Case {
     Case::parse("every.toml", &format!("name = \"every\"\nsource = \"test\"\n{text}\n")).unwrap()
@@ -90,6 +93,55 @@ fn discs_around_a_vertex_are_open() {
         let found = found(&case);
         assert_ne!(surface(&found).every.verdict(), Verdict::Proved, "{text}");
     }
+}
+
+/// What is found of a case of a mesh rule with all that is known of its vertex.
+fn around(text: &str) -> (Verdict, Option<Statement>) {
+    let case = parse(&format!("[scheme]\n{text}"));
+    let question = Question::Tangents { case: Arc::new(case), further: Vec::new() };
+    let findings = prove(&question, &Budget::default()).unwrap();
+    let claims = findings.claims();
+    let claim = claims.iter().find(|c| c.what == Assertion::PlaneEverywhere).expect("a claim on every point");
+    (claim.verdict(), claim.statement())
+}
+
+#[test]
+fn discs_and_patches_at_a_vertex_are_smooth_everywhere_by_their_characteristic_maps() {
+    let by = Some(Statement::VertexEveryPoint);
+    for (mesh, valence) in [("catmull-clark", 5), ("catmull-clark", 3), ("loop", 7), ("doo-sabin", 5)] {
+        for cell in ["disc", "face"] {
+            let text = format!("mesh = \"{mesh}\"\nvalence = {valence}\ncell = \"{cell}\"");
+            assert_eq!(around(&text), (Verdict::Proved, by), "{text}");
+        }
+    }
+    // Regular patches have their own proof, with a certificate.
+    assert_eq!(around("mesh = \"loop\"\nvalence = 6").1, Some(Statement::PatchDerivative));
+    assert_eq!(around("mesh = \"loop\"\nvalence = 6\ncell = \"disc\""), (Verdict::Proved, by));
+}
+
+#[test]
+fn discs_whose_characteristic_map_is_not_injective_are_not_proved() {
+    let twice = "mesh = \"doo-sabin-frequency\"\nfrequency = 2\nvalence = 6";
+    for cell in ["disc", "face"] {
+        assert_ne!(around(&format!("{twice}\ncell = \"{cell}\"")).0, Verdict::Proved);
+    }
+}
+
+#[test]
+fn discs_that_are_seen_folded_are_open_and_others_have_their_checked_part() {
+    let text = "[scheme]\nmesh = \"catmull-clark\"\nvalence = 5\ncell = \"disc\"";
+    let line: Vec<String> = (0..31).map(|k| format!("[{k}, {}]", k * k)).collect();
+    let verdict = |case: Case| {
+        let question = Question::Tangents { case: Arc::new(case), further: Vec::new() };
+        let mut findings = prove(&question, &Budget::default()).unwrap();
+        let claims = findings.claims();
+        let claim = claims.iter().find(|c| c.what == Assertion::PlaneEverywhere).unwrap().verdict();
+        (claim, secant::prove::confirm(&mut findings).map(|c| c.json()["proof"]["every"].clone()))
+    };
+    assert_ne!(verdict(parse(&format!("control = [{}]\n{text}", line.join(", ")))).0, Verdict::Proved);
+    // The certificate of the point (0) stands, and says nothing of every point.
+    let (claim, every) = verdict(parse(text));
+    assert_eq!((claim, every.unwrap()), (Verdict::Proved, Value::Null));
 }
 
 /// What the checker says of a certificate that was changed.

@@ -373,7 +373,8 @@ fn borders_that_are_refused() {
         (format!("left = \"loop\"\nright = {wide}\n"), "no weights for new points (0, 2k)"),
         ("left = \"loop\"\nright = { symbol = \"(1+x)*(1+y)\" }\n".to_owned(), "place"),
         (
-            "left = \"loop\"\nright = \"loop\"\n[[border.stencil]]\nat = [0, 0]\nweights = [[0, 0, \"1/2\"]]\n".to_owned(),
+            "left = \"loop\"\nright = \"loop\"\n[[border.stencil]]\nat = [0, 0]\nweights = [[0, 0, \"1/2\"]]\n"
+                .to_owned(),
             "sum to 1/2",
         ),
         (

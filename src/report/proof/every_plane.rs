@@ -26,6 +26,10 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
             blocks.extend(seen.once_id(Statement::PatchDerivative));
             blocks.push(derivative(found).block());
         }
+        Answer::Proved(EverySurfaceProof::Vertex(valence)) => {
+            blocks.extend(seen.once_id(Statement::VertexEveryPoint));
+            blocks.push(around_vertex(case, *valence).block());
+        }
         Answer::Refuted(EverySurfaceBreak::Point(_)) | Answer::Open(_) => {}
     }
     blocks.push(Block::Facts(every_plane::facts(surface)));
@@ -60,6 +64,22 @@ fn derivative(found: &PatchDerivative) -> Evidence {
         .holds("radius", &radius, [Math::number(&found.share)])
         .holds("edges", &edges, [])
         .holds("rank", &rank, [])
+}
+
+/// What was verified of the statement on the disc around a vertex.
+fn around_vertex(case: &Case, valence: usize) -> Evidence {
+    let at = format!(
+        "at valence {valence} the characteristic map has a Jacobian determinant of one strict sign, and a half-plane holds the \
+         image of a sector (`secant certify CASE --valence {valence}` shows both)."
+    );
+    let view = match case.shape.control {
+        None => "there are no control points.",
+        Some(_) => "the control points are injective on the relevant space.",
+    };
+    Evidence::of(Statement::VertexEveryPoint)
+        .holds("disc", "the shape was built from a mesh rule with polynomial patches.", [])
+        .holds("vertex", &at, [])
+        .holds("view", view, [])
 }
 
 /// What was verified of the theorem on tensor products at every point.

@@ -6,8 +6,11 @@ use super::place::{Chart, Spot};
 use super::tensor::Product;
 use super::verdict::{Surface, SurfacePoint};
 use crate::answer::Answer;
+use crate::shape::{Shape, Spaces};
 use crate::statement::Statement;
-use crate::theorem::{Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict};
+use crate::theorem::{
+    Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict, Viewpoint,
+};
 
 /// Whether a surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously.
 pub type EverySurface = Answer<EverySurfaceProof, EverySurfaceBreak, Vec<EverySurfaceGap>>;
@@ -19,6 +22,8 @@ pub enum EverySurfaceProof {
     Product(Box<[Certified; 2]>),
     /// It is C¹ in its parameters, and immersed.
     Derivative(Box<PatchDerivative>),
+    /// It lies around a vertex of this valence, at which Theorem 7 holds.
+    Vertex(usize),
 }
 
 /// Why it is not.
@@ -48,16 +53,40 @@ pub fn claim(
         Some(chart) => decide(setting, chart, product, surface),
         None => Answer::Open(vec![EverySurfaceGap::Unparametrised]),
     };
-    let by = match &every {
+    let claim = claimed(&every, surface);
+    (every, claim)
+}
+
+/// Settles what is open of every point of the surface around a vertex of a valence at which the hypotheses of Theorem 7 hold: of
+/// the disc, or of a patch at the vertex, where control points are injective and no point is known to have no tangent plane.
+pub fn around_vertex(found: &mut Certified, shape: &Shape, valence: usize) {
+    let Some(surface) = found.surface.as_mut().filter(|s| matches!(s.every, Answer::Open(_))) else { return };
+    let seen = Spaces::new(shape).is_some_and(|spaces| {
+        let basis = &spaces.of(shape.start).basis;
+        (Viewpoint::start(shape).map() * basis).rank() == basis.cols()
+    });
+    if !seen {
+        return;
+    }
+    surface.every = match surface.points.iter().any(|p| p.verdict == Verdict::Refuted) {
+        true => Answer::Open(vec![EverySurfaceGap::Contradiction]),
+        false => Answer::Proved(EverySurfaceProof::Vertex(valence)),
+    };
+    let claim = claimed(&surface.every, surface);
+    found.claims.iter_mut().filter(|c| c.what == Assertion::PlaneEverywhere).for_each(|c| *c = claim.clone());
+}
+
+fn claimed(every: &EverySurface, surface: &Surface) -> Claim {
+    let by = match every {
         Answer::Proved(EverySurfaceProof::Product(_)) | Answer::Refuted(EverySurfaceBreak::Curve { .. }) => {
             Some(Statement::TensorEveryPoint)
         }
         Answer::Proved(EverySurfaceProof::Derivative(_)) => Some(Statement::PatchDerivative),
+        Answer::Proved(EverySurfaceProof::Vertex(_)) => Some(Statement::VertexEveryPoint),
         Answer::Refuted(EverySurfaceBreak::Point(k)) => surface.points[*k].statement,
         Answer::Open(_) => None,
     };
-    let claim = Claim::as_found(Assertion::PlaneEverywhere, every.verdict(), by, Reason::EverySurfacePoint);
-    (every, claim)
+    Claim::as_found(Assertion::PlaneEverywhere, every.verdict(), by, Reason::EverySurfacePoint)
 }
 
 fn decide(setting: &Setting, chart: &Chart, product: Option<&Product>, surface: &Surface) -> EverySurface {
