@@ -6,12 +6,14 @@ mod model;
 pub use findings::{Findings, confirm, unconfirmed};
 pub use model::model_problem;
 
-use crate::answer::Verdict;
+use crate::answer::{Answer, Verdict};
 use crate::budget::Budget;
-use crate::case::{Origin, Question, Valences, VertexCase};
+use crate::case::{Case, Origin, Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
-use crate::scheme::{MeshRule, mesh_rules};
+use crate::mesh::immersed_disc;
+use crate::scheme::mesh_rules;
 use crate::stop;
+use crate::theorem::Certified;
 use crate::theorem::surface::{around_vertex, certify_complex_within};
 use crate::vertex::{AtValence, Every, Ground, at_valence_within, every};
 use std::sync::Arc;
@@ -44,11 +46,7 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
             let addresses = [case.examine.as_slice(), further].concat();
             let mut found = certify_complex_within(&case.complex(), &addresses, budget)
                 .map_err(|error| model_problem(case, &error))?;
-            if let Some(Origin::Mesh { rule, valence, .. }) = &case.scheme
-                && holds_theorem_7(rule, *valence, budget)
-            {
-                around_vertex(&mut found, &case.shape, *valence);
-            }
+            settle_around_vertex(case, &mut found, budget);
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
@@ -58,10 +56,18 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
     }
 }
 
-/// Whether Theorem 7 is proved at a vertex of a rule with polynomial patches.
-fn holds_theorem_7(rule: &MeshRule, valence: usize, budget: &Budget) -> bool {
-    at_valence_within(rule, valence, budget)
-        .is_ok_and(|at| at.polynomial && at.smooth == Verdict::Proved && at.ground == Some(Ground::Regular))
+/// What Theorem 7 says of every point of a shape that was built of a mesh rule with polynomial patches.
+fn settle_around_vertex(case: &Case, found: &mut Certified, budget: &Budget) {
+    let Some(Origin::Mesh { rule, valence, disc }) = &case.scheme else { return };
+    if !found.surface.as_ref().is_some_and(|s| matches!(s.every, Answer::Open(_))) {
+        return;
+    }
+    let Ok(at) = at_valence_within(rule, *valence, budget) else { return };
+    if !at.polynomial || at.smooth != Verdict::Proved || at.ground != Some(Ground::Regular) {
+        return;
+    }
+    let control = case.shape.control.as_ref().filter(|_| *disc);
+    around_vertex(found, &case.shape, *valence, control.and_then(|points| immersed_disc(rule, &at, points)));
 }
 
 fn no_valence() -> Problem {

@@ -122,6 +122,8 @@ pub enum Origin {
     Tensor,
     /// An automaton, some of whose states name a scheme or are chains.
     States,
+    /// A mask in two variables.
+    Lattice,
     /// The neighbourhood of a vertex of a mesh.
     Mesh {
         /// The rule.
@@ -270,7 +272,8 @@ impl Case {
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        let built = matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::States));
+        let built =
+            matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::States));
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }

@@ -125,7 +125,7 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
             };
             json!({"by": "derivative", "verdict": "proved", "radius": radius, "length": length, "cells": cells})
         }
-        Answer::Proved(EverySurfaceProof::Vertex(_)) => {
+        Answer::Proved(EverySurfaceProof::Vertex { .. }) => {
             return unsupported("Theorem 7 beside a patch complex", "every point");
         }
         Answer::Refuted(EverySurfaceBreak::Curve { curves, curve, .. }) => {

@@ -26,9 +26,9 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
             blocks.extend(seen.once_id(Statement::PatchDerivative));
             blocks.push(derivative(found).block());
         }
-        Answer::Proved(EverySurfaceProof::Vertex(valence)) => {
+        Answer::Proved(EverySurfaceProof::Vertex { valence, rings }) => {
             blocks.extend(seen.once_id(Statement::VertexEveryPoint));
-            blocks.push(around_vertex(case, *valence).block());
+            blocks.push(around_vertex(case, *valence, *rings).block());
         }
         Answer::Refuted(EverySurfaceBreak::Point(_)) | Answer::Open(_) => {}
     }
@@ -67,19 +67,23 @@ fn derivative(found: &PatchDerivative) -> Evidence {
 }
 
 /// What was verified of the statement on the disc around a vertex.
-fn around_vertex(case: &Case, valence: usize) -> Evidence {
+fn around_vertex(case: &Case, valence: usize, rings: Option<usize>) -> Evidence {
     let at = format!(
         "at valence {valence} the characteristic map has a Jacobian determinant of one strict sign, and a half-plane holds the \
          image of a sector (`secant certify CASE --valence {valence}` shows both)."
     );
-    let view = match case.shape.control {
-        None => "there are no control points.",
-        Some(_) => "the control points are injective on the relevant space.",
+    let view = match (&case.shape.control, rings) {
+        (None, _) => "there are no control points.".to_owned(),
+        (Some(_), None) => "the control points are injective on the relevant space.".to_owned(),
+        (Some(_), Some(rings)) => format!(
+            "the leading coefficients are independent, {rings} rings pass the test patch by patch, and the later ones are within \
+             the room around the characteristic map."
+        ),
     };
     Evidence::of(Statement::VertexEveryPoint)
         .holds("disc", "the shape was built from a mesh rule with polynomial patches.", [])
         .holds("vertex", &at, [])
-        .holds("view", view, [])
+        .holds("view", &view, [])
 }
 
 /// What was verified of the theorem on tensor products at every point.

@@ -2,10 +2,12 @@
 
 mod dilation;
 mod named;
+mod patch;
 mod terms;
 
 pub use dilation::Dilation;
 pub use named::{BoxSpline, lattice_names, named_mask};
+pub use patch::lattice_patch;
 pub use terms::Terms;
 
 use super::SchemeError;
@@ -40,6 +42,9 @@ pub enum LatticeError {
     /// A dilation that cannot be read.
     #[error("`{0}` is no dilation: write [[1,1],[1,-1]], quincunx, sqrt3, or a whole number")]
     Text(String),
+    /// A patch of a mask that has none.
+    #[error("only masks in two variables whose dilation is a multiple of the unit matrix have patches over squares")]
+    Patch,
     /// No coefficient.
     #[error("the mask is zero")]
     Zero,

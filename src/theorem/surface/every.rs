@@ -22,8 +22,13 @@ pub enum EverySurfaceProof {
     Product(Box<[Certified; 2]>),
     /// It is C¹ in its parameters, and immersed.
     Derivative(Box<PatchDerivative>),
-    /// It lies around a vertex of this valence, at which Theorem 7 holds.
-    Vertex(usize),
+    /// It lies around a vertex at which Theorem 7 holds.
+    Vertex {
+        /// The valence.
+        valence: usize,
+        /// With control points that are not injective: how many rings of the disc were tested one by one.
+        rings: Option<usize>,
+    },
 }
 
 /// Why it is not.
@@ -58,19 +63,22 @@ pub fn claim(
 }
 
 /// Settles what is open of every point of the surface around a vertex of a valence at which the hypotheses of Theorem 7 hold: of
-/// the disc, or of a patch at the vertex, where control points are injective and no point is known to have no tangent plane.
-pub fn around_vertex(found: &mut Certified, shape: &Shape, valence: usize) {
+/// the disc, or of a patch at the vertex, where control points are injective, or all rings of the disc are immersed after so many
+/// of them were tested, and no point is known to have no tangent plane.
+pub fn around_vertex(found: &mut Certified, shape: &Shape, valence: usize, rings: Option<usize>) {
     let Some(surface) = found.surface.as_mut().filter(|s| matches!(s.every, Answer::Open(_))) else { return };
-    let seen = Spaces::new(shape).is_some_and(|spaces| {
-        let basis = &spaces.of(shape.start).basis;
-        (Viewpoint::start(shape).map() * basis).rank() == basis.cols()
-    });
-    if !seen {
+    let injective = || {
+        Spaces::new(shape).is_some_and(|spaces| {
+            let basis = &spaces.of(shape.start).basis;
+            (Viewpoint::start(shape).map() * basis).rank() == basis.cols()
+        })
+    };
+    if rings.is_none() && !injective() {
         return;
     }
     surface.every = match surface.points.iter().any(|p| p.verdict == Verdict::Refuted) {
         true => Answer::Open(vec![EverySurfaceGap::Contradiction]),
-        false => Answer::Proved(EverySurfaceProof::Vertex(valence)),
+        false => Answer::Proved(EverySurfaceProof::Vertex { valence, rings }),
     };
     let claim = claimed(&surface.every, surface);
     found.claims.iter_mut().filter(|c| c.what == Assertion::PlaneEverywhere).for_each(|c| *c = claim.clone());
@@ -82,7 +90,7 @@ fn claimed(every: &EverySurface, surface: &Surface) -> Claim {
             Some(Statement::TensorEveryPoint)
         }
         Answer::Proved(EverySurfaceProof::Derivative(_)) => Some(Statement::PatchDerivative),
-        Answer::Proved(EverySurfaceProof::Vertex(_)) => Some(Statement::VertexEveryPoint),
+        Answer::Proved(EverySurfaceProof::Vertex { .. }) => Some(Statement::VertexEveryPoint),
         Answer::Refuted(EverySurfaceBreak::Point(k)) => surface.points[*k].statement,
         Answer::Open(_) => None,
     };
