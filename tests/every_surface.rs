@@ -113,7 +113,7 @@ fn discs_and_patches_at_a_vertex_are_smooth_everywhere_by_their_characteristic_m
         ("catmull-clark", 5, "face"),
         ("catmull-clark", 3, "disc"),
         ("loop-warren", 7, "disc"),
-        ("doo-sabin", 5, "disc"),
+        ("doo-sabin", 6, "disc"),
     ] {
         let text = format!("mesh = \"{mesh}\"\nvalence = {valence}\ncell = \"{cell}\"");
         assert_eq!(around(&text), (Verdict::Proved, by), "{text}");

@@ -318,8 +318,10 @@ fn borders_in_files_and_their_certificates() {
     let (case, certificate) = (case.to_str().unwrap(), certificate.to_str().unwrap());
     let output = secant(&["regularity", case, "--certificate", certificate]).success();
     let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
-    assert!(text.contains("limit y^2 for x < 0 and y^2 + 1/4*x^2 for x > 0"), "{text}");
+    assert!(text.contains("limit y^2 for x < 0 and 1/4*x^2 + y^2 for x > 0"), "{text}");
     assert!(text.contains("smoothness  C^1, and not C^2: proved") && text.contains("C^2 up to the border"), "{text}");
+    let refused = secant(&["certify", case]).code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("secant regularity"));
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
     let (source, proof) = (read("c.case.toml"), read("c.json"));
     let accepted = secant_check::check(&source, &proof).unwrap();
@@ -370,7 +372,7 @@ fn borders_that_are_refused() {
     for (table, wanted) in [
         ("left = \"catmull-clark\"\n".to_owned(), "right"),
         ("left = \"doo-sabin\"\nright = \"loop\"\n".to_owned(), "catmull-clark and loop"),
-        (format!("left = \"loop\"\nright = {wide}\n"), "no weights for new points (0, 2k)"),
+        (format!("left = \"loop\"\nright = {wide}\n"), "no weights for new points (0, 2k + 0)"),
         ("left = \"loop\"\nright = { symbol = \"(1+x)*(1+y)\" }\n".to_owned(), "place"),
         (
             "left = \"loop\"\nright = \"loop\"\n[[border.stencil]]\nat = [0, 0]\nweights = [[0, 0, \"1/2\"]]\n"

@@ -155,6 +155,11 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
             .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
     }
+    if case.get("border").is_some() {
+        return Err(case
+            .problem("border", "this case is about two masks that meet along a line, not about one shape", "")
+            .with_help("`secant regularity FILE` says how smooth the limits are across it"));
+    }
     super::parameters::left_free(case).map_or(Ok(()), Err)?;
     if let Some(span) = case.key_span("matrices") {
         return Err(case

@@ -13,7 +13,7 @@ use crate::vertex::AtValence;
 /// [`Scheme`]. `control` has the points as columns, in the plane or in space, in the order of [`crate::scheme::disc`].
 #[must_use]
 pub fn immersed_disc(rule: &MeshRule, at: &AtValence, control: &Matrix) -> Option<usize> {
-    let scheme = Scheme::named(rule.name()).filter(|s| s.rule().is_ok_and(|own| own == *rule))?;
+    let scheme = Scheme::named(rule.info().name).filter(|s| s.rule().is_ok_and(|own| own == *rule))?;
     let places = disc_places(rule, at.valence).ok()?;
     if !(2..=3).contains(&control.rows()) || control.cols() != places.len() {
         return None;

@@ -101,7 +101,8 @@ pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<
 /// ```
 /// use secant::scheme::{disc_places, mesh_rule};
 /// let places = disc_places(&mesh_rule("catmull-clark", &[].into())?, 5)?;
-/// assert_eq!((places.len(), places[0], places[1]), (31, None, Some((0, (1, 0)))));
+/// assert_eq!((places.len(), places[0]), (31, None));
+/// assert!(places.contains(&Some((4, (1, 1)))));
 /// # Ok::<(), secant::scheme::SchemeError>(())
 /// ```
 pub fn disc_places(rule: &MeshRule, valence: usize) -> Result<Vec<Option<(usize, Place)>>, SchemeError> {
