@@ -217,7 +217,7 @@ fn mistakes_are_told_with_a_remedy() {
     for (args, input, piece) in [
         (&["certify", "four-pont"][..], "", "did you mean `four-point`?"),
         (&["regularity", "four-pont"], "", "did you mean `four-point`?"),
-        (&["certify", "chaikin"], "", "write bspline degree=2"),
+        (&["certify", "db2"], "", "secant regularity db2"),
         (&["certify", "loop"], "", "[vertex] mesh"),
         (&["certify", "-"], "name = \"c\"\n[scheme]\nmask = [1/4, 3/4]\n", "\"1/4\""),
         (&["certify", "-"], "name = \"c\"\n[scheme]\nname = \"bspline\"\ncontrol = [[0]]\n", "above the line [scheme]"),
@@ -235,7 +235,7 @@ fn mistakes_are_told_with_a_remedy() {
             "No such file or directory (os error 2) help",
         ),
         (&["jsr", "cases/bspline/degree-2.toml"], "", "this is a case"),
-        (&["gallery", "cases/bspline"], "", "DIR/FAMILY/CASE.toml"),
+        (&["gallery", "docs"], "", "DIR/FAMILY/CASE.toml"),
     ] {
         let text = told(args, input);
         assert!(text.contains(piece), "{args:?}: {piece} is missing in\n{text}");
