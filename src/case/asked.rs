@@ -19,8 +19,9 @@ const ALIASES: [(&str, &str); 7] = [
     ("heighway", "dragon"),
 ];
 
-/// The same with a scheme's own name and its parameters where it begins with another name of it.
-fn unaliased(text: &str) -> Option<String> {
+/// The same with a scheme's own name and its parameters where it begins with another name of it, such as `chaikin`.
+#[must_use]
+pub fn unaliased(text: &str) -> Option<String> {
     let (first, rest) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
     let (_, own) = ALIASES.iter().find(|(alias, _)| *alias == first.to_lowercase())?;
     Some(format!("{own} {rest}").trim_end().to_owned())
