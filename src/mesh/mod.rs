@@ -17,6 +17,7 @@
 mod border;
 mod certify;
 mod curvature;
+mod disc;
 mod fan;
 mod found;
 mod interval;
@@ -37,6 +38,7 @@ mod vertices;
 pub use border::{BorderStencil, Fan, Points};
 pub use certify::certify;
 pub use curvature::{Curvature, Second, Size, curvature};
+pub use disc::immersed_disc;
 pub use fan::{Ground, Row};
 pub use found::{AtVertex, Bad, Found, Patches, Reason, Spot};
 pub use interval::Float;
