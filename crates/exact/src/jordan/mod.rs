@@ -7,6 +7,7 @@ mod echelon;
 mod field;
 mod generators;
 mod operator;
+mod scalar;
 mod summand;
 mod symmetry;
 
@@ -17,6 +18,7 @@ use crate::poly::Poly;
 use malachite_base::num::logic::traits::SignificantBits;
 
 pub use crate::linalg::char_poly;
+pub use scalar::{Over, Part, Scalar, Spectral};
 pub use field::{FieldFactor, FieldSpectrum, estimated_field_work};
 
 /// A chain of generalised eigenvectors of one Jordan block, for every root `θ` of a factor at once: entries are
