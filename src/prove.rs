@@ -11,6 +11,7 @@ use crate::case::{Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
 use crate::scheme::mesh_rules;
 use crate::stop;
+use crate::theorem::certify_within;
 use crate::theorem::surface::certify_complex_within;
 use crate::vertex::{AtValence, Every, at_valence_within, every};
 use std::sync::Arc;
@@ -44,6 +45,11 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
             let found = certify_complex_within(&case.complex(), &addresses, budget)
                 .map_err(|error| model_problem(case, &error))?;
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
+        }
+        Question::OverField { case, further } => {
+            let addresses = [case.examine.as_slice(), further].concat();
+            let found = certify_within(&case.shape, &addresses, budget).map_err(|error| model_problem(case, &error))?;
+            Ok(Findings::OverField { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
             let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, budget, step)?;

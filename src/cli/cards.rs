@@ -121,6 +121,11 @@ fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
                 ),
             )
         }
+        Findings::OverField { case, .. } => {
+            let picture = figures::near(case).map(|p| p.thumbnail);
+            let kinds = escaped(&answered.kinds().join(", "));
+            (picture, format!("{}: {kinds}", marked(answered.findings.verdict())))
+        }
         Findings::Vertices { found, every, .. } => vertices(found, every.as_ref()),
     };
     let verdict = answered.findings.verdict().word();

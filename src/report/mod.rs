@@ -20,6 +20,7 @@ pub mod radius;
 pub mod reasons;
 pub mod region;
 pub mod regularity;
+pub mod reported;
 pub mod spectrum;
 pub mod summary;
 pub mod surface;

@@ -1,9 +1,8 @@
 //! Whether a system contracts: Dobrushin's coefficient over a finite complete prefix code (theory §1).
 
 use super::{Polytopes, Shape};
-use crate::arith::{Natural, Rational, abs};
-use crate::linalg::Matrix;
-use malachite_base::num::arithmetic::traits::UnsignedAbs;
+use crate::arith::Rational;
+use crate::linalg::{Entry, Matrix};
 use std::collections::BinaryHeap;
 
 /// A word with the bound of its operator on differences.
@@ -69,41 +68,32 @@ pub const MAX_WORDS: usize = 20_000;
 
 /// How many multiplications of numbers those words may cost together.
 const MAX_PRODUCTS: usize = 5_000_000;
+/// Binary digits to which the sizes of irrational numbers are bounded.
+pub(super) const BITS: u64 = 96;
 /// How many words of a state a code may have when it is lengthened only to make the balls smaller.
 const SHARP_WORDS: usize = 512;
 
-/// `τ(T) = max_{i,j} ½ Σ_k |t_ki − t_kj|`, the norm of `T` on zero-sum vectors induced by the 1-norm.
+/// `τ(T) = max_{i,j} ½ Σ_k |t_ki − t_kj|`, the norm of `T` on zero-sum vectors induced by the 1-norm; a little more where entries
+/// are irrational.
 ///
 /// # Cost
 /// `O(rows * cols²)`.
 #[must_use]
-pub fn dobrushin(op: &Matrix) -> Rational {
-    // Over one denominator, differences and their sums are integers.
-    let (d, scaled) = op.cleared();
-    let mut largest = Natural::from(0u32);
-    for i in 0..op.cols() {
-        for j in 0..i {
-            let terms = (0..op.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
-            let distance = terms.fold(Natural::from(0u32), |s, x| s + x);
-            if distance > largest {
-                largest = distance;
-            }
-        }
-    }
-    Rational::from_naturals(largest, d << 1u64)
+pub fn dobrushin<E: Entry>(op: &Matrix<E>) -> Rational {
+    E::half_distance(op)
 }
 
-/// The sum of absolute values.
+/// The sum of absolute values; a little more where entries are irrational.
 #[must_use]
-pub fn norm1(v: &[Rational]) -> Rational {
-    v.iter().fold(Rational::from(0), |s, x| s + abs(x))
+pub fn norm1<E: Entry>(v: &[E]) -> Rational {
+    v.iter().fold(Rational::from(0), |s, x| s + x.enclosure(BITS).magnitude())
 }
 
 /// The linear part of a square operator on zero-sum vectors, in the basis `e_k − e_0`.
 #[must_use]
-pub fn linear_part(op: &Matrix) -> Matrix {
+pub fn linear_part<E: Entry>(op: &Matrix<E>) -> Matrix<E> {
     Matrix::from_fn(op.rows().saturating_sub(1), op.cols().saturating_sub(1), |i, j| {
-        &op[(i + 1, j + 1)] - &op[(i + 1, 0)]
+        op[(i + 1, j + 1)].minus(&op[(i + 1, 0)])
     })
 }
 
@@ -112,7 +102,7 @@ pub fn linear_part(op: &Matrix) -> Matrix {
 ///
 /// # Cost
 /// At most [`MAX_WORDS`] products.
-pub fn contraction(shape: &Shape, expands: impl FnMut(&Matrix) -> bool) -> Contraction {
+pub fn contraction<E: Entry>(shape: &Shape<E>, expands: impl FnMut(&Matrix<E>) -> bool) -> Contraction {
     contraction_within(shape, MAX_WORDS, MAX_PRODUCTS, expands)
 }
 
@@ -120,15 +110,15 @@ pub fn contraction(shape: &Shape, expands: impl FnMut(&Matrix) -> bool) -> Contr
 ///
 /// # Cost
 /// At most `words` products.
-pub fn contraction_within(
-    shape: &Shape,
+pub fn contraction_within<E: Entry>(
+    shape: &Shape<E>,
     words: usize,
     work: usize,
-    mut expands: impl FnMut(&Matrix) -> bool,
+    mut expands: impl FnMut(&Matrix<E>) -> bool,
 ) -> Contraction {
     let mut codes: Vec<Vec<ContractingWord>> = vec![Vec::new(); shape.states.len()];
     let mut constant = Rational::from(0);
-    let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> =
+    let mut open: Vec<(usize, Vec<usize>, usize, Matrix<E>)> =
         shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim))).collect();
     let (mut length, mut count) = (0, 0);
     let largest = shape.states.iter().map(|s| s.dim).fold(1, usize::max);
@@ -177,7 +167,7 @@ impl Contraction {
 impl Contracting {
     /// Replaces words by their extensions, those with the largest `τ` first, while the code stays short, and keeps the best
     /// code met on the way: smaller constants give smaller balls around the attractors.
-    fn sharpen(&mut self, shape: &Shape) {
+    fn sharpen<E: Entry>(&mut self, shape: &Shape<E>) {
         for (from, code) in self.codes.iter_mut().enumerate() {
             sharpen_code(shape, from, code);
         }
@@ -187,7 +177,7 @@ impl Contracting {
     }
 }
 
-fn sharpen_code(shape: &Shape, from: usize, code: &mut Vec<ContractingWord>) {
+fn sharpen_code<E: Entry>(shape: &Shape<E>, from: usize, code: &mut Vec<ContractingWord>) {
     let half = Rational::from(1) / Rational::from(2);
     let mut heap: BinaryHeap<(Rational, Vec<usize>, usize)> =
         code.iter().map(|c| (c.tau.clone(), c.word.clone(), c.end)).collect();

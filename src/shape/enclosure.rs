@@ -1,16 +1,17 @@
 //! Balls (and polygons) that hold the attractors, and what a functional does on a cell (theory §7).
 
-use super::contraction::{Contracting, norm1};
-use super::hull::{Hulls, hulls};
+use super::contraction::{BITS, Contracting, norm1};
+use super::hull::hulls;
 use super::{Contraction, OwnPoints, Polytopes, Shape, Spaces, Weights, difference};
 use crate::arith::{Interval, Rational};
-use crate::linalg::dot;
+use crate::linalg::{Entry, Matrix};
 
 /// For every reachable state a ball `B(base, radius)` of the 1-norm that holds its attractor.
 #[derive(Debug, Clone)]
-pub struct Balls {
+pub struct Balls<E = Rational> {
     radius: Vec<Rational>,
-    hulls: Option<Hulls>,
+    /// Vertices of polygons by state, as points of its barycentric space.
+    hulls: Option<Vec<Vec<Vec<E>>>>,
     /// How the images of the vertices of the hulls are combined, where that was found with them.
     weights: Option<HullWeights>,
     simplex: bool,
@@ -24,7 +25,7 @@ impl Balls {
     #[must_use]
     pub fn of(shape: &Shape, spaces: &Spaces, contraction: &Contraction) -> Option<Self> {
         match contraction {
-            Contraction::Proved(proof) => Some(Self::new(shape, spaces, proof)),
+            Contraction::Proved(proof) => Some(Self::of_words(shape, spaces, proof)),
             Contraction::Polytopes(proof) => {
                 let mut radius = vec![Rational::from(0); shape.states.len()];
                 for e in shape.reachable() {
@@ -43,8 +44,28 @@ impl Balls {
         }
     }
 
+    /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
+    #[must_use]
+    pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
+        if shape.reachable().iter().any(|e| spaces.of(*e).basis.cols() > 2) {
+            return None;
+        }
+        let found = own_hulls(shape, spaces).or_else(|| hulls(shape, spaces))?;
+        Some(Self { hulls: Some(found), weights: None, ..self.clone() })
+    }
+
+    /// The same balls with polytopes inside which the attractors lie as well.
+    #[must_use]
+    pub fn with_polytopes(&self, polytopes: &Polytopes) -> Self {
+        let (hulls, weights) = (Some(polytopes.vertices.clone()), Some(polytopes.weights.clone()));
+        Self { hulls, weights, ..self.clone() }
+    }
+}
+
+impl<E: Entry> Balls<E> {
     /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
-    fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
+    #[must_use]
+    pub fn of_words(shape: &Shape<E>, spaces: &Spaces<E>, proof: &Contracting) -> Self {
         let mut shifts: Vec<Vec<(Rational, &Rational, usize)>> = Vec::new();
         for (e, code) in proof.codes.iter().enumerate() {
             let shift = |c: &super::ContractingWord| {
@@ -74,23 +95,6 @@ impl Balls {
         Self { radius, hulls: None, weights: None, simplex: false }
     }
 
-    /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
-    #[must_use]
-    pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
-        if shape.reachable().iter().any(|e| spaces.of(*e).basis.cols() > 2) {
-            return None;
-        }
-        let found = own_hulls(shape, spaces).or_else(|| hulls(shape, spaces))?;
-        Some(Self { hulls: Some(found), weights: None, ..self.clone() })
-    }
-
-    /// The same balls with polytopes inside which the attractors lie as well.
-    #[must_use]
-    pub fn with_polytopes(&self, polytopes: &Polytopes) -> Self {
-        let (hulls, weights) = (Some(polytopes.vertices.clone()), Some(polytopes.weights.clone()));
-        Self { hulls, weights, ..self.clone() }
-    }
-
     /// How the images of the vertices of the hulls are combined, where that is known.
     #[must_use]
     pub fn hull_weights(&self) -> Option<&HullWeights> {
@@ -100,9 +104,9 @@ impl Balls {
     /// The same balls together with the simplex of the coordinates, which holds the attractors where all operators of the
     /// states that are reached are nonnegative.
     #[must_use]
-    pub fn with_simplex(&self, shape: &Shape) -> Self {
+    pub fn with_simplex(&self, shape: &Shape<E>) -> Self {
         let pieces = || shape.reachable().into_iter().flat_map(|e| shape.states[e].pieces.iter());
-        let nonnegative = |op: &crate::linalg::Matrix| (0..op.rows()).all(|i| op.row(i).iter().all(|x| *x >= 0));
+        let nonnegative = |op: &Matrix<E>| op.entries().iter().all(|x| x.sign() >= 0);
         Self { simplex: pieces().all(|p| nonnegative(&p.op)), ..self.clone() }
     }
 
@@ -114,7 +118,7 @@ impl Balls {
 
     /// The vertices of the polygon of a state, where polygons are used.
     #[must_use]
-    pub fn hull(&self, state: usize) -> Option<&[Vec<Rational>]> {
+    pub fn hull(&self, state: usize) -> Option<&[Vec<E>]> {
         Some(&self.hulls.as_ref()?[state])
     }
 
@@ -126,44 +130,50 @@ impl Balls {
 
     /// A bound of the 1-norm of all points of the attractor.
     #[must_use]
-    pub fn norm_bound(&self, spaces: &Spaces, state: usize) -> Rational {
+    pub fn norm_bound(&self, spaces: &Spaces<E>, state: usize) -> Rational {
         norm1(&spaces.of(state).base) + &self.radius[state]
     }
 
     /// Encloses `row · a` for all `a` in the attractor of `state`; `row` is already multiplied by the operator of the cell.
+    /// Irrational ends are rounded outwards by at most `2^-bits`.
     #[must_use]
-    pub fn enclose(&self, spaces: &Spaces, state: usize, row: &[Rational]) -> Interval {
+    pub fn enclose(&self, spaces: &Spaces<E>, state: usize, row: &[E], bits: u64) -> Interval {
         if let Some(vertices) = self.hull(state) {
-            let values = || vertices.iter().map(|v| dot(row, v));
-            if let (Some(lo), Some(hi)) = (values().min(), values().max()) {
-                return Interval { lo, hi };
+            let values: Vec<E> = vertices.iter().map(|v| E::dot(row, v)).collect();
+            if let (Some(lo), Some(hi)) = (values.iter().min(), values.iter().max()) {
+                return between(lo, hi, bits);
             }
         }
-        let centre = dot(row, &spaces.of(state).base);
+        let centre = E::dot(row, &spaces.of(state).base).enclosure(bits);
         let spread = oscillation(row) / Rational::from(2) * &self.radius[state];
-        let ball = Interval { lo: &centre - &spread, hi: centre + spread };
+        let ball = Interval { lo: &centre.lo - &spread, hi: centre.hi + spread };
         match (row.iter().min(), row.iter().max()) {
             (Some(lo), Some(hi)) if self.simplex => {
-                Interval { lo: ball.lo.max(lo.clone()), hi: ball.hi.min(hi.clone()) }
+                let Interval { lo, hi } = between(lo, hi, bits);
+                Interval { lo: ball.lo.max(lo), hi: ball.hi.min(hi) }
             }
             _ => ball,
         }
     }
 }
 
+fn between<E: Entry>(lo: &E, hi: &E, bits: u64) -> Interval {
+    Interval { lo: lo.enclosure(bits).lo, hi: hi.enclosure(bits).hi }
+}
+
 /// Polygons found in coordinates by own points, so that they do not depend on units.
-fn own_hulls(shape: &Shape, spaces: &Spaces) -> Option<Hulls> {
+fn own_hulls(shape: &Shape, spaces: &Spaces) -> Option<super::hull::Hulls> {
     let own = OwnPoints::of(shape, spaces)?;
     let inner = own.shape(shape)?;
     let found = hulls(&inner, &Spaces::new(&inner)?)?;
     Some(found.iter().enumerate().map(|(e, polygon)| own.outwards(e, polygon)).collect())
 }
 
-/// `max − min` of the entries.
+/// `max − min` of the entries; a little more where they are irrational.
 #[must_use]
-pub fn oscillation(row: &[Rational]) -> Rational {
+pub fn oscillation<E: Entry>(row: &[E]) -> Rational {
     match (row.iter().max(), row.iter().min()) {
-        (Some(hi), Some(lo)) => hi - lo,
+        (Some(hi), Some(lo)) => hi.minus(lo).enclosure(BITS).hi,
         _ => Rational::from(0),
     }
 }

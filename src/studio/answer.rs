@@ -73,7 +73,7 @@ impl Kept {
             (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => mesh(model, *scheme, found),
             (_, What::Case(answered)) => match &answered.findings {
                 Findings::Tangents { case, found } => tangents(case, found, answered),
-                Findings::Vertices { .. } => vertices(answered),
+                Findings::OverField { .. } | Findings::Vertices { .. } => vertices(answered),
             },
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         };
@@ -158,7 +158,7 @@ impl Kept {
         match &self.found {
             What::Case(answered) => match &answered.findings {
                 Findings::Tangents { case, found } => proof::point_document(case, found, number),
-                Findings::Vertices { .. } => None,
+                Findings::OverField { .. } | Findings::Vertices { .. } => None,
             },
             What::Mesh(_) => None,
         }
@@ -169,7 +169,7 @@ impl Kept {
 fn beside(answered: &Answered) -> Option<String> {
     match &answered.findings {
         Findings::Tangents { case, .. } => case.beside(),
-        Findings::Vertices { .. } => None,
+        Findings::OverField { .. } | Findings::Vertices { .. } => None,
     }
 }
 

@@ -9,6 +9,9 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
+/// Binary digits to which sizes are bounded.
+const BITS: u64 = 96;
+
 /// A rational number, or an irrational one in a real number field `Q(α)`.
 ///
 /// Irrational numbers that meet lie in one field: those of a case are put into one field when it is read. Comparisons are
@@ -190,6 +193,15 @@ impl Entry for Real {
         }
     }
 
+    fn half_distance(a: &Matrix<Self>) -> Rational {
+        let distance = |i: usize, j: usize| {
+            let terms = (0..a.rows()).map(|k| a[(k, i)].minus(&a[(k, j)]).enclosure(BITS).magnitude());
+            terms.fold(Rational::from(0), |s, x| s + x)
+        };
+        let pairs = (0..a.cols()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| distance(i, j)).fold(Rational::from(0), Rational::max) / Rational::from(2)
+    }
+
     fn pivots(a: &Matrix<Self>) -> Vec<usize> {
         match told_apart(a) {
             Ok(a) => a.pivots(),
@@ -254,7 +266,13 @@ impl fmt::Display for Real {
         let name = field.text();
         for (k, c) in x.0.coeffs().iter().enumerate().filter(|(_, c)| **c != 0) {
             let first = x.0.coeffs()[..k].iter().all(|c| *c == 0);
-            f.write_str(if *c < 0 { "-" } else if first { "" } else { "+" })?;
+            f.write_str(if *c < 0 {
+                "-"
+            } else if first {
+                ""
+            } else {
+                "+"
+            })?;
             let size = crate::arith::abs(c);
             let power = match k {
                 0 => String::new(),

@@ -18,8 +18,8 @@ use crate::poly::Poly;
 use malachite_base::num::logic::traits::SignificantBits;
 
 pub use crate::linalg::char_poly;
-pub use scalar::{Over, Part, Scalar, Spectral};
 pub use field::{FieldFactor, FieldSpectrum, estimated_field_work};
+pub use scalar::{Over, Part, Scalar, Spectral};
 
 /// A chain of generalised eigenvectors of one Jordan block, for every root `θ` of a factor at once: entries are
 /// elements of `Q[x] / (factor)`.

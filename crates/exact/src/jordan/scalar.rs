@@ -121,6 +121,8 @@ pub trait Scalar: Entry {
     }
     /// The spectrum of a square matrix over a field that holds its entries; chains have entries in fields that hold it too.
     fn spectrum(a: &Matrix<Self>, base: &Self::Base) -> Self::Spectrum;
+    /// The value of a factor of a characteristic polynomial at a matrix over the same field.
+    fn factor_at(spectrum: &Self::Spectrum, factor: usize, a: &Matrix<Self>) -> Matrix<Self>;
     /// The number as a polynomial in the generator of its field.
     fn elem(&self) -> Elem;
     /// `self x` for an element of a larger field.
@@ -140,6 +142,10 @@ impl Scalar for Rational {
 
     fn spectrum(a: &Matrix, (): &()) -> Spectrum {
         Spectrum::of(a)
+    }
+
+    fn factor_at(spectrum: &Spectrum, factor: usize, a: &Matrix) -> Matrix {
+        horner(spectrum.factors[factor].poly.coeffs().iter().cloned(), a)
     }
 
     fn elem(&self) -> Elem {
@@ -167,6 +173,11 @@ impl Scalar for Real {
         FieldSpectrum::over(&FieldMatrix::over(base, a.map(Self::elem)))
     }
 
+    fn factor_at(spectrum: &FieldSpectrum, factor: usize, a: &Matrix<Self>) -> Matrix<Self> {
+        let field = Arc::new(spectrum.field.clone());
+        horner(spectrum.factors[factor].poly.iter().map(|c| Self::new(&field, c.clone())), a)
+    }
+
     fn elem(&self) -> Elem {
         Self::elem(self)
     }
@@ -177,11 +188,21 @@ impl Scalar for Real {
         }
         let alpha = over.alpha.expect("the field holds the number");
         let own = self.elem();
-        let image = own.0.coeffs().iter().rev().fold(Elem::zero(), |sum, c| {
-            sum.mul(alpha, over.modulus).add(&Elem::from_rational(c))
-        });
+        let image = own
+            .0
+            .coeffs()
+            .iter()
+            .rev()
+            .fold(Elem::zero(), |sum, c| sum.mul(alpha, over.modulus).add(&Elem::from_rational(c)));
         image.mul(x, over.modulus)
     }
+}
+
+/// A polynomial, the constant coefficient first, at a square matrix.
+fn horner<E: Entry>(coefficients: impl DoubleEndedIterator<Item = E>, a: &Matrix<E>) -> Matrix<E> {
+    let n = a.rows();
+    let step = |sum: Matrix<E>, c: E| &(&sum * a) + &Matrix::identity(n).scale(&c);
+    coefficients.rev().fold(Matrix::zero(n, n), step)
 }
 
 #[cfg(test)]

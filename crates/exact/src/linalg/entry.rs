@@ -39,6 +39,8 @@ pub trait Entry: Clone + Ord + Hash + fmt::Debug + fmt::Display + Send + Sync + 
     fn product(a: &Matrix<Self>, b: &Matrix<Self>) -> Matrix<Self>;
     /// The reduced row echelon form.
     fn echelon(a: &Matrix<Self>) -> Echelon<Self>;
+    /// The largest half 1-norm of the difference of two columns; at most a little more where entries are irrational.
+    fn half_distance(a: &Matrix<Self>) -> Rational;
     /// The columns of its leading ones.
     fn pivots(a: &Matrix<Self>) -> Vec<usize>;
 
