@@ -24,7 +24,7 @@ pub const VERSION: u32 = 1;
 /// Everything that was found, as data.
 #[must_use]
 pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required) -> Value {
-    json!({
+    let mut out = json!({
         "version": VERSION,
         "case": case.name,
         "title": case.title,
@@ -41,12 +41,15 @@ pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requ
             None => E::every_value(found),
         },
         "parameter": E::parameter_value(case, found),
-        "field": E::field_text(&case.shape),
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => found.points.iter().map(|p| point(case, p)).collect(),
         },
-    })
+    });
+    if let Some(field) = E::field_text(&case.shape) {
+        out["field"] = json!(field);
+    }
+    out
 }
 
 fn surface_point(p: &SurfacePoint) -> Value {

@@ -226,7 +226,9 @@ pub fn defect(defect: Defect) -> &'static str {
 }
 
 /// What breaks at a point.
-fn broken(point: &PointReport) -> String {
+/// What breaks G¹ at a point.
+#[must_use]
+pub fn broken<E: Scalar>(point: &PointReport<E>) -> String {
     let what = match point.kind {
         Kind::Cusp => "the half-tangents of both sides are the same ray: a cusp",
         Kind::Oscillating => "both rays of the line are limits of secants of one side",
@@ -237,7 +239,7 @@ fn broken(point: &PointReport) -> String {
 }
 
 /// Where a point lies.
-fn place(point: &PointReport) -> String {
+fn place<E: Scalar>(point: &PointReport<E>) -> String {
     let after = |path: &[usize]| match path {
         [] => String::new(),
         path => format!(" in cell {}", word_text(path)),

@@ -1,15 +1,16 @@
 //! Reports over the rationals and over a real number field: what each can say.
 
-use super::document::{Block, Line};
+use super::document::{Block, Line, line};
 use super::math::Math;
 use super::{every, proof, reasons, regularity};
 use crate::algebraic::Real;
 use crate::arith::Rational;
 use crate::case::Case;
-use crate::linalg::Entry;
+use crate::linalg::{Entry, Matrix};
 use crate::shape::Shape;
-use crate::theorem::{Certified, Parameter, Provable, field};
-use serde_json::Value;
+use crate::theorem::cone::{Cone, ConeMap};
+use crate::theorem::{Certified, Parameter, Provable, Statement, field};
+use serde_json::{Value, json};
 
 /// Entries of shapes on which there are reports.
 pub trait Reported: Provable {
@@ -102,6 +103,48 @@ impl Reported for Real {
         }
         row.push(Math::Root(Box::new(Math::number(&square))));
         Math::Row(row)
+    }
+
+    fn every_facts(case: &Case<Self>, found: &Certified<Self>) -> Option<Vec<(String, Line)>> {
+        let cones = found.cones.as_ref()?;
+        let mut facts = Vec::new();
+        for cone in &cones.cones {
+            let place = if case.shape.states.len() > 1 {
+                format!(" of state {}", case.shape.states[cone.state].name)
+            } else {
+                String::new()
+            };
+            let rays = Math::Row(
+                (0..cone.rays.cols())
+                    .flat_map(|j| {
+                        let comma = (j > 0).then_some(Math::Symbol(','));
+                        comma.into_iter().chain([vector(&cone.rays.column(j))])
+                    })
+                    .collect(),
+            );
+            let text = "every piece maps the cone of its target into the inside of this one, and the first-level joints are \
+                        regular; rays $@$";
+            facts.push((format!("cone{place}"), line(text, [rays])));
+        }
+        Some(facts)
+    }
+
+    fn every_value(found: &Certified<Self>) -> Value {
+        let Some(found) = &found.cones else { return Value::Null };
+        let texts = |v: &[Self]| v.iter().map(ToString::to_string).collect::<Vec<_>>();
+        let rows = |m: &Matrix<Self>| (0..m.rows()).map(|i| texts(m.row(i))).collect::<Vec<_>>();
+        let cone = |c: &Cone<Self>| {
+            let rays: Vec<_> = (0..c.rays.cols()).map(|j| texts(&c.rays.column(j))).collect();
+            json!({"state": c.state, "rays": rays, "functional": texts(&c.functional), "chord": texts(&c.chord)})
+        };
+        let map = |m: &ConeMap<Self>| json!({"state": m.state, "letter": m.letter, "sign": m.sign, "matrix": rows(&m.matrix)});
+        json!({
+            "verdict": "proved",
+            "theorem": Statement::Theorem6.id(),
+            "cones": found.cones.iter().map(cone).collect::<Vec<_>>(),
+            "maps": found.maps.iter().map(map).collect::<Vec<_>>(),
+            "view": found.view.as_ref().map(|h| texts(h)),
+        })
     }
 
     fn field_text(shape: &Shape<Self>) -> Option<String> {

@@ -271,6 +271,10 @@ pub enum Reason {
     NoSpan,
     /// All maps are similarities of a plane.
     Similarities,
+    /// What breaks at a point.
+    Broken(usize),
+    /// No common cone was found; with irrational entries nothing else is looked for.
+    NoCone,
     /// There are irrational entries, with which this is not looked at.
     Irrational,
     /// What was found about every point of the curve ([`super::Certified::everywhere`]).

@@ -2,6 +2,7 @@
 
 use super::branch::Context;
 use super::claim::{Assertion, Claim, Reason};
+use super::cone_over::cones_over;
 use super::dense::DenseClaim;
 use super::verdict::Certified;
 use super::{ModelError, own_enclosures, parameter, rational_contraction, word_contraction};
@@ -10,6 +11,10 @@ use crate::arith::Rational;
 use crate::budget::Budget;
 use crate::jordan::Scalar;
 use crate::shape::{Balls, CellKind, Contraction, Shape, Spaces};
+use crate::statement::Statement;
+
+/// Binary digits of the rational entries from which cones are proposed.
+const NEAR: u64 = 48;
 
 /// Entries of shapes of which something can be proved.
 pub trait Provable: Scalar {
@@ -79,9 +84,14 @@ impl Provable for Real {
     fn everywhere(cx: &Context<Self>, found: &mut Certified<Self>) {
         let start = cx.shape.start;
         if cx.shape.states[start].kind == CellKind::Edge && cx.spaces.of(start).basis.cols() > 0 {
-            found.claims.push(match found.points.iter().position(super::everywhere::breaks) {
-                Some(k) => Claim::refuted(Assertion::G1, None, Reason::Joint(k)),
-                None => Claim::open(Assertion::G1, Reason::Irrational),
+            let broken = found.points.iter().position(super::everywhere::breaks);
+            if broken.is_none() {
+                found.cones = cones_over(cx, &cx.shape.rounded(NEAR));
+            }
+            found.claims.push(match (broken, &found.cones) {
+                (Some(k), _) => Claim::refuted(Assertion::G1, None, Reason::Broken(k)),
+                (None, Some(_)) => Claim::proved(Assertion::G1, Some(Statement::Theorem6)),
+                (None, None) => Claim::open(Assertion::G1, Reason::NoCone),
             });
             found.claims.push(Claim::open(Assertion::Smooth { order: 1 }, Reason::Irrational));
         }

@@ -1,6 +1,7 @@
 //! What the program says: verdicts, points, rays, and the evidence for each.
 
 use super::claim::Claim;
+use super::cone_over::ConesOver;
 use super::direction::Direction;
 use super::frames::Frames;
 use super::gap::{BranchGap, NoGerm, PointGap};
@@ -360,6 +361,8 @@ pub struct Certified<E: Scalar = Rational> {
     pub polygon_weights: Option<HullWeights>,
     /// The scalar product for which all maps are similarities, where there is one.
     pub similarities: Option<super::similarity::Similarities<E>>,
+    /// The cones that prove G¹ of a curve with entries in a number field.
+    pub cones: Option<ConesOver<E>>,
     /// What is known of every point of a curve (Theorem 6).
     pub everywhere: Option<super::everywhere::Everywhere>,
     /// What is known of a curve in its uniform parameter (Theorem E).
@@ -394,6 +397,7 @@ impl<E: Scalar> Certified<E> {
             polygons: None,
             polygon_weights: None,
             similarities: None,
+            cones: None,
             everywhere: None,
             parameter: None,
             surface: None,
