@@ -194,12 +194,16 @@ fn bad_entries_are_told_with_their_place() {
 
 /// Corner cutting (docs/theory.md §14) with `a` and `b`.
 fn corner_cutting(a: &str, b: &str) -> String {
+    cut([a, &format!("1-({a})"), b, &format!("1-({b})")])
+}
+
+fn cut([a, rest_a, b, rest_b]: [&str; 4]) -> String {
     format!(
         r#"name = "corner-cutting"
 convention = "columns"
 pieces = [
-  [["1-({a})", "{b}", 0], ["{a}", "1-({b})", "1-({a})"], [0, 0, "{a}"]],
-  [["{b}", 0, 0], ["1-({b})", "1-({a})", "{b}"], [0, "{a}", "1-({b})"]],
+  [["{rest_a}", "{b}", 0], ["{a}", "{rest_b}", "{rest_a}"], [0, 0, "{a}"]],
+  [["{b}", 0, 0], ["{rest_b}", "{rest_a}", "{b}"], [0, "{a}", "{rest_b}"]],
 ]
 "#
     )
@@ -228,8 +232,8 @@ fn conjugate_parameters_have_verdicts_of_their_own() {
         assert_eq!(same, usize::from(g1 == Verdict::Proved), "{a}");
     }
     // Rational members on both sides have the verdicts of the irrational one between them.
-    for a in ["0.2292", "0.2293"] {
-        let question = Question::parse("case.toml", &corner_cutting(a, a)).unwrap();
+    for (a, rest) in [("0.2292", "0.7708"), ("0.2293", "0.7707")] {
+        let question = Question::parse("case.toml", &cut([a, rest, a, rest])).unwrap();
         let Findings::Tangents { found, .. } = prove(&question, &Budget::default()).unwrap() else {
             panic!("rational")
         };
