@@ -3,7 +3,7 @@
 use super::Elem;
 use super::field::NumberField;
 use crate::arith::{Interval, Rational, to_f64};
-use crate::linalg::{Echelon, Entry, Matrix};
+use crate::linalg::{Echelon, Entry, Matrix, Products};
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
@@ -103,6 +103,8 @@ fn lifted(field: &Arc<NumberField>, a: Echelon<Elem>) -> Echelon<Real> {
 }
 
 impl Entry for Real {
+    type Product = Matrix<Self>;
+
     fn of(q: &Rational) -> Self {
         Self(Value::Rational(q.clone()))
     }
@@ -193,15 +195,6 @@ impl Entry for Real {
         }
     }
 
-    fn half_distance(a: &Matrix<Self>) -> Rational {
-        let distance = |i: usize, j: usize| {
-            let terms = (0..a.rows()).map(|k| a[(k, i)].minus(&a[(k, j)]).enclosure(BITS).magnitude());
-            terms.fold(Rational::from(0), |s, x| s + x)
-        };
-        let pairs = (0..a.cols()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        pairs.map(|(i, j)| distance(i, j)).fold(Rational::from(0), Rational::max) / Rational::from(2)
-    }
-
     fn pivots(a: &Matrix<Self>) -> Vec<usize> {
         match told_apart(a) {
             Ok(a) => a.pivots(),
@@ -211,6 +204,51 @@ impl Entry for Real {
 
     fn is_zero(&self) -> bool {
         matches!(&self.0, Value::Rational(q) if *q == 0)
+    }
+}
+
+/// A bound of the sum of absolute values.
+fn size<'a>(numbers: impl Iterator<Item = &'a Real>) -> Rational {
+    numbers.fold(Rational::from(0), |s, x| s + x.enclosure(BITS).magnitude())
+}
+
+impl Products<Real> for Matrix<Real> {
+    fn of(matrix: &Self) -> Self {
+        matrix.clone()
+    }
+
+    fn column(vector: &[Real]) -> Self {
+        Self::from_columns(vector.len(), &[vector.to_vec()])
+    }
+
+    fn identity(n: usize) -> Self {
+        Self::identity(n)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+
+    fn reduced(&self) -> Self {
+        self.clone()
+    }
+
+    fn distance1(&self, other: &Self) -> Rational {
+        size((self - other).entries().iter())
+    }
+
+    fn half_distance(&self) -> Rational {
+        let distance = |i: usize, j: usize| {
+            let terms: Vec<Real> = (0..self.rows()).map(|k| self[(k, i)].minus(&self[(k, j)])).collect();
+            size(terms.iter())
+        };
+        let pairs = (0..self.cols()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        pairs.map(|(i, j)| distance(i, j)).fold(Rational::from(0), Rational::max) / Rational::from(2)
+    }
+
+    fn range(&self, row: &[Real], bits: u64) -> Option<Interval> {
+        let values = self.apply_left(row);
+        Some(Interval { lo: values.iter().min()?.enclosure(bits).lo, hi: values.iter().max()?.enclosure(bits).hi })
     }
 }
 

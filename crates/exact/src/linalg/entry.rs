@@ -10,6 +10,9 @@ use std::hash::Hash;
 /// [`Rational`] and [`Real`](crate::algebraic::Real) are entries. What a matrix does with its entries is chosen here, so that
 /// matrices over the rationals keep their own elimination and their own sums.
 pub trait Entry: Clone + Ord + Hash + fmt::Debug + fmt::Display + Send + Sync + 'static {
+    /// Matrices of which many products are made.
+    type Product: Products<Self>;
+
     /// The image of a rational.
     fn of(q: &Rational) -> Self;
     /// The value, where it is rational.
@@ -39,8 +42,6 @@ pub trait Entry: Clone + Ord + Hash + fmt::Debug + fmt::Display + Send + Sync + 
     fn product(a: &Matrix<Self>, b: &Matrix<Self>) -> Matrix<Self>;
     /// The reduced row echelon form.
     fn echelon(a: &Matrix<Self>) -> Echelon<Self>;
-    /// The largest half 1-norm of the difference of two columns; at most a little more where entries are irrational.
-    fn half_distance(a: &Matrix<Self>) -> Rational;
     /// The columns of its leading ones.
     fn pivots(a: &Matrix<Self>) -> Vec<usize>;
 
@@ -73,4 +74,26 @@ pub trait Entry: Clone + Ord + Hash + fmt::Debug + fmt::Display + Send + Sync + 
     fn sum<'a>(terms: impl Iterator<Item = &'a Self>) -> Self {
         terms.fold(Self::zero(), |s, x| s.plus(x))
     }
+}
+
+/// Matrices of which products of many are made, in a form that suits the entries.
+pub trait Products<E>: Clone + fmt::Debug + Send + Sync {
+    /// A matrix.
+    fn of(matrix: &Matrix<E>) -> Self;
+    /// The vector as a matrix with one column.
+    fn column(vector: &[E]) -> Self;
+    /// The identity.
+    fn identity(n: usize) -> Self;
+    /// `self * other`.
+    #[must_use]
+    fn times(&self, other: &Self) -> Self;
+    /// The matrix as such.
+    fn reduced(&self) -> Matrix<E>;
+    /// The sum of the absolute values of the entries of `self − other`; a little more where entries are irrational.
+    fn distance1(&self, other: &Self) -> Rational;
+    /// The largest half 1-norm of the difference of two columns; a little more where entries are irrational.
+    fn half_distance(&self) -> Rational;
+    /// The smallest and the largest value of a row at the columns, rounded outwards by at most `2^-bits` where they are
+    /// irrational; `None` where there are no columns.
+    fn range(&self, row: &[E], bits: u64) -> Option<Interval>;
 }

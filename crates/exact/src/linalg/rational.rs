@@ -6,7 +6,6 @@ use super::matrix::{Echelon, Matrix};
 use super::sums::Line;
 use crate::arith::{Integer, Interval, Natural, Rational};
 use crate::poly::ints;
-use malachite_base::num::arithmetic::traits::UnsignedAbs;
 
 /// Rational entries.
 impl Matrix {
@@ -36,6 +35,8 @@ impl Matrix {
 }
 
 impl Entry for Rational {
+    type Product = super::Scaled;
+
     fn of(q: &Rational) -> Self {
         q.clone()
     }
@@ -101,19 +102,6 @@ impl Entry for Rational {
         let (rows, pivots) = elimination::upper(a.cleared_rows(), a.cols());
         let rows = elimination::divided(elimination::reduced_upper(rows, &pivots), &pivots);
         Echelon { rows: Matrix::from_rows(a.cols(), rows), pivots }
-    }
-
-    fn half_distance(a: &Matrix) -> Rational {
-        // Over one denominator, differences and their sums are integers.
-        let (d, scaled) = a.cleared();
-        let mut largest = Natural::from(0u32);
-        for i in 0..a.cols() {
-            for j in 0..i {
-                let terms = (0..a.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
-                largest = largest.max(terms.fold(Natural::from(0u32), |s, x| s + x));
-            }
-        }
-        Rational::from_naturals(largest, d << 1u64)
     }
 
     fn pivots(a: &Matrix) -> Vec<usize> {
