@@ -119,6 +119,10 @@ statements! {
     Lemma4Prime = "lemma-4-prime",
     Theorem9 = "theorem-9",
     MeshVertex = "mesh-vertex",
+    BorderVertex = "border-vertex",
+    BorderJordan = "border-jordan",
+    BorderOneFace = "border-one-face",
+    BorderRefuted = "border-refuted",
     MeshSurface = "mesh-surface",
     CurvatureSize = "curvature-size",
     Theorem6 = "theorem-6",
@@ -131,6 +135,7 @@ statements! {
     Smoothness = "smoothness",
     TensorEveryPoint = "tensor-every-point",
     PatchDerivative = "patch-derivative",
+    VertexEveryPoint = "vertex-every-point",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",
@@ -138,6 +143,7 @@ statements! {
     FamilyHulls = "family-hulls",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",
+    Border = "border",
 }
 
 impl Statement {

@@ -206,10 +206,13 @@ impl Answered {
         match &self.findings {
             Findings::Tangents { found, .. } => kinds(found),
             Findings::OverField { found, .. } => counted(found.points.iter().map(|p| p.kind.word())),
-            Findings::Vertices { found, .. } => counted(found.iter().map(|f| match f.smooth {
-                Verdict::Proved => "C¹ valence",
-                Verdict::Refuted => "valence not C¹",
-                Verdict::Undetermined => "open valence",
+            Findings::Vertices { found, .. } => counted(found.iter().map(|f| match (f.smooth, f.border) {
+                (Verdict::Proved, None) => "C¹ valence",
+                (Verdict::Refuted, None) => "valence not C¹",
+                (Verdict::Undetermined, None) => "open valence",
+                (Verdict::Proved, Some(_)) => "C¹ fan",
+                (Verdict::Refuted, Some(_)) => "fan not C¹",
+                (Verdict::Undetermined, Some(_)) => "open fan",
             })),
         }
     }
