@@ -195,6 +195,7 @@ fn interpolated(degree: usize, samples: &[(&Rational, &Matrix)]) -> Option<Matri
 mod tests {
     use super::*;
     use crate::arith::ratio;
+    use crate::linalg::Entry;
 
     const CURVE: &str = r#"
 name = "golden"
