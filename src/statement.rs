@@ -136,6 +136,9 @@ statements! {
     Refinement = "refinement",
     FamilyWords = "family-words",
     FamilyHulls = "family-hulls",
+    FamilyCurves = "family-curves",
+    ConeEnds = "cone-ends",
+    TangentsJump = "tangents-jump",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",
 }

@@ -5,6 +5,7 @@
 mod asked;
 mod chain;
 mod control;
+mod curve_family;
 mod expect;
 mod faces;
 mod field;
@@ -24,6 +25,7 @@ mod vertex;
 
 pub use asked::{asked, is_case, nothing, written};
 pub use control::with_control;
+pub use curve_family::{CurveFamilyCase, FamilyForm};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
 pub use lattice::LatticeCase;
