@@ -491,7 +491,7 @@ fn the_program_answers_about_curves() {
     let text = std::fs::read_to_string(&case).unwrap();
     let constant = text.replace("1 - a", "3/4").replace("\"a\"", "\"1/4\"");
     std::fs::write(dir.path().join("constant.toml"), constant).unwrap();
-    let moved = text.replace("[parameters]", "control = [[0, \"a\", 1], [0, 1, 0]]\n\n[parameters]");
+    let moved = text.replace("[parameters]", "control = [[0, 0], [\"a\", 1], [1, 0]]\n\n[parameters]");
     std::fs::write(dir.path().join("moved.toml"), moved).unwrap();
     for name in ["constant.toml", "moved.toml"] {
         let (code, _, problem) = run(&["region", name]);
