@@ -23,7 +23,7 @@ mod source;
 mod states;
 mod vertex;
 
-pub use asked::{asked, is_case, nothing, written};
+pub use asked::{asked, is_case, nothing, unaliased, written};
 pub use control::with_control;
 pub use curve_family::{CurveFamilyCase, FamilyForm};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
@@ -120,6 +120,8 @@ pub enum Origin {
     Polygon(Option<Mask>),
     /// The tensor product of two curves.
     Tensor,
+    /// Fractal interpolation through given points.
+    Interpolation,
     /// An automaton, some of whose states name a scheme or are chains.
     States,
     /// The neighbourhood of a vertex of a mesh.
@@ -265,12 +267,15 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, points to interpolate, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        let built = matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::States));
+        let built = matches!(
+            self.scheme,
+            Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::Interpolation | Origin::States)
+        );
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }

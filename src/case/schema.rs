@@ -156,6 +156,8 @@ fn scheme_table() -> Value {
         ("ends", words(&["open", "closed", "clamped"])),
         ("knots", numbers),
         ("tensor", json!({"type": "array", "items": {"type": "object"}, "minItems": 2, "maxItems": 2})),
+        ("interpolate", reference("matrix")),
+        ("vertical", list_of(&reference("number"), MAX_PIECES)),
         ("mesh", words(&meshes)),
         ("valence", json!({"type": "integer", "minimum": 3, "maximum": scheme::MAX_VALENCE})),
         ("cell", words(&["face", "disc"])),

@@ -39,6 +39,12 @@ impl Scaled {
         Self::of(&Matrix::from_fn(vector.len(), 1, |i, _| vector[i].clone()))
     }
 
+    /// Rows for columns.
+    #[must_use]
+    pub fn transpose(self) -> Self {
+        Self { entries: self.entries.transpose(), ..self }
+    }
+
     /// The identity.
     #[must_use]
     pub fn identity(n: usize) -> Self {
