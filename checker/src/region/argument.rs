@@ -212,7 +212,7 @@ impl<'a> Argument<'a> {
         let det = self.here.sign(&determinant(&cone)?)?;
         need(det != 0, "cone", "the rays may be dependent")?;
         // adj(−G) = (−1)^(n−1) adj(G).
-        let turn = if n % 2 == 0 { -det } else { det };
+        let turn = if n.is_multiple_of(2) { -det } else { det };
         let inverse: Rows = adjugate(&characteristic(&cone)?.1, &[])?.iter().map(|row| turned(row, turn)).collect();
         for c in apply(&inverse, &self.chord)? {
             need(self.here.sign(&c)? >= 0, "cone", "the chord may leave the cone")?;

@@ -61,7 +61,10 @@ fn read(source: &str) -> Checked<Family> {
         let reversed: Vec<bool> = flags.iter().map(One::is_one).collect();
         let entry = |item: &Node<'_>| -> Checked<Poly> { Ok(trimmed(item.each(Node::rational)?)) };
         let operators: Vec<Rows> = node.field("pieces")?.each(|m| m.each(|row| row.each(entry)))?;
-        let d = operators.first().map_or(0, Vec::len);
+        let d = match operators.first() {
+            Some(first) => first.len(),
+            None => 0,
+        };
         let square = |m: &Rows| m.len() == d && m.iter().all(|row| row.len() == d);
         let sound = bits
             && range[0] < range[1]

@@ -103,5 +103,5 @@ pub fn adjugate(all: &[Rows], x: &[Q]) -> Checked<Rows> {
 
 pub fn determinant(m: &Rows) -> Checked<Poly> {
     let constant = characteristic(m)?.0.swap_remove(0);
-    Ok(if m.len() % 2 == 0 { constant } else { minus(&[], &constant) })
+    Ok(if m.len().is_multiple_of(2) { constant } else { minus(&[], &constant) })
 }
