@@ -131,6 +131,7 @@ statements! {
     Smoothness = "smoothness",
     TensorEveryPoint = "tensor-every-point",
     PatchDerivative = "patch-derivative",
+    VertexEveryPoint = "vertex-every-point",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",
@@ -141,6 +142,7 @@ statements! {
     TangentsJump = "tangents-jump",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",
+    Border = "border",
 }
 
 impl Statement {

@@ -1,8 +1,9 @@
 //! The smoothness of schemes, curves and scaling functions, from joint spectral radii.
 
+use super::border::{border_answer, border_case, border_certified};
 use super::lattice::{lattice_answer, lattice_case, lattice_certified};
 use crate::arith::{Rational, parse_rational};
-use crate::case::{self, Case, LatticeCase, Origin};
+use crate::case::{self, BorderCase, Case, LatticeCase, Origin};
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
@@ -69,6 +70,9 @@ pub fn dilated_regularity(
     arity: usize,
     dilation: Option<&str>,
 ) -> Result<Smooth, Problem> {
+    if let Some(case) = plain_border(what, parameters, dilation)? {
+        return border_answer(case.scheme).map(|(smooth, _)| smooth);
+    }
     match lattice_case(what, parameters, dilation)? {
         Some(case) => lattice_answer(case.mask).map(|(smooth, _)| smooth),
         None => answer(what, &subject(what, parameters, arity)?),
@@ -80,10 +84,24 @@ pub fn dilated_regularity(
 /// # Errors
 /// As [`regularity`].
 pub fn regularity_of_case(name: &str, text: &str) -> Result<Smooth, Problem> {
+    if BorderCase::is_meant(text) {
+        return border_answer(BorderCase::parse(name, text)?.scheme).map(|(smooth, _)| smooth);
+    }
     if LatticeCase::is_meant(text) {
         return lattice_answer(LatticeCase::parse(name, text)?.mask).map(|(smooth, _)| smooth);
     }
     answer(name, &subject_of_case(name, text)?)
+}
+
+/// A case with a border, which has neither parameters nor a dilation.
+fn plain_border(what: &str, parameters: &[String], dilation: Option<&str>) -> Result<Option<BorderCase>, Problem> {
+    let case = border_case(what)?;
+    match case {
+        Some(_) if !parameters.is_empty() || dilation.is_some() => {
+            Err(wrong(format!("{what} has a [border], and neither parameters nor a dilation")))
+        }
+        other => Ok(other),
+    }
 }
 
 fn wrong(message: String) -> Problem {
@@ -336,6 +354,9 @@ pub fn certified_regularity(
     arity: usize,
     dilation: Option<&str>,
 ) -> Result<(Smooth, String, Option<String>), Problem> {
+    if let Some(case) = plain_border(what, parameters, dilation)? {
+        return border_certified(case);
+    }
     if let Some(case) = lattice_case(what, parameters, dilation)? {
         return lattice_certified(case);
     }

@@ -26,6 +26,10 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
             blocks.extend(seen.once_id(Statement::PatchDerivative));
             blocks.push(derivative(found).block());
         }
+        Answer::Proved(EverySurfaceProof::Vertex { valence, rings }) => {
+            blocks.extend(seen.once_id(Statement::VertexEveryPoint));
+            blocks.push(around_vertex(case, *valence, *rings).block());
+        }
         Answer::Refuted(EverySurfaceBreak::Point(_)) | Answer::Open(_) => {}
     }
     blocks.push(Block::Facts(every_plane::facts(surface)));
@@ -60,6 +64,26 @@ fn derivative(found: &PatchDerivative) -> Evidence {
         .holds("radius", &radius, [Math::number(&found.share)])
         .holds("edges", &edges, [])
         .holds("rank", &rank, [])
+}
+
+/// What was verified of the statement on the disc around a vertex.
+fn around_vertex(case: &Case, valence: usize, rings: Option<usize>) -> Evidence {
+    let at = format!(
+        "at valence {valence} the characteristic map has a Jacobian determinant of one strict sign, and a half-plane holds the \
+         image of a sector (`secant certify CASE --valence {valence}` shows both)."
+    );
+    let view = match (&case.shape.control, rings) {
+        (None, _) => "there are no control points.".to_owned(),
+        (Some(_), None) => "the control points are injective on the relevant space.".to_owned(),
+        (Some(_), Some(rings)) => format!(
+            "the leading coefficients are independent, {rings} rings pass the test patch by patch, and the later ones are within \
+             the room around the characteristic map."
+        ),
+    };
+    Evidence::of(Statement::VertexEveryPoint)
+        .holds("disc", "the shape was built from a mesh rule with polynomial patches.", [])
+        .holds("vertex", &at, [])
+        .holds("view", &view, [])
 }
 
 /// What was verified of the theorem on tensor products at every point.
