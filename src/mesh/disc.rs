@@ -36,6 +36,7 @@ pub fn immersed_disc(rule: &MeshRule, at: &AtValence, control: &Matrix) -> Optio
 }
 
 #[cfg(test)]
+#[allow(clippy::float_arithmetic, reason = "points of examples")]
 mod tests {
     use super::*;
     use crate::arith::Rational;

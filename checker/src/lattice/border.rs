@@ -138,8 +138,14 @@ impl Border {
         need(column != 0, "case", "column 0 has weights of its own")?;
         let mask = &self.sides[usize::from(column > 0)];
         spend(mask.terms.len(), 64)?;
-        let old = |(a, c): (&Vec<i64>, &Q)| Some((mask.dilation.divide(&[column - a[0], row - a[1]])?, c.clone()));
-        Ok(mask.terms.iter().filter_map(old).collect())
+        let mut found = Vec::new();
+        for (a, c) in &mask.terms {
+            // The coefficients of other cosets belong to other new points.
+            if let Some(old) = mask.dilation.divide(&[column - a[0], row - a[1]]) {
+                found.push((old, c.clone()));
+            }
+        }
+        Ok(found)
     }
 }
 
@@ -215,8 +221,11 @@ fn nets_of(mask: &Mask, at: &[Q; 2], degree: usize) -> Checked<Matrix> {
             need(right.is_zero(), "window", "constants are not kept")?;
         } else {
             let rest = some(shifted.columns(&lower).solve(&right)?, "window", "polynomials are not kept")?;
-            let full = |i: usize, _: usize| lower.iter().position(|k| *k == i).map_or_else(Q::zero, |k| rest.at(k, 0));
-            let rows: Vec<Vec<Q>> = (0..all.len()).map(|i| vec![full(i, 0)]).collect();
+            let full = |i: usize| match lower.iter().position(|k| *k == i) {
+                Some(k) => rest.at(k, 0),
+                None => Q::zero(),
+            };
+            let rows: Vec<Vec<Q>> = (0..all.len()).map(|i| vec![full(i)]).collect();
             net = net.plus(&Q::one(), &Matrix::from_rows(1, &rows));
         }
         columns = columns.stack(&net.transpose());

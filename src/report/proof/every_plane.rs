@@ -5,11 +5,11 @@ use super::super::every_plane;
 use super::super::math::Math;
 use super::super::radius::decimal;
 use super::super::words::{count, listed, mark};
-use super::Quoted;
 use super::evidence::Evidence;
+use super::product::moves;
+use super::{Quoted, every};
 use crate::answer::Answer;
 use crate::case::Case;
-use crate::shape::Spaces;
 use crate::statement::Statement;
 use crate::theorem::Certified;
 use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface};
@@ -19,6 +19,13 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
     match &surface.every {
         Answer::Proved(EverySurfaceProof::Product(curves))
         | Answer::Refuted(EverySurfaceBreak::Curve { curves, .. }) => {
+            for (k, (which, found)) in ["first", "second"].into_iter().zip(curves.iter()).enumerate() {
+                let Some(factor) = surface.factors.as_ref().and_then(|f| f.get(k)) else { continue };
+                let mut own = case.clone();
+                own.shape.clone_from(&factor.shape);
+                blocks.push(Block::heading(3, &format!("Every point of the {which} curve")));
+                blocks.extend(every::curve(&own, found, seen));
+            }
             blocks.extend(seen.once_id(Statement::TensorEveryPoint));
             blocks.push(product(case, surface, curves).block());
         }
@@ -93,16 +100,10 @@ fn product(case: &Case, surface: &Surface, curves: &[Certified; 2]) -> Evidence 
         "the operators of the surface are the tensor products of those of the two curves.",
         [],
     );
-    let moves = surface.factors.as_ref().is_some_and(|factors| {
-        factors.iter().all(|f| {
-            Spaces::new(&f.shape).is_some_and(|spaces| {
-                let pieces = &f.shape.states[f.shape.start].pieces;
-                pieces.iter().all(|p| !f.shape.is_point(&spaces, p))
-            })
-        })
-    });
-    let text = if moves { "no piece of the two curves is a point." } else { "a piece may be a point." };
-    evidence.push("no-point", if moves { Tone::Good } else { Tone::Bad }, words(text));
+    for (k, factor) in surface.factors.iter().flatten().enumerate() {
+        let (tone, text) = moves(["first", "second"][k.min(1)], factor);
+        evidence.push("no-point", tone, text);
+    }
     for (which, curve) in ["first", "second"].into_iter().zip(curves) {
         let Some(every) = &curve.everywhere else {
             evidence.push("curves", Tone::Open, words(format!("nothing is known of the {which} curve.")));
