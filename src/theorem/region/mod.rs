@@ -6,9 +6,18 @@
 //! limit are independent on a unit interval; the latter is so where one polynomial does not vanish. Where it does, and where a
 //! further sum rule holds, the member itself is asked.
 
+mod argue;
+mod cones;
+mod curve;
+mod fact;
 mod independence;
+mod signs;
+mod table;
 
+pub use curve::{CurveFamily, CurveFamilyError};
+pub use fact::{CurveClaim, CurveEnd, Evidence, Fact, Why};
 pub use independence::Independence;
+pub use table::{Basis, CurvePart, CurveRegions, CurveTable, Subject, member_verdict};
 
 use super::regularity::{Regularity, digits, regularity};
 use crate::algebraic::Root;
