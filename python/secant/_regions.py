@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Any
 
 from . import _secant
-from ._answers import text_of
+from ._answers import Effort, text_of
 from ._cases import source
 from ._errors import InputError
 from ._numbers import Algebraic, Exact, number, value, written
@@ -281,6 +281,8 @@ def region(
     order: int | None = None,
     width: Any = None,
     hulls: int | None = None,
+    effort: Effort = "normal",
+    seconds: float | None = None,
     exact: Exact | None = None,
     arity: int = 2,
     name: str = "mask",
@@ -301,6 +303,10 @@ def region(
         Gaps that are narrower are left; ``"1e-6"`` without it.
     hulls : int, optional
         How many hulls may be tried for each order.
+    effort : {"quick", "normal", "hard"}
+        How much work is spent: what is undetermined may be decided with more, no answer changes.
+    seconds : float, optional
+        Search for about this long instead; without it the answer is always the same.
     exact : {"decimal", "binary"}, optional
         How floats are made exact; without it they are refused.
     arity : int
@@ -324,20 +330,22 @@ def region(
     >>> found[1].at("1/4").value
     'proved'
     """
+    if seconds is not None and not 0 < seconds < float("inf"):
+        raise InputError(f"seconds={seconds} is no positive number", code="secant::region", help="as in seconds=60")
     set = [_setting(key, v, exact) for key, v in (parameters or {}).items()]
     if width is not None:
         width = written(number(width, exact, "the width"))
     if isinstance(x, str) and "\n" not in x and not os.path.isfile(x):
         scheme, *ranges = x.split() or [x]
-        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, width, hulls)
+        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, width, hulls, effort, seconds)
     elif isinstance(x, (str, os.PathLike, Mapping)):
         given = source(x, exact=exact, name=name)
-        asked = (given.name, text_of(given), set, order, width, hulls)
+        asked = (given.name, text_of(given), set, order, width, hulls, effort, seconds)
     else:
         mask = [_coefficient(c, exact, f"coefficient {k} of the mask") for k, c in enumerate(x)]
         limits = dict(text.split("=", 1) for text in set)
         case = {"name": name, "parameters": limits, "scheme": {"mask": mask, "arity": arity}}
-        asked = (name, text_of(source(case)), [], order, width, hulls)
+        asked = (name, text_of(source(case)), [], order, width, hulls, effort, seconds)
     findings, data, verdict = _secant.region(*asked)
     return Regions(json.loads(data), verdict, asked, findings)
 

@@ -1,6 +1,6 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
-use crate::doors::{certificate_json, rendered};
+use crate::doors::{budget, certificate_json, rendered};
 use crate::work::outside;
 use pyo3::prelude::*;
 use secant::arith::{Rational, parse_rational};
@@ -56,10 +56,15 @@ pub fn region(
     order: Option<usize>,
     width: Option<String>,
     hulls: Option<usize>,
+    effort: String,
+    seconds: Option<f64>,
 ) -> PyResult<(RegionFindings, String, String)> {
     outside(py, move || {
         let set = set.iter().map(|t| setting(t)).collect::<Result<Vec<_>, _>>()?;
-        let mut search = Search::default();
+        let mut search: Search = budget(&effort, None, None)?.regions;
+        if let Some(seconds) = seconds {
+            search = search.within(seconds);
+        }
         search.hulls = hulls.unwrap_or(search.hulls);
         if let Some(text) = width {
             search.width = positive(&text)?;

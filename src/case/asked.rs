@@ -19,8 +19,9 @@ const ALIASES: [(&str, &str); 7] = [
     ("heighway", "dragon"),
 ];
 
-/// The same with a scheme's own name and its parameters where it begins with another name of it.
-fn unaliased(text: &str) -> Option<String> {
+/// The same with a scheme's own name and its parameters where it begins with another name of it, such as `chaikin`.
+#[must_use]
+pub fn unaliased(text: &str) -> Option<String> {
     let (first, rest) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
     let (_, own) = ALIASES.iter().find(|(alias, _)| *alias == first.to_lowercase())?;
     Some(format!("{own} {rest}").trim_end().to_owned())
@@ -70,6 +71,9 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
     }
     if text.trim_start().starts_with("[[[") {
         return Some(pieces(text));
+    }
+    if scheme::Terms::is_meant(text) {
+        return Some(Ok(case("mask", text, &format!("\n[mask]\nsymbol = {}", quoted(text)))));
     }
     if text.contains('z') && text.contains(['(', '^', '+']) {
         return Some(Ok(case("symbol", text, &format!("\n[scheme]\nsymbol = {}", quoted(text)))));

@@ -10,7 +10,7 @@ use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "name",
     "title",
     "source",
@@ -20,6 +20,7 @@ const KEYS: [&str; 14] = [
     "reversed",
     "map",
     "scheme",
+    "mask",
     "start",
     "state",
     "control",
@@ -155,6 +156,11 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
             .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
     }
+    if case.get("border").is_some() {
+        return Err(case
+            .problem("border", "this case is about two masks that meet along a line, not about one shape", "")
+            .with_help("`secant regularity FILE` says how smooth the limits are across it"));
+    }
     super::parameters::left_free(case).map_or(Ok(()), Err)?;
     if let Some(span) = case.key_span("matrices") {
         return Err(case
@@ -264,7 +270,7 @@ pub(super) fn name(case: &Table<'_>) -> Result<String, Problem> {
 
 fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
     let word = case.word("convention", &["columns", "rows"])?;
-    if case.get("map").is_none() && case.get("scheme").is_none() {
+    if ["map", "scheme", "mask"].into_iter().all(|form| case.get(form).is_none()) {
         case.need("convention", "\"columns\"").map_err(|p| {
             p.with_help(
                 "say how the matrices act: convention = \"columns\" (operators on columns of coordinates, \
@@ -286,6 +292,9 @@ fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
 fn model(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<Model, Problem> {
     if let Some(node) = case.get("scheme") {
         return scheme::read(case, &node);
+    }
+    if let Some(node) = case.get("mask") {
+        return super::lattice::read(case, &node);
     }
     if let Some(node) = case.get("map") {
         return maps::read(case, &node, kind);

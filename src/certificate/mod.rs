@@ -4,6 +4,7 @@
 //! shares no code with this crate.
 #![deny(clippy::disallowed_methods)]
 
+mod border;
 mod branch;
 mod confirm;
 mod everywhere;
@@ -13,6 +14,7 @@ mod joint;
 mod lattice;
 mod radius;
 mod region;
+mod region_curve;
 mod regularity;
 mod solve;
 mod spectrum;
@@ -21,10 +23,12 @@ mod top;
 mod tree;
 mod vertex;
 
+pub use border::border_certificate;
 pub use confirm::{Doubt, checked, confirm, confirm_orders};
 pub use joint::radius_certificate;
 pub use lattice::lattice_certificate;
 pub use region::region_certificate;
+pub use region_curve::curve_region_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
 pub use vertex::{confirm_vertices, vertex_certificate};

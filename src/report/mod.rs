@@ -1,5 +1,6 @@
 //! Reports: one document model, and its renderings.
 
+pub mod border;
 pub mod claims;
 pub mod document;
 pub mod every;
@@ -19,6 +20,7 @@ pub mod proof;
 pub mod radius;
 pub mod reasons;
 pub mod region;
+pub mod region_curve;
 pub mod regularity;
 pub mod spectrum;
 pub mod summary;

@@ -200,13 +200,13 @@ impl Walk<'_> {
 mod tests {
     use super::*;
     use crate::arith::ratio;
-    use crate::scheme::{bezier, dragon, fern};
+    use crate::scheme::{bezier, dragon, fern, koch};
     use crate::shape::{Complex, sample};
 
     #[test]
-    fn equal_pieces_give_the_words_of_one_length() {
-        for shape in [dragon().expect("a curve"), bezier(3, &ratio(1, 2)).expect("a curve")] {
-            let uniform = sample(&Complex::of_curves(shape.clone()), 6, &mut |_| ()).expect("points");
+    fn similar_pieces_of_one_size_give_the_words_of_one_length() {
+        for (shape, depth) in [(dragon().expect("a curve"), 6), (koch(4).expect("a curve"), 3)] {
+            let uniform = sample(&Complex::of_curves(shape.clone()), depth, &mut |_| ()).expect("points");
             let found = adaptive_sample(&shape, 64).expect("points");
             assert_eq!(found.points, uniform.points);
             assert_eq!(found.parameters, uniform.parameters);

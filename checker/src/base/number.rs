@@ -12,8 +12,8 @@ pub const MAX_DIGITS: usize = 10_000;
 /// How much arithmetic a check may do; a product of two numbers of `w` words counts `16 + w²`.
 const BUDGET: u64 = 4_000_000_000;
 
-/// After so much work it is asked whether to go on.
-const LOOK: u32 = 22;
+/// It is asked whether to go on each time when `2^LOOK` more were spent.
+const LOOK: u32 = 16;
 
 thread_local! {
     static SPENT: Cell<u64> = const { Cell::new(0) };

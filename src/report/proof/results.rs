@@ -69,10 +69,9 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
 /// The vectors that span a tangent subspace, or how many there are where they fill a page.
 fn short(space: &Subspace) -> Line {
     match space.generators.first().map(|g| g.coords.len()) {
-        Some(n) if n > LONGEST => words(format!(
-            "spanned by {} of {n} coordinates, which stand at the point",
-            count(space.generators.len(), "vector")
-        )),
+        Some(n) if n > LONGEST => {
+            words(format!("{} of {n} coordinates, at the point", count(space.generators.len(), "vector")))
+        }
         _ => span(space),
     }
 }
