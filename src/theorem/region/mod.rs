@@ -327,7 +327,7 @@ impl<'a> Purse<'a> {
 
     /// The part of one of so many orders that are to come.
     fn share(&self, orders: usize) -> Search {
-        let parts = u32::try_from(orders.max(1)).unwrap_or(u32::MAX);
+        let parts = orders.clamp(1, 1 << 20) as u32;
         Search { work: self.work / u64::from(parts), time: self.time().map(|t| t / parts), ..self.search.clone() }
     }
 
