@@ -6,6 +6,7 @@ use super::super::surface::{point_name as surface_point_name, span};
 use super::super::words::{addresses, count, direction, mark, point_name};
 use crate::arith::Rational;
 use crate::case::Case;
+use crate::linalg::Entry;
 use crate::shape::{Address, CellKind, Shape};
 use crate::theorem::surface::{Subspace, Surface, SurfacePoint};
 use crate::theorem::{Certified, PointReport};
@@ -79,7 +80,7 @@ fn short(space: &Subspace) -> Line {
 /// The parameter of an address in the uniform parameter, in which the pieces of a cell take equal parts of its interval;
 /// `None` where a state on the way is no curve.
 #[must_use]
-pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
+pub fn parameter<E: Entry>(shape: &Shape<E>, address: &Address) -> Option<Rational> {
     let after = shape.path(shape.start, &address.prefix);
     let (slope, offset) = affine(shape, *after.last()?, &address.cycle)?;
     let fixed = offset / (Rational::from(1) - slope);
@@ -88,7 +89,7 @@ pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
 }
 
 /// The map of parameters that belongs to a word: slope and offset.
-fn affine(shape: &Shape, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
+fn affine<E: Entry>(shape: &Shape<E>, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
     let (mut slope, mut offset) = (Rational::from(1), Rational::from(0));
     for (letter, state) in word.iter().zip(shape.path(start, word)) {
         let state = shape.states.get(state).filter(|s| s.kind == CellKind::Edge)?;
