@@ -374,6 +374,32 @@ fn borders_in_files_and_their_certificates() {
 }
 
 #[test]
+fn nets_on_the_border_alone_are_not_forgotten() {
+    // No side reads column 0, whose points double or stay while both sides tend to what is around them.
+    for (own, other) in [("2", ", [1, 0, -1]"), ("1", "")] {
+        let mut text = "name = \"detached\"\n[border]\n".to_owned();
+        for side in ["left", "right"] {
+            text += &format!("{side} = {{ symbol = \"(1+x)^2*(1+y)^2/4/(x*y)\", place = [1, 0] }}\n");
+        }
+        let mut stencil = |at: &str, weights: &str| {
+            text += &format!("[[border.stencil]]\nat = [{at}]\nweights = [{weights}]\n");
+        };
+        for phase in [0, 1] {
+            stencil(&format!("0, {phase}"), &format!("[0, 0, {own}]{other}"));
+        }
+        for (column, across) in [(1, -1), (-1, 1)] {
+            let row = |r: i64, s: &str| format!("[{column}, {r}, \"{s}3/4\"], [{across}, {r}, \"{s}1/4\"]");
+            stencil(&format!("{column}, 0"), &row(0, ""));
+            let halves = format!("{}, {}", row(0, ""), row(1, "")).replace("/4", "/8");
+            stencil(&format!("{column}, 1"), &halves);
+        }
+        let found = secant::ask::regularity_of_case("detached.toml", &text).expect("an answer");
+        assert_eq!(found.data["orders"][0]["by"], "border", "{}", found.text);
+        assert_eq!(found.data["smoothness"], serde_json::Value::Null);
+    }
+}
+
+#[test]
 fn borders_that_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("border.toml");

@@ -114,6 +114,9 @@ fn word(o: &BorderOrder) -> String {
         BorderAnswer::Open(BorderGap::Side(k)) => format!("not decided on the {}, by itself", SIDES[k]),
         BorderAnswer::Open(BorderGap::Window) => "not decided: no window was found that overlaps enough".to_owned(),
         BorderAnswer::Open(BorderGap::Radius) => "not decided: J is not below the bound".to_owned(),
+        BorderAnswer::Open(BorderGap::Border) => {
+            "not decided: the sides do not determine the points on the border".to_owned()
+        }
     }
 }
 
@@ -149,6 +152,7 @@ pub fn border_data(r: &BorderRegularity) -> Value {
             BorderAnswer::Open(BorderGap::Side(k)) => (None, SIDES[k]),
             BorderAnswer::Open(BorderGap::Window) => (None, "window"),
             BorderAnswer::Open(BorderGap::Radius) => (None, "bounds"),
+            BorderAnswer::Open(BorderGap::Border) => (None, "border"),
         };
         let pairs = o.model.as_ref().filter(|_| o.answer == BorderAnswer::Jump).map(|model| {
             let text = |p: &[Rational]| polynomial(p, o.order);

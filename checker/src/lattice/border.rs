@@ -54,6 +54,9 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         let model = item.at(Model::new(&border, read_points(&window, 2)?, reach.index(MAX_REACH + 1)?, order))?;
         match tag {
             "radius" => {
+                let n = monomials(2, order, false).len();
+                let free = kernel(&model.equal.part(0..n, 0..model.equal.cols))?.cols;
+                item.need(free == 0, "window", "the sides do not determine the points on the border")?;
                 let found = model.below(&model.equal, &radius, order)?;
                 blocks.extend(found);
                 claims.push(Claim::BorderSmooth { order }.is(Verdict::Proved));

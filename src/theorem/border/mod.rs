@@ -32,6 +32,8 @@ pub enum BorderGap {
     Window,
     /// The bounds of the radius are not below that of the order.
     Radius,
+    /// They are, but some nets that live on the border alone are kept besides polynomials.
+    Border,
 }
 
 /// One order.
@@ -144,10 +146,12 @@ fn examine(scheme: &BorderScheme, sides: &[LatticeRegularity; 2], order: usize, 
         }
         None => false,
     };
+    let alone = !model.determines_border();
     found.model = Some(model);
     found.sided = jump && below;
     found.answer = match (jump, below) {
         (true, _) => BorderAnswer::Jump,
+        (false, true) if alone => BorderAnswer::Open(BorderGap::Border),
         (false, true) => BorderAnswer::Smooth,
         (false, false) => BorderAnswer::Open(BorderGap::Radius),
     };

@@ -216,6 +216,13 @@ impl BorderModel {
         (0..2).all(|k| &moved * &polynomial(&own, k) == polynomial(&next, k))
     }
 
+    /// Whether the polynomial of a triple with equal polynomials determines its net, also on the border.
+    #[must_use]
+    pub fn determines_border(&self) -> bool {
+        let n = monomials(2, self.degree).len();
+        Matrix::from_fn(n, self.equal.cols(), |i, j| self.equal[(i, j)].clone()).kernel().cols() == 0
+    }
+
     /// The operators on nets modulo those of triples; `None` where these are not kept.
     #[must_use]
     pub fn quotient(&self, triples: &Matrix) -> Option<Vec<Matrix>> {
