@@ -1,6 +1,6 @@
 //! Extraordinary vertices: the cases, an outside oracle that samples densely, the published facts, and the command line.
 
-mod corpus;
+use crate::corpus;
 
 use secant::arith::{Interval, Rational, ratio, to_f64};
 use secant::case::{Valences, VertexCase};

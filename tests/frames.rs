@@ -1,7 +1,7 @@
 //! Shapes that start somewhere: states of different dimensions, seen through control points and through transient states.
 
-mod automata;
-mod corpus;
+use crate::automata;
+use crate::corpus;
 
 use automata::{automaton, plans};
 use corpus::case_files;

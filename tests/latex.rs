@@ -3,7 +3,7 @@
 //!
 //! Debian: `apt-get install texlive-latex-recommended texlive-pictures lmodern`.
 
-mod corpus;
+use crate::corpus;
 
 use rayon::prelude::*;
 use secant::case::Valences;

@@ -1,7 +1,7 @@
 //! Algebraic laws of the exact spectrum, on random and on planted matrices.
 #![cfg(feature = "strategies")]
 
-mod chains;
+use crate::chains;
 
 use proptest::prelude::*;
 use secant::arith::{Rational, ratio};

@@ -1,6 +1,6 @@
 //! One question, one answer: how a case is written, and who asks, does not change what is found.
 
-mod corpus;
+use crate::corpus;
 
 use secant::case::{Question, Subject, Valences};
 use secant::prelude::{Budget, Findings, Verdict, confirm, findings, prove};

@@ -1,6 +1,6 @@
 //! The JSON Schema of the case format is the one that is committed, and says what the reader does.
 
-mod corpus;
+use crate::corpus;
 
 use secant::case::{Question, schema};
 use serde_json::Value;

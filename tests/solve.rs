@@ -1,6 +1,6 @@
 //! `secant solve`: every case of `cases/solve` comes out as its file expects, and the solutions are cases again.
 
-mod corpus;
+use crate::corpus;
 
 use assert_cmd::Command;
 use corpus::case_files;

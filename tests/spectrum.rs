@@ -1,6 +1,6 @@
 //! Spectra of the matrices of the benches against FLINT, with and without the use of symmetry.
 
-mod chains;
+use crate::chains;
 
 use secant::approx::approximate_spectrum;
 use secant::arith::to_f64;

@@ -1,6 +1,6 @@
 //! Verdicts do not depend on units: the same system under invertible affine changes has the same verdicts, kinds and dimensions.
 
-mod corpus;
+use crate::corpus;
 
 use corpus::case_files;
 use proptest::prelude::*;
