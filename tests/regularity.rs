@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use secant::arith::{Integer, Rational, abs, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::radius::Options;
+use secant::scheme::Interpolation;
 use secant::shape::{CellKind, End, Frame, Piece, Shape, Spaces, State};
 use secant::theorem::smoothness::{CurveRegularity, Outcome, Seen, curve_regularity};
 
@@ -25,7 +26,7 @@ fn integers(rows: &[&[(i64, i64)]]) -> Matrix {
 
 fn state(name: &str, pieces: Vec<(usize, Matrix)>) -> State {
     let dim = pieces[0].1.rows();
-    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false }).collect();
+    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false, share: None }).collect();
     State { name: name.into(), kind: CellKind::Edge, dim, pieces, left: None, right: None }
 }
 
@@ -359,6 +360,138 @@ proptest! {
             if let Outcome::Joint(jump) = &found.orders[1].outcome {
                 quotients(shape, jump.right, jump.seen.as_ref().unwrap());
             }
+        }
+    }
+}
+
+fn numbers(list: &[(i64, i64)]) -> Vec<Rational> {
+    list.iter().map(|&(p, q)| ratio(p, q)).collect()
+}
+
+fn factors(list: &[Rational]) -> Vec<Matrix> {
+    list.iter().map(|a| Matrix::from_rows(1, vec![vec![a.clone()]])).collect()
+}
+
+#[test]
+fn interpolation_that_is_c2_and_not_c3() {
+    let points = [[(0, 1), (0, 1)], [(1, 3), (4, 5)], [(1, 1), (1, 1)]].map(|p| numbers(&p));
+    let cubic = numbers(&[(0, 1), (3060, 2716), (-1089, 2716), (66, 2716)]);
+    let polynomials = vec![vec![cubic], vec![numbers(&[(4, 5)])]];
+    let data = Interpolation::new(&points, factors(&numbers(&[(1, 20), (1, 5)])), polynomials).unwrap();
+    let found = analysed(&data.shape().unwrap());
+    assert_eq!((found.smoothness(), found.is_smooth(3), found.polynomial), (2, Some(false), false));
+    assert_eq!(found.orders.iter().map(|o| o.dims[0]).collect::<Vec<_>>(), [4, 3, 2, 1]);
+    assert_eq!(found.orders[3].outcome, Outcome::Cycle);
+    assert_eq!(found.orders[3].radius.as_ref().unwrap().lower.as_ref().unwrap().rational(), Some(ratio(27, 20)));
+    // The derivatives by Theorem 10, at the ends and at the inner point.
+    for (k, ends, middle) in [(1, [(2700, 679), (0, 1)], (810, 679)), (2, [(-8910, 679), (0, 1)], (-8019, 1358))] {
+        let own = data.matching(k).unwrap();
+        let middle = ratio(middle.0, middle.1);
+        assert_eq!(own.ends.unwrap().to_vec(), numbers(&ends), "order {k}");
+        assert_eq!(own.joints, [[middle.clone(), middle]], "order {k}");
+    }
+    assert_eq!(data.matching(3).unwrap().ratios[0], ratio(27, 20));
+    holds_exponent(&found, (20f64.ln() / 3f64.ln()).min(5f64.ln() / 1.5f64.ln()));
+}
+
+/// The enclosure holds the number, and is as narrow as it is said to be.
+fn holds_exponent(found: &CurveRegularity, expected: f64) {
+    let bounds = found.exponent.as_ref().unwrap();
+    let (lo, hi) = (to_f64(&bounds.lo), to_f64(&bounds.hi));
+    assert!(lo <= expected + 1e-12 && expected <= hi + 1e-12 && hi - lo < 2e-3, "{expected} in {lo}..{hi}");
+}
+
+/// The function with the derivatives `slopes` at the points: cubic pieces that Hermite's conditions give.
+fn hermite(xs: &[Rational], ys: &[Rational], slopes: &[Rational], alpha: &[Rational]) -> Vec<Vec<Vec<Rational>>> {
+    let last = alpha.len();
+    let (from, width) = (&xs[0], &xs[last] - &xs[0]);
+    let piece = |j: usize| {
+        let share = (&xs[j + 1] - &xs[j]) / &width;
+        let value = |end: usize, y: usize| &ys[y] - &alpha[j] * &ys[end];
+        let slope = |end: usize, y: usize| (&slopes[y] * &share - &alpha[j] * &slopes[end]) * &width;
+        let ([p, q], [u, v]) = ([value(0, j), value(last, j + 1)], [slope(0, j), slope(last, j + 1)]);
+        let three = ratio(3, 1) * (&q - &p);
+        let cubic = [p.clone(), u.clone(), &three - ratio(2, 1) * &u - &v, ratio(2, 1) * (&p - &q) + &u + &v];
+        // In t = (x − from)/width; from is 0 in the tests, so that x = width t.
+        assert_eq!(*from, 0);
+        let scaled = cubic.iter().scan(ratio(1, 1), |w, c| {
+            let own = c / &*w;
+            *w *= &width;
+            Some(own)
+        });
+        vec![scaled.collect()]
+    };
+    (0..last).map(piece).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    /// Theorem E and the numbers of Theorem 10 decide alike.
+    #[test]
+    fn interpolation_is_decided_as_by_barnsley_and_harrington(
+        gaps in prop::collection::vec(1i64..5, 2..4),
+        ys in prop::collection::vec(-3i64..4, 4),
+        slopes in prop::collection::vec(-3i64..4, 4),
+        sizes in prop::collection::vec(-7i64..8, 3),
+        moved in prop::bool::ANY,
+    ) {
+        let n = gaps.len();
+        let xs: Vec<Rational> = (0..=n).map(|k| ratio(gaps[..k].iter().sum(), 1)).collect();
+        let (mut ys, slopes): (Vec<_>, Vec<_>) = (0..=n).map(|k| (ratio(ys[k], 1), ratio(slopes[k], 2))).unzip();
+        let alpha: Vec<Rational> = sizes[..n].iter().map(|s| ratio(*s, 8)).collect();
+        let cubics = hermite(&xs, &ys, &slopes, &alpha);
+        let points = |ys: &[Rational]| -> Vec<Vec<Rational>> {
+            xs.iter().zip(ys).map(|(x, y)| vec![x.clone(), y.clone()]).collect()
+        };
+        let data = if moved {
+            ys[0] += ratio(1, 3);
+            Interpolation::affine(&points(&ys), factors(&alpha)).unwrap()
+        } else {
+            Interpolation::new(&points(&ys), factors(&alpha), cubics).unwrap()
+        };
+        let found = analysed(&data.shape().unwrap());
+        let mut smooth = true;
+        for (k, order) in found.orders.iter().enumerate().skip(1) {
+            let own = data.matching(k).unwrap();
+            smooth &= match own.ends {
+                Some(_) => own.joints.iter().all(|[a, b]| a == b),
+                None => found.polynomial,
+            };
+            prop_assert_eq!(order.smooth(), Some(smooth), "order {} of {:?}", k, data);
+        }
+        // Hermite's conditions make it C¹ where the factors allow it.
+        let shares = data.shares();
+        if !moved && alpha.iter().zip(&shares).all(|(a, s)| abs(a) < *s) {
+            prop_assert!(found.smoothness() >= 1);
+        }
+        // The exponent of what is no polynomial is that of its largest factor, or of the order whose equations fail.
+        if !found.polynomial {
+            let exponent = |(a, s): (&Rational, &Rational)| to_f64(&abs(a)).ln() / to_f64(s).ln();
+            let least = alpha.iter().zip(&shares).filter(|(a, _)| **a != 0).map(exponent).fold(f64::INFINITY, f64::min);
+            holds_exponent(&found, least.min(found.smoothness() as f64 + 1.0));
+        }
+    }
+}
+
+#[test]
+fn equal_shares_are_the_uniform_parameter() {
+    for (name, parameters) in
+        [("four-point", vec![]), ("bspline", vec![("degree".to_owned(), ratio(3, 1))]), ("takagi", vec![])]
+    {
+        let shape = secant::scheme::build(name, &parameters.into_iter().collect()).unwrap();
+        let mut shared = shape.clone();
+        for state in &mut shared.states {
+            let share = ratio(1, state.pieces.len() as i64);
+            state.pieces.iter_mut().for_each(|p| p.share = Some(share.clone()));
+        }
+        let (uniform, own) = (analysed(&shape), analysed(&shared));
+        assert_eq!((uniform.smoothness(), uniform.polynomial), (own.smoothness(), own.polynomial), "{name}");
+        for (a, b) in uniform.orders.iter().zip(&own.orders) {
+            assert_eq!((a.smooth(), &a.dims), (b.smooth(), &b.dims), "{name}");
+        }
+        if let (Some(a), Some(b)) = (&uniform.exponent, &own.exponent) {
+            assert!(a.lo <= b.hi && b.lo <= a.hi, "{name}: {a:?} {b:?}");
         }
     }
 }

@@ -19,7 +19,7 @@ struct Built {
 
 /// Reads the table `[scheme]`, which stands instead of `pieces`, `[[map]]` and `[[state]]`.
 pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> {
-    for key in ["pieces", "reversed", "map", "state", "start", "kind", "convention"] {
+    for key in ["pieces", "reversed", "shares", "interpolate", "map", "state", "start", "kind", "convention"] {
         if let Some(span) = case.key_span(key) {
             let message = format!("`{key}` and `[scheme]` exclude each other");
             return Err(case

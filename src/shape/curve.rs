@@ -116,8 +116,7 @@ impl Shape {
         }
     }
 
-    /// The address of a parameter of the curve of a state, in which the pieces of every cell take equal parts; `None` where the
-    /// parameter is not between 0 and 1, or a state on the way is no curve.
+    /// The address of a parameter of the curve of a state, of which the pieces take their shares; `None` where the parameter is not between 0 and 1, or a state on the way is no curve.
     #[must_use]
     pub fn address_of(&self, state: usize, parameter: &Rational) -> Option<Address> {
         if *parameter < 0 || *parameter > 1 {
@@ -131,9 +130,8 @@ impl Shape {
             }
             seen.push((at, t.clone()));
             let state = self.states.get(at).filter(|s| s.kind == CellKind::Edge)?;
-            let scaled = &t * Rational::from(state.pieces.len());
-            let letter = (0..state.pieces.len()).rev().find(|k| scaled >= *k)?;
-            t = scaled - Rational::from(letter);
+            let letter = (0..state.pieces.len()).rev().find(|k| t >= state.before(*k))?;
+            t = (t - state.before(letter)) / state.share(letter);
             if state.pieces[letter].reversed {
                 t = Rational::from(1) - t;
             }

@@ -7,9 +7,11 @@ mod components;
 pub mod cone;
 mod cone_search;
 mod dense;
+mod derived;
 mod direction;
 pub mod enclosed;
 mod everywhere;
+pub mod exponent;
 pub mod filter;
 mod frames;
 pub mod gap;
@@ -33,7 +35,7 @@ pub mod wavelet;
 
 pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
-pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
+pub use claim::{AboutPlane, Assertion, Claim, Limit, Measure, Reason, Seen};
 pub use components::{Component, Components};
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
@@ -108,6 +110,7 @@ impl ModelError {
             Self::Shape(ShapeError::Size { .. }) => "secant::case::size",
             Self::Shape(ShapeError::Sum { .. }) => "secant::case::sum",
             Self::Shape(ShapeError::Control { .. }) => "secant::case::control",
+            Self::Shape(ShapeError::Shares { .. }) => "secant::case::shares",
             Self::Shape(ShapeError::Boundary { .. }) => "secant::case::boundary",
             Self::Curve(CurveError::Apart { .. }) => "secant::shape::adjacency",
             Self::Curve(CurveError::NoEnd { .. }) => "secant::shape::contraction",

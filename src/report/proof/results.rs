@@ -64,7 +64,7 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
     surface.points.iter().map(row).collect()
 }
 
-/// The parameter of an address in the uniform parameter, in which the pieces of a cell take equal parts of its interval;
+/// The parameter of an address, where the pieces of a cell take their shares of its interval;
 /// `None` where a state on the way is no curve.
 #[must_use]
 pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
@@ -81,8 +81,8 @@ fn affine(shape: &Shape, start: usize, word: &[usize]) -> Option<(Rational, Rati
     for (letter, state) in word.iter().zip(shape.path(start, word)) {
         let state = shape.states.get(state).filter(|s| s.kind == CellKind::Edge)?;
         let piece = state.pieces.get(*letter)?;
-        let part = Rational::from(1) / Rational::from(state.pieces.len());
-        let from = Rational::from(letter + usize::from(piece.reversed)) * &part;
+        let part = state.share(*letter);
+        let from = state.before(letter + usize::from(piece.reversed));
         let own = if piece.reversed { -part } else { part };
         offset += &slope * from;
         slope *= own;
