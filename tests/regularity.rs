@@ -495,3 +495,30 @@ fn equal_shares_are_the_uniform_parameter() {
         }
     }
 }
+
+#[test]
+fn certificates_of_exponents_in_shares_are_checked() {
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/fif/unequal.toml");
+    let (_, certificate, expanded) = secant::ask::certified_regularity(case, &[], 2, None).unwrap();
+    let expanded = expanded.unwrap();
+    let accepted = secant_check::check(&expanded, &certificate).unwrap();
+    let between = |c: &secant_check::Decided| matches!(c.claim, secant_check::Claim::ExponentBetween { .. });
+    assert!(accepted.claims.iter().any(between));
+    let value: serde_json::Value = serde_json::from_str(&certificate).unwrap();
+    let bounds = "/proof/exponent";
+    for (place, new) in [
+        ("/below/at", serde_json::json!("1300/2048")),
+        ("/below/factors/0/0", serde_json::json!("1")),
+        ("/above/factors/0/0", serde_json::json!("3")),
+        ("/above/at", serde_json::json!("1/2")),
+        ("/below/radius", value.pointer("/proof/exponent/above/radius").unwrap().clone()),
+    ] {
+        let mut forged = value.clone();
+        *forged.pointer_mut(&format!("{bounds}{place}")).unwrap() = new;
+        assert!(secant_check::check(&expanded, &forged.to_string()).is_err(), "{place}");
+    }
+    // Other shares are another case.
+    let other = expanded.replace("\"1/3\", \"2/3\"", "\"2/3\", \"1/3\"");
+    assert_ne!(other, expanded);
+    assert!(secant_check::check(&other, &certificate).is_err());
+}
