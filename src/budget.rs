@@ -1,6 +1,7 @@
 //! How long the search for proofs may go on. A budget decides which questions stay open, never what an answer is.
 
 use crate::radius::Options;
+use crate::radius::family::Search;
 
 /// Three budgets by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -61,6 +62,8 @@ pub struct Budget {
     pub radius: Options,
     /// Joint spectral radii of the orders of smoothness in the uniform parameter: a small part of what `secant regularity` spends.
     pub orders: Options,
+    /// Regions of a parameter: hulls for each order (120), and the work for all.
+    pub regions: Search,
 }
 
 /// Work for each order of smoothness: about 20 ms.
@@ -90,6 +93,7 @@ impl Budget {
             ring_cells: 40_000,
             radius: Options::default(),
             orders: Options { longest: 8, vertices: 400, work: Some(ORDER), ..Options::default() },
+            regions: Search::default(),
         };
         match effort {
             Effort::Normal => normal,
@@ -111,6 +115,11 @@ impl Budget {
             witness_cells: times(self.witness_cells),
             ring_cells: times(self.ring_cells),
             orders: Options { work: self.orders.work.map(|w| w * by as u64 / over as u64), ..self.orders.clone() },
+            regions: Search {
+                hulls: times(self.regions.hulls),
+                work: self.regions.work * by as u64 / over as u64,
+                ..self.regions.clone()
+            },
             ..self.clone()
         }
     }
@@ -132,7 +141,7 @@ mod tests {
             let b = Budget::of(effort);
             let places = b.places.map(|p| usize::try_from(p).expect("small"));
             let counts = [b.words, b.work, b.cells, b.first_cells, b.joints, b.levels, b.cone_steps, b.witness_cells];
-            [counts.as_slice(), &places, &[b.halvings, b.ring_cells, b.first_surface_cells()]].concat()
+            [counts.as_slice(), &places, &[b.halvings, b.ring_cells, b.first_surface_cells(), b.regions.hulls]].concat()
         };
         let all = [Effort::Quick, Effort::Normal, Effort::Hard].map(limits);
         for pair in all.windows(2) {

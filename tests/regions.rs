@@ -1,11 +1,13 @@
 //! Regions of masks with a parameter, compared with the verdicts on single members, and their certificates.
 
 use secant::algebraic::Root;
+use secant::answer::Verdict;
 use secant::arith::{Rational, ratio, to_f64};
 use secant::ask::{Regions, regions};
+use secant::budget::{Budget, Effort};
 use secant::case::setting;
-use secant::radius::Options;
 use secant::radius::family::Search;
+use secant::radius::{Ended, Options};
 use secant::theorem::region::{Finding, OrderRegion, Part};
 use secant::theorem::regularity::regularity;
 use std::path::PathBuf;
@@ -168,6 +170,29 @@ fn splines_with_a_tension_and_a_single_smoother_one() {
     assert!(compare(&found, 36) > 120);
 }
 
+#[test]
+fn a_search_without_work_or_time_leaves_a_gap_that_says_so() {
+    let set = [setting("w=1/20..3/20").unwrap()];
+    let known = Search::default();
+    let quick = [
+        (Search { work: 1, ..known.clone() }, Ended::Work),
+        (Search { hulls: 0, ..known.clone() }, Ended::Exhausted),
+        (Search { time: Some(std::time::Duration::ZERO), ..known.clone() }, Ended::Clock),
+    ];
+    for (search, ended) in quick {
+        let found = regions("four-point", &set, 1, &search).unwrap();
+        let c1 = &found.orders[1];
+        assert_eq!(c1.radius.as_ref().map(|r| r.ended), Some(ended), "{search:?}");
+        assert!(c1.parts.iter().any(|part| part.finding == Finding::Gap), "{search:?}");
+        assert_ne!(found.verdict(), Verdict::Proved, "{search:?}");
+    }
+    let whole = regions("four-point", &set, 1, &known).unwrap();
+    assert!(whole.orders.iter().all(|o| o.radius.as_ref().is_some_and(|r| r.ended == Ended::Done && r.spent > 0)));
+    assert!(known.clone().within(2.0).work < known.work);
+    let halves = Budget::of(Effort::Quick).regions;
+    assert!(halves.work < known.work && halves.hulls < known.hulls);
+}
+
 /// The certificate of a family, and the family that it is about.
 fn certificate() -> (serde_json::Value, String) {
     let (text, plain) = found("four-point", &["w=0..1/5"], 1).certificate().unwrap();
@@ -257,12 +282,15 @@ fn the_program_answers() {
     assert_eq!(data["orders"][2]["table"][1]["interval"], serde_json::json!(["7/100", "1/10"]));
     assert_eq!(data["orders"][2]["table"][1]["verdict"], "proved");
     assert_eq!(run(&["region", "ternary-four-point", "mu=7/100..1/10", "--order", "2", "--json"]).0, Some(0));
-    for wrong in
-        [vec!["region", "four-point"], vec!["region", "four-point", "w=1/4..0"], vec!["region", "koch", "w=0..1"]]
-    {
+    for wrong in [
+        vec!["region", "four-point"],
+        vec!["region", "four-point", "w=1/4..0"],
+        vec!["region", "koch", "w=0..1"],
+        vec!["region", "four-point", "w=0..1/4", "--time", "0"],
+    ] {
         let (code, _, problem) = run(&wrong);
         assert_eq!(code, Some(2), "{wrong:?}: {problem}");
-        assert!(problem.contains("help"), "{problem}");
+        assert!(problem.contains("help") || problem.contains("--time"), "{problem}");
     }
     // A case with parameters is one case only with values.
     let case = family("six-point.toml");

@@ -1,10 +1,12 @@
 //! `secant region`.
 
 use super::output::{print, settle, shown, write_certificate, write_file};
+use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
 use crate::ask::{Regions, regions};
+use crate::budget::{Budget, Effort};
 use crate::case::setting;
 use crate::diagnostic::Problem;
 use crate::radius::family::Search;
@@ -34,6 +36,13 @@ pub struct RegionArgs {
     /// Hulls that may be tried for each order.
     #[arg(long, value_name = "COUNT")]
     hulls: Option<usize>,
+    /// How much is tried: quick, normal or hard.
+    #[arg(long, value_name = "EFFORT", value_parser = effort, default_value = "normal")]
+    effort: Effort,
+    /// Search for about this long, and no longer. Without it a fixed amount of work is spent, so that the same case gives the
+    /// same bytes.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with = "effort")]
+    time: Option<f64>,
     /// Print data (docs/json.md).
     #[arg(long)]
     json: bool,
@@ -53,6 +62,13 @@ fn width(text: &str) -> Result<Rational, String> {
     if width > 0 { Ok(width) } else { Err("a positive number is needed".to_owned()) }
 }
 
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("a positive number of seconds is needed".to_owned()),
+    }
+}
+
 /// Prints the regions of a scheme.
 pub fn run(args: &RegionArgs) -> u8 {
     settle(answered(args))
@@ -61,7 +77,10 @@ pub fn run(args: &RegionArgs) -> u8 {
 fn answered(args: &RegionArgs) -> Result<u8, Problem> {
     let render = args.report.as_deref().map(format_of).transpose()?;
     let set = args.parameters.iter().chain(&args.set).map(|t| setting(t)).collect::<Result<Vec<_>, _>>()?;
-    let mut search = Search { width: args.width.clone(), ..Search::default() };
+    let mut search = Search { width: args.width.clone(), ..Budget::of(args.effort).regions };
+    if let Some(seconds) = args.time {
+        search = search.within(seconds);
+    }
     search.hulls = args.hulls.unwrap_or(search.hulls);
     let found = regions(&args.what, &set, args.order.unwrap_or(usize::MAX), &search)?;
     files(args, &found, render)?;

@@ -7,6 +7,7 @@ use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::case::MaskFamilyCase;
 use crate::picture::bar;
+use crate::radius::Ended;
 use crate::radius::family::{Below, Hull};
 use crate::shape::word_text;
 use crate::statement::Statement;
@@ -136,7 +137,18 @@ fn because(family: &MaskFamily, order: &OrderRegion, part: &Part) -> String {
         },
         (Finding::Member(_), _) => "this member by itself (secant regularity)".to_owned(),
         (Finding::Special, _) => "translates may be dependent here: a failure is not claimed".to_owned(),
+        (Finding::Gap, Some(r)) => gap(r.ended).to_owned(),
         _ => "no hull and no word was found".to_owned(),
+    }
+}
+
+/// Why a gap is left, and what more effort would try.
+fn gap(ended: Ended) -> &'static str {
+    match ended {
+        Ended::Done => "no hull and no word was found; a smaller --width divides the gap further",
+        Ended::Exhausted => "no hull and no word was found; --effort hard tries more hulls",
+        Ended::Work => "the work set aside is spent; --effort hard, or --time 600, tries more hulls",
+        Ended::Clock => "the time is over; a larger --time tries more hulls",
     }
 }
 

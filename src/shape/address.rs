@@ -1,5 +1,5 @@
 use super::Shape;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, Scaled};
 use std::fmt;
 use thiserror::Error;
 
@@ -208,6 +208,12 @@ impl Shape {
             state = piece.target;
         }
         (product, state)
+    }
+
+    /// The operators of all pieces, by state and letter, for products of many words.
+    #[must_use]
+    pub fn scaled_operators(&self) -> Vec<Vec<Scaled>> {
+        self.states.iter().map(|s| s.pieces.iter().map(|p| Scaled::of(&p.op)).collect()).collect()
     }
 
     /// The fixed points of the words of one and two letters that lead back to a state; none of those that are not unique.

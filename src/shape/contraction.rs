@@ -2,9 +2,9 @@
 
 use super::{Polytopes, Shape};
 use crate::arith::{Natural, Rational, abs};
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, Scaled};
 use malachite_base::num::arithmetic::traits::UnsignedAbs;
-use std::collections::BinaryHeap;
+use std::collections::BTreeMap;
 
 /// A word with the bound of its operator on differences.
 #[derive(Debug, Clone)]
@@ -78,19 +78,23 @@ const SHARP_WORDS: usize = 512;
 /// `O(rows * cols²)`.
 #[must_use]
 pub fn dobrushin(op: &Matrix) -> Rational {
+    scaled_dobrushin(&Scaled::of(op))
+}
+
+fn scaled_dobrushin(op: &Scaled) -> Rational {
     // Over one denominator, differences and their sums are integers.
-    let (d, scaled) = op.cleared();
+    let scaled = op.entries();
     let mut largest = Natural::from(0u32);
-    for i in 0..op.cols() {
+    for i in 0..scaled.cols() {
         for j in 0..i {
-            let terms = (0..op.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
+            let terms = (0..scaled.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
             let distance = terms.fold(Natural::from(0u32), |s, x| s + x);
             if distance > largest {
                 largest = distance;
             }
         }
     }
-    Rational::from_naturals(largest, d << 1u64)
+    Rational::from_naturals(largest, op.denominator() << 1u64)
 }
 
 /// The sum of absolute values.
@@ -128,8 +132,9 @@ pub fn contraction_within(
 ) -> Contraction {
     let mut codes: Vec<Vec<ContractingWord>> = vec![Vec::new(); shape.states.len()];
     let mut constant = Rational::from(0);
-    let mut open: Vec<(usize, Vec<usize>, usize, Matrix)> =
-        shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Matrix::identity(shape.states[e].dim))).collect();
+    let operators = shape.scaled_operators();
+    let mut open: Vec<(usize, Vec<usize>, usize, Scaled)> =
+        shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Scaled::identity(shape.states[e].dim))).collect();
     let (mut length, mut count) = (0, 0);
     let largest = shape.states.iter().map(|s| s.dim).fold(1, usize::max);
     let budget = words.min(work / largest.pow(3).max(1));
@@ -143,16 +148,16 @@ pub fn contraction_within(
             }
             for (letter, piece) in shape.states[state].pieces.iter().enumerate() {
                 count += 1;
-                let op = &product * &piece.op;
+                let op = product.times(&operators[state][letter]);
                 let mut word = word.clone();
                 word.push(letter);
-                let tau = dobrushin(&op);
+                let tau = scaled_dobrushin(&op);
                 if tau < 1 {
                     if tau > constant {
                         constant.clone_from(&tau);
                     }
                     codes[from].push(ContractingWord { word, end: piece.target, tau });
-                } else if piece.target == from && expands(&linear_part(&op)) {
+                } else if piece.target == from && expands(&linear_part(&op.reduced())) {
                     return Contraction::Refuted { state: from, word };
                 } else {
                     next.push((from, word, piece.target, op));
@@ -178,8 +183,9 @@ impl Contracting {
     /// Replaces words by their extensions, those with the largest `τ` first, while the code stays short, and keeps the best
     /// code met on the way: smaller constants give smaller balls around the attractors.
     fn sharpen(&mut self, shape: &Shape) {
+        let operators = shape.scaled_operators();
         for (from, code) in self.codes.iter_mut().enumerate() {
-            sharpen_code(shape, from, code);
+            sharpen_code(shape, &operators, from, code);
         }
         let words = || self.codes.iter().flatten();
         self.length = words().map(|c| c.word.len()).fold(0, usize::max);
@@ -187,29 +193,50 @@ impl Contracting {
     }
 }
 
-fn sharpen_code(shape: &Shape, from: usize, code: &mut Vec<ContractingWord>) {
+/// Words by `τ`, with the state where they end and their product.
+type Words = BTreeMap<(Rational, Vec<usize>), (usize, Scaled)>;
+
+fn sharpen_code(shape: &Shape, operators: &[Vec<Scaled>], from: usize, code: &mut Vec<ContractingWord>) {
     let half = Rational::from(1) / Rational::from(2);
-    let mut heap: BinaryHeap<(Rational, Vec<usize>, usize)> =
-        code.iter().map(|c| (c.tau.clone(), c.word.clone(), c.end)).collect();
-    let mut best = heap.peek().map(|(tau, ..)| tau.clone()).unwrap_or_else(|| Rational::from(0));
+    let product = |c: &ContractingWord| {
+        let start = (from, Scaled::identity(shape.states[from].dim));
+        c.word.iter().fold(start, |(state, product), &letter| {
+            (shape.states[state].pieces[letter].target, product.times(&operators[state][letter]))
+        })
+    };
+    let mut words: Words = code.iter().map(|c| ((c.tau.clone(), c.word.clone()), product(c))).collect();
     let limit = SHARP_WORDS.min(MAX_PRODUCTS / shape.states[from].dim.pow(3).max(1));
-    while heap.len() < limit {
-        let Some((tau, word, state)) = heap.pop() else { return };
+    let mut best = words.last_key_value().map(|((tau, _), _)| tau.clone()).unwrap_or_else(|| Rational::from(0));
+    // What was done since the best code: each word that was replaced, and by which.
+    let mut since: Vec<((Rational, Vec<usize>), usize, Vec<(Rational, Vec<usize>)>)> = Vec::new();
+    while words.len() < limit {
+        let Some(((tau, word), (state, product))) = words.pop_last() else { return };
         if tau <= half {
-            heap.push((tau, word, state));
+            words.insert((tau, word), (state, product));
             break;
         }
-        let (product, _) = shape.product(from, &word);
+        let mut longer = Vec::new();
         for (letter, piece) in shape.states[state].pieces.iter().enumerate() {
-            let word = [word.as_slice(), &[letter]].concat();
-            heap.push((dobrushin(&(&product * &piece.op)), word, piece.target));
+            let op = product.times(&operators[state][letter]);
+            let key = (scaled_dobrushin(&op), [word.as_slice(), &[letter]].concat());
+            longer.push(key.clone());
+            words.insert(key, (piece.target, op));
         }
-        let worst = heap.peek().map(|(tau, ..)| tau.clone()).unwrap_or_else(|| Rational::from(0));
-        if worst < best && heap.len() < limit {
+        since.push(((tau, word), state, longer));
+        let worst = words.last_key_value().map(|((tau, _), _)| tau.clone()).unwrap_or_else(|| Rational::from(0));
+        if worst < best && words.len() < limit {
             best = worst;
-            *code = heap.iter().cloned().map(|(tau, word, end)| ContractingWord { word, end, tau }).collect();
+            since.clear();
         }
     }
+    let mut ends: BTreeMap<_, _> = words.into_iter().map(|(key, (end, _))| (key, end)).collect();
+    for (key, end, longer) in since.into_iter().rev() {
+        for word in longer {
+            ends.remove(&word);
+        }
+        ends.insert(key, end);
+    }
+    *code = ends.into_iter().map(|((tau, word), end)| ContractingWord { word, end, tau }).collect();
     code.sort_by(|a, b| a.word.cmp(&b.word));
 }
 

@@ -3,17 +3,42 @@
 use super::contraction::{Contracting, norm1};
 use super::hull::{Hulls, hulls};
 use super::{Contraction, OwnPoints, Polytopes, Shape, Spaces, Weights, difference};
-use crate::arith::{Interval, Rational};
-use crate::linalg::dot;
+use crate::arith::{Integer, Interval, Rational};
+use crate::linalg::{Matrix, Scaled, dot};
 
 /// For every reachable state a ball `B(base, radius)` of the 1-norm that holds its attractor.
 #[derive(Debug, Clone)]
 pub struct Balls {
     radius: Vec<Rational>,
-    hulls: Option<Hulls>,
+    hulls: Option<Vertices>,
     /// How the images of the vertices of the hulls are combined, where that was found with them.
     weights: Option<HullWeights>,
     simplex: bool,
+}
+
+/// Polytopes, and the vertices of each state as the columns of a matrix, if there are any.
+#[derive(Debug, Clone)]
+struct Vertices {
+    hulls: Hulls,
+    columns: Vec<Option<Scaled>>,
+}
+
+impl Vertices {
+    fn new(hulls: Hulls) -> Self {
+        let columns = |vertices: &Vec<Vec<Rational>>| {
+            let dim = vertices.first()?.len();
+            Some(Scaled::of(&Matrix::from_columns(dim, vertices)))
+        };
+        Self { columns: hulls.iter().map(columns).collect(), hulls }
+    }
+
+    /// The smallest and the largest value of a functional at the vertices of a state.
+    fn range(&self, state: usize, row: &[Rational]) -> Option<Interval> {
+        let values = Scaled::column(row).transpose().times(self.columns[state].as_ref()?);
+        let value = |x: &Integer| Rational::from_integers_ref(x, &Integer::from(values.denominator()));
+        let entries = || values.entries().entries().iter();
+        Some(Interval { lo: value(entries().min()?), hi: value(entries().max()?) })
+    }
 }
 
 /// By state, piece and vertex of the hull of its target: the image of the vertex as a convex combination of vertices.
@@ -30,7 +55,7 @@ impl Balls {
                 for e in shape.reachable() {
                     radius[e] = round_up(&proof.reach(e, &spaces.of(e).base));
                 }
-                Some(Self { radius, hulls: Some(proof.vertices.clone()), weights: None, simplex: false })
+                Some(Self { radius, hulls: Some(Vertices::new(proof.vertices.clone())), weights: None, simplex: false })
             }
             Contraction::Product(proof) => {
                 let mut radius = vec![Rational::from(0); shape.states.len()];
@@ -45,11 +70,15 @@ impl Balls {
 
     /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
     fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
+        let operators = shape.scaled_operators();
         let mut shifts: Vec<Vec<(Rational, &Rational, usize)>> = Vec::new();
         for (e, code) in proof.codes.iter().enumerate() {
+            let base = |state: usize| Scaled::column(&spaces.of(state).base);
             let shift = |c: &super::ContractingWord| {
-                let (op, _) = shape.product(e, &c.word);
-                norm1(&difference(&op.apply(&spaces.of(c.end).base), &spaces.of(e).base))
+                let path = shape.path(e, &c.word);
+                let along = path.iter().zip(&c.word).rev();
+                let image = along.fold(base(c.end), |v, (&state, &letter)| operators[state][letter].times(&v));
+                image.distance1(&base(e))
             };
             shifts.push(code.iter().map(|c| (shift(c), &c.tau, c.end)).collect());
         }
@@ -60,13 +89,16 @@ impl Balls {
             .max()
             .unwrap_or_else(|| Rational::from(0));
         let mut radius = vec![round_up(&common); shape.states.len()];
+        let short = |x: &Rational| Interval::point(x.clone()).outward(64).hi;
+        let bounds = shifts.iter().map(|code| code.iter().map(|(shift, tau, end)| (short(shift), short(tau), *end)));
+        let bounds: Vec<Vec<_>> = bounds.map(Iterator::collect).collect();
         // Each round starts from valid radii and is therefore valid itself.
         for _ in 0..8 {
-            radius = shifts
+            radius = bounds
                 .iter()
                 .zip(&radius)
                 .map(|(words, old)| {
-                    let bound = words.iter().map(|(shift, tau, end)| shift + *tau * &radius[*end]).max();
+                    let bound = words.iter().map(|(shift, tau, end)| shift + tau * &radius[*end]).max();
                     bound.map_or_else(|| Rational::from(0), |b| round_up(&b)).min(old.clone())
                 })
                 .collect();
@@ -81,13 +113,14 @@ impl Balls {
             return None;
         }
         let found = own_hulls(shape, spaces).or_else(|| hulls(shape, spaces))?;
-        Some(Self { hulls: Some(found), weights: None, ..self.clone() })
+        Some(Self { hulls: Some(Vertices::new(found)), weights: None, ..self.clone() })
     }
 
     /// The same balls with polytopes inside which the attractors lie as well.
     #[must_use]
     pub fn with_polytopes(&self, polytopes: &Polytopes) -> Self {
-        let (hulls, weights) = (Some(polytopes.vertices.clone()), Some(polytopes.weights.clone()));
+        let hulls = Some(Vertices::new(polytopes.vertices.clone()));
+        let weights = Some(polytopes.weights.clone());
         Self { hulls, weights, ..self.clone() }
     }
 
@@ -115,7 +148,7 @@ impl Balls {
     /// The vertices of the polygon of a state, where polygons are used.
     #[must_use]
     pub fn hull(&self, state: usize) -> Option<&[Vec<Rational>]> {
-        Some(&self.hulls.as_ref()?[state])
+        Some(&self.hulls.as_ref()?.hulls[state])
     }
 
     /// The radius at a state.
@@ -133,11 +166,8 @@ impl Balls {
     /// Encloses `row · a` for all `a` in the attractor of `state`; `row` is already multiplied by the operator of the cell.
     #[must_use]
     pub fn enclose(&self, spaces: &Spaces, state: usize, row: &[Rational]) -> Interval {
-        if let Some(vertices) = self.hull(state) {
-            let values = || vertices.iter().map(|v| dot(row, v));
-            if let (Some(lo), Some(hi)) = (values().min(), values().max()) {
-                return Interval { lo, hi };
-            }
+        if let Some(range) = self.hulls.as_ref().and_then(|h| h.range(state, row)) {
+            return range;
         }
         let centre = dot(row, &spaces.of(state).base);
         let spread = oscillation(row) / Rational::from(2) * &self.radius[state];

@@ -24,7 +24,7 @@ pub struct Work {
     proving: Arc<Semaphore>,
     /// Drawings and files at once.
     light: Arc<Semaphore>,
-    /// Searches for regions at once, which do not look whether they are to stop.
+    /// Searches for regions at once.
     searching: Arc<Semaphore>,
     /// The flag of the proof that each page waits for.
     running: Mutex<BTreeMap<String, Arc<AtomicBool>>>,

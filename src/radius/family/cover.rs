@@ -7,11 +7,14 @@ use super::word::between;
 use super::{Cover, Crossing, Hull, Pencil};
 use crate::algebraic::{Root, cmp_real};
 use crate::arith::{Rational, abs, ratio};
+use crate::radius::budget::Budget;
+use crate::radius::{Ended, Options};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 use std::cmp::Ordering;
+use std::time::Duration;
 
-/// How long the search goes on.
-#[derive(Debug, Clone)]
+/// How long the search goes on. What is left when it ends is not decided.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Search {
     /// Parts that are narrower are left.
     pub width: Rational,
@@ -21,11 +24,27 @@ pub struct Search {
     pub longest: usize,
     /// Pieces of a hull.
     pub pieces: usize,
+    /// Work that may be spent, in the units of [`Options::work`].
+    pub work: u64,
+    /// A guard by the clock, as in [`Options::time`].
+    pub time: Option<Duration>,
 }
 
 impl Default for Search {
     fn default() -> Self {
-        Self { width: ratio(1, 1_000_000), hulls: 120, longest: 12, pieces: 600 }
+        Self { width: ratio(1, 1_000_000), hulls: 120, longest: 12, pieces: 600, work: WORK, time: None }
+    }
+}
+
+/// Work of a search unless it is told otherwise: about fifteen seconds.
+const WORK: u64 = 15_000_000_000;
+
+impl Search {
+    /// A search that ends after about so many seconds.
+    #[must_use]
+    pub fn within(self, seconds: f64) -> Self {
+        let options = Options::default().within(seconds);
+        Self { hulls: usize::MAX, work: options.work_for(1), time: options.time, ..self }
     }
 }
 
@@ -51,6 +70,10 @@ pub struct Below {
     pub crossings: Vec<Crossing>,
     /// Hulls with the intervals on which they were checked.
     pub covers: Vec<Cover>,
+    /// Why the search ended.
+    pub ended: Ended,
+    /// The work that was spent.
+    pub spent: u64,
 }
 
 /// Finds words and hulls on a closed interval of parameters for the threshold 1.
@@ -59,16 +82,34 @@ pub struct Below {
 /// As many hulls as the search allows, each with up to so many pieces, and the crossings of the words.
 #[must_use]
 pub fn below(pencil: &Pencil, range: &(Rational, Rational), search: &Search) -> Below {
-    let found = Below { pencil: pencil.clone(), range: range.clone(), crossings: Vec::new(), covers: Vec::new() };
-    let mut covering = Covering { found, search, tried: Vec::new(), failed: Vec::new(), left: search.hulls };
+    let found = Below {
+        pencil: pencil.clone(),
+        range: range.clone(),
+        crossings: Vec::new(),
+        covers: Vec::new(),
+        ended: Ended::Done,
+        spent: 0,
+    };
+    let budget = Budget::new(&Options { work: Some(search.work), time: search.time, ..Options::default() }, 1);
+    let mut covering =
+        Covering { found, search, budget: &budget, tried: Vec::new(), failed: Vec::new(), left: search.hulls };
     covering.sample();
     loop {
         covering.borders();
         match covering.widest() {
-            Some(hole) if covering.left > 0 => covering.inside(&hole),
-            _ => break,
+            Some(hole) if covering.left > 0 && budget.left() > 0 => covering.inside(&hole),
+            rest => {
+                covering.found.ended = match (rest, budget.late(), budget.left()) {
+                    (None, ..) => Ended::Done,
+                    (_, true, _) => Ended::Clock,
+                    (.., 0) => Ended::Work,
+                    _ => Ended::Exhausted,
+                };
+                break;
+            }
         }
     }
+    covering.found.spent = search.work.saturating_sub(budget.left());
     covering.found
 }
 
@@ -117,6 +158,7 @@ struct Hole {
 struct Covering<'a> {
     found: Below,
     search: &'a Search,
+    budget: &'a Budget<'a>,
     /// Borders from which a hull was tried.
     tried: Vec<Root>,
     /// Parameters at which no hull was found.
@@ -132,10 +174,24 @@ impl Covering<'_> {
             let p = &lo + (&hi - &lo) * ratio(k, 8);
             let point = Root::from_rational(&p);
             if self.found.place(&point) == Place::Open {
-                let best = words(&self.found.pencil, &p, self.search.longest);
+                let best = self.words(&p);
                 self.refute(&point, &best);
             }
         }
+    }
+
+    /// Words that grow fastest at a member, for a small part of the work.
+    fn words(&self, p: &Rational) -> Vec<Word> {
+        words(&self.found.pencil, p, self.search.longest, &self.budget.part(SAMPLE))
+    }
+
+    /// Where a word is too large; `None` where the polynomials would be too large, or nothing may be spent any more.
+    fn crossing(&self, word: &[usize]) -> Option<Crossing> {
+        let (n, letters) = (self.found.pencil.dim() as u64, word.len() as u64);
+        let values = self.found.pencil.degree() as u64 * letters * n * n + 1;
+        // A characteristic polynomial of exact numbers for each value, of the exterior power too.
+        let enough = self.budget.spend(values * (letters * n.pow(3) + n.pow(5)) * EXACT);
+        enough.then(|| Crossing::of(&self.found.pencil, word, &self.found.range)).flatten()
     }
 
     /// Adds a word that is proved to be too large at a parameter; false where there is none.
@@ -144,7 +200,7 @@ impl Covering<'_> {
             if self.found.crossings.iter().any(|c| c.word == w.word) {
                 continue;
             }
-            let Some(crossing) = Crossing::of(&self.found.pencil, &w.word, &self.found.range) else { continue };
+            let Some(crossing) = self.crossing(&w.word) else { continue };
             if crossing.holds_at(p) {
                 self.found.crossings.push(crossing);
                 return true;
@@ -183,7 +239,7 @@ impl Covering<'_> {
                 }
                 self.tried.push(border.clone());
                 let near = border.rational().unwrap_or_else(|| border.enclosure(48).0.mid());
-                let best = words(&self.found.pencil, &near, self.search.longest);
+                let best = self.words(&near);
                 self.hull(&near, &hole, &best, true);
             }
         }
@@ -194,7 +250,7 @@ impl Covering<'_> {
         let (from, to) = (hole.from.enclosure(48).0.mid(), hole.to.enclosure(48).0.mid());
         let at = |part| &from + (&to - &from) * part;
         let p = Rational::simplest_rational_in_open_interval(&at(ratio(2, 5)), &at(ratio(3, 5)));
-        let best = words(&self.found.pencil, &p, self.search.longest);
+        let best = self.words(&p);
         let point = Root::from_rational(&p);
         if self.refute(&point, &best) || self.hull(&p, hole, &best, false) {
             return;
@@ -216,7 +272,7 @@ impl Covering<'_> {
             if !chosen.iter().all(|w| self.knows(w)) {
                 continue;
             }
-            let Some(hull) = grow(&self.found.pencil, p, &chosen, &attempt) else { continue };
+            let Some(hull) = grow(&self.found.pencil, p, &chosen, &attempt, self.budget) else { continue };
             let pieces = self.march(&hull, p, hole);
             if !pieces.is_empty() {
                 self.found.covers.push(Cover { hull, pieces });
@@ -229,7 +285,7 @@ impl Covering<'_> {
     /// Whether it is known where a word is too large; it is found out where that can be done.
     fn knows(&mut self, word: &[usize]) -> bool {
         if self.found.crossings.iter().all(|c| c.word != word) {
-            match Crossing::of(&self.found.pencil, word, &self.found.range) {
+            match self.crossing(word) {
                 Some(crossing) => self.found.crossings.push(crossing),
                 None => return false,
             }
@@ -240,10 +296,7 @@ impl Covering<'_> {
     /// Pieces around a parameter, as far as the hull holds.
     fn march(&self, hull: &Hull, p: &Rational, hole: &Hole) -> Vec<super::Piece> {
         let (lo, hi) = &self.found.range;
-        let make = |from: &Rational, to: &Rational| {
-            let made = piece(&self.found.pencil, hull, from, to)?;
-            hull.holds(&self.found.pencil, &made).then_some(made)
-        };
+        let make = |from: &Rational, to: &Rational| piece(&self.found.pencil, hull, from, to, self.budget);
         // A short grid, so that ends stay short.
         let whole = hole.to.enclosure(48).0.mid() - hole.from.enclosure(48).0.mid();
         let mut half = power_below(&(whole / Rational::from(4)));
@@ -262,7 +315,7 @@ impl Covering<'_> {
         for up in [false, true] {
             let end = if up { hole.to.enclosure(48).0.hi } else { hole.from.enclosure(48).0.lo };
             let mut step = &half * Rational::from(2);
-            while pieces.len() < self.search.pieces {
+            while pieces.len() < self.search.pieces && self.budget.left() > 0 {
                 let at = if up { &pieces[pieces.len() - 1].to } else { &pieces[0].from }.clone();
                 if if up { at > end || at >= *hi } else { at < end || at <= *lo } {
                     break;
@@ -284,6 +337,11 @@ impl Covering<'_> {
         pieces
     }
 }
+
+/// Work for the words of a member.
+const SAMPLE: u64 = 400_000_000;
+/// Work for an operation with exact numbers.
+const EXACT: u64 = 200;
 
 /// What is tried at a parameter.
 pub(super) struct Attempt {

@@ -124,21 +124,33 @@ impl Moving {
         apply(&self.field, &self.letters[letter], v)
     }
 
+    /// The product along a word with its characteristic polynomial; `None` of the empty word.
+    pub fn along(&self, word: &[usize]) -> Option<Along> {
+        let product = self.product(word)?;
+        let chi = product.char_poly_over(&self.field);
+        Some(Along { product, chi })
+    }
+}
+
+/// The product along a word on one piece.
+pub(super) struct Along {
+    product: Matrix<Model>,
+    chi: Vec<Model>,
+}
+
+impl Along {
     /// `λ` on the piece: for every parameter there is an eigenvalue of the product along the word within it. `None` where that does
     /// not show: the characteristic polynomial must have different signs below and above.
-    pub fn eigenvalue(&self, word: &[usize], [mid, slope, rest]: &[Rational; 3]) -> Option<Model> {
-        let k = &self.field;
-        let chi = self.product(word)?.char_poly_over(k);
+    pub fn eigenvalue(&self, k: &Models, [mid, slope, rest]: &[Rational; 3]) -> Option<Model> {
         let line = |shift: Rational| k.linear(&(mid + shift), slope, &Rational::from(0));
-        let value = |x: &Model| chi.iter().rev().fold(k.zero(), |v, c| k.add(&k.mul(&v, x), c));
+        let value = |x: &Model| self.chi.iter().rev().fold(k.zero(), |v, c| k.add(&k.mul(&v, x), c));
         let signs = [k.sign(&value(&line(-rest)))?, k.sign(&value(&line(rest.clone())))?];
         (*rest > 0 && signs[0] * signs[1] < 0).then(|| k.linear(mid, slope, rest))
     }
 
     /// The column of the adjugate of `λ − T_w`.
-    pub fn eigenvector(&self, word: &[usize], column: usize, value: &Model) -> Option<Vec<Model>> {
-        let m = self.product(word)?;
-        Some(m.adjugate_column_over(&self.field, &m.char_poly_over(&self.field), column, value))
+    pub fn eigenvector(&self, k: &Models, column: usize, value: &Model) -> Vec<Model> {
+        self.product.adjugate_column_over(k, &self.chi, column, value)
     }
 }
 
@@ -177,25 +189,42 @@ impl Hull {
         })
     }
 
-    /// The vertices on a piece.
-    pub(super) fn points(&self, moving: &Moving, values: &[[Rational; 3]]) -> Option<Vec<Vec<Model>>> {
+    /// The products along the words of the seeds that are eigenvectors.
+    pub(super) fn along(&self, moving: &Moving) -> Option<Vec<Along>> {
+        self.words().map(|w| moving.along(w)).collect()
+    }
+
+    /// The seeds on a piece.
+    pub(super) fn starts(&self, moving: &Moving, along: &[Along], values: &[[Rational; 3]]) -> Option<Vec<Vec<Model>>> {
         let k = &moving.field;
-        let (mut lines, mut starts) = (values.iter(), Vec::new());
-        for seed in &self.seeds {
-            starts.push(match seed {
-                Seed::Eigen { word, column, scale } => {
-                    let value = moving.eigenvalue(word, lines.next()?)?;
-                    let v = moving.eigenvector(word, *column, &value)?;
-                    v.iter().map(|x| k.mul(x, &k.rational(scale))).collect()
-                }
-                Seed::Axis { index, scale } => {
-                    let unit = |i: usize| if i == *index { k.rational(scale) } else { k.zero() };
-                    (0..moving.letters[0].rows()).map(unit).collect::<Vec<Model>>()
-                }
+        let mut lines = along.iter().zip(values);
+        let start = |seed: &Seed| match seed {
+            Seed::Eigen { column, scale, .. } => {
+                let (along, line) = lines.next()?;
+                let value = along.eigenvalue(k, line)?;
+                let v = along.eigenvector(k, *column, &value);
+                Some(v.iter().map(|x| k.mul(x, &k.rational(scale))).collect())
+            }
+            Seed::Axis { index, scale } => {
+                let unit = |i: usize| if i == *index { k.rational(scale) } else { k.zero() };
+                Some((0..moving.letters[0].rows()).map(unit).collect())
+            }
+        };
+        self.seeds.iter().map(start).collect()
+    }
+
+    /// The images of the seeds that are the vertices: most of them are images of a vertex before.
+    pub(super) fn spread<T: Clone>(&self, starts: &[T], apply: impl Fn(usize, &T) -> T) -> Vec<T> {
+        let mut points: Vec<T> = Vec::new();
+        for (k, v) in self.vertices.iter().enumerate() {
+            let before = v.word.split_first().and_then(|(&letter, rest)| {
+                let parent = self.vertices[..k].iter().position(|u| u.seed == v.seed && u.word == rest)?;
+                Some(apply(letter, &points[parent]))
             });
+            let whole = || v.word.iter().rev().fold(starts[v.seed].clone(), |x, &l| apply(l, &x));
+            points.push(before.unwrap_or_else(whole));
         }
-        let image = |v: &Vertex| v.word.iter().rev().fold(starts[v.seed].clone(), |x, &l| moving.apply(l, &x));
-        Some(self.vertices.iter().map(image).collect())
+        points
     }
 
     /// Whether the premises hold on a piece: every image inside is a combination of vertices whose coefficients have a sum of
@@ -212,7 +241,13 @@ impl Hull {
         }
         let (mid, half) = ((&piece.from + &piece.to) / &two, (&piece.to - &piece.from) / &two);
         let moving = Moving::new(pencil, &mid, &half);
-        let Some(points) = self.points(&moving, &piece.values) else { return false };
+        let starts = self.along(&moving).and_then(|along| self.starts(&moving, &along, &piece.values));
+        starts.is_some_and(|starts| self.holds_from(&moving, &starts, piece))
+    }
+
+    /// The same for labels that are what they say, from the seeds on the piece.
+    pub(super) fn holds_from(&self, moving: &Moving, starts: &[Vec<Model>], piece: &Piece) -> bool {
+        let points = self.spread(starts, |letter, v| moving.apply(letter, v));
         let mut solvers: Vec<(Vec<usize>, Solver)> = Vec::new();
         let mut bases = piece.bases.iter();
         for (v, row) in self.images.iter().enumerate() {

@@ -5,16 +5,19 @@ use super::cover::Attempt;
 use super::hull::{Moving, floats};
 use super::{Hull, Image, Pencil, Piece, Seed, Vertex};
 use crate::arith::{Rational, to_f64};
+use crate::radius::System;
 use crate::radius::budget::Budget;
 use crate::radius::exact::grid;
 use crate::radius::float::Floats;
 use crate::radius::search::candidates;
 use crate::radius::simplex::{Body, Hull as Points, gauge};
-use crate::radius::{Options, System};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 
 /// Most vertices of a hull.
 const MAX_VERTICES: usize = 110;
+/// Work for the product of two models, and for a number in a linear program.
+const MODEL: u64 = 600;
+const GAUGE: u64 = 20;
 /// Images beyond this have left for ever.
 const FAR: f64 = 1e5;
 
@@ -25,11 +28,9 @@ pub(super) struct Word {
 }
 
 /// Words that grow fastest at a member, best first, of these at most letters.
-pub(super) fn words(pencil: &Pencil, p: &Rational, longest: usize) -> Vec<Word> {
+pub(super) fn words(pencil: &Pencil, p: &Rational, longest: usize, budget: &Budget) -> Vec<Word> {
     let Ok(system) = System::plain(&pencil.at(p)) else { return Vec::new() };
-    let options = Options { work: Some(400_000_000), ..Options::default() };
-    let budget = Budget::new(&options, pencil.dim());
-    let found = candidates(&system, longest, 0.06, &budget);
+    let found = candidates(&system, longest, 0.06, budget);
     let mut words: Vec<Word> = found.into_iter().map(|c| Word { word: c.path, value: c.value }).collect();
     // Values that differ by rounding only: the shorter word is the better one.
     let rounded = |w: &Word| (w.value * 1e9).round();
@@ -73,7 +74,7 @@ fn eigen_seed(pencil: &Pencil, p: &Rational, word: &[usize]) -> Option<Seed> {
     let moving = Moving::new(pencil, p, &Rational::from(0));
     let field = &moving.field;
     let model = crate::ring::Field::rational(field, &grid(value));
-    let v = moving.eigenvector(word, column, &model)?;
+    let v = moving.along(word)?.eigenvector(field, column, &model);
     let largest = floats(field, &[v])[0].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     // A short factor: only the size of the seed matters.
     let scale = Rational::try_from(largest.recip()).ok().filter(|s| *s > 0)?;
@@ -85,13 +86,23 @@ fn eigen_seed(pencil: &Pencil, p: &Rational, word: &[usize]) -> Option<Seed> {
 }
 
 /// A hull at a member from the eigenvectors of words, and from axes of a size where one is given.
-pub(super) fn grow(pencil: &Pencil, p: &Rational, words: &[&[usize]], attempt: &Attempt) -> Option<Hull> {
+pub(super) fn grow(
+    pencil: &Pencil,
+    p: &Rational,
+    words: &[&[usize]],
+    attempt: &Attempt,
+    budget: &Budget,
+) -> Option<Hull> {
     let mut seeds: Vec<Seed> = words.iter().map(|w| eigen_seed(pencil, p, w)).collect::<Option<_>>()?;
     if let Some(scale) = &attempt.axes {
         seeds.extend((0..pencil.dim()).map(|index| Seed::Axis { index, scale: scale.clone() }));
     }
     let mut growing = Growing::start(pencil, p, seeds, attempt.inside)?;
     while !growing.todo.is_empty() {
+        let images = growing.todo.len() as u64;
+        if !budget.spend(images * growing.gauging()) {
+            return None;
+        }
         growing.generation()?;
     }
     growing.finish()
@@ -121,7 +132,8 @@ impl Growing {
         let hull = Hull { seeds, vertices, images: Vec::new() };
         let values = proposed_values(pencil, &hull, p, p)?;
         let moving = Moving::new(pencil, p, &Rational::from(0));
-        let points = floats(&moving.field, &hull.points(&moving, &values)?);
+        let starts = floats(&moving.field, &hull.starts(&moving, &hull.along(&moving)?, &values)?);
+        let points = hull.spread(&starts, |letter, x| letters[letter].apply(x));
         let mut growing = Self { letters, hull, points: Vec::new(), body: Points::new(dim), todo: Vec::new(), inside };
         points.into_iter().for_each(|q| growing.add_point(q));
         Some(growing)
@@ -172,6 +184,12 @@ impl Growing {
         Some(())
     }
 
+    /// The work of a gauge, a linear program with a row for every coordinate.
+    fn gauging(&self) -> u64 {
+        let n = self.letters[0].rows as u64;
+        GAUGE * n * n * self.points.len() as u64
+    }
+
     fn gauge(&self, x: &[f64]) -> f64 {
         gauge(Body::Symmetric, &self.body, x, 0.0, f64::INFINITY).0.value
     }
@@ -188,15 +206,23 @@ fn proposed_values(pencil: &Pencil, hull: &Hull, from: &Rational, to: &Rational)
     hull.words().map(|w| line(pencil, w, from, to).map(|l| l.map(grid))).collect()
 }
 
-/// A piece of an interval with everything that a check needs; `None` where floats see none.
-pub(super) fn piece(pencil: &Pencil, hull: &Hull, from: &Rational, to: &Rational) -> Option<Piece> {
+/// A piece of an interval with everything that a check needs, and the check; `None` where floats see none, or it fails.
+pub(super) fn piece(pencil: &Pencil, hull: &Hull, from: &Rational, to: &Rational, budget: &Budget) -> Option<Piece> {
+    let (n, images) = (pencil.dim() as u64, (hull.vertices.len() * pencil.letters()) as u64);
+    if !budget.spend(images * n * n * (3 * MODEL + GAUGE * hull.vertices.len() as u64)) {
+        return None;
+    }
+    if from >= to || !hull.is_labelled(pencil.letters()) || hull.vertices.is_empty() {
+        return None;
+    }
     let mut values = proposed_values(pencil, hull, from, to)?;
     let two = Rational::from(2);
     let (mid, half) = ((from + to) / &two, (to - from) / &two);
     let moving = Moving::new(pencil, &mid, &half);
-    for (word, value) in hull.words().zip(&mut values) {
+    let along = hull.along(&moving)?;
+    for (along, value) in along.iter().zip(&mut values) {
         let mut tries = 0;
-        while moving.eigenvalue(word, value).is_none() {
+        while along.eigenvalue(&moving.field, value).is_none() {
             tries += 1;
             if tries > 12 || to_f64(&value[2]) > 0.5 {
                 return None;
@@ -204,8 +230,9 @@ pub(super) fn piece(pencil: &Pencil, hull: &Hull, from: &Rational, to: &Rational
             value[2] *= Rational::from(2);
         }
     }
-    let points = floats(&moving.field, &hull.points(&moving, &values)?);
+    let starts = hull.starts(&moving, &along, &values)?;
     let letters = at(pencil, &mid);
+    let points = hull.spread(&floats(&moving.field, &starts), |letter, x| letters[letter].apply(x));
     let mut body = Points::new(pencil.dim());
     points.iter().for_each(|q| body.push(q));
     let mut bases = Vec::new();
@@ -221,7 +248,8 @@ pub(super) fn piece(pencil: &Pencil, hull: &Hull, from: &Rational, to: &Rational
             }
         }
     }
-    Some(Piece { from: from.clone(), to: to.clone(), values, bases })
+    let piece = Piece { from: from.clone(), to: to.clone(), values, bases };
+    hull.holds_from(&moving, &starts, &piece).then_some(piece)
 }
 
 /// As many vertices as there are coordinates, these among them, which are independent: the farthest from the span of those chosen

@@ -6,14 +6,18 @@
 //! limit are independent on a unit interval; the latter is so where one polynomial does not vanish. Where it does, and where a
 //! further sum rule holds, the member itself is asked.
 
+mod independence;
+
+pub use independence::Independence;
+
 use super::regularity::{Regularity, digits, regularity};
 use crate::algebraic::Root;
-use crate::arith::{Rational, ratio};
-use crate::linalg::{Matrix, char_poly};
+use crate::arith::Rational;
+use crate::linalg::Matrix;
 use crate::poly::Poly;
 use crate::radius::Options;
-use crate::radius::family::{Below, Pencil, Place, Search, below, between, interpolated, roots_within, sorted};
-use crate::ring::Rationals;
+use crate::radius::family::{Below, Pencil, Place, Search, below, between, roots_within, sorted};
+use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Why a mask with a parameter has no regions.
@@ -205,10 +209,18 @@ impl MaskFamily {
         }
         let pencil = Pencil::new(self.matrices()).ok_or(RegionError::Length)?;
         let mut threshold = Rational::from(1);
-        let mut members = Members { family: self, known: Vec::new() };
+        let mut purse = Purse::new(search);
+        let mut members = Members { family: self, known: Vec::new(), options: purse.options() };
         let mut orders = Vec::new();
-        for order in 0..=most.min(self.sum_rules) {
-            let radius = (order < self.sum_rules).then(|| below(&pencil.divided(&threshold), range, search));
+        let last = most.min(self.sum_rules);
+        for order in 0..=last {
+            let radius = (order < self.sum_rules).then(|| {
+                // The last order rests on no search.
+                let share = purse.share(self.sum_rules.min(last + 1) - order);
+                let found = below(&pencil.divided(&threshold), range, &share);
+                purse.pay(found.spent);
+                found
+            });
             let fine = self.parts(order, range, radius.as_ref(), &mut members);
             orders.push(OrderRegion { order, radius, parts: joined(fine.clone()), fine });
             threshold /= Rational::from(self.arity as u64);
@@ -288,8 +300,41 @@ fn joined(parts: Vec<Part>) -> Vec<Part> {
     all
 }
 
+/// What a search may spend on all orders together.
+struct Purse<'a> {
+    search: &'a Search,
+    work: u64,
+    begun: Option<(Instant, Duration)>,
+}
+
+impl<'a> Purse<'a> {
+    fn new(search: &'a Search) -> Self {
+        Self { search, work: search.work, begun: search.time.map(|time| (Instant::now(), time)) }
+    }
+
+    fn time(&self) -> Option<Duration> {
+        self.begun.map(|(since, time)| time.saturating_sub(since.elapsed()))
+    }
+
+    /// The part of one of so many orders that are to come.
+    fn share(&self, orders: usize) -> Search {
+        let parts = u32::try_from(orders.max(1)).unwrap_or(u32::MAX);
+        Search { work: self.work / u64::from(parts), time: self.time().map(|t| t / parts), ..self.search.clone() }
+    }
+
+    fn pay(&mut self, spent: u64) {
+        self.work = self.work.saturating_sub(spent);
+    }
+
+    /// For a member that is asked by itself.
+    fn options(&self) -> Options {
+        Options { time: self.search.time, ..Options::default() }
+    }
+}
+
 /// Members that were asked.
 struct Members<'a> {
+    options: Options,
     family: &'a MaskFamily,
     known: Vec<(Rational, Option<Regularity>)>,
 }
@@ -299,7 +344,7 @@ impl Members<'_> {
     fn ask(&mut self, p: &Root, order: usize) -> Finding {
         let Some(p) = p.rational() else { return Finding::Special };
         if !self.known.iter().any(|(q, _)| *q == p) {
-            let found = regularity(&self.family.member(&p), self.family.arity, &Options::default()).ok();
+            let found = regularity(&self.family.member(&p), self.family.arity, &self.options).ok();
             self.known.push((p.clone(), found));
         }
         let found = self.known.iter().find(|(q, _)| *q == p).and_then(|(_, r)| r.as_ref());
@@ -343,93 +388,10 @@ fn digits_over(mask: &[Poly], arity: usize) -> Vec<Matrix<Poly>> {
     digits(&numbers, arity).iter().map(|m| m.map(entry)).collect()
 }
 
-/// Polynomials in the parameter one of which does not vanish where the values `T_u x − x` span all vectors of sum 0.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Independence {
-    /// Words `u`, and the column of the adjugate of `1 − T_0` that `x` is: the determinant of `x` and the differences is one of the
-    /// polynomials.
-    pub choices: Vec<(usize, Vec<Vec<usize>>)>,
-    /// The common divisor.
-    pub guard: Poly,
-}
-
-/// Members at which words are chosen.
-const CHOICES: [(i64, i64); 4] = [(37, 101), (-53, 211), (2, 3), (1, 29)];
-
-impl Independence {
-    /// `None` where the translates are dependent for every value, as far as this shows.
-    fn of(pencil: &Pencil) -> Option<Self> {
-        let mut found: Option<Self> = None;
-        for (k, (p, q)) in CHOICES.into_iter().enumerate() {
-            let Some(choice) = chosen(&pencil.at(&ratio(p, q)), k) else { continue };
-            let own = determinant(pencil, &choice);
-            let (mut choices, guard) = found.take().map_or((Vec::new(), Poly::zero()), |f| (f.choices, f.guard));
-            let common = guard.gcd(&own);
-            if guard.is_zero() || common.degree() < guard.degree() {
-                choices.push(choice);
-            }
-            found = Some(Self { choices, guard: common });
-        }
-        found.filter(|f| !f.guard.is_zero())
-    }
-}
-
-/// A vector that a matrix fixes, as it has the eigenvalue 1: a column of the adjugate of `1 − T`.
-fn fixed(m: &Matrix, column: usize) -> Vec<Rational> {
-    m.adjugate_column_over(&Rationals, char_poly(m).coeffs(), column, &Rational::from(1))
-}
-
-/// `T_u x − x`.
-fn moved(matrices: &[Matrix], word: &[usize], x: &[Rational]) -> Vec<Rational> {
-    let image = word.iter().rev().fold(x.to_vec(), |v, &letter| matrices[letter].apply(&v));
-    crate::shape::difference(&image, x)
-}
-
-/// A column and words whose differences span at a member; other numbers prefer other columns and letters.
-fn chosen(matrices: &[Matrix], number: usize) -> Option<(usize, Vec<Vec<usize>>)> {
-    let n = matrices[0].rows();
-    let sum = |v: &[Rational]| v.iter().fold(Rational::from(0), |s, c| s + c);
-    let order = (0..n).map(|k| (k + number * n / 2) % n);
-    let column = order.into_iter().find(|&c| sum(&fixed(&matrices[0], c)) != 0)?;
-    let x = fixed(&matrices[0], column);
-    let mut queue = std::collections::VecDeque::from([Vec::new()]);
-    let (mut words, mut rows): (Vec<Vec<usize>>, Matrix) = (Vec::new(), Matrix::zero(0, n));
-    while words.len() + 1 < n {
-        let word: Vec<usize> = queue.pop_front()?;
-        if !word.is_empty() {
-            let joined = rows.stack(&Matrix::from_rows(n, vec![moved(matrices, &word, &x)]));
-            if joined.rank() == rows.rows() {
-                continue;
-            }
-            rows = joined;
-            words.push(word.clone());
-        }
-        let letters = matrices.len();
-        queue.extend((0..letters).map(|l| [&[(l + number) % letters], word.as_slice()].concat()));
-    }
-    Some((column, words))
-}
-
-/// The determinant of `x` and the differences as a polynomial.
-fn determinant(pencil: &Pencil, (column, words): &(usize, Vec<Vec<usize>>)) -> Poly {
-    let n = pencil.dim();
-    let letters = words.iter().fold(0, |s, w| s + w.len());
-    // Every column has the degree of x, a column of an adjugate; a letter adds that of an entry.
-    let most = pencil.degree() * (n * (n - 1) + letters);
-    let value = |p: &Rational| {
-        let here = pencil.at(p);
-        let x = fixed(&here[0], *column);
-        let mut columns = vec![x.clone()];
-        columns.extend(words.iter().map(|w| moved(&here, w, &x)));
-        [Matrix::from_columns(n, &columns).determinant()]
-    };
-    let [found] = interpolated(most, value);
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arith::ratio;
 
     fn four_point() -> MaskFamily {
         let w = Poly::new(vec![ratio(0, 1), ratio(1, 1)]);
