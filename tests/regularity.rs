@@ -7,6 +7,8 @@ use secant::linalg::Matrix;
 use secant::radius::Options;
 use secant::scheme::Interpolation;
 use secant::shape::{CellKind, End, Frame, Piece, Shape, Spaces, State};
+use secant::theorem::Side;
+use secant::theorem::local::{LocalContext, LocalLimit, LocalSide};
 use secant::theorem::smoothness::{CurveRegularity, Outcome, Seen, curve_regularity};
 
 /// An affine map `R^m -> R^n` as rows `[shift, coefficients…]`, on the simplices `0, e_1, …`.
@@ -521,4 +523,95 @@ fn certificates_of_exponents_in_shares_are_checked() {
     let other = expanded.replace("\"1/3\", \"2/3\"", "\"2/3\", \"1/3\"");
     assert_ne!(other, expanded);
     assert!(secant_check::check(&other, &certificate).is_err());
+}
+
+/// The sides of the points of a curve: by point, those of all branches.
+fn sides(shape: &Shape, addresses: &[&str]) -> Vec<Vec<LocalSide>> {
+    let addresses: Vec<_> = addresses.iter().map(|a| secant::shape::Address::parse(a).unwrap()).collect();
+    let found = secant::theorem::certify(shape, &addresses).unwrap();
+    let context = LocalContext::new(shape, &found.contraction).unwrap();
+    found.points.iter().map(|p| p.branches.iter().flat_map(|b| context.sides(b)).collect()).collect()
+}
+
+fn values(point: &[LocalSide]) -> Vec<(Side, Option<usize>, Vec<Rational>)> {
+    let value = |s: &LocalSide| match &s.limit {
+        LocalLimit::Value(v) => v.clone(),
+        other => panic!("{other:?}"),
+    };
+    point.iter().map(|s| (s.side, s.integer, value(s))).collect()
+}
+
+#[test]
+fn local_derivatives_of_takagi_curves() {
+    let curve = |p, q| secant::scheme::build("takagi", &[("alpha".to_owned(), ratio(p, q))].into()).unwrap();
+    // 2x − 2x² at 0, at 1, at the joint 1/2, and at 1/3 from both sides.
+    let parabola = sides(&curve(1, 4), &["(01)"]);
+    let expected = [
+        vec![(Side::Right, [(1, 1), (2, 1)])],
+        vec![(Side::Left, [(-1, 1), (2, 1)])],
+        vec![(Side::Left, [(-1, 1), (0, 1)]), (Side::Right, [(1, 1), (0, 1)])],
+        vec![(Side::Left, [(-1, 1), (-2, 3)]), (Side::Right, [(1, 1), (2, 3)])],
+    ];
+    for (point, wanted) in parabola.iter().zip(expected) {
+        let wanted: Vec<_> = wanted.into_iter().map(|(side, v)| (side, Some(1), numbers(&v))).collect();
+        assert_eq!(values(point), wanted);
+    }
+    // Takagi's own curve: a block of length 2.
+    let takagi = sides(&curve(1, 2), &[]);
+    assert_eq!((takagi[0][0].integer, &takagi[0][0].limit), (Some(1), &LocalLimit::Diverges(1)));
+    // Factor 2/3: the order ln(2/3)/ln(1/2), and a band that dense values of (y + 3x)/x^h fill.
+    let rough = &sides(&curve(2, 3), &[])[0][0];
+    let h = 1.5f64.ln() / 2f64.ln();
+    assert!(to_f64(&rough.order.lo) <= h + 1e-14 && h <= to_f64(&rough.order.hi) + 1e-14 && rough.integer.is_none());
+    let LocalLimit::Band { direction, least, most } = &rough.limit else { panic!("{rough:?}") };
+    assert_eq!(*direction, numbers(&[(0, 1), (1, 1)]));
+    fn height(x: f64, depth: u32) -> f64 {
+        let x = x.min(1.0 - x);
+        if depth == 0 { 0.0 } else { x + 2.0 / 3.0 * height(2.0 * x, depth - 1) }
+    }
+    let sampled = (2048..=4096).map(|k| f64::from(k) / 4096.0).map(|x| (height(x, 40) + 3.0 * x) / x.powf(h));
+    let (lo, hi) = sampled.fold((f64::INFINITY, 0f64), |(lo, hi), b| (lo.min(b), hi.max(b)));
+    assert!(to_f64(&least.lo) <= lo + 1e-9 && lo <= to_f64(&least.hi) + 1e-9, "{lo} {least:?}");
+    assert!(to_f64(&most.lo) <= hi + 1e-9 && hi <= to_f64(&most.hi) + 1e-9, "{hi} {most:?}");
+    assert!(hi - lo > 0.1 && to_f64(&least.width()) < 0.1 && to_f64(&most.width()) < 0.1, "{least:?} {most:?}");
+}
+
+#[test]
+fn local_derivatives_in_a_parameter_with_shares() {
+    let points = [[(0, 1), (0, 1)], [(1, 3), (4, 5)], [(1, 1), (1, 1)]].map(|p| numbers(&p));
+    let cubic = numbers(&[(0, 1), (3060, 2716), (-1089, 2716), (66, 2716)]);
+    let polynomials = vec![vec![cubic], vec![numbers(&[(4, 5)])]];
+    let data = Interpolation::new(&points, factors(&numbers(&[(1, 20), (1, 5)])), polynomials).unwrap();
+    let found = sides(&data.shape().unwrap(), &[]);
+    let seen: Vec<_> =
+        found.iter().take(3).flat_map(|p| values(p)).map(|(side, h, v)| (side, h, v[1].clone())).collect();
+    let expected =
+        [(Side::Right, (2700, 679)), (Side::Left, (0, 1)), (Side::Left, (-810, 679)), (Side::Right, (810, 679))];
+    assert_eq!(seen, expected.map(|(side, (p, q))| (side, Some(1), ratio(p, q))));
+}
+
+/// A curve that is C¹ in a parameter of other shares is not claimed to be C¹ in the uniform one.
+#[test]
+fn orders_in_other_shares_are_not_adopted() {
+    for name in ["chaikin-four-point", "m1-5-smooth"] {
+        let file = format!("{}/cases/junction/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let shape = secant::case::Case::read(file.as_ref()).unwrap().shape;
+        let found = secant::theorem::certify(&shape, &[]).unwrap();
+        let derivative = found.everywhere.as_ref().and_then(|e| e.derivative.as_ref()).unwrap();
+        assert!(derivative.shares.is_some(), "{name}");
+        if let Some(secant::theorem::Parameter::Orders(orders)) = &found.parameter {
+            assert!(orders.orders.iter().all(|o| o.shares.is_none()), "{name}");
+            assert_eq!(orders.orders[1].threshold, ratio(1, 2), "{name}");
+            assert_ne!(orders.orders[1].smooth(), Some(true), "{name}");
+        }
+        // With the shares written down it is the case's own parameter (of the smaller one, for time).
+        if name == "chaikin-four-point" {
+            continue;
+        }
+        let mut shared = shape.clone();
+        for (e, own) in shape.reachable().into_iter().zip(derivative.shares.as_ref().unwrap()) {
+            shared.states[e].pieces.iter_mut().zip(own).for_each(|(p, s)| p.share = Some(s.clone()));
+        }
+        assert!(analysed(&shared).smoothness() >= 1, "{name}");
+    }
 }

@@ -10,6 +10,7 @@ use crate::arith::Rational;
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::shape::{Contraction, word_text};
+use crate::theorem::local::LocalContext;
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
     BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role,
@@ -45,7 +46,10 @@ pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
         },
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
-            None => found.points.iter().map(|p| point(case, p)).collect(),
+            None => {
+                let local = LocalContext::new(&case.shape, &found.contraction);
+                found.points.iter().map(|p| point(case, p, local.as_ref())).collect()
+            }
         },
     })
 }
@@ -211,9 +215,11 @@ fn contraction(c: &Contraction) -> Value {
     }
 }
 
-fn point(case: &Case, p: &PointReport) -> Value {
+fn point(case: &Case, p: &PointReport, local: Option<&LocalContext<'_>>) -> Value {
     let lead = p.branches.iter().find(|b| matches!(b.outcome, Outcome::AtLeast { .. } | Outcome::Open { .. }));
     let lead = lead.or_else(|| p.branches.first());
+    let sides = p.branches.iter().flat_map(|b| local.map_or_else(Vec::new, |l| l.sides(b)));
+    let sides: Vec<Value> = sides.map(|side| super::local::value(&side)).collect();
     let mut out = json!({
         "address": p.branches.first().map(|b| b.address.to_string()),
         "addresses": p.branches.iter().map(|b| b.address.to_string()).collect::<Vec<_>>(),
@@ -229,6 +235,7 @@ fn point(case: &Case, p: &PointReport) -> Value {
             "right": p.right.iter().map(direction).collect::<Vec<_>>(),
         },
         "tangent": p.tangent.as_ref().map(direction),
+        "local": sides,
     });
     if let (Value::Object(map), Some(branch)) = (&mut out, lead) {
         for (key, value) in branch_fields(branch) {

@@ -158,7 +158,7 @@ fn smooth_between(e: &Enclosed) -> (Integer, Integer) {
 }
 
 /// A pair of bounds as decimals, rounded outwards.
-fn bounds(x: &Interval) -> Value {
+pub(super) fn bounds(x: &Interval) -> Value {
     json!([decimal(&x.lo, false, 15), decimal(&x.hi, true, 15)])
 }
 

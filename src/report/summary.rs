@@ -12,6 +12,7 @@ use super::words::{
 };
 use crate::case::Case;
 use crate::shape::{CellKind, Frame};
+use crate::theorem::local::LocalContext;
 use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict};
 
 /// Points in the table at the top; all of them follow one by one.
@@ -40,8 +41,9 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
         blocks.push(Block::heading(2, "Every point"));
         blocks.push(Block::Facts(super::every::facts(case, found, every)));
     }
+    let local = LocalContext::new(&case.shape, &found.contraction).filter(|_| verbose);
     for point in &found.points {
-        blocks.extend(point_blocks(case, point, verbose));
+        blocks.extend(point_blocks(case, point, verbose, local.as_ref()));
     }
     if let Some(surface) = &found.surface {
         blocks.push(Block::heading(2, "Every point"));
@@ -216,7 +218,7 @@ fn shape_facts(case: &Case, found: &Certified) -> Vec<(String, Line)> {
     facts
 }
 
-fn point_blocks(case: &Case, point: &PointReport, verbose: bool) -> Vec<Block> {
+fn point_blocks(case: &Case, point: &PointReport, verbose: bool, local: Option<&LocalContext<'_>>) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -237,6 +239,9 @@ fn point_blocks(case: &Case, point: &PointReport, verbose: bool) -> Vec<Block> {
     let branches = shown_branches(point);
     for branch in &branches {
         facts.extend(branch_facts(branches.len() > 1, branch, verbose, point.role != Role::SetPoint));
+    }
+    for side in point.branches.iter().flat_map(|b| local.map_or_else(Vec::new, |l| l.sides(b))) {
+        facts.push((super::local::name(&side), super::local::fact(&side)));
     }
     vec![Block::Heading(3, head), Block::Facts(facts)]
 }

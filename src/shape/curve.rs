@@ -141,6 +141,22 @@ impl Shape {
         None
     }
 
+    /// The map `t ↦ slope t + offset` of parameters that belongs to a word, whose pieces take their shares; `None` where a state on
+    /// the way is no curve, or has no such piece.
+    #[must_use]
+    pub fn parameter_map(&self, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
+        let (mut slope, mut offset, mut at) = (Rational::from(1), Rational::from(0), start);
+        for letter in word {
+            let state = self.states.get(at).filter(|s| s.kind == CellKind::Edge)?;
+            let piece = state.pieces.get(*letter)?;
+            let part = state.share(*letter);
+            offset += &slope * state.before(letter + usize::from(piece.reversed));
+            slope *= if piece.reversed { -part } else { part };
+            at = piece.target;
+        }
+        Some((slope, offset))
+    }
+
     /// An end point of the curve of a state.
     #[must_use]
     pub fn end_point(&self, state: usize, end: End) -> Option<Vec<Rational>> {

@@ -18,6 +18,7 @@ pub mod gap;
 pub mod graph;
 mod hodograph;
 pub mod lattice;
+pub mod local;
 pub mod parameter;
 mod point;
 pub mod region;

@@ -6,7 +6,7 @@ use super::super::surface::{point_name as surface_point_name, span};
 use super::super::words::{addresses, direction, mark, point_name};
 use crate::arith::Rational;
 use crate::case::Case;
-use crate::shape::{Address, CellKind, Shape};
+use crate::shape::{Address, Shape};
 use crate::theorem::surface::{Surface, SurfacePoint};
 use crate::theorem::{Certified, PointReport};
 
@@ -69,25 +69,10 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
 #[must_use]
 pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
     let after = shape.path(shape.start, &address.prefix);
-    let (slope, offset) = affine(shape, *after.last()?, &address.cycle)?;
+    let (slope, offset) = shape.parameter_map(*after.last()?, &address.cycle)?;
     let fixed = offset / (Rational::from(1) - slope);
-    let (slope, offset) = affine(shape, shape.start, &address.prefix)?;
+    let (slope, offset) = shape.parameter_map(shape.start, &address.prefix)?;
     Some(slope * fixed + offset)
-}
-
-/// The map of parameters that belongs to a word: slope and offset.
-fn affine(shape: &Shape, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
-    let (mut slope, mut offset) = (Rational::from(1), Rational::from(0));
-    for (letter, state) in word.iter().zip(shape.path(start, word)) {
-        let state = shape.states.get(state).filter(|s| s.kind == CellKind::Edge)?;
-        let piece = state.pieces.get(*letter)?;
-        let part = state.share(*letter);
-        let from = state.before(letter + usize::from(piece.reversed));
-        let own = if piece.reversed { -part } else { part };
-        offset += &slope * from;
-        slope *= own;
-    }
-    Some((slope, offset))
 }
 
 #[cfg(test)]
