@@ -80,6 +80,7 @@ mod tests {
     use super::*;
     use crate::arith::ratio;
     use crate::linalg::Matrix;
+    use crate::shape::CellKind;
 
     #[test]
     fn parameters_are_those_of_equal_parts() {
