@@ -49,6 +49,21 @@ mod tests {
         assert!(guarded(proved).is_ok());
     }
 
+    /// The checker looks at the flag too, and forgets it afterwards.
+    #[test]
+    fn a_check_that_was_told_to_stop_accepts_nothing() {
+        let flag = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(false));
+        let case = crate::case::Question::ask("four-point").expect("a scheme");
+        let mut found = crate::prove(&case, &crate::budget::Budget::default()).expect("a proof");
+        let text = crate::prove::unconfirmed(&found).expect("a certificate").text();
+        let check = || secant_check::check_while(&case.text().text, &text, crate::stop::check);
+        flag.store(true, std::sync::atomic::Ordering::Relaxed);
+        let stopped = guarded(|| crate::stop::stoppable(Some(flag.clone()), || Ok(check().is_ok())));
+        assert_eq!(stopped.expect_err("it stops").id(), Problem::STOPPED);
+        assert!(secant_check::check(&case.text().text, &text).is_ok() && check().is_ok());
+        assert!(crate::prove::confirm(&mut found).is_ok());
+    }
+
     #[test]
     fn everything_else_passes() {
         assert_eq!(guarded(|| Ok(3)).ok(), Some(3));

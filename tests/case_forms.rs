@@ -4,7 +4,7 @@ use secant::arith::ratio;
 use secant::case::{Case, Origin};
 use secant::diagnostic::Problem;
 use secant::scheme::{self};
-use secant::shape::CellKind;
+use secant::shape::{CellKind, End};
 use std::path::Path;
 
 fn scheme_case(table: &str) -> String {
@@ -19,6 +19,37 @@ fn refused(text: &str) -> Problem {
     match Case::parse("t.toml", text) {
         Err(problem) => problem,
         Ok(_) => panic!("accepted:\n{text}"),
+    }
+}
+
+#[test]
+fn points_are_interpolated() {
+    let table = "interpolate = [[0, 0], [1, 2], [2, 1], [4, 3]]\nvertical = [\"1/3\", \"-1/4\", 0.5]";
+    let case = read(&scheme_case(table));
+    let again = round_trip(&case);
+    assert!(case.expanded().contains("[[map]]") && again.shape.frame == case.shape.frame);
+    // The curve runs from the first point to the last, and its pieces from each point to the next.
+    let shape = &case.shape;
+    let control = shape.control.as_ref().unwrap();
+    let [start, end] = [End::Start, End::Finish].map(|e| shape.end_point(0, e).unwrap());
+    let seen = |p: &[secant::arith::Rational]| control.apply(p);
+    assert_eq!((seen(&start), seen(&end)), (vec![ratio(0, 1), ratio(0, 1)], vec![ratio(4, 1), ratio(3, 1)]));
+    let joints: Vec<_> = shape.states[0].pieces.iter().map(|p| seen(&p.op.apply(&end))).collect();
+    assert_eq!(joints, [[1, 2], [2, 1], [4, 3]].map(|p| p.map(|x| ratio(x, 1)).to_vec()));
+    for (wrong, place) in [
+        ("interpolate = [[0, 0], [1, 2], [2, 1]]", "vertical"),
+        ("interpolate = [[0, 0], [1, 2], [1, 1]]\nvertical = [0, 0]", "increasing"),
+        ("interpolate = [[0, 0], [1, 2], [2, 1]]\nvertical = [0, 1]", "between"),
+        ("interpolate = [[0, 0], [1, 2], [2, 1]]\nvertical = [0]", "one factor"),
+        ("interpolate = [[0, 0], [1, 2, 3], [2, 1]]\nvertical = [0, 0]", "coordinates"),
+        ("interpolate = []\nvertical = []", "at least 3"),
+        ("interpolate = [[0, 0], [1, 2], [2, 1]]\nvertical = [0, 0]\nmask = [1]", "exclude"),
+        ("interpolate = [[0, 0], [1, 2], [2, 1]]\nvertical = [0, 0]\narity = 2", "arity"),
+    ] {
+        let problem = refused(&scheme_case(wrong));
+        let text = problem.render(false);
+        assert!(text.contains(place), "{wrong}: {place} is missing in {text}");
+        assert!(problem.position().is_some() && problem.remedy().is_some(), "{text}");
     }
 }
 

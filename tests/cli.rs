@@ -460,6 +460,31 @@ fn the_gallery_is_written_and_checked() {
     assert!(page.contains("some/half-tangent.html") && page.contains("secant::shape::adjacency"));
     assert!(dir.path().join("docs/gallery/some/half-tangent.html").exists());
     assert_eq!(run(&["gallery", "no/such/dir"]), Some(2));
+    // The search knows verdicts and kinds of what there is, and no others.
+    assert!(page.contains("<option>cusp</option>") && page.contains("<option>refused</option>"));
+    assert!(page.contains("data-verdict=\"proved\" data-kinds=\"cusp;") && !page.contains("<option>corner</option>"));
+    // A flat directory, with reports of all.
+    assert_eq!(run(&["gallery", "cases/some", "--reports", "--out", "flat"]), Some(0));
+    let flat = std::fs::read_to_string(dir.path().join("flat/index.html")).unwrap();
+    assert!(
+        flat.contains("href=\"some/half-tangent.html\"") && dir.path().join("flat/some/half-tangent.html").exists()
+    );
+}
+
+#[test]
+fn colours_can_be_had_and_left_out() {
+    let coloured = |args: &[&str]| {
+        let out = secant(args).output().unwrap();
+        (out.stdout.contains(&0x1b), out.stderr.contains(&0x1b))
+    };
+    assert_eq!(coloured(&["certify", "koch", "--brief"]), (false, false));
+    assert_eq!(coloured(&["certify", "koch", "--brief", "--color", "always"]), (true, false));
+    assert_eq!(coloured(&["--color=always", "certify", "koch", "--brief"]), (true, false));
+    assert_eq!(coloured(&["certify", "none.toml", "--color=always"]), (false, true));
+    assert_eq!(coloured(&["certify", "none.toml", "--color=never"]), (false, false));
+    assert_eq!(coloured(&["frobnicate", "--color", "always"]), (false, true));
+    assert_eq!(coloured(&["frobnicate"]), (false, false));
+    output(&["certify", "koch", "--color", "pink"], 2);
 }
 
 #[test]

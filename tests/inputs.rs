@@ -217,7 +217,13 @@ fn mistakes_are_told_with_a_remedy() {
     for (args, input, piece) in [
         (&["certify", "four-pont"][..], "", "did you mean `four-point`?"),
         (&["regularity", "four-pont"], "", "did you mean `four-point`?"),
-        (&["certify", "chaikin"], "", "write bspline degree=2"),
+        (&["certify", "db2"], "", "secant regularity db2"),
+        (&["certify", "-"], "name = \"a\"\n[scheme]\nmaks = [1]\n", "did you mean `mask`"),
+        (&["certify", "-"], "name = \"a\"\n[[scheme]]\nname = \"bspline\"\n", "secant junction"),
+        (&["certify", "-"], "name = \"a\"\n[vertex]\nmesh = \"loop\"\nvalence = 5\nweights = [1]\n", "loop-variant"),
+        (&["import", "cases/meshes/cube.obj"], "", "secant certify cases/meshes/cube.obj"),
+        (&["jsr", "four-point"], "", "secant regularity"),
+        (&["region", "four-point"], "", "w=-1/2..1/2"),
         (&["certify", "loop"], "", "[vertex] mesh"),
         (&["certify", "-"], "name = \"c\"\n[scheme]\nmask = [1/4, 3/4]\n", "\"1/4\""),
         (&["certify", "-"], "name = \"c\"\n[scheme]\nname = \"bspline\"\ncontrol = [[0]]\n", "above the line [scheme]"),
@@ -235,7 +241,7 @@ fn mistakes_are_told_with_a_remedy() {
             "No such file or directory (os error 2) help",
         ),
         (&["jsr", "cases/bspline/degree-2.toml"], "", "this is a case"),
-        (&["gallery", "cases/bspline"], "", "DIR/FAMILY/CASE.toml"),
+        (&["gallery", "docs"], "", "DIR/FAMILY/CASE.toml"),
     ] {
         let text = told(args, input);
         assert!(text.contains(piece), "{args:?}: {piece} is missing in\n{text}");

@@ -104,7 +104,7 @@ fn files_are_written_and_the_same_every_time() {
     }
     assert_ne!(std::fs::read(a).unwrap(), std::fs::read(b).unwrap());
     let (_, err) = secant(&["render", "cases/sets/sierpinski.toml"], 2);
-    assert!(err.contains("--svg"), "{err}");
+    assert!(err.contains("--output"), "{err}");
     let (_, err) = secant(&["render", "cases/sets/sierpinski.toml", "--depth", "60", "--svg", &file("x.svg")], 2);
     assert!(err.contains("--depth") && !dir.path().join("x.svg").exists(), "{err}");
 }
@@ -118,7 +118,7 @@ fn imports_state_their_convention_and_give_cases() {
     let (_, err) = secant(&["import", path.to_str().unwrap()], 2);
     assert!(err.contains("levy, tri"), "{err}");
     let (out, _) = secant(&["import", path.to_str().unwrap(), "--entry", "tri"], 0);
-    assert!(out.starts_with("# Convention: Fractint"), "{out}");
+    assert!(out.starts_with("# Convention: Fractint") && out.contains("[[map]]") && !out.contains("pieces"), "{out}");
     assert_eq!(Case::parse("t.toml", &out).unwrap().shape.states[0].pieces.len(), 3);
     let path = dir.path().join("segment.json");
     std::fs::write(
@@ -132,6 +132,60 @@ fn imports_state_their_convention_and_give_cases() {
     assert!(err.contains("secant::import"), "{err}");
     let (out, _) = secant(&["expand", "cases/faces/bicubic-tensor.toml"], 0);
     assert_eq!(Case::parse("t.toml", &out).unwrap().faces.len(), 1);
+}
+
+#[test]
+fn the_ending_says_the_format() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = |name: &str| dir.path().join(name).to_str().unwrap().to_owned();
+    let files = ["a.svg", "a.png", "a.obj", "a.PLY"].map(file);
+    let given: Vec<&str> = files.iter().flat_map(|f| ["-o", f.as_str()]).collect();
+    secant(&[&["render", "koch", "--depth", "3"][..], &given].concat(), 0);
+    let starts = files.each_ref().map(|f| std::fs::read(f).unwrap()[..4].to_vec());
+    assert_eq!(starts.map(|s| String::from_utf8_lossy(&s).into_owned()), ["<svg", "\u{fffd}PNG", "# ko", "ply\n"]);
+    for wrong in [&["-o", "a.gif"][..], &["-o", "a.svg", "--svg", "b.svg"], &["-o", "a.png", "-o", "b.png"]] {
+        secant(&[&["render", "koch"][..], wrong].concat(), 2);
+    }
+    let both = ["a.html", "b.svg"].map(file);
+    secant(&["certify", "-q", "bspline degree=2", "-o", &both[0], "-o", &both[1]], 0);
+    assert!(std::fs::read_to_string(&both[0]).unwrap().starts_with("<!DOCTYPE html>"));
+    assert!(std::fs::read_to_string(&both[1]).unwrap().starts_with("<svg"));
+    let (_, err) = secant(&["certify", "koch", "-o", "a.doc"], 2);
+    assert!(err.contains(".html"), "{err}");
+}
+
+#[test]
+fn a_shape_in_space_is_seen_from_a_direction() {
+    let patch = "cases/surfaces/bicubic-space.toml";
+    let drawn = |view: &[&str]| secant(&[&["render", patch, "--depth", "2", "--svg", "-"][..], view].concat(), 0).0;
+    let front = drawn(&["--view", "front"]);
+    assert_ne!(front, drawn(&[]));
+    assert_eq!(front, drawn(&["--view=-90,0"]));
+    assert_ne!(front, drawn(&["--view", "top"]));
+    for (case, view) in [(patch, "sideways"), (patch, "1,100"), (patch, "NaN,0"), (patch, "3"), ("koch", "top")] {
+        let (_, err) = secant(&["render", case, "--svg", "-", "--view", view], 2);
+        assert!(err.contains("--view"), "{err}");
+    }
+}
+
+/// Seen from above a patch shows its first two coordinates as they are: the corners of its border at their places.
+#[test]
+fn the_top_view_shows_the_first_two_coordinates() {
+    let shown = |case: &str, view: &[&str]| {
+        let (svg, _) = secant(&[&["render", case, "--depth", "4", "--svg", "-"][..], view].concat(), 0);
+        svg.lines().filter(|l| l.starts_with("<path")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let dir = tempfile::tempdir().unwrap();
+    let write = |name: &str, points: &str| {
+        let path = dir.path().join(name);
+        let text = format!("name = \"a\"\ncontrol = [{points}]\n[scheme]\nname = \"bezier\"\ndegree = 2\n");
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let plane = write("plane.toml", "[0, 0], [1, 2], [3, 1]");
+    let space = write("space.toml", "[0, 0, 5], [1, 2, -7], [3, 1, 1]");
+    assert_eq!(shown(&plane, &[]), shown(&space, &["--view", "top"]));
+    assert_ne!(shown(&plane, &[]), shown(&space, &["--view", "bottom"]));
 }
 
 #[test]

@@ -203,6 +203,31 @@ fn answers_are_those_of_the_library() {
     }
 }
 
+/// The first answer to a question decides less than the next ones, and nothing differently.
+#[test]
+fn a_first_answer_is_a_part_of_the_next() {
+    let server = Server::start();
+    for (name, parameters) in
+        [("four-point", json!({"w": "3/40"})), ("bspline", json!({"degree": "3"})), ("takagi", json!({}))]
+    {
+        let mut input = scheme(name, parameters);
+        input["control"] = "suggested".into();
+        let [first, quick] = ["first", "quick"]
+            .map(|effort| server.post("api/prove", &json!({"page": "p", "input": input, "effort": effort})).json());
+        assert_eq!((&first["effort"], &quick["effort"]), (&json!("first"), &json!("quick")));
+        let verdict = |answer: &Value, about: &Value| {
+            let all = answer["claims"].as_array().unwrap();
+            all.iter().find(|c| c["about"] == *about).map(|c| c["verdict"].clone())
+        };
+        for about in ["ends", "joints", "every point (G¹)"].map(|about| json!(about)) {
+            let (a, b) = (verdict(&first, &about), verdict(&quick, &about));
+            assert!(a == b || a == Some(json!("undetermined")), "{name}: {about}: {a:?}, {b:?}");
+        }
+        assert_eq!(verdict(&first, &json!("ends")), Some(json!("proved")), "{name}");
+        assert_eq!(first["points"][0]["tangent"], quick["points"][0]["tangent"], "{name}");
+    }
+}
+
 /// The files of an answer: the certificate is accepted, the others are what they say.
 fn files(server: &Server, value: &Value, text: &str, name: &str) {
     let id = &value["id"];
@@ -353,6 +378,17 @@ fn newer_requests_a_stop_and_a_lost_connection_end_the_work() {
     assert_eq!(server.post("api/stop", &json!({"page": "b"})).json(), json!({"stopped": true}));
     assert_eq!(line.read().status, 409);
     assert_eq!(server.post("api/stop", &json!({"page": "b"})).json(), json!({"stopped": false}));
+    // A search for a region ends too.
+    let slider = |page: &str| json!({"page": page, "name": "four-point", "parameter": "w"});
+    let mut line = server.line();
+    line.0.get_mut().write_all(&server.posted("api/region", &slider("e").to_string())).unwrap();
+    std::thread::sleep(Duration::from_millis(50));
+    let (start, mut next) = (Instant::now(), server.line());
+    next.0.get_mut().write_all(&server.posted("api/region", &slider("e").to_string())).unwrap();
+    let ended = line.read();
+    assert_eq!((ended.status, ended.code().as_str()), (409, "secant::stopped"));
+    assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
+    drop(next);
     // More than all slots: they are free again when the visitors are gone.
     let lines: Vec<Line> = (0..6).map(|k| begun(&format!("c{k}"))).collect();
     drop(lines);

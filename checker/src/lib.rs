@@ -40,6 +40,18 @@ const MAX_NAME: usize = 200;
 /// # Cost
 /// Bounded: the files by [`MAX_BYTES`], the nesting by 128, the numbers by 10000 digits, the arithmetic by a budget.
 pub fn check(case: &str, certificate: &str) -> Checked<Accepted> {
+    checked(case, certificate)
+}
+
+/// The same, with a function that is called now and then; where it unwinds, nothing is accepted.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_while(case: &str, certificate: &str, look: fn()) -> Checked<Accepted> {
+    number::looking(look, || checked(case, certificate))
+}
+
+fn checked(case: &str, certificate: &str) -> Checked<Accepted> {
     unreadable(need(case.len().max(certificate.len()) <= MAX_BYTES, "limit", "a file is too large"))?;
     number::refill();
     let tree: Json = unreadable(serde_json::from_str(certificate).or_else(|error| reject("json", error)))?;

@@ -7,7 +7,10 @@
 
 from ._answers import JointRadius, Regularity, Solution, certify, check, jsr, regularity, solve
 from ._errors import CertificateError, InputError, InternalError, SecantError
+from ._executors import RayExecutor
+from ._meshes import CertifiedMesh, MeshVertex
 from ._numbers import Algebraic
+from ._regions import RegionOrder, RegionPart, Regions, region
 from ._results import Certificate, Certified, Checked, Claim, Direction, Point, Verdict
 from ._secant import version as __version__
 from ._spectra import Eigenvalue, JordanForm, Spectrum, jordan_form, spectra, spectrum
@@ -18,6 +21,7 @@ __all__ = [
     "Certificate",
     "CertificateError",
     "Certified",
+    "CertifiedMesh",
     "Checked",
     "Claim",
     "Direction",
@@ -27,7 +31,12 @@ __all__ = [
     "InternalError",
     "JointRadius",
     "JordanForm",
+    "MeshVertex",
+    "RegionOrder",
+    "RegionPart",
     "Point",
+    "RayExecutor",
+    "Regions",
     "Regularity",
     "Row",
     "SecantError",
@@ -40,6 +49,7 @@ __all__ = [
     "iter_sweep",
     "jordan_form",
     "jsr",
+    "region",
     "regularity",
     "solve",
     "spectra",

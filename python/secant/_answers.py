@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 from . import _secant
 from ._cases import Convention, Source, is_named, is_wavelet, source, wavelet_filter
 from ._errors import InputError
+from ._meshes import CertifiedMesh, answer_mesh, asked_mesh, is_mesh
 from ._numbers import Exact, decimal_interval, matrix, number, written
 from ._results import Certificate, Certified, Checked
 
@@ -56,6 +58,11 @@ def answer(question: dict[str, Any]) -> Certified:
     return Certified(json.loads(data), kept, Certificate._of(certificate), findings)
 
 
+@overload
+def certify(x: Any, *, scheme: str, exact: Exact | None = None, effort: Effort = "normal") -> CertifiedMesh: ...
+
+
+@overload
 def certify(
     x: Any,
     *,
@@ -70,7 +77,25 @@ def certify(
     words: int | None = None,
     require: str | None = None,
     name: str = "case",
-) -> Certified:
+) -> Certified: ...
+
+
+def certify(
+    x: Any,
+    *,
+    scheme: str | None = None,
+    at: str | Iterable[str] = (),
+    valences: int | str | range | None = None,
+    exact: Exact | None = None,
+    convention: Convention | None = None,
+    arity: int = 2,
+    check: bool = True,
+    effort: Effort = "normal",
+    cells: int | None = None,
+    words: int | None = None,
+    require: str | None = None,
+    name: str = "case",
+) -> Certified | CertifiedMesh:
     """Proves or refutes tangents of a shape at its end points, its joints and a dense set, or C¹ at vertices of a mesh.
 
     Parameters
@@ -78,7 +103,10 @@ def certify(
     x : path, str, dict, list, array or pywt.Wavelet
         The case: a path; the text of a case (docs/case-format.md), which has more than one line; the name of a scheme with
         parameters (``"four-point w=1/16"``), a mask (``"1/4,3/4,3/4,1/4"``) or a symbol (``"(1+z)^3/4"``); a mapping with the
-        keys of a case; a list or array of the numbers of a mask; a list of matrices, with `convention`.
+        keys of a case; a list or array of the numbers of a mask; a list of matrices, with `convention`. With `scheme` a mesh:
+        the path of an OBJ or OFF file, or ``{"points": …, "faces": …}`` with faces as numbers of points from 0.
+    scheme : {"catmull-clark", "loop", "loop-warren"}, optional
+        For a mesh: the scheme of its limit surface.
     at : str or list of str, optional
         Further points to be examined: letters, and the repeated ones in brackets, as in ``"0(1)"``.
     valences : int, str or range, optional
@@ -102,7 +130,7 @@ def certify(
 
     Returns
     -------
-    Certified
+    Certified or CertifiedMesh
 
     Raises
     ------
@@ -120,9 +148,13 @@ def certify(
     >>> result.points[0].address
     '(0)'
     """
-    given = source(x, exact=exact, convention=convention, arity=arity, name=name)
     options: dict[str, Any] = {"at": at, "valences": valences, "check": check, "effort": effort, "cells": cells, "words": words}
     options["require"] = require
+    if scheme is not None or is_mesh(x):
+        if not is_mesh(x):
+            raise InputError("scheme goes with a mesh", code="secant::usage::scheme", help="give an .obj or .off file")
+        return answer_mesh(asked_mesh(x, scheme, exact, options))
+    given = source(x, exact=exact, convention=convention, arity=arity, name=name)
     return answer(asked(given, options))
 
 
@@ -160,6 +192,10 @@ class JointRadius:
     def __repr__(self) -> str:
         bounds = ", ".join("?" if x is None else f"{float(x):.15g}" for x in (self.lower, self.upper))
         return f"<JointRadius [{bounds}]{', exact' if self.exact else ''}>"
+
+    def _repr_html_(self) -> str:
+        word = "" if self.word is None else f", word {''.join(map(str, self.word)) if max(self.word) < 10 else self.word}"
+        return f"<p>{html.escape(repr(self)[1:-1])}{word}, growth {html.escape(self.growth)}</p>"
 
 
 def jsr(
@@ -256,6 +292,9 @@ class Regularity:
     def __repr__(self) -> str:
         shown = "?" if self.exponent is None else f"[{float(self.exponent[0]):.12g}, {float(self.exponent[1]):.12g}]"
         return f"<Regularity of a {self.kind}: exponent {shown}>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(str(self))}</pre>"
 
 
 def regularity(
@@ -357,6 +396,9 @@ class Solution:
 
     def __repr__(self) -> str:
         return f"<Solution: {self.solutions}, {self.data['unknowns']} unknowns>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(str(self))}</pre>"
 
 
 def solve(x: Any, *, set: Mapping[str, Any] | None = None, exact: Exact | None = None) -> Solution:

@@ -6,7 +6,7 @@ import enum
 import html
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -262,6 +262,26 @@ class Point:
         return f"<Point {self.address}: {self.verdict}, {self.kind}{tangent}>"
 
 
+_FORMATS = {".html": "html", ".htm": "html", ".tex": "latex", ".md": "markdown"}
+
+
+def write_report(make: Callable[[str], str], path: str | os.PathLike[str] | None, format: str) -> str:
+    """A report in the format that the ending of `path` says, written there; or as text."""
+    if path is not None:
+        ending = Path(path).suffix.lower()
+        if ending not in _FORMATS:
+            raise InputError(
+                f"no format is known for {os.fspath(path)}", code="secant::usage::report", help=".html, .tex, .md"
+            )
+        format = _FORMATS[ending]
+    elif format not in _FORMATS.values():
+        raise InputError(f"no format {format!r}", code="secant::usage::report", help="html, latex or markdown")
+    text = make(format)
+    if path is not None:
+        Path(path).write_text(text, encoding="utf-8")
+    return text
+
+
 class Certified:
     """What was found about a case: the verdict, the claims, the points, and their evidence.
 
@@ -367,20 +387,7 @@ class Certified:
         format : {"html", "latex", "markdown"}
             The format where no file is given.
         """
-        formats = {".html": "html", ".htm": "html", ".tex": "latex", ".md": "markdown"}
-        if path is not None:
-            ending = Path(path).suffix.lower()
-            if ending not in formats:
-                raise InputError(
-                    f"no format is known for {os.fspath(path)}", code="secant::usage::report", help=".html, .tex, .md"
-                )
-            format = formats[ending]
-        elif format not in formats.values():
-            raise InputError(f"no format {format!r}", code="secant::usage::report", help="html, latex or markdown")
-        text = self._native().report(format, level)
-        if path is not None:
-            Path(path).write_text(text, encoding="utf-8")
-        return text
+        return write_report(lambda format: self._native().report(format, level), path, format)
 
     @property
     def svg(self) -> str:
@@ -449,4 +456,5 @@ __all__ = [
     "Point",
     "Verdict",
     "decimal_interval",
+    "write_report",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -120,6 +121,15 @@ class Spectrum:
     def __repr__(self) -> str:
         shown = ", ".join(f"{_short(v)} ({n})" for v, n in self.blocks[:6])
         return f"<Spectrum of {self.name}: {shown}{', …' if len(self.blocks) > 6 else ''}>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{html.escape(_short(e.value))}</td><td>{float(e.modulus[0]):.10g}</td><td>{e.multiplicity}</td>"
+            f"<td>{', '.join(map(str, e.blocks))}</td></tr>"
+            for e in self.eigenvalues
+        )
+        head = "<tr><th>eigenvalue</th><th>modulus</th><th>multiplicity</th><th>blocks</th></tr>"
+        return f"<p><b>{html.escape(self.name)}</b>, {self.size} × {self.size}</p><table>{head}{rows}</table>"
 
 
 def _short(x: Number) -> str:

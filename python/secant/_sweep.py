@@ -20,6 +20,7 @@ from . import _secant
 from ._answers import asked, text_of
 from ._cases import Source, source
 from ._errors import InputError, SecantError, of_dict
+from ._meshes import CertifiedMesh, asked_mesh, is_mesh, travelling
 from ._results import Certificate, Certified, Verdict
 
 _SECONDS = 0.5
@@ -37,7 +38,7 @@ class Row:
         Its number in the sweep, from 0.
     parameters : dict
         The parameters, or ``{"case": …}``.
-    result : Certified or None
+    result : Certified, CertifiedMesh or None
         The result; None where the case is refused.
     error : SecantError or None
         Why it is refused, or how secant failed on it.
@@ -49,7 +50,7 @@ class Row:
 
     index: int
     parameters: dict[str, Any]
-    result: Certified | None
+    result: Certified | CertifiedMesh | None
     error: SecantError | None
     seconds: float
     kept: bool
@@ -131,7 +132,7 @@ class Folder:
         found: dict[str, Any] = record
         return found
 
-    def results(self, recheck: bool = False) -> Iterator[Certified]:
+    def results(self, recheck: bool = False) -> Iterator[Certified | CertifiedMesh]:
         """All results that are whole, one after the other; with `recheck` those whose certificates are accepted again."""
         for key, place in self.places().items():
             record = self.read(place, key, recheck)
@@ -150,9 +151,12 @@ def _record(question: dict[str, Any]) -> dict[str, Any]:
     started = time.perf_counter()
     record: dict[str, Any] = {"question": question, "data": None, "certificate": None, "error": None}
     try:
-        _, data, text, certificate = _secant.certify(question)
-        record.update(data=json.loads(data), certificate=certificate)
-        record["question"] = {**question, "text": text, "path": None}
+        if "scheme" in question:
+            record["data"] = json.loads(_secant.mesh(question)[1])
+        else:
+            _, data, text, certificate = _secant.certify(question)
+            record.update(data=json.loads(data), certificate=certificate)
+            record["question"] = {**question, "text": text, "path": None}
     except SecantError as error:
         record["error"] = error.to_dict()
     record["seconds"] = time.perf_counter() - started
@@ -185,9 +189,11 @@ def _work(questions: list[dict[str, Any]], folder: str | None) -> list[str]:
     return done
 
 
-def _opened(record: dict[str, Any]) -> tuple[Certified | None, SecantError | None]:
+def _opened(record: dict[str, Any]) -> tuple[Certified | CertifiedMesh | None, SecantError | None]:
     if record["error"] is not None:
         return None, of_dict(record["error"])
+    if "scheme" in record["question"]:
+        return CertifiedMesh(record["data"], record["question"]), None
     return Certified(record["data"], record["question"], Certificate._of(record["certificate"])), None
 
 
@@ -388,11 +394,15 @@ def _questions(
 ) -> Iterator[Question]:
     """The questions of a sweep; a case that cannot even be written down has its error instead."""
     naming = {k: options.pop(k) for k in ("exact", "convention", "arity") if k in options}
-    unknown = set(options) - {"at", "valences", "check", "effort", "cells", "words", "require"}
+    unknown = set(options) - {"at", "valences", "check", "effort", "cells", "words", "require", "scheme"}
     if unknown:
         raise TypeError(f"unknown option {sorted(unknown)[0]!r}")
     for index, (values, one) in enumerate(_instances(case, parameters)):
         try:
+            if is_mesh(one):
+                mesh = asked_mesh(one, options.get("scheme"), naming.get("exact"), options)
+                yield index, values, travelling(mesh), None
+                continue
             given = source(one, **naming)
             if given.path is not None:
                 # The text travels: workers need not see the file.
@@ -520,7 +530,7 @@ def sweep(
         For each parameter its values, exact numbers; of several all combinations, the last one running fastest.
     executor : optional
         Anything with the interface of ``concurrent.futures``: the standard pools, ``dask.distributed.Client.get_executor()``,
-        those of Ray and mpi4py. Without it, processes of this machine, which are replaced when one dies.
+        ``mpi4py.futures.MPIPoolExecutor``, and :class:`secant.RayExecutor`. Without it, processes of this machine, which are replaced when one dies.
     workers : int, optional
         How many processes where there is no executor; 0 for none: in this process.
     folder : path, optional

@@ -10,6 +10,7 @@ use secant::certificate::sha256;
 use secant::diagnostic::{Problem, SourceText};
 use secant::prove;
 use secant::radius::Options;
+use secant::report::document::Document;
 use secant::report::proof::Level;
 use secant::report::{findings, html, latex, markdown, text};
 use secant::theorem::Required;
@@ -42,17 +43,22 @@ pub struct Asked {
     require: Option<String>,
 }
 
+/// The limits of a search.
+pub fn budget(effort: &str, cells: Option<usize>, words: Option<usize>) -> Result<Budget, Problem> {
+    let known = [Effort::Quick, Effort::Normal, Effort::Hard].into_iter().find(|e| e.word() == effort);
+    let known = known.ok_or_else(|| {
+        Problem::new("secant::usage", format!("effort is not {effort:?}"))
+            .with_help("it is \"quick\", \"normal\" or \"hard\"")
+    })?;
+    let mut budget = Budget::of(known);
+    budget.cells = cells.unwrap_or(budget.cells);
+    budget.words = words.unwrap_or(budget.words);
+    Ok(budget)
+}
+
 impl Asked {
     fn budget(&self) -> Result<Budget, Problem> {
-        let effort = [Effort::Quick, Effort::Normal, Effort::Hard].into_iter().find(|e| e.word() == self.effort);
-        let effort = effort.ok_or_else(|| {
-            Problem::new("secant::usage", format!("effort is not {:?}", self.effort))
-                .with_help("it is \"quick\", \"normal\" or \"hard\"")
-        })?;
-        let mut budget = Budget::of(effort);
-        budget.cells = self.cells.unwrap_or(budget.cells);
-        budget.words = self.words.unwrap_or(budget.words);
-        Ok(budget)
+        budget(&self.effort, self.cells, self.words)
     }
 
     fn required(&self) -> Result<Required, Problem> {
@@ -87,6 +93,15 @@ impl Asked {
     }
 }
 
+/// A document as `html`, `latex` or `markdown`.
+pub fn rendered(document: &Document, format: &str) -> String {
+    match format {
+        "html" => html::render(document),
+        "latex" => latex::render(document),
+        _ => markdown::render(document),
+    }
+}
+
 /// What was found, kept for reports and pictures.
 #[pyclass(frozen, module = "secant._secant")]
 pub struct Findings {
@@ -107,11 +122,7 @@ impl Findings {
         let answered = Arc::clone(&self.answered);
         outside(py, move || {
             let document = findings::proof_at(&answered.findings, level);
-            Ok(match format.as_str() {
-                "html" => html::render(&document),
-                "latex" => latex::render(&document),
-                _ => markdown::render(&document),
-            })
+            Ok(rendered(&document, &format))
         })
     }
 
@@ -164,7 +175,8 @@ fn certificate(answered: &Answered, check: bool) -> Option<String> {
     Some(certificate_json(&about, &written, checked))
 }
 
-fn certificate_json(about: &str, certificate: &str, checked: bool) -> String {
+/// A certificate with the text that it is about, and both digests.
+pub fn certificate_json(about: &str, certificate: &str, checked: bool) -> String {
     json!({ "case": about, "text": certificate, "digest": sha256(certificate), "case_digest": sha256(about), "checked": checked })
         .to_string()
 }
@@ -253,7 +265,7 @@ pub fn solve(
 #[pyfunction]
 pub fn check(py: Python<'_>, case: String, certificate: String) -> PyResult<String> {
     outside(py, move || {
-        let answer = match secant_check::check(&case, &certificate) {
+        let answer = match secant_check::check_while(&case, &certificate, secant::stop::check) {
             Ok(accepted) => json!({
                 "accepted": true,
                 "case": accepted.case,

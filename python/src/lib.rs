@@ -4,7 +4,9 @@
 //! large stack, answers to Ctrl-C, and turns a panic into an exception.
 
 mod doors;
+mod meshes;
 mod numbers;
+mod regions;
 mod work;
 
 use pyo3::prelude::*;
@@ -13,9 +15,13 @@ use pyo3::prelude::*;
 fn _secant(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("version", env!("CARGO_PKG_VERSION"))?;
     m.add_class::<doors::Findings>()?;
+    m.add_class::<meshes::MeshFindings>()?;
+    m.add_class::<regions::RegionFindings>()?;
     m.add_function(wrap_pyfunction!(doors::certify, m)?)?;
     m.add_function(wrap_pyfunction!(doors::spectra, m)?)?;
     m.add_function(wrap_pyfunction!(doors::jsr, m)?)?;
+    m.add_function(wrap_pyfunction!(meshes::mesh, m)?)?;
+    m.add_function(wrap_pyfunction!(regions::region, m)?)?;
     m.add_function(wrap_pyfunction!(doors::regularity, m)?)?;
     m.add_function(wrap_pyfunction!(doors::solve, m)?)?;
     m.add_function(wrap_pyfunction!(doors::check, m)?)?;

@@ -82,6 +82,14 @@ def test_algebraic_numbers():
         secant.Algebraic(["-2", "0", "1"], 7, ["0", "1"]).minimal_polynomial
 
 
+def test_notebooks_show_the_results(cases):
+    shown = secant.spectrum([[1, 1], [1, 0]])._repr_html_()
+    assert shown.count("<tr>") == 3 and "1.61803" in shown
+    assert "0" in secant.jsr([[[1, 1], [0, 1]], [[1, 0], [1, 1]]])._repr_html_()
+    assert "exponent" in secant.regularity("four-point")._repr_html_()
+    assert "<pre>" in secant.solve(cases / "solve" / "chaikin.toml")._repr_html_()
+
+
 def test_classes():
     found = secant.spectrum([[0, 1, 0], [0, 0, 1], [1, 0, 0]])
     assert [len(c) for c in found.classes] == [3] and found.certificate.check()

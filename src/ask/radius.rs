@@ -67,7 +67,7 @@ impl Radius {
         let certificate = radius_certificate(&self.file, &self.found)
             .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; nothing was written"))?;
         let written = certificate.text();
-        secant_check::check(&self.text, &written).map_err(|e| {
+        secant_check::check_while(&self.text, &written, crate::stop::check).map_err(|e| {
             let help = match self.text.trim_start().starts_with(['{', '[']) || !self.text.contains('=') {
                 true => "certificates are about TOML files: write the matrices as one",
                 false => "this is a mistake in secant: please report it",

@@ -42,6 +42,14 @@ pub fn regions(what: &str, set: &[(String, Setting)], most: usize, search: &Sear
     } else {
         MaskFamilyCase::read(Path::new(what), set)?
     };
+    regions_of_case(case, most, search)
+}
+
+/// The same of a case that was read.
+///
+/// # Errors
+/// A [`Problem`] where the mask satisfies no sum rule.
+pub fn regions_of_case(case: MaskFamilyCase, most: usize, search: &Search) -> Result<Regions, Problem> {
     let wrong = |e: crate::theorem::region::RegionError| {
         Problem::new("secant::region", format!("{}: {e}", case.name))
             .with_help("a mask with a parameter must satisfy the sum rules of order 1 for every value of it")

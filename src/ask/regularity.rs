@@ -166,6 +166,9 @@ fn of_mask(what: &str, mask: &Understood, options: &Options) -> Result<Smooth, P
 }
 
 fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, Problem> {
+    if let Some(own) = case::unaliased(what) {
+        return subject(&own, parameters, arity);
+    }
     let mut words = what.split_whitespace();
     if let Some(name) = words.next().filter(|word| scheme::list().iter().any(|s| s.name == *word)) {
         let own = words.map(str::to_owned);

@@ -8,15 +8,24 @@ use crate::diagnostic::{Problem, SourceText};
 use crate::scheme;
 use std::path::Path;
 
-/// Other names, each with what it stands for.
-const ALIASES: [(&str, &str); 6] = [
+/// Other names, each with what it stands for: a scheme, with parameters.
+const ALIASES: [(&str, &str); 7] = [
     ("chaikin", "bspline degree=2"),
     ("lane-riesenfeld", "bspline"),
     ("4-point", "four-point"),
     ("6-point", "dubuc-deslauriers points=6"),
-    ("cantor", "lebesgue a=1/2"),
-    ("butterfly", "the mesh rule of that name: [vertex] mesh = \"butterfly\""),
+    ("six-point", "dubuc-deslauriers points=6"),
+    ("cantor", "okamoto a=1/2"),
+    ("heighway", "dragon"),
 ];
+
+/// The same with a scheme's own name and its parameters where it begins with another name of it, such as `chaikin`.
+#[must_use]
+pub fn unaliased(text: &str) -> Option<String> {
+    let (first, rest) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
+    let (_, own) = ALIASES.iter().find(|(alias, _)| *alias == first.to_lowercase())?;
+    Some(format!("{own} {rest}").trim_end().to_owned())
+}
 
 /// A string of TOML.
 fn quoted(part: &str) -> String {
@@ -40,6 +49,8 @@ fn coefficients(text: &str) -> Option<Vec<&str>> {
 
 /// The text of the case that something stands for; `None` for anything else.
 pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
+    let own = unaliased(text);
+    let text = own.as_deref().unwrap_or(text);
     let mut words = text.split_whitespace();
     let first = words.next()?;
     if scheme::list().iter().any(|s| s.name == first) {
@@ -223,10 +234,19 @@ pub fn nothing(text: &str) -> Problem {
         "secant::case::unreadable",
         format!("`{shown}` is no file, no scheme and no wavelet that is known"),
     );
-    let help = match (ALIASES.iter().find(|(alias, _)| *alias == name.to_lowercase()), near(name)) {
-        (Some((_, other)), _) => format!("write {other}"),
-        (_, Some(other)) => format!("did you mean `{other}`?"),
-        _ => "name a case file, a scheme of `secant schemes` with its parameters, a wavelet such as bior2.2, or write a mask as in \
+    let small = name.to_lowercase();
+    let order = |prefix: &str| small.strip_prefix(prefix).and_then(|n| n.parse::<usize>().ok());
+    let filter = ["sym", "coif", "bior", "rbio", "dmey"].iter().any(|family| small.starts_with(family));
+    let help = match near(name) {
+        _ if order("db").is_some_and(|n| (2..=20).contains(&n)) => {
+            format!("the coefficients of {small} are irrational: `secant regularity {small}` bounds its smoothness")
+        }
+        _ if filter => format!(
+            "the filter {small} is not known by name: `secant regularity` takes its coefficients, also in decimals, as in \
+             \"-0.0757657, -0.0296355, 0.4976187, …\""
+        ),
+        Some(other) => format!("did you mean `{other}`?"),
+        None => "name a case file, a scheme of `secant schemes` with its parameters, a wavelet such as bior2.2, or write a mask as in \
               \"1/4,3/4,3/4,1/4\" or a symbol as in \"(1+z)^3/4\""
             .to_owned(),
     };
@@ -248,10 +268,23 @@ mod tests {
     fn what_is_near_is_suggested_and_nothing_else() {
         let help = |text: &str| nothing(text).remedy().unwrap_or_default().to_owned();
         assert_eq!(help("four-pont"), "did you mean `four-point`?");
-        assert_eq!(help("Chaikin"), "write bspline degree=2");
+        assert!(help("db2").contains("secant regularity db2") && help("sym5").contains("coefficients"));
         assert!(help("nope").starts_with("name a case file"), "{}", help("nope"));
         assert!(nothing("some/where.txt").message().contains("no such file"));
         assert!(nothing("catmull-clark").message().contains("mesh rule"));
+    }
+
+    #[test]
+    fn other_names_of_a_scheme_are_known() {
+        for (alias, own) in ALIASES {
+            let [a, b] = [alias, own].map(|text| Case::ask(text).expect("a curve").shape);
+            let ops = |s: &crate::shape::Shape| s.states[0].pieces.iter().map(|p| p.op.clone()).collect::<Vec<_>>();
+            assert_eq!(ops(&a), ops(&b), "{alias}");
+        }
+        assert_eq!(Case::ask("Lane-Riesenfeld degree=4").expect("a curve").shape.states[0].dim, 5);
+        // Cantor's staircase stands still on its middle third.
+        let cantor = Case::ask("cantor").expect("a curve").shape;
+        assert_eq!(crate::linalg::char_poly(&cantor.states[0].pieces[1].op).coeff(0), 0);
     }
 
     #[test]

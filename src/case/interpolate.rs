@@ -23,7 +23,17 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
     let mut table = node.table()?;
     table.what = "`[interpolate]`".to_owned();
     table.only(&["points", "vertical", "polynomials"])?;
-    let points_node = table.need("points", "[[0, 0], [\"1/2\", 1], [1, 0]]")?;
+    let (complex, origin) = built(&table, "points")?;
+    let span = case.key_span("interpolate").unwrap_or_else(|| node.span());
+    let pieces = vec![span.clone(); complex.shape.states[0].pieces.len()];
+    let place = StatePlace { name: span, pieces, ..StatePlace::default() };
+    let places = Places { states: vec![place], control: None };
+    Ok(Model { complex, places, unknown: Vec::new(), scheme: Some(origin) })
+}
+
+/// The curve of the data in a table, whose points stand under a key.
+pub(super) fn built(table: &Table<'_>, key: &str) -> Result<(Complex, Origin), Problem> {
+    let points_node = table.need(key, "[[0, 0], [\"1/2\", 1], [1, 0]]")?;
     let points = points_node.array(|k| format!("point {k}"))?;
     if points.len() > MAX_PIECES + 1 {
         return Err(points_node
@@ -44,13 +54,8 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
         }
     };
     let built = built.and_then(|data| Ok((data.shape()?, data)));
-    let (shape, data) = built.map_err(|error| super::scheme::refused(&table, &points_node, &error, &[]))?;
-    let span = case.key_span("interpolate").unwrap_or_else(|| node.span());
-    let pieces = vec![span.clone(); shape.states[0].pieces.len()];
-    let place = StatePlace { name: span, pieces, ..StatePlace::default() };
-    let places = Places { states: vec![place], control: None };
-    let scheme = Some(Origin::Interpolation(Box::new(data)));
-    Ok(Model { complex: Complex::of_curves(shape), places, unknown: Vec::new(), scheme })
+    let (shape, data) = built.map_err(|error| super::scheme::refused(table, &points_node, &error, &[]))?;
+    Ok((Complex::of_curves(shape), Origin::Interpolation(Box::new(data))))
 }
 
 fn numbers(node: &Node<'_>) -> Result<Vec<Rational>, Problem> {

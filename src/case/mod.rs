@@ -23,7 +23,7 @@ mod source;
 mod states;
 mod vertex;
 
-pub use asked::{asked, is_case, nothing, written};
+pub use asked::{asked, is_case, nothing, unaliased, written};
 pub use control::with_control;
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;

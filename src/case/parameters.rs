@@ -308,7 +308,8 @@ impl MaskFamilyCase {
         let [(parameter, from, to)] = free.as_slice() else {
             let message = format!("{} parameters are left free, and exactly one is needed", free.len());
             return Err(case.problem("parameters", message, "this case").with_help(
-                "give one of them a range, as in  w = \"-1/2..1/2\"  under [parameters], and the others values",
+                "give one of them a range, behind the case as in  w=-1/2..1/2  or under [parameters] as in  w = \"-1/2..1/2\", and the \
+                 others values",
             ));
         };
         let variable = Poly::linear(&Rational::from(0));

@@ -136,7 +136,8 @@ fn syntax(source: &SourceText, error: &toml::de::Error) -> Problem {
     } else if start.starts_with('{') {
         "this looks like JSON: `secant import FILE` writes a JSON file as a case"
     } else if source.text.lines().any(|l| l.starts_with("v ")) && source.text.lines().any(|l| l.starts_with("f ")) {
-        "this looks like a mesh in the Wavefront format: cases name a mesh rule and valences, see [vertex] in docs/case-format.md"
+        "this is a mesh in the Wavefront format: `secant certify FILE.obj --scheme loop` (or catmull-clark) is about its limit \
+         surface; a case names a mesh rule and valences, see [vertex] in docs/case-format.md"
     } else if message.contains("recursion") {
         "lists and tables are nested too deeply; a matrix is a list of lists"
     } else if message.contains("duplicate") {

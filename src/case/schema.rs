@@ -123,13 +123,19 @@ fn share() -> Value {
 }
 
 fn interpolate() -> Value {
-    let factor = json!({"anyOf": [{"$ref": "#/$defs/number"}, {"$ref": "#/$defs/matrix"}]});
-    let polynomial = json!({"anyOf": [{"$ref": "#/$defs/point"}, {"$ref": "#/$defs/matrix"}]});
     object(&[
         ("points", reference("matrix")),
-        ("vertical", list_of(&factor, MAX_PIECES)),
-        ("polynomials", list_of(&polynomial, MAX_PIECES)),
+        ("vertical", list_of(&factor(), MAX_PIECES)),
+        ("polynomials", list_of(&polynomial(), MAX_PIECES)),
     ])
+}
+
+fn factor() -> Value {
+    json!({"anyOf": [{"$ref": "#/$defs/number"}, {"$ref": "#/$defs/matrix"}]})
+}
+
+fn polynomial() -> Value {
+    json!({"anyOf": [{"$ref": "#/$defs/point"}, {"$ref": "#/$defs/matrix"}]})
 }
 
 fn state() -> Value {
@@ -174,6 +180,9 @@ fn scheme_table() -> Value {
         ("ends", words(&["open", "closed", "clamped"])),
         ("knots", numbers),
         ("tensor", json!({"type": "array", "items": {"type": "object"}, "minItems": 2, "maxItems": 2})),
+        ("interpolate", reference("matrix")),
+        ("vertical", list_of(&factor(), MAX_PIECES)),
+        ("polynomials", list_of(&polynomial(), MAX_PIECES)),
         ("mesh", words(&meshes)),
         ("valence", json!({"type": "integer", "minimum": 3, "maximum": scheme::MAX_VALENCE})),
         ("cell", words(&["face", "disc"])),

@@ -9,7 +9,7 @@ use crate::shape::{Complex, Shape};
 use std::collections::BTreeMap;
 
 /// The keys that say what is built; each table has exactly one.
-const FORMS: [&str; 6] = ["name", "mask", "symbol", "filter", "tensor", "mesh"];
+const FORMS: [&str; 7] = ["name", "mask", "symbol", "filter", "tensor", "mesh", "interpolate"];
 
 /// A curve built from a scheme table.
 struct Built {
@@ -28,12 +28,27 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
                 .with_help("the scheme gives the operators; `secant expand` writes them out, to be changed"));
         }
     }
-    let mut table = node.table()?;
+    let mut table = node.table().map_err(|problem| {
+        problem.with_help(
+            "a case has one [scheme]; `secant junction A B` joins two of them, and a [[state]] of an automaton may name one, as in  \
+             scheme = \"bspline\"  (docs/case-format.md)",
+        )
+    })?;
     table.what = "`[scheme]`".to_owned();
     own_keys_only(&table)?;
     let (complex, origin) = match form(&table)? {
         "tensor" => (tensor(&table)?, Origin::Tensor),
         "mesh" => mesh(&table)?,
+        "interpolate" => {
+            if let Some(span) = case.key_span("control") {
+                return Err(case
+                    .file
+                    .problem("two-forms", "`control` and `interpolate` exclude each other", span, "given besides")
+                    .with_help("the curve goes through the points of `interpolate`"));
+            }
+            table.only(&["interpolate", "vertical", "polynomials"])?;
+            super::interpolate::built(&table, "interpolate")?
+        }
         form => {
             let built = curve(&table, form, table.flag("vertices")?)?;
             let built = polygon(case, &table, built)?;
@@ -148,10 +163,10 @@ fn form(table: &Table<'_>) -> Result<&'static str, Problem> {
     let given: Vec<&'static str> = FORMS.into_iter().filter(|k| table.get(k).is_some()).collect();
     match given.as_slice() {
         [only] => Ok(only),
-        [] => Err(table
+        [] => Err(misspelt(table).unwrap_or_else(|| table
             .problem("missing-key", format!("{} does not say what is built", table.what), "no scheme")
             .with_help("give one of  name = \"bspline\",  mask = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"],  symbol = \"(1+z)^3/4\",  \
-                        filter = [ … ],  tensor = [ … ],  mesh = \"catmull-clark\"")),
+                        filter = [ … ],  tensor = [ … ],  mesh = \"catmull-clark\",  interpolate = [[0, 0], [1, 2], [3, 1]]"))),
         [first, second, ..] => {
             let span = table.key_span(second).unwrap_or_default();
             let message = format!("`{first}` and `{second}` of {} exclude each other", table.what);
@@ -161,6 +176,21 @@ fn form(table: &Table<'_>) -> Result<&'static str, Problem> {
                 .with_help(format!("a scheme is given by one of {}", FORMS.join(", "))))
         }
     }
+}
+
+/// A key that is nearly one of those that say what is built.
+fn misspelt(table: &Table<'_>) -> Option<Problem> {
+    table.keys().into_iter().find_map(|key| {
+        let form = FORMS.iter().find(|form| strsim::jaro_winkler(&clipped(&key).to_lowercase(), form) > 0.85)?;
+        let span = table.key_span(&key)?;
+        let message = format!("{} has no key `{}`", table.what, clipped(&key));
+        Some(
+            table
+                .file
+                .problem("unknown-key", message, span, "unknown key")
+                .with_help(format!("did you mean `{form}`?")),
+        )
+    })
 }
 
 /// The parameters of a named scheme: every other key.
@@ -237,7 +267,7 @@ fn tensor(table: &Table<'_>) -> Result<Complex, Problem> {
     let factor = |node: &Node<'_>, rename: &str| -> Result<Shape, Problem> {
         let table = node.table()?;
         let form = form(&table)?;
-        if matches!(form, "tensor" | "mesh") {
+        if matches!(form, "tensor" | "mesh" | "interpolate") {
             return Err(node
                 .problem("value", format!("{} is no curve", node.what), "a surface")
                 .with_help("the factors of a tensor product are curves"));

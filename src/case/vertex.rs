@@ -184,7 +184,13 @@ fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
     let mut known = vec!["mesh", "valence", "cell"];
     known.extend(info.parameters.iter().map(|p| p.name));
     known.extend(info.rest.iter().chain(&info.list));
-    table.only(&known)?;
+    table.only(&known).map_err(|problem| {
+        let own = mesh_rules().iter().filter(|r| r.list.is_some() || r.rest.is_some() || !r.parameters.is_empty());
+        let own: Vec<&str> = own.map(|r| r.name).collect();
+        let more = format!("rules with weights of your own are {}", own.join(", "));
+        let help = problem.remedy().map_or_else(|| more.clone(), |help| format!("{help}; {more}"));
+        problem.with_help(help)
+    })?;
     let refused = |error: SchemeError| {
         table.problem("value", error.to_string(), "here").with_help("`secant schemes` lists schemes and parameters")
     };

@@ -164,7 +164,7 @@ pub(super) fn same_verdict(own: Verdict, checked: secant_check::Verdict) -> bool
 
 /// What the checker says. Where its budget does not last, nothing was found to be wrong: there is just no second proof.
 pub(super) fn accepted(source: &str, certificate: &Certificate) -> Result<Accepted, Doubt> {
-    match secant_check::check(source, &certificate.text()) {
+    match secant_check::check_while(source, &certificate.text(), crate::stop::check) {
         Err(rejected) if rejected.rule == "limit" => {
             let what = "evidence that takes so much arithmetic".to_owned();
             Err(Unsupported { what, place: rejected.place }.into())

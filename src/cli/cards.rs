@@ -72,6 +72,8 @@ pub struct Entry {
     pub card: String,
     /// The word by which it is counted.
     pub verdict: &'static str,
+    /// The kinds of its points, for the filter.
+    pub kinds: Vec<String>,
     /// The report, where it is wanted.
     pub report: Option<String>,
 }
@@ -84,23 +86,25 @@ pub fn entry(path: &Path, wanted: Report) -> Entry {
 /// The same with what makes the card of a named case; a panic there costs this card only.
 fn entry_by(path: &Path, wanted: Report, make: &dyn Fn(&Path, &str, Report) -> Result<Made, Problem>) -> Entry {
     let (family, stem) = names(path);
-    let name = if wanted.linked {
-        format!("<a href=\"{}/{stem}.html\">{stem}</a>", escaped(&family), stem = escaped(&stem))
-    } else {
-        escaped(&stem)
-    };
-    let (card, verdict, report) = guarded(|| make(path, &name, wanted)).unwrap_or_else(|problem| {
+    let made = guarded(|| make(path, &stem, wanted)).unwrap_or_else(|problem| {
         let word = if problem.is_internal() { FAILED } else { REFUSED };
-        (refused(&escaped(&stem), word, &problem), word, None)
+        Made { card: refused(&stem, word, &problem), verdict: word, kinds: Vec::new(), report: None }
     });
-    Entry { family, stem, card, verdict, report }
+    let Made { card, verdict, kinds, report } = made;
+    Entry { family, stem, card, verdict, kinds, report }
 }
 
-type Made = (String, &'static str, Option<String>);
+/// What is made of a case.
+struct Made {
+    card: String,
+    verdict: &'static str,
+    kinds: Vec<String>,
+    report: Option<String>,
+}
 
-fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
+fn made(path: &Path, stem: &str, wanted: Report) -> Result<Made, Problem> {
     let question = match Question::read_open(path)? {
-        Question::Tangents { case, .. } if !case.unknown.is_empty() => return open(&case, &escaped(&names(path).1)),
+        Question::Tangents { case, .. } if !case.unknown.is_empty() => return open(&case, stem),
         Question::Vertices { case, valences: None } => {
             Question::Vertices { case, valences: Some(Valences::List((3..=12).collect())) }
         }
@@ -123,8 +127,25 @@ fn made(path: &Path, name: &str, wanted: Report) -> Result<Made, Problem> {
         }
         Findings::Vertices { found, every, .. } => vertices(found, every.as_ref()),
     };
-    let verdict = answered.findings.verdict().word();
-    Ok((card(&picture.unwrap_or_default(), name, answered.findings.title(), &what), verdict, report))
+    let link = wanted.linked.then(|| format!("{}/{stem}.html", names(path).0));
+    let title = answered.findings.title();
+    let kinds = match &answered.findings {
+        Findings::Tangents { found, .. } => found.points.iter().map(|p| p.kind.word().to_owned()).collect(),
+        Findings::Vertices { .. } => Vec::new(),
+    };
+    Ok(Made {
+        card: card(&picture.unwrap_or_default(), stem, title, link.as_deref(), &what),
+        verdict: answered.findings.verdict().word(),
+        kinds: distinct(kinds),
+        report,
+    })
+}
+
+/// Each word once, in order.
+fn distinct(mut words: Vec<String>) -> Vec<String> {
+    words.sort();
+    words.dedup();
+    words
 }
 
 /// What is known of every point, and of the parameter.
@@ -166,7 +187,7 @@ fn vertices(found: &[AtValence], every: Option<&Every>) -> (Option<String>, Stri
 }
 
 /// A case with unknown entries: what its identities force.
-fn open(case: &Case, name: &str) -> Result<Made, Problem> {
+fn open(case: &Case, stem: &str) -> Result<Made, Problem> {
     let unknowns = case.unknowns().map_err(|e| unsolvable(case, &e))?;
     let solution = unknowns.solve().map_err(|e| unsolvable(case, &e))?;
     let what = match solution {
@@ -182,16 +203,23 @@ fn open(case: &Case, name: &str) -> Result<Made, Problem> {
         format!("{} unknown entries", unknowns.count())
     };
     let what = format!("<strong class=\"neutral\">{count}</strong>: {what} (<code>secant solve</code>)");
-    Ok((card("", name, &case.title, &what), OPEN, None))
+    Ok(Made { card: card("", stem, &case.title, None, &what), verdict: OPEN, kinds: Vec::new(), report: None })
 }
 
-fn card(picture: &str, name: &str, title: &str, what: &str) -> String {
-    format!("<li>{picture}<h3>{name}</h3>\n<p>{}</p>\n<p>{what}</p></li>\n", escaped(title))
+/// A title, the name of the file where that says something else, and what was found.
+fn card(picture: &str, stem: &str, title: &str, link: Option<&str>, what: &str) -> String {
+    let heading = match link {
+        Some(link) => format!("<a href=\"{}\">{}</a>", escaped(link), escaped(title)),
+        None => escaped(title),
+    };
+    let name = if title == stem { String::new() } else { format!("<p class=\"name\">{}</p>\n", escaped(stem)) };
+    format!("{picture}<h3>{heading}</h3>\n{name}<p>{what}</p>")
 }
 
-fn refused(name: &str, word: &str, problem: &Problem) -> String {
+fn refused(stem: &str, word: &str, problem: &Problem) -> String {
     format!(
-        "<li><h3>{name}</h3>\n<p><strong class=\"neutral\">{word}</strong>: {}</p>\n<p><code>{}</code></p></li>\n",
+        "<h3>{}</h3>\n<p><strong class=\"neutral\">{word}</strong>: {}</p>\n<p><code>{}</code></p>",
+        escaped(stem),
         escaped(problem.message()),
         escaped(problem.id())
     )

@@ -21,6 +21,11 @@ pub fn run(path: &Path, entry: Option<&str>, output: Option<&Path>) -> u8 {
 
 fn read(path: &Path, entry: Option<&str>) -> Result<String, Problem> {
     let shown = path.display();
+    if crate::mesh::is_mesh(path) {
+        return Err(Problem::new("secant::import", format!("{shown} is a mesh, and no set of maps")).with_help(
+            format!("`secant certify {shown} --scheme loop` (or catmull-clark) is about its limit surface"),
+        ));
+    }
     let unreadable = |error: String| {
         Problem::new("secant::import::unreadable", format!("{shown} cannot be read: {error}"))
             .with_help("give a file in the format of Fractint (.ifs) or in JSON (.json)")

@@ -81,8 +81,15 @@ fn options(args: &JsrArgs) -> Result<Options, Problem> {
 fn answer(path: &Path, args: &JsrArgs) -> Result<Radius, Problem> {
     let name = path.display().to_string();
     let wrong = |message: String, help: &str| Problem::new("secant::jsr", message).with_help(help);
-    let text = std::fs::read_to_string(path)
-        .map_err(|e| wrong(format!("{name} cannot be read: {e}"), "name a file with `matrices = [...]`"))?;
+    let text = std::fs::read_to_string(path).map_err(|e| {
+        let scheme = !path.exists() && crate::case::Case::ask(&name).is_ok();
+        let help = if scheme {
+            "it is a scheme: `secant regularity` bounds the radii that say how smooth it is; here name a file with `matrices = [...]`"
+        } else {
+            "name a file with `matrices = [...]`"
+        };
+        wrong(format!("{name} cannot be read: {e}"), help)
+    })?;
     let radius = radius(&name, &text, &options(args)?)?;
     if let Some(path) = &args.svg {
         let drawn = polytope(&radius.found).ok_or_else(|| {

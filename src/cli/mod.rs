@@ -31,9 +31,10 @@ mod spectrum;
 mod studio;
 
 use crate::budget::{Budget, Effort};
+use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::theorem::Required;
-use clap::{Args, CommandFactory, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -57,6 +58,9 @@ const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad inpu
 #[derive(Debug, Parser)]
 #[command(name = "secant", version, about, after_help = CODES, max_term_width = 80)]
 struct Cli {
+    /// Whether colours are used: where people read, always, or never.
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto", help_heading = "Everywhere")]
+    color: output::Colour,
     #[command(subcommand)]
     command: Command,
 }
@@ -109,7 +113,7 @@ enum Command {
         output: Option<PathBuf>,
     },
     /// Draw a case from exact points: SVG, PNG, OBJ or PLY.
-    Render(RenderArgs),
+    Render(render::RenderArgs),
     /// Solve the identities of a case for its unknown entries ("?"), exactly. Exit code 1: there is no solution.
     Solve(SolveArgs),
     /// Join two curve schemes by an intermediate curve, and write the joined shape as a case. Exit code 1: no member passes.
@@ -129,7 +133,7 @@ enum Command {
         name: String,
     },
     /// Certify all cases of a directory and write a page of pictures and verdicts, with reports of a selection or of all.
-    Gallery(GalleryArgs),
+    Gallery(gallery::GalleryArgs),
     /// Hold verdicts on random cases against the laws that they obey; print the simplest case that breaks one (exit code 1).
     #[cfg(feature = "strategies")]
     Fuzz(fuzz::FuzzArgs),
@@ -159,6 +163,9 @@ struct CertifyArgs {
     /// matrices of the pieces ("[[[1, 1/2], [0, 1/2]], [[1/2, 0], [1/2, 1]]]").
     #[arg(required = true, value_name = "CASE")]
     cases: Vec<PathBuf>,
+    /// A parameter of the last case, the same as NAME=VALUE behind it.
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<PathBuf>,
     /// Print the result as JSON (docs/json.md).
     #[arg(long, conflicts_with = "jsonl")]
     json: bool,
@@ -169,7 +176,7 @@ struct CertifyArgs {
     /// or `0.5`.
     #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
-    /// For a case with a `[vertex]` table: the valences, as in `5`, `3..32`, `3,5,8` or `all`.
+    /// For a case with a `[vertex]` table: the valences, from 3 to 256, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
     /// For a mesh (.obj, .off): the scheme of its limit surface, catmull-clark, loop or loop-warren.
@@ -178,6 +185,10 @@ struct CertifyArgs {
     /// For a mesh: write it as PLY, its vertices coloured by verdict.
     #[arg(long, value_name = "FILE")]
     ply: Option<PathBuf>,
+    /// Write a file, which its ending says: a proof (.html, .md, .tex), a picture (.svg, .png), a mesh (.ply), a file for Coq (.v);
+    /// may be given several times.
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
     /// Write a proof to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -227,7 +238,7 @@ struct CertifyArgs {
     #[arg(long, value_name = "COUNT")]
     words: Option<usize>,
     /// Only compute in floating point: a quick look, never a proof (exit code 3).
-    #[arg(long, conflicts_with_all = ["report", "svg", "png", "certificate", "coq"])]
+    #[arg(long, conflicts_with_all = ["output", "report", "svg", "png", "certificate", "coq"])]
     approx: bool,
     /// Print nothing but problems; the exit code tells the verdict.
     #[arg(short, long, conflicts_with = "verbose")]
@@ -241,9 +252,22 @@ struct CertifyArgs {
 }
 
 impl CertifyArgs {
-    /// The same with each parameter `name=value` joined to the scheme before it.
-    fn with_parameters(self) -> Self {
-        Self { cases: question::joined(self.cases), ..self }
+    /// The same with each parameter `name=value` joined to the scheme before it, and the files of `--output` at their options.
+    fn with_parameters(mut self) -> Result<Self, Problem> {
+        for path in std::mem::take(&mut self.output) {
+            output::by_ending(
+                path,
+                &mut [
+                    (&["html", "htm", "md", "tex"], &mut self.report),
+                    (&["svg"], &mut self.svg),
+                    (&["png"], &mut self.png),
+                    (&["ply"], &mut self.ply),
+                    (&["v"], &mut self.coq),
+                ],
+            )?;
+        }
+        self.cases.append(&mut self.set);
+        Ok(Self { cases: question::joined(self.cases), ..self })
     }
 
     /// The budget that the options name.
@@ -276,40 +300,6 @@ struct SpectrumArgs {
     /// Only compute in floating point: labelled approximate (exit code 3).
     #[arg(long, conflicts_with_all = ["json", "latex"])]
     approx: bool,
-}
-
-#[derive(Debug, Args)]
-struct RenderArgs {
-    /// A case file, or what stands for one, as for `certify`.
-    #[arg(required = true, value_name = "CASE")]
-    cases: Vec<PathBuf>,
-    /// Write an SVG drawing; surfaces are projected.
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
-    /// Write a PNG image.
-    #[arg(long, value_name = "FILE")]
-    png: Option<PathBuf>,
-    /// The width of the picture in pixels (800).
-    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
-    size: Option<u32>,
-    /// Write a Wavefront OBJ file.
-    #[arg(long, value_name = "FILE")]
-    obj: Option<PathBuf>,
-    /// Write a PLY file, with colours.
-    #[arg(long, value_name = "FILE")]
-    ply: Option<PathBuf>,
-    /// Letters of the words whose cells are drawn; by default as many as give about 20 000 points.
-    #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
-    depth: Option<usize>,
-    /// Draw so many letters that no point of the shape is farther than this from a drawn one; the bound is proved and printed.
-    #[arg(long, value_name = "DISTANCE", conflicts_with_all = ["chaos", "depth"])]
-    error: Option<String>,
-    /// Draw this many points with random addresses instead (the chaos game).
-    #[arg(long, value_name = "POINTS")]
-    chaos: Option<usize>,
-    /// The seed of the chaos game.
-    #[arg(long, default_value_t = 1, requires = "chaos")]
-    seed: u64,
 }
 
 #[derive(Debug, Args)]
@@ -412,26 +402,14 @@ enum Drawn {
     Cones,
 }
 
-#[derive(Debug, Args)]
-struct GalleryArgs {
-    /// The directory with the families of cases.
-    #[arg(default_value = "cases", value_name = "CASES")]
-    cases: PathBuf,
-    /// Write a report for every case, not only for a selection.
-    #[arg(long, conflicts_with = "check")]
-    all: bool,
-    /// Where the page is written.
-    #[arg(long, default_value = "docs/gallery", value_name = "DIR")]
-    out: PathBuf,
-    /// Write nothing; fail if the page is not what it would be.
-    #[arg(long)]
-    check: bool,
-}
-
 /// Runs the program on the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    // Also for the messages about the command line itself.
+    let choice = output::Colour::of_arguments(std::env::args_os());
+    output::choose(choice);
+    let parsed = Cli::command().color(choice.of_help()).try_get_matches().and_then(|m| Cli::from_arg_matches(&m));
+    let cli = match parsed {
         Ok(cli) => cli,
         Err(error) => {
             let code = if error.use_stderr() { BAD_INPUT } else { PROVED };
@@ -439,12 +417,13 @@ pub fn main() -> ExitCode {
             return ExitCode::from(code);
         }
     };
+    output::choose(cli.color);
     ExitCode::from(output::settle(guarded(|| Ok(run(cli.command)))))
 }
 
 fn run(command: Command) -> u8 {
     match command {
-        Command::Certify(args) => certify::run(&args.with_parameters()),
+        Command::Certify(args) => output::settle(args.with_parameters().map(|args| certify::run(&args))),
         Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: question::joined(args.files), ..args }),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),
@@ -453,7 +432,7 @@ fn run(command: Command) -> u8 {
         Command::Schemes { name, parameters, .. } => schemes::run(name.as_deref(), &parameters),
         Command::Expand { cases, output, json } => expand::run(&question::joined(cases), output.as_deref(), json),
         Command::Import { file, entry, output } => import::run(&file, entry.as_deref(), output.as_deref()),
-        Command::Render(args) => render::run(&RenderArgs { cases: question::joined(args.cases), ..args }),
+        Command::Render(args) => render::run(args),
         Command::Solve(args) => solve::run(&args),
         Command::Junction(args) => junction::run(&args),
         Command::Refine(args) => refine::run(&args),

@@ -6,6 +6,7 @@ use crate::report::document::Document;
 use crate::report::text::{self, Look};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Writes a file so that it is either there in full or not touched: a temporary file beside it, then a rename. `-` is the
 /// standard output.
@@ -62,6 +63,31 @@ pub fn write_certificate(path: &Path, certificate: String, expanded: Option<Stri
         let (case, path) = (beside.display(), path.display());
         eprintln!("note: the certificate is about the expanded case, which is in {case}: secant-check {case} {path}");
     }
+    Ok(())
+}
+
+/// The options for files of a format, each with its endings.
+type Slots<'a> = [(&'a [&'a str], &'a mut Option<PathBuf>)];
+
+/// Puts a file at the option of the format that its ending says.
+///
+/// # Errors
+/// A [`Problem`] where no option has this ending, or it is taken.
+pub fn by_ending(path: PathBuf, slots: &mut Slots<'_>) -> Result<(), Problem> {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let known: Vec<String> = slots.iter().flat_map(|(endings, _)| endings.iter().map(|e| format!(".{e}"))).collect();
+    let Some((_, slot)) = slots.iter_mut().find(|(endings, _)| endings.contains(&ending.as_str())) else {
+        return Err(Problem::new("secant::usage::format", format!("no format is known for {}", path.display()))
+            .with_help(format!("the ending says the format: {}", known.join(", "))));
+    };
+    if slot.is_some() {
+        return Err(Problem::new(
+            "secant::usage::format",
+            format!("{} is the second file of its format", path.display()),
+        )
+        .with_help("one file of each format is written"));
+    }
+    **slot = Some(path);
     Ok(())
 }
 
@@ -149,7 +175,58 @@ pub fn shown(document: &Document) -> String {
     text::render_as(document, stdout_look())
 }
 
+/// Whether colours are used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
+pub enum Colour {
+    /// On a terminal, unless `NO_COLOR` is set or it is a dumb one.
+    #[default]
+    Auto,
+    /// Everywhere.
+    Always,
+    /// Nowhere.
+    Never,
+}
+
+impl Colour {
+    /// What the arguments say, before they are parsed; the parser complains of what is wrong with them.
+    pub fn of_arguments(arguments: impl Iterator<Item = std::ffi::OsString>) -> Self {
+        let words: Vec<String> = arguments.skip(1).map(|a| a.to_string_lossy().into_owned()).collect();
+        let until = words.iter().position(|w| w == "--").unwrap_or(words.len());
+        let value = |k: usize| match words[k].strip_prefix("--color") {
+            Some("") => words.get(k + 1).map(String::as_str),
+            Some(rest) => rest.strip_prefix('='),
+            None => None,
+        };
+        match (0..until).find_map(value) {
+            Some("always") => Self::Always,
+            Some("never") => Self::Never,
+            _ => Self::Auto,
+        }
+    }
+
+    /// The same for the messages of the command line.
+    pub fn of_help(self) -> clap::ColorChoice {
+        match self {
+            Self::Auto => clap::ColorChoice::Auto,
+            Self::Always => clap::ColorChoice::Always,
+            Self::Never => clap::ColorChoice::Never,
+        }
+    }
+}
+
+static COLOUR: AtomicU8 = AtomicU8::new(Colour::Auto as u8);
+
+/// Says for the whole run of the program whether colours are used.
+pub fn choose(colour: Colour) {
+    COLOUR.store(colour as u8, Ordering::Relaxed);
+}
+
 fn colour_for(terminal: bool) -> bool {
+    match COLOUR.load(Ordering::Relaxed) {
+        x if x == Colour::Always as u8 => return true,
+        x if x == Colour::Never as u8 => return false,
+        _ => {}
+    }
     let no_color = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
     terminal && !no_color && !dumb

@@ -1,63 +1,159 @@
 //! `secant render`: exact points of a shape, drawn.
 
+use super::PROVED;
 use super::certify::{extension, mistaken};
-use super::output::{say, settle, to_stdout, write_file};
+use super::output::{self, say, settle, to_stdout, write_file};
 use super::progress::Progress;
-use super::{PROVED, RenderArgs};
+use super::question::joined;
 use crate::arith::{parse_rational, to_f64};
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
-use crate::picture::{PLOT_PIXELS, Plot, resized};
+use crate::picture::{PLOT_PIXELS, Plot, View, resized};
 use crate::shape::{
-    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, contraction, depth_within, level, random_sample,
-    sample, words_of_length,
+    CellKind, Contraction, MAX_CELLS, MAX_SAMPLES, Sample, Shape, adaptive_sample, contraction, depth_within, level,
+    random_sample, sample, words_of_length,
 };
-use std::path::Path;
+use clap::Args;
+use std::path::{Path, PathBuf};
 
 /// Longest words.
 const MAX_DEPTH: usize = 64;
-/// Points drawn where no depth is given.
+/// Cells drawn where no depth is given.
 const DEFAULT_POINTS: usize = 20_000;
 
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// A case file, or what stands for one, as for `certify`.
+    #[arg(required = true, value_name = "CASE")]
+    cases: Vec<PathBuf>,
+    /// Write a file, the format of which its ending says: .svg, .png, .obj or .ply; may be given several times.
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+    /// Write an SVG drawing; surfaces are projected.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write a PNG image.
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+    /// The width of the picture in pixels (800).
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(16..=8192))]
+    size: Option<u32>,
+    /// Write a Wavefront OBJ file.
+    #[arg(long, value_name = "FILE")]
+    obj: Option<PathBuf>,
+    /// Write a PLY file, with colours.
+    #[arg(long, value_name = "FILE")]
+    ply: Option<PathBuf>,
+    /// The direction from which a shape in space is seen: front, back, left, right, top, bottom, or two angles in degrees
+    /// (around the third axis from the first one, and above the plane of the first two), as in `30,20`.
+    #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
+    view: Option<String>,
+    /// Draw the cells of all words of so many letters. By default cells of about one size are drawn, 20 000 at most, and of a
+    /// surface all words of a length.
+    #[arg(long, conflicts_with = "chaos", value_parser = clap::value_parser!(usize))]
+    depth: Option<usize>,
+    /// Draw so many letters that no point of the shape is farther than this from a drawn one; the bound is proved and printed.
+    #[arg(long, value_name = "DISTANCE", conflicts_with_all = ["chaos", "depth"])]
+    error: Option<String>,
+    /// Draw this many points with random addresses instead (the chaos game).
+    #[arg(long, value_name = "POINTS")]
+    chaos: Option<usize>,
+    /// The seed of the chaos game.
+    #[arg(long, default_value_t = 1, requires = "chaos")]
+    seed: u64,
+}
+
 /// Renders the case into the files asked for.
-pub fn run(args: &RenderArgs) -> u8 {
-    let done = to_stdout([&args.svg, &args.png, &args.obj, &args.ply]).and_then(|piped| Ok((render(args)?, piped)));
+pub fn run(args: RenderArgs) -> u8 {
+    let done = by_ending(args).and_then(|args| {
+        let piped = to_stdout([&args.svg, &args.png, &args.obj, &args.ply])?;
+        Ok((render(&args)?, piped))
+    });
     settle(done.map(|(text, piped)| {
         say(&text, piped);
         PROVED
     }))
 }
 
-fn render(args: &RenderArgs) -> Result<String, Problem> {
+/// The files of `--output` at the options of their formats.
+fn by_ending(mut args: RenderArgs) -> Result<RenderArgs, Problem> {
+    for path in std::mem::take(&mut args.output) {
+        output::by_ending(
+            path,
+            &mut [
+                (&["svg"], &mut args.svg),
+                (&["png"], &mut args.png),
+                (&["obj"], &mut args.obj),
+                (&["ply"], &mut args.ply),
+            ],
+        )?;
+    }
+    Ok(RenderArgs { cases: joined(args.cases), ..args })
+}
+
+/// Refuses what cannot be written before anything is computed.
+fn check(args: &RenderArgs) -> Result<(), Problem> {
     let targets = [&args.svg, &args.png, &args.obj, &args.ply];
     if targets.iter().all(|t| t.is_none()) {
         return Err(Problem::new("secant::usage::render", "no file to write is given")
-            .with_help("add --svg FILE, --png FILE, --obj FILE or --ply FILE"));
+            .with_help("add --output FILE.svg, .png, .obj or .ply; `--svg -` writes to the standard output"));
     }
     for (option, path, other) in [("--svg", &args.svg, "png"), ("--png", &args.png, "svg")] {
         if let Some(path) = path.as_deref().filter(|p| extension(p) == other) {
             return Err(mistaken(option, path, other));
         }
     }
+    Ok(())
+}
+
+/// The direction from which the shape is seen, where one is given.
+fn view(case: &Case, args: &RenderArgs) -> Result<Option<View>, Problem> {
+    let Some(text) = &args.view else { return Ok(None) };
+    let view = View::parse(text).ok_or_else(|| {
+        Problem::new("secant::usage::view", format!("--view {text} is no direction")).with_help(
+            "write front, back, left, right, top, bottom, or two angles such as 30,20 (the second from -90 to 90)",
+        )
+    })?;
+    if case.shape.control.as_ref().is_none_or(|c| c.rows() < 3) {
+        let message = format!("--view: {} is not in space", case.name);
+        return Err(Problem::new("secant::usage::view", message)
+            .with_help("control points with three coordinates, or maps of space, are seen from a direction"));
+    }
+    Ok(Some(view))
+}
+
+fn render(args: &RenderArgs) -> Result<String, Problem> {
+    check(args)?;
     let [path] = args.cases.as_slice() else {
         return Err(Problem::new("secant::usage::render", "one case is drawn at a time")
             .with_help("parameters follow the name of a scheme, as in `four-point w=1/16`"));
     };
     let case = Case::ask(&path.to_string_lossy())?;
+    let view = view(&case, args)?;
     let contracts = contraction(&case.shape, |_| false);
     let proved = args.error.as_deref().map(|text| bounded(&case, &contracts, text)).transpose()?;
     let (found, how) = points(&case, args, proved)?;
     let contracts = contracts.is_proved();
     let note = if contracts { "" } else { "; contraction is not proved, so there may be no attractor" };
     let curve = case.shape.states[case.shape.start].kind == CellKind::Edge && args.chaos.is_none();
-    let plot = Plot::new(&case.shape, &found, curve).ok_or_else(|| {
+    let plot = Plot::new(&case.shape, &found, curve, view).ok_or_else(|| {
         Problem::new("secant::render", format!("{} cannot be drawn", case.name))
             .with_help("its points are too large, or there are none at this depth; try --depth")
     })?;
+    write(&plot, &case.title, args)?;
+    let faces = if found.faces.is_empty() { String::new() } else { format!(" and {} polygons", found.faces.len()) };
+    let near = args.error.as_ref().filter(|_| proved.is_some()).map_or_else(String::new, |distance| {
+        format!("; they are points of the shape, and none of its points is farther than {distance} from all of them")
+    });
+    Ok(format!("{}: {} exact points{faces}, {how}{near}{note}\n", case.name, found.points.len()))
+}
+
+/// Writes all files; each is made before the first is written.
+fn write(plot: &Plot, title: &str, args: &RenderArgs) -> Result<(), Problem> {
     let mut files: Vec<(&Path, Vec<u8>)> = Vec::new();
     if let Some(path) = &args.svg {
-        let svg = plot.svg(&case.title);
+        let svg = plot.svg(title);
         files.push((path, args.size.map_or(svg.clone(), |width| resized(&svg, width)).into_bytes()));
     }
     if let Some(path) = &args.png {
@@ -67,19 +163,12 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
         files.push((path, image));
     }
     if let Some(path) = &args.obj {
-        files.push((path, plot.obj(&case.title).into_bytes()));
+        files.push((path, plot.obj(title).into_bytes()));
     }
     if let Some(path) = &args.ply {
-        files.push((path, plot.ply(&case.title).into_bytes()));
+        files.push((path, plot.ply(title).into_bytes()));
     }
-    for (path, content) in &files {
-        write_file(path, content)?;
-    }
-    let faces = if found.faces.is_empty() { String::new() } else { format!(" and {} polygons", found.faces.len()) };
-    let near = args.error.as_ref().filter(|_| proved.is_some()).map_or_else(String::new, |distance| {
-        format!("; they are points of the shape, and none of its points is farther than {distance} from all of them")
-    });
-    Ok(format!("{}: {} exact points{faces}, {how}{near}{note}\n", case.name, found.points.len()))
+    files.iter().try_for_each(|(path, content)| write_file(path, content))
 }
 
 /// The depth at which no cell is larger than was asked.
@@ -114,6 +203,12 @@ fn points(case: &Case, args: &RenderArgs, proved: Option<usize>) -> Result<(Samp
         return Ok((found.ok_or_else(|| failed("the shape must contract"))?, how));
     }
     let complex = case.complex();
+    if proved.is_none()
+        && args.depth.is_none()
+        && let Some(found) = adaptive_sample(&case.shape, DEFAULT_POINTS)
+    {
+        return Ok((found, "in cells of about one size".to_owned()));
+    }
     let depth = proved.or(args.depth).unwrap_or_else(|| depth(&case.shape));
     if depth > MAX_DEPTH {
         return Err(failed(&format!("a depth of at most {MAX_DEPTH} is drawn")));

@@ -24,7 +24,7 @@ pub use field::{ConeField, cone_field};
 pub use germ::{profile, turning, zoom};
 pub use invariant::polytope;
 pub use plot::{PLOT_PIXELS, Plot};
-pub use projection::Projection;
+pub use projection::{Projection, View};
 
 use crate::arith::Rational;
 use crate::shape::{CellKind, Shape};

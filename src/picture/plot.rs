@@ -1,8 +1,8 @@
 //! Plain drawings of exact points, coloured by address: SVG, PNG, OBJ and PLY. Points become floats here and nowhere before.
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
-use super::Projection;
 use super::svg::fixed;
+use super::{Projection, View};
 use crate::arith::to_f64;
 use crate::shape::{Frame, Sample, Shape};
 use std::fmt::Write;
@@ -24,6 +24,7 @@ pub struct Plot {
     faces: Vec<(Vec<usize>, [u8; 3])>,
     curve: bool,
     height: f64,
+    eye: [f64; 3],
 }
 
 /// A part of the drawing in one colour.
@@ -46,10 +47,11 @@ fn colour(t: f64) -> [u8; 3] {
 }
 
 impl Plot {
-    /// The drawing of a sample; `None` where a coordinate is too large for a float, or there is no point.
+    /// The drawing of a sample, of a shape in space as it is seen; `None` where a coordinate is too large for a float, or there is
+    /// no point.
     #[must_use]
-    pub fn new(shape: &Shape, sample: &Sample, curve: bool) -> Option<Self> {
-        let projection = Projection::of(shape);
+    pub fn new(shape: &Shape, sample: &Sample, curve: bool, view: Option<View>) -> Option<Self> {
+        let projection = Projection::seen(shape, view);
         let coordinates: Vec<Vec<f64>> = sample.points.iter().map(|p| p.iter().map(to_f64).collect()).collect();
         let drawn: Vec<[f64; 2]> = coordinates.iter().map(|p| projection.direction(p)).collect();
         // Barycentric coordinates have no place in space of their own: they are written as they are drawn.
@@ -79,18 +81,18 @@ impl Plot {
             solid,
             curve,
             height,
+            eye: projection.eye(),
         })
     }
 
     /// The polygons, those in front last.
     fn painted(&self) -> Vec<&(Vec<usize>, [u8; 3])> {
-        // Seen from the fixed direction of `Projection`, which looks along (+1, −1, −1) roughly.
-        let depth = |face: &(Vec<usize>, [u8; 3])| {
-            let sum = |k: usize| face.0.iter().map(|v| self.solid[*v][k]).sum::<f64>() / face.0.len().max(1) as f64;
-            sum(1) - 0.35 * sum(2) - 0.35 * sum(0)
+        let near = |face: &(Vec<usize>, [u8; 3])| {
+            let mean = |k: usize| face.0.iter().map(|v| self.solid[*v][k]).sum::<f64>() / face.0.len().max(1) as f64;
+            (0..3).map(|k| self.eye[k] * mean(k)).sum::<f64>()
         };
         let mut order: Vec<_> = self.faces.iter().collect();
-        order.sort_by(|a, b| depth(b).total_cmp(&depth(a)));
+        order.sort_by(|a, b| near(a).total_cmp(&near(b)));
         order
     }
 

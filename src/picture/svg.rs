@@ -4,6 +4,9 @@ use std::fmt::Write;
 
 const WIDTH: f64 = 640.0;
 const MARGIN: f64 = 36.0;
+/// The margin of a thumbnail, and its greatest height.
+const EDGE: f64 = 8.0;
+const THUMBNAIL_HEIGHT: f64 = 420.0;
 const RAY: f64 = 78.0;
 /// Height of the legend.
 const LEGEND: f64 = 26.0;
@@ -222,17 +225,29 @@ impl Canvas {
     }
 
     /// The shape alone, with few points, as a small SVG document.
+    ///
+    /// The shape fills it, wherever it lies among its control points.
     pub fn thumbnail(&self) -> String {
+        let shown = |e: &&Element| matches!(e, Element::Path { class: "sc-c", .. } | Element::Cloud { .. });
+        let shapes: Vec<&Element> = self.elements.iter().filter(shown).collect();
+        let frame = shapes.iter().filter_map(|e| Frame::of(e)).reduce(Frame::joined);
+        let Frame { lo, hi } = frame.unwrap_or(Frame { lo: [0.0; 2], hi: [1.0; 2] });
+        let span = [(hi[0] - lo[0]).max(1e-6), (hi[1] - lo[1]).max(1e-6)];
+        let scale = ((WIDTH - 2.0 * EDGE) / span[0]).min((THUMBNAIL_HEIGHT - 2.0 * EDGE) / span[1]);
+        let size = [0, 1].map(|k| (hi[k] - lo[k]) * scale + 2.0 * EDGE);
+        let place = |points: &[[f64; 2]]| -> Vec<[f64; 2]> {
+            points.iter().map(|p| [0, 1].map(|k| (p[k] - lo[k]) * scale + EDGE)).collect()
+        };
         let mut body = String::new();
-        for element in &self.elements {
+        for element in shapes {
             let small = match element {
-                Element::Path { class: class @ "sc-c", points } => Element::Path { class, points: spaced(points, 5.0) },
-                Element::Cloud { class, points } => Element::Cloud { class, points: spaced(points, 7.0) },
+                Element::Path { class, points } => Element::Path { class, points: spaced(&place(points), 5.0) },
+                Element::Cloud { class, points } => Element::Cloud { class, points: spaced(&place(points), 7.0) },
                 _ => continue,
             };
             body.push_str(&svg_element(&small));
         }
-        let (w, h) = (fixed(WIDTH), fixed(self.height));
+        let (w, h) = (fixed(size[0]), fixed(size[1].max(80.0)));
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" aria-hidden=\"true\">\n{body}</svg>\n"
         )

@@ -190,7 +190,7 @@ fn table(found: &Found) -> Table {
         cells.push(words(found.curvature.get(n).map_or_else(|| "–".to_owned(), curved)));
         cells
     };
-    let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "undetermined", "rings immersed", "curvature"];
+    let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "open", "rings immersed", "curvature"];
     let caption = words(
         "The curvature is that of almost all points at such a vertex; flat it is for all points with independent leading \
          coefficients (Size of the curvature).",

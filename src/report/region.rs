@@ -250,7 +250,7 @@ pub fn end_data(end: &Root) -> Value {
         || {
             let near = end.enclosure(96).0;
             let coefficients: Vec<String> = end.primitive().iter().map(ToString::to_string).collect();
-            json!({"polynomial": coefficients, "interval": [near.lo.to_string(), near.hi.to_string()], "digits": digits(end)})
+            json!({"polynomial": coefficients, "index": end.index(), "interval": [near.lo.to_string(), near.hi.to_string()], "digits": digits(end)})
         },
         |q| json!(q.to_string()),
     )

@@ -10,7 +10,7 @@ use super::words::{
     addresses, contraction, count, dimension, direction, holder, listed, mark, outcome, point_name, rate, ray_line,
     spectrum_line, statement, tone,
 };
-use crate::case::Case;
+use crate::case::{Case, Origin};
 use crate::shape::{CellKind, Frame};
 use crate::theorem::local::LocalContext;
 use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict};
@@ -79,7 +79,12 @@ pub fn brief(case: &Case, found: &Certified, required: &Required) -> Document {
 pub(super) fn mask_line(case: &Case) -> Option<Line> {
     let mask = case.mask()?;
     let arity = if mask.arity() == 2 { String::new() } else { format!(" of arity {}", mask.arity()) };
-    Some(line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]))
+    let mut out = line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]);
+    if matches!(case.scheme, Some(Origin::Mask(_))) {
+        let points = count(case.shape.states[case.shape.start].dim, "control point");
+        out.extend(words(format!("; one span of its curves, on {points}")));
+    }
+    Some(out)
 }
 
 /// What is claimed, each with its answer, statement and reason.

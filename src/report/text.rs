@@ -203,13 +203,16 @@ impl Writer {
     fn table(&mut self, table: &Table, indent: usize) {
         let pad = " ".repeat(indent);
         let columns = table.header.len();
-        let natural: Vec<usize> = (0..columns)
-            .map(|j| {
-                let cells = table.rows.iter().filter_map(|row| row.get(j)).chain([&table.header[j]]);
-                cells.map(|cell| plain(cell).width()).max().unwrap_or(0).max(1)
-            })
-            .collect();
-        let widths = fitted(natural, self.look.width.saturating_sub(indent + 2 * columns.saturating_sub(1)));
+        let most = |measure: fn(&str) -> usize| -> Vec<usize> {
+            let column = |j: usize| {
+                let cells = table.rows.iter().filter_map(move |row| row.get(j)).chain([&table.header[j]]);
+                cells.map(|cell| measure(&plain(cell))).max().unwrap_or(0).max(1)
+            };
+            (0..columns).map(column).collect()
+        };
+        let natural = most(|text| text.width());
+        let words = most(|text| text.split_whitespace().map(UnicodeWidthStr::width).max().unwrap_or(0));
+        let widths = fitted(natural, &words, self.look.width.saturating_sub(indent + 2 * columns.saturating_sub(1)));
         self.table_row(&table.header, &widths, &pad, true);
         let rule: Vec<String> = widths.iter().map(|w| "─".repeat(*w)).collect();
         self.raw(&format!("{pad}{}", rule.join("  ")));
@@ -257,11 +260,12 @@ fn last(rows: &mut [String]) -> &mut String {
     rows.last_mut().expect("there is always a row")
 }
 
-/// Shrinks the widest columns until the sum is at most `room`.
-fn fitted(mut widths: Vec<usize>, room: usize) -> Vec<usize> {
+/// Shrinks the widest columns until the sum is at most `room`; as long as it can be helped no word is broken.
+fn fitted(mut widths: Vec<usize>, words: &[usize], room: usize) -> Vec<usize> {
     while widths.iter().sum::<usize>() > room {
-        let Some(widest) = (0..widths.len()).max_by_key(|&j| widths[j]) else { break };
-        if widths[widest] <= 8 {
+        let whole = (0..widths.len()).filter(|&j| widths[j] > words[j]).max_by_key(|&j| widths[j]);
+        let Some(widest) = whole.or_else(|| (0..widths.len()).max_by_key(|&j| widths[j])) else { break };
+        if widths[widest] <= 8 && whole.is_none() {
             break;
         }
         widths[widest] -= 1;

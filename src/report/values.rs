@@ -77,8 +77,11 @@ pub fn root_math(root: &Root) -> Math {
 pub fn lambda_math(root: &Root) -> Math {
     let value = root_math(root);
     let rounded = matches!(&value, Math::Row(row) if row.first() == Some(&Math::Symbol('≈')));
-    let name = if rounded { Math::Letter('λ') } else { Math::of("λ=") };
-    Math::Row(vec![name, value])
+    match value {
+        // In one row, so that there is room around the sign.
+        Math::Row(row) if rounded => Math::Row([vec![Math::Letter('λ')], row].concat()),
+        value => Math::Row(vec![Math::of("λ="), value]),
+    }
 }
 
 /// Both ends of an enclosure as decimals of six digits rounded outwards, or exactly where that would lose a sign.

@@ -3,7 +3,7 @@
 use super::SchemeError;
 use crate::arith::{Rational, abs};
 use crate::linalg::Matrix;
-use crate::shape::{CellKind, Shape};
+use crate::shape::{CellKind, Frame, Shape};
 
 /// Most coordinates of a shape that interpolates: the powers of the abscissa and the values.
 pub const MAX_INTERPOLATION: usize = 16;
@@ -93,12 +93,15 @@ impl Interpolation {
 
     fn without_polynomials(points: &[Vec<Rational>], factors: Vec<Matrix>) -> Result<Self, SchemeError> {
         let dim = points.first().map_or(0, |p| p.len().saturating_sub(1));
+        if points.len() < 3 {
+            return Err(SchemeError::value("points", &points.len(), "at least 3 points are needed"));
+        }
         if dim == 0 || points.iter().any(|p| p.len() != dim + 1) {
-            let expected = "a point is (x, y), with the same number of values y everywhere";
+            let expected = "a point is (x, y), with the same number of coordinates everywhere";
             return Err(SchemeError::value("points", &points.len(), expected));
         }
-        if points.len() < 3 || points.windows(2).any(|w| w[0][0] >= w[1][0]) {
-            let expected = "at least 3 points with increasing abscissas are needed";
+        if points.windows(2).any(|w| w[0][0] >= w[1][0]) {
+            let expected = "points with increasing abscissas are needed";
             return Err(SchemeError::value("points", &points.len(), expected));
         }
         if dim + 1 > MAX_INTERPOLATION {
@@ -164,12 +167,43 @@ impl Interpolation {
         Some(Matching { ratios, ends: Some(ends), joints })
     }
 
-    /// The graph as a curve of one state on the coordinates `t, t², …, t^g, y` with the part `t` of the whole interval, looked at in
-    /// `(x, y)`; the abscissa is its parameter.
+    /// The graph as a curve of one state: affine maps of `(x, y)`, or, with polynomials of a degree `g > 1`, on the coordinates
+    /// `t, t², …, t^g, y` with the part `t` of the whole interval, looked at in `(x, y)`. The abscissa is its parameter.
     ///
     /// # Errors
     /// [`SchemeError::Divergent`] where an end is not one point, and others of the shape.
     pub fn shape(&self) -> Result<Shape, SchemeError> {
+        let (mut shape, shares) = if self.degree() == 1 { self.affine_maps() } else { self.with_powers() };
+        if shares.iter().any(|s| *s != shares[0]) {
+            shape.states[0].pieces.iter_mut().zip(shares).for_each(|(piece, share)| piece.share = Some(share));
+        }
+        super::mask::verify(&shape)?;
+        Ok(shape)
+    }
+
+    /// Affine maps of `(x, y)`.
+    fn affine_maps(&self) -> (Shape, Vec<Rational>) {
+        let (dim, shares) = (self.values[0].len(), self.shares());
+        let operator = |(j, share): (usize, &Rational)| {
+            let at = |i: usize, m: usize| self.polynomials[j][i].get(m).map_or_else(|| Rational::from(0), Clone::clone);
+            let linear = Matrix::from_fn(dim + 1, dim + 1, |r, c| match (r, c) {
+                (0, 0) => share.clone(),
+                (0, _) => Rational::from(0),
+                (_, 0) => at(r - 1, 1),
+                _ => self.factors[j][(r - 1, c - 1)].clone(),
+            });
+            let mut shift = vec![&self.abscissas[j] - share * &self.abscissas[0]];
+            shift.extend((0..dim).map(|i| at(i, 0)));
+            Shape::affine_operator(&linear, &shift)
+        };
+        let mut shape = Shape::single(CellKind::Edge, shares.iter().enumerate().map(operator).collect());
+        shape.frame = Frame::Affine;
+        shape.control = Some(Shape::affine_control(dim + 1));
+        (shape, shares)
+    }
+
+    /// The coordinates `t, t², …, t^g, y`.
+    fn with_powers(&self) -> (Shape, Vec<Rational>) {
         let (degree, dim, shares) = (self.degree(), self.values[0].len(), self.shares());
         let (from, width) = (&self.abscissas[0], self.last_abscissa() - &self.abscissas[0]);
         let size = degree + dim;
@@ -195,16 +229,12 @@ impl Interpolation {
             begin += share;
         }
         let mut shape = Shape::single(CellKind::Edge, operators);
-        if shares.iter().any(|s| *s != shares[0]) {
-            shape.states[0].pieces.iter_mut().zip(shares).for_each(|(piece, share)| piece.share = Some(share));
-        }
         shape.control = Some(Matrix::from_fn(dim + 1, size + 1, |i, j| match (i, j) {
             (0, 1) => from + &width,
             (0, _) => from.clone(),
             _ => Rational::from(u8::from(j == degree + i)),
         }));
-        super::mask::verify(&shape)?;
-        Ok(shape)
+        (shape, shares)
     }
 }
 

@@ -19,8 +19,8 @@ pub struct Heading {
     pub examine: Vec<Address>,
 }
 
-/// The shape as a case file (`docs/case-format.md`). Faces are written as sets, without their boundaries; a shape of affine
-/// maps is written on its simplex, with the control points that lead back.
+/// The shape as a case file (`docs/case-format.md`). Faces are written as sets, without their boundaries; affine maps
+/// are written as such.
 #[must_use]
 pub fn case_text(shape: &Shape, heading: &Heading) -> String {
     complex_text(&Complex::of_curves(shape.clone()), heading)
@@ -41,6 +41,11 @@ pub fn complex_text(complex: &Complex, heading: &Heading) -> String {
     if single && shape.states[shape.start].kind != CellKind::Edge {
         out.push_str("kind = \"set\"\n");
     }
+    if single && is_affine(shape) {
+        maps(&mut out, &shape.states[0]);
+        examined(&mut out, heading);
+        return out;
+    }
     out.push_str("convention = \"columns\"\n");
     if single {
         pieces(&mut out, &shape.states[0]);
@@ -54,13 +59,41 @@ pub fn complex_text(complex: &Complex, heading: &Heading) -> String {
     if !single {
         (0..shape.states.len()).for_each(|state| table(&mut out, complex, state));
     }
-    for address in &heading.examine {
-        let _ = writeln!(out, "\n[[examine]]\naddress = {}", quoted(&address.to_string()));
-    }
+    examined(&mut out, heading);
     if shape.frame == Frame::Affine {
         return format!("# Affine maps, written on the simplex 0, e_1, …, e_d.\n{out}");
     }
     out
+}
+
+fn examined(out: &mut String, heading: &Heading) {
+    for address in &heading.examine {
+        let _ = writeln!(out, "\n[[examine]]\naddress = {}", quoted(&address.to_string()));
+    }
+}
+
+/// Whether a shape of one state is one of affine maps, seen where they act.
+fn is_affine(shape: &Shape) -> bool {
+    let dim = shape.states[0].dim;
+    let plain = shape.states[0].left.is_none() && shape.states[0].right.is_none();
+    shape.frame == Frame::Affine && plain && shape.control.as_ref() == Some(&Shape::affine_control(dim - 1))
+}
+
+/// The pieces as maps `x -> linear x + shift`: the columns of an operator are the images of the corners `0, e_1, …, e_d`.
+fn maps(out: &mut String, state: &State) {
+    for piece in &state.pieces {
+        let (op, d) = (&piece.op, state.dim - 1);
+        let linear = Matrix::from_fn(d, d, |i, j| &op[(i + 1, j + 1)] - &op[(i + 1, 0)]);
+        let shift = Matrix::from_fn(1, d, |_, i| op[(i + 1, 0)].clone());
+        let shift = matrix(&shift, "");
+        let _ = writeln!(out, "\n[[map]]\nlinear = {}\nshift = {}", matrix(&linear, ""), &shift[1..shift.len() - 1]);
+        if piece.reversed {
+            out.push_str("reversed = true\n");
+        }
+        if let Some(share) = &piece.share {
+            let _ = writeln!(out, "share = {}", entry(share));
+        }
+    }
 }
 
 fn pieces(out: &mut String, state: &State) {

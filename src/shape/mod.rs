@@ -1,6 +1,7 @@
 //! Shapes: automata of exact operators, their addresses, the space they span, and where they lie.
 #![deny(clippy::disallowed_methods)]
 
+mod adaptive;
 mod address;
 mod contraction;
 mod curve;
@@ -16,6 +17,7 @@ mod sample;
 mod space;
 mod unknown;
 
+pub use adaptive::adaptive_sample;
 pub use address::{Address, AddressError, cell_text, fixed_point, repetition, word_text};
 pub use contraction::{
     Contracting, ContractingWord, Contraction, MAX_WORDS, ProductContraction, contraction, contraction_within,

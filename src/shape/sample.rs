@@ -107,7 +107,7 @@ pub fn random_sample(
     Some(found)
 }
 
-fn base(shape: &Shape, state: usize) -> Option<Vec<Rational>> {
+pub(super) fn base(shape: &Shape, state: usize) -> Option<Vec<Rational>> {
     shape.point(state, &Address::periodic(vec![0]).normalise(shape, state).ok()?)
 }
 

@@ -19,25 +19,57 @@ use crate::theorem::surface::SurfacePoint;
 use crate::theorem::{Certified, Claim, PointReport, Required};
 use serde_json::{Value, json};
 
-/// Steps of the search for cones in a first answer.
-const FIRST_CONE_STEPS: usize = 600_000;
-/// Work for each order of smoothness in a first answer.
-const FIRST_ORDER: u64 = 1_000_000;
+/// How much is spent on an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spend {
+    /// So little that the answer follows the pointer: tangents, and hardly a search.
+    First,
+    /// A part of a second: what the page shows while something is dragged.
+    Quick,
+    /// The budget of an effort.
+    Whole(Effort),
+}
 
-/// The limits of an effort; a first answer must follow the pointer, and leaves the costly searches to the next one.
-fn budget(effort: Effort) -> Budget {
-    let mut budget = Budget::of(effort);
-    if effort == Effort::Quick {
-        budget.cone_steps = FIRST_CONE_STEPS;
-        budget.orders.work = Some(FIRST_ORDER);
+impl Spend {
+    /// The spending that a word of the page names.
+    pub fn named(word: &str) -> Option<Self> {
+        match word {
+            "first" => Some(Self::First),
+            "quick" => Some(Self::Quick),
+            "normal" => Some(Self::Whole(Effort::Normal)),
+            "hard" => Some(Self::Whole(Effort::Hard)),
+            _ => None,
+        }
     }
-    budget
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::First => "first",
+            Self::Quick => "quick",
+            Self::Whole(effort) => effort.word(),
+        }
+    }
+
+    /// The limits: steps of the search for cones, and work for each order of smoothness.
+    fn budget(self) -> Budget {
+        let (effort, limits) = match self {
+            Self::First => (Effort::Quick, Some((6_000, 20_000))),
+            Self::Quick => (Effort::Quick, Some((600_000, 1_000_000))),
+            Self::Whole(effort) => (effort, None),
+        };
+        let mut budget = Budget::of(effort);
+        if let Some((steps, order)) = limits {
+            budget.cone_steps = steps;
+            budget.orders.work = Some(order);
+        }
+        budget
+    }
 }
 
 /// Something that was asked, with the answer.
 pub struct Kept {
     asked: Asked,
-    effort: Effort,
+    spend: Spend,
     found: What,
 }
 
@@ -58,13 +90,13 @@ impl Kept {
     ///
     /// # Errors
     /// The [`Problem`] of the model, or of a certificate that the checker does not accept.
-    pub fn prove(asked: Asked, effort: Effort, check: bool) -> Result<Self, Problem> {
-        let budget = budget(effort);
+    pub fn prove(asked: Asked, spend: Spend, check: bool) -> Result<Self, Problem> {
+        let budget = spend.budget();
         let found = match &asked {
             Asked::Case(question) => What::Case(Box::new(answered(question, check, &budget, &|| {})?)),
             Asked::Mesh { model, scheme, .. } => What::Mesh(Box::new(certify(model, *scheme, &budget, &|| {})?)),
         };
-        Ok(Self { asked, effort, found })
+        Ok(Self { asked, spend, found })
     }
 
     /// The answer as the page shows it.
@@ -77,7 +109,7 @@ impl Kept {
             },
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         };
-        value["effort"] = self.effort.word().into();
+        value["effort"] = self.spend.word().into();
         value
     }
 

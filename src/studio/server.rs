@@ -1,6 +1,6 @@
 //! The server: addresses, limits, headers.
 
-use super::answer::{File, Kept};
+use super::answer::{File, Kept, Spend};
 use super::catalogue::catalogue;
 use super::door::Door;
 use super::drawing::drawing;
@@ -292,18 +292,18 @@ async fn colours(state: &State, body: &[u8]) -> Result<Answer, Problem> {
 
 async fn prove(state: &State, body: &[u8]) -> Result<Answer, Problem> {
     let asked: Prove = read(body)?;
-    let (effort, limit) = match asked.effort.as_str() {
-        "quick" => (Effort::Quick, 20),
-        "normal" => (Effort::Normal, 120),
-        "hard" => (Effort::Hard, 600),
-        _ => {
-            return Err(Problem::new("secant::studio::request", "this effort is not known")
-                .with_help("an effort is quick, normal or hard"));
-        }
+    let spend = Spend::named(&asked.effort).ok_or_else(|| {
+        Problem::new("secant::studio::request", "this effort is not known")
+            .with_help("an effort is first, quick, normal or hard")
+    })?;
+    let limit = match spend {
+        Spend::First | Spend::Quick => 20,
+        Spend::Whole(Effort::Hard) => 600,
+        Spend::Whole(_) => 120,
     };
     let stop = state.work.newer(&asked.page)?;
     let work = move || {
-        let kept = Kept::prove(asked.input.asked()?, effort, asked.check)?;
+        let kept = Kept::prove(asked.input.asked()?, spend, asked.check)?;
         let value = kept.value();
         Ok((Arc::new(kept), value))
     };

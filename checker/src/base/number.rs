@@ -12,11 +12,30 @@ pub const MAX_DIGITS: usize = 10_000;
 /// How much arithmetic a check may do; a product of two numbers of `w` words counts `16 + w²`.
 const BUDGET: u64 = 4_000_000_000;
 
-thread_local! { static SPENT: Cell<u64> = const { Cell::new(0) }; }
+/// It is asked whether to go on each time when `2^LOOK` more were spent.
+const LOOK: u32 = 16;
+
+thread_local! {
+    static SPENT: Cell<u64> = const { Cell::new(0) };
+    static LOOKING: Cell<fn()> = const { Cell::new(|| ()) };
+}
 
 /// Begins a check with a full budget.
 pub fn refill() {
     SPENT.set(0);
+}
+
+/// Does a piece of work during which `look` is called now and then.
+pub fn looking<T>(look: fn(), work: impl FnOnce() -> T) -> T {
+    /// What was there before is put back, also where `look` unwinds.
+    struct Restore(fn());
+    impl Drop for Restore {
+        fn drop(&mut self) {
+            LOOKING.set(self.0);
+        }
+    }
+    let _restore = Restore(LOOKING.replace(look));
+    work()
 }
 
 /// Takes the cost of `count` operations on numbers of at most `bits` bits out of the budget; whether there was enough in it.
@@ -24,8 +43,12 @@ pub fn refill() {
 pub fn charge(count: usize, bits: u64) -> bool {
     let words = bits / 64;
     let cost = (count as u64).saturating_mul(words.saturating_mul(words).saturating_add(16));
-    SPENT.set(SPENT.get().saturating_add(cost));
-    SPENT.get() <= BUDGET
+    let (before, after) = (SPENT.get(), SPENT.get().saturating_add(cost));
+    SPENT.set(after);
+    if before >> LOOK != after >> LOOK {
+        LOOKING.get()();
+    }
+    after <= BUDGET
 }
 
 /// The same; an empty budget rejects the certificate.

@@ -95,6 +95,7 @@ pub fn below(pencil: &Pencil, range: &(Rational, Rational), search: &Search) -> 
         Covering { found, search, budget: &budget, tried: Vec::new(), failed: Vec::new(), left: search.hulls };
     covering.sample();
     loop {
+        crate::stop::check();
         covering.borders();
         match covering.widest() {
             Some(hole) if covering.left > 0 && budget.left() > 0 => covering.inside(&hole),
@@ -262,6 +263,7 @@ impl Covering<'_> {
     fn hull(&mut self, p: &Rational, hole: &Hole, best: &[Word], border: bool) -> bool {
         let Some(top) = best.first().map(|w| w.value) else { return false };
         for attempt in attempts(border || top > 0.97) {
+            crate::stop::check();
             if self.left == 0 {
                 return false;
             }
@@ -302,6 +304,7 @@ impl Covering<'_> {
         let mut half = power_below(&(whole / Rational::from(4)));
         let mut first = None;
         for _ in 0..14 {
+            crate::stop::check();
             let (from, to) = ((p - &half).max(lo.clone()), (p + &half).min(hi.clone()));
             first = make(&from, &to);
             if first.is_some() {
@@ -316,6 +319,7 @@ impl Covering<'_> {
             let end = if up { hole.to.enclosure(48).0.hi } else { hole.from.enclosure(48).0.lo };
             let mut step = &half * Rational::from(2);
             while pieces.len() < self.search.pieces && self.budget.left() > 0 {
+                crate::stop::check();
                 let at = if up { &pieces[pieces.len() - 1].to } else { &pieces[0].from }.clone();
                 if if up { at > end || at >= *hi } else { at < end || at <= *lo } {
                     break;

@@ -251,6 +251,7 @@ impl Hull {
         let mut solvers: Vec<(Vec<usize>, Solver)> = Vec::new();
         let mut bases = piece.bases.iter();
         for (v, row) in self.images.iter().enumerate() {
+            crate::stop::check();
             for (letter, image) in row.iter().enumerate() {
                 if *image != Image::Inside {
                     continue;

@@ -151,6 +151,7 @@ impl Growing {
     fn generation(&mut self) -> Option<()> {
         let mut outside: Vec<(f64, usize, usize, Vec<f64>)> = Vec::new();
         for (v, letter) in std::mem::take(&mut self.todo) {
+            crate::stop::check();
             let vertex = &self.hull.vertices[v];
             let label = Vertex { seed: vertex.seed, word: [&[letter], vertex.word.as_slice()].concat() };
             let closes = matches!(&self.hull.seeds[label.seed], Seed::Eigen { word, .. } if *word == label.word);
@@ -169,6 +170,7 @@ impl Growing {
         }
         outside.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
         for (_, v, letter, x) in outside {
+            crate::stop::check();
             if self.gauge(&x) < self.inside {
                 continue;
             }

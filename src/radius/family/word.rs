@@ -98,6 +98,7 @@ fn critical(pencil: &Pencil, word: &[usize]) -> Option<Vec<Poly>> {
     }
     let one = ratio(1, 1);
     let values = |p: &Rational| {
+        crate::stop::check();
         let m = product(pencil, word, p);
         let chi = char_poly(&m);
         let exterior = if n > 1 { char_poly(&exterior(&m)).eval(&one) } else { one.clone() };

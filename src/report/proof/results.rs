@@ -3,15 +3,17 @@
 use super::super::document::{Block, Line, Table, code, formula, line, words};
 use super::super::math::Math;
 use super::super::surface::{point_name as surface_point_name, span};
-use super::super::words::{addresses, direction, mark, point_name};
+use super::super::words::{addresses, count, direction, mark, point_name};
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::shape::{Address, Shape};
-use crate::theorem::surface::{Surface, SurfacePoint};
+use crate::theorem::surface::{Subspace, Surface, SurfacePoint};
 use crate::theorem::{Certified, PointReport};
 
 /// More points are left to the section about them.
 const MAX_ROWS: usize = 16;
+/// Vectors with more coordinates stand in the section about their point only.
+const LONGEST: usize = 8;
 
 /// One row for every examined point.
 pub(in crate::report) fn table(case: &Case, found: &Certified) -> Option<Block> {
@@ -58,10 +60,20 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
             code(address),
             point.parameter.as_ref().map_or_else(|| words("–"), |t| line("$@$", [Math::vector(t)])),
             vec![mark(point.verdict)],
-            point.tangent.as_ref().filter(|s| !s.generators.is_empty()).map_or_else(|| words("–"), span),
+            point.tangent.as_ref().filter(|s| !s.generators.is_empty()).map_or_else(|| words("–"), short),
         ]
     };
     surface.points.iter().map(row).collect()
+}
+
+/// The vectors that span a tangent subspace, or how many there are where they fill a page.
+fn short(space: &Subspace) -> Line {
+    match space.generators.first().map(|g| g.coords.len()) {
+        Some(n) if n > LONGEST => {
+            words(format!("{} of {n} coordinates, at the point", count(space.generators.len(), "vector")))
+        }
+        _ => span(space),
+    }
 }
 
 /// The parameter of an address, where the pieces of a cell take their shares of its interval;

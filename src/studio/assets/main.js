@@ -1,5 +1,5 @@
-// What follows what: every change asks for a drawing and for a quick proof at once; when nothing changes for a moment, for a proof
-// with the normal budget and for the checker, in the background, until it is there or is stopped.
+// What follows what: every change asks for a drawing and for a first proof at once, then for a quick one; when nothing changes
+// for a moment, for a proof with the normal budget and for the checker, in the background, until it is there or is stopped.
 import { at, get, make, post } from "./api.js";
 import { Inputs } from "./input.js";
 import { Results } from "./results.js";
@@ -90,12 +90,17 @@ async function draw() {
   pump();
 }
 
+/** The tangents at once; then, where nothing has changed, with a little more of a search. */
 async function quick() {
   const of = now;
-  proving = { of, since: performance.now(), control: new AbortController() };
+  const { since, control } = (proving = { of, since: performance.now(), control: new AbortController() });
+  const input = inputs.current();
   try {
-    const found = await post("api/prove", { page, input: inputs.current(), effort: "quick" }, proving.control.signal);
-    show(found, of, performance.now() - proving.since);
+    for (const effort of ["first", "quick"]) {
+      const found = await post("api/prove", { page, input, effort }, control.signal);
+      show(found, of, performance.now() - since);
+      if (of !== now || found.claims.every(claim => claim.verdict !== "undetermined")) break;
+    }
     if (of === now) later = setTimeout(() => slower("normal"), SETTLED);
   } catch (error) {
     if (of === now) failed(error);
@@ -115,7 +120,7 @@ function show(found, of, time, last = false) {
     at("sheet").src = `answer/${found.id}/picture`;
     at("sheet").hidden = false;
   }
-  say(`${found.effort === "quick" ? "Answered" : `Answered with the ${found.effort} budget`} in ${Math.round(time)} ms.`);
+  say(`${["first", "quick"].includes(found.effort) ? "Answered" : `Answered with the ${found.effort} budget`} in ${Math.round(time)} ms.`);
 }
 
 function failed(error) {

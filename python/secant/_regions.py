@@ -1,0 +1,353 @@
+"""For which values of a parameter a scheme converges and is smooth."""
+
+from __future__ import annotations
+
+import html
+import itertools
+import json
+import os
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from . import _secant
+from ._answers import Effort, text_of
+from ._cases import source
+from ._errors import InputError
+from ._numbers import Algebraic, Exact, number, value, written
+from ._results import Certificate, Number, Verdict, write_report
+
+
+@dataclass(frozen=True)
+class RegionPart:
+    """A value of the parameter, or an open interval of values, with one answer.
+
+    Attributes
+    ----------
+    low, high : Fraction or Algebraic
+        The ends; the same for a single value.
+    verdict : Verdict
+        What holds for all of these values.
+    reason : str
+        What it rests on, or why it is open.
+    statement : str or None
+        The statement that was applied (``secant explain``).
+    """
+
+    low: Number
+    high: Number
+    verdict: Verdict
+    reason: str
+    statement: str | None
+
+    @property
+    def is_point(self) -> bool:
+        """Whether it is a single value."""
+        return self.low is self.high
+
+    def __contains__(self, x: Any) -> bool:
+        q = _rational(x)
+        low, high = _compare(q, self.low), _compare(q, self.high)
+        return low == 0 if self.is_point else low > 0 > high
+
+    def __repr__(self) -> str:
+        ends = f"{_shown(self.low)}" if self.is_point else f"({_shown(self.low)}, {_shown(self.high)})"
+        return f"<{ends}: {self.verdict}>"
+
+    @classmethod
+    def _of(cls, d: dict[str, Any]) -> RegionPart:
+        if "point" in d:
+            low = high = _end(d["point"])
+        else:
+            low, high = map(_end, d.get("interval") or d["gap"])
+        return cls(low, high, Verdict(d["verdict"]), d["because"], d.get("statement"))
+
+
+def _end(d: Any) -> Number:
+    return Fraction(d) if isinstance(d, str) else value(d["polynomial"], d["index"], ("0", "1"))
+
+
+def _shown(x: Number) -> str:
+    return str(x) if isinstance(x, Fraction) else f"{float(x):.9g}…"
+
+
+def _rational(x: Any) -> Fraction:
+    q = number(x, None, "the value")
+    try:
+        return Fraction(q)
+    except ValueError:
+        raise InputError(
+            f"the value {q!r} is not rational", code="secant::python::number", help='give a Fraction, or a text such as "1/16"'
+        ) from None
+
+
+def _compare(x: Fraction, end: Number) -> int:
+    """The sign of `x - end`, exactly: an irrational end differs from every fraction."""
+    if isinstance(end, Fraction):
+        return (x > end) - (x < end)
+    bits = 64
+    while True:
+        low, high = end.enclosure(bits)[0]
+        if x < low or x > high:
+            return 1 if x > high else -1
+        bits *= 2
+        if bits > 100_000:
+            raise InputError(f"{x} is too close to an end to be compared", code="secant::python::number", help="take another value")
+
+
+@dataclass(frozen=True)
+class RegionOrder:
+    """The answers for one order of smoothness.
+
+    Attributes
+    ----------
+    order : int
+        0 for convergence, k for C^k.
+    statement : str
+        What is claimed of a value.
+    parts : tuple of RegionPart
+        The range from below, each value in one part.
+    """
+
+    order: int
+    statement: str
+    parts: tuple[RegionPart, ...]
+
+    def at(self, x: Any) -> Verdict:
+        """The answer for one rational value of the parameter.
+
+        Raises
+        ------
+        InputError
+            If it lies outside the range.
+        """
+        for part in self.parts:
+            if x in part:
+                return part.verdict
+        raise InputError(f"{x} is outside the range", code="secant::python::number", help="ask with a larger range")
+
+    def _where(self, verdict: Verdict) -> tuple[tuple[Number, Number], ...]:
+        runs = [list(run) for found, run in itertools.groupby(self.parts, key=lambda part: part.verdict) if found is verdict]
+        return tuple((run[0].low, run[-1].high) for run in runs)
+
+    @property
+    def proved(self) -> tuple[tuple[Number, Number], ...]:
+        """The ends of the intervals where it holds, twice the same for a single value; whether an end belongs to it, `parts` say."""
+        return self._where(Verdict.PROVED)
+
+    @property
+    def refuted(self) -> tuple[tuple[Number, Number], ...]:
+        """The ends of the intervals where it fails, as of `proved`."""
+        return self._where(Verdict.REFUTED)
+
+
+class Regions:
+    """For which values of a parameter a scheme converges and is C^k: a sequence of :class:`RegionOrder`.
+
+    It can be pickled, as :class:`Certified`.
+    """
+
+    def __init__(
+        self, data: dict[str, Any], verdict: str, asked: tuple[Any, ...], findings: _secant.RegionFindings | None = None
+    ) -> None:
+        self._data, self._verdict, self._asked, self._findings = data, verdict, asked, findings
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_data": self._data, "_verdict": self._verdict, "_asked": self._asked, "_findings": None}
+
+    @property
+    def name(self) -> str:
+        """The name of the case."""
+        return str(self._data["case"])
+
+    @property
+    def parameter(self) -> str:
+        """The name of the parameter."""
+        return str(self._data["parameter"])
+
+    @property
+    def range(self) -> tuple[Fraction, Fraction]:
+        """The range that was asked about, with its ends."""
+        low, high = self._data["range"]
+        return Fraction(low), Fraction(high)
+
+    @property
+    def mask(self) -> tuple[str, ...]:
+        """The coefficients, polynomials in the parameter."""
+        return tuple(self._data["mask"])
+
+    @property
+    def verdict(self) -> Verdict:
+        """Proved where every order holds on the whole range, refuted where some value refutes one."""
+        return Verdict(self._verdict)
+
+    @cached_property
+    def orders(self) -> tuple[RegionOrder, ...]:
+        """The orders, from convergence up."""
+        return tuple(
+            RegionOrder(o["order"], o["statement"], tuple(map(RegionPart._of, o["table"]))) for o in self._data["orders"]
+        )
+
+    def __len__(self) -> int:
+        return len(self.orders)
+
+    def __iter__(self) -> Iterator[RegionOrder]:
+        return iter(self.orders)
+
+    def __getitem__(self, order: int) -> RegionOrder:
+        return self.orders[order]
+
+    def _native(self) -> _secant.RegionFindings:
+        if self._findings is None:
+            self._findings = _secant.region(*self._asked)[0]
+        return self._findings
+
+    @property
+    def certificate(self) -> Certificate:
+        """The certificate, which the independent checker accepted, and the family that it is about."""
+        certificate = Certificate._of(self._native().certificate())
+        assert certificate is not None
+        return certificate
+
+    @property
+    def svg(self) -> str:
+        """A bar for each order, coloured by verdict.
+
+        Raises
+        ------
+        InputError
+            Where there is nothing to draw.
+        """
+        svg = self._native().svg()
+        if svg is None:
+            raise InputError("there is nothing to draw", code="secant::region", help="the range is a single value")
+        return svg
+
+    def report(self, path: str | os.PathLike[str] | None = None, *, format: str = "html") -> str:
+        """The tables with their statements as text (see :meth:`Certified.report`)."""
+        return write_report(self._native().report, path, format)
+
+    def to_dict(self) -> dict[str, Any]:
+        """What ``secant region --json`` prints."""
+        copy: dict[str, Any] = json.loads(json.dumps(self._data))
+        return copy
+
+    def __str__(self) -> str:
+        return self._native().summary()
+
+    def __repr__(self) -> str:
+        low, high = self.range
+        return f"<Regions of {self.name}: {self.parameter} from {low} to {high}, orders 0 to {len(self) - 1}>"
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{'converges' if o.order == 0 else f'C^{o.order}'}</td>"
+            f"<td style='text-align:left'>{html.escape(p.__repr__()[1:-1])}</td>"
+            f"<td style='text-align:left'>{html.escape(p.reason)}</td></tr>"
+            for o in self
+            for p in o.parts
+        )
+        try:
+            picture = f"<div style='max-width:40em'>{self.svg}</div>"
+        except InputError:
+            picture = ""
+        return f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.parameter)}</p>{picture}<table>{rows}</table>"
+
+
+def _setting(name: str, x: Any, exact: Exact | None) -> str:
+    if isinstance(x, str):
+        return f"{name}={x}"
+    if isinstance(x, (tuple, list)):
+        if len(x) != 2:
+            raise InputError(
+                f"the range of {name} has {len(x)} ends", code="secant::usage::parameter", help='write ("-1/2", "1/2")'
+            )
+        return f"{name}={'..'.join(written(number(end, exact, name)) for end in x)}"
+    return f"{name}={written(number(x, exact, name))}"
+
+
+def _coefficient(c: Any, exact: Exact | None, where: str) -> str:
+    if type(c).__module__.split(".")[0] == "sympy" and getattr(c, "free_symbols", None):
+        return str(c).replace("**", "^")
+    return written(number(c, exact, where))
+
+
+def region(
+    x: Any,
+    parameters: Mapping[str, Any] | None = None,
+    *,
+    order: int | None = None,
+    width: Any = None,
+    hulls: int | None = None,
+    effort: Effort = "normal",
+    seconds: float | None = None,
+    exact: Exact | None = None,
+    arity: int = 2,
+    name: str = "mask",
+) -> Regions:
+    """For which values of a parameter a scheme converges and is C^k: open intervals and single values, with exact ends.
+
+    Parameters
+    ----------
+    x : str, path, dict or list
+        The name of a scheme (``"four-point"``, also with its range: ``"four-point w=-1/2..1/2"``); a case with ``[parameters]``
+        and a mask (docs/case-format.md), as path, text or dict; or a mask whose coefficients are expressions in the parameters:
+        texts such as ``"1/2+w"``, or of SymPy.
+    parameters : mapping
+        A range with its ends for the parameter that is left free, values for the others: ``{"w": ("-1/2", "1/2")}``.
+    order : int, optional
+        The highest order of smoothness that is asked about; without it all that the sum rules allow.
+    width : number, optional
+        Gaps that are narrower are left; ``"1e-6"`` without it.
+    hulls : int, optional
+        How many hulls may be tried for each order.
+    effort : {"quick", "normal", "hard"}
+        How much work is spent: what is undetermined may be decided with more, no answer changes.
+    seconds : float, optional
+        Search for about this long instead; without it the answer is always the same.
+    exact : {"decimal", "binary"}, optional
+        How floats are made exact; without it they are refused.
+    arity : int
+        Of a mask that is given as a list.
+    name : str
+        What a mask that is given as a list is called.
+
+    Returns
+    -------
+    Regions
+
+    Raises
+    ------
+    InputError
+        If it is no mask with one parameter that is left free.
+
+    Examples
+    --------
+    >>> import secant
+    >>> found = secant.region("ternary-three-point", {"b": ("0", "1/2")}, order=1)
+    >>> found[1].at("1/4").value
+    'proved'
+    """
+    if seconds is not None and not 0 < seconds < float("inf"):
+        raise InputError(f"seconds={seconds} is no positive number", code="secant::region", help="as in seconds=60")
+    set = [_setting(key, v, exact) for key, v in (parameters or {}).items()]
+    if width is not None:
+        width = written(number(width, exact, "the width"))
+    if isinstance(x, str) and "\n" not in x and not os.path.isfile(x):
+        scheme, *ranges = x.split() or [x]
+        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, width, hulls, effort, seconds)
+    elif isinstance(x, (str, os.PathLike, Mapping)):
+        given = source(x, exact=exact, name=name)
+        asked = (given.name, text_of(given), set, order, width, hulls, effort, seconds)
+    else:
+        mask = [_coefficient(c, exact, f"coefficient {k} of the mask") for k, c in enumerate(x)]
+        limits = dict(text.split("=", 1) for text in set)
+        case = {"name": name, "parameters": limits, "scheme": {"mask": mask, "arity": arity}}
+        asked = (name, text_of(source(case)), [], order, width, hulls, effort, seconds)
+    findings, data, verdict = _secant.region(*asked)
+    return Regions(json.loads(data), verdict, asked, findings)
+
+
+__all__ = ["RegionOrder", "RegionPart", "Regions", "region"]
