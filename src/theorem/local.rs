@@ -142,7 +142,13 @@ fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -
             Some(c) => LocalLimit::Value(seen.iter().map(|x| x * &c).collect()),
             None => {
                 let (least, most) = germ.band(cells, &order)?;
-                LocalLimit::Band { direction: seen, least, most }
+                // The direction in which the quotient points.
+                if most.hi < 0 {
+                    let direction = seen.iter().map(|x| -x).collect();
+                    LocalLimit::Band { direction, least: -&most, most: -&least }
+                } else {
+                    LocalLimit::Band { direction: seen, least, most }
+                }
             }
         };
         found.push(one(whole, limit));
