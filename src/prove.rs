@@ -6,13 +6,16 @@ mod model;
 pub use findings::{Findings, confirm, unconfirmed};
 pub use model::model_problem;
 
+use crate::answer::{Answer, Verdict};
 use crate::budget::Budget;
-use crate::case::{Question, Valences, VertexCase};
+use crate::case::{Case, Origin, Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
+use crate::mesh::immersed_disc;
 use crate::scheme::mesh_rules;
 use crate::stop;
-use crate::theorem::surface::certify_complex_within;
-use crate::vertex::{AtValence, Every, at_valence_within, every};
+use crate::theorem::Certified;
+use crate::theorem::surface::{around_vertex, certify_complex_within};
+use crate::vertex::{AtValence, Every, Ground, at_valence_within, every};
 use std::sync::Arc;
 
 /// Answers a question: the verdict depends on the case and the budget only.
@@ -41,8 +44,9 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
     match question {
         Question::Tangents { case, further } => {
             let addresses = [case.examine.as_slice(), further].concat();
-            let found = certify_complex_within(&case.complex(), &addresses, budget)
+            let mut found = certify_complex_within(&case.complex(), &addresses, budget)
                 .map_err(|error| model_problem(case, &error))?;
+            settle_around_vertex(case, &mut found, budget);
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
@@ -50,6 +54,20 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
             Ok(Findings::Vertices { case: Arc::clone(case), found, every })
         }
     }
+}
+
+/// What Theorem 7 says of every point of a shape that was built of a mesh rule with polynomial patches.
+fn settle_around_vertex(case: &Case, found: &mut Certified, budget: &Budget) {
+    let Some(Origin::Mesh { rule, valence, disc }) = &case.scheme else { return };
+    if !found.surface.as_ref().is_some_and(|s| matches!(s.every, Answer::Open(_))) {
+        return;
+    }
+    let Ok(at) = at_valence_within(rule, *valence, budget) else { return };
+    if !at.polynomial || at.smooth != Verdict::Proved || at.ground != Some(Ground::Regular) {
+        return;
+    }
+    let control = case.shape.control.as_ref().filter(|_| *disc);
+    around_vertex(found, &case.shape, *valence, control.and_then(|points| immersed_disc(rule, &at, points)));
 }
 
 fn no_valence() -> Problem {

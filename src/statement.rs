@@ -132,6 +132,7 @@ statements! {
     Smoothness = "smoothness",
     TensorEveryPoint = "tensor-every-point",
     PatchDerivative = "patch-derivative",
+    VertexEveryPoint = "vertex-every-point",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
     Refinement = "refinement",
@@ -139,6 +140,7 @@ statements! {
     FamilyHulls = "family-hulls",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",
+    Border = "border",
 }
 
 impl Statement {

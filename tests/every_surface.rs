@@ -1,11 +1,14 @@
 //! Every point of a surface: proved, refuted with a witness, or open, and certificates that the checker proves again.
 
 use secant::answer::Answer;
-use secant::case::Case;
+use secant::budget::Budget;
+use secant::case::{Case, Question};
 use secant::certificate::confirm;
+use secant::prove::prove;
 use secant::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface, certify_complex};
 use secant::theorem::{Assertion, Certified, EverySurfaceGap, Kind, Required, Statement, Verdict};
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 fn parse(text: &str) -> Case {
     Case::parse("every.toml", &format!("name = \"every\"\nsource = \"test\"\n{text}\n")).unwrap()
@@ -90,6 +93,95 @@ fn discs_around_a_vertex_are_open() {
         let found = found(&case);
         assert_ne!(surface(&found).every.verdict(), Verdict::Proved, "{text}");
     }
+}
+
+/// What is found of a case of a mesh rule with all that is known of its vertex.
+fn around(text: &str) -> (Verdict, Option<Statement>) {
+    let case = parse(&format!("[scheme]\n{text}"));
+    let question = Question::Tangents { case: Arc::new(case), further: Vec::new() };
+    let findings = prove(&question, &Budget::default()).unwrap();
+    let claims = findings.claims();
+    let claim = claims.iter().find(|c| c.what == Assertion::PlaneEverywhere).expect("a claim on every point");
+    (claim.verdict(), claim.statement())
+}
+
+#[test]
+fn discs_and_patches_at_a_vertex_are_smooth_everywhere_by_their_characteristic_maps() {
+    let by = Some(Statement::VertexEveryPoint);
+    for (mesh, valence, cell) in [
+        ("catmull-clark", 5, "disc"),
+        ("catmull-clark", 5, "face"),
+        ("catmull-clark", 3, "disc"),
+        ("loop-warren", 7, "disc"),
+        ("doo-sabin", 6, "disc"),
+    ] {
+        let text = format!("mesh = \"{mesh}\"\nvalence = {valence}\ncell = \"{cell}\"");
+        assert_eq!(around(&text), (Verdict::Proved, by), "{text}");
+    }
+    // Regular patches have their own proof, with a certificate.
+    assert_eq!(around("mesh = \"loop\"\nvalence = 6").1, Some(Statement::PatchDerivative));
+    assert_eq!(around("mesh = \"loop\"\nvalence = 6\ncell = \"disc\""), (Verdict::Proved, by));
+}
+
+#[test]
+fn discs_whose_characteristic_map_is_not_injective_are_not_proved() {
+    let twice = "mesh = \"doo-sabin-frequency\"\nfrequency = 2\nvalence = 6";
+    assert_ne!(around(&format!("{twice}\ncell = \"disc\"")).0, Verdict::Proved);
+}
+
+#[test]
+#[allow(clippy::float_arithmetic, reason = "points of an example")]
+fn discs_that_are_seen_folded_are_open_and_others_have_their_checked_part() {
+    let text = "[scheme]\nmesh = \"catmull-clark\"\nvalence = 5\ncell = \"disc\"";
+    let line: Vec<String> = (0..31).map(|k| format!("[{k}, {}]", k * k)).collect();
+    let verdict = |case: Case| {
+        let question = Question::Tangents { case: Arc::new(case), further: Vec::new() };
+        let mut findings = prove(&question, &Budget::default()).unwrap();
+        let claims = findings.claims();
+        let claim = claims.iter().find(|c| c.what == Assertion::PlaneEverywhere).unwrap().verdict();
+        (claim, secant::prove::confirm(&mut findings).map(|c| c.json()["proof"]["every"].clone()))
+    };
+    assert_ne!(verdict(parse(&format!("control = [{}]\n{text}", line.join(", ")))).0, Verdict::Proved);
+    // These points lie on a cone, almost.
+    let ring = |count: usize, r: f64, k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / count as f64;
+        format!("[{}, {}, {}]", (r * angle.cos()).round(), (r * angle.sin()).round(), k % 2)
+    };
+    let inner = (0..10).map(|k| ring(10, 20.0, k));
+    let round: Vec<String> =
+        std::iter::once("[0, 0, 9]".to_owned()).chain(inner).chain((0..20).map(|k| ring(20, 40.0, k))).collect();
+    assert_eq!(verdict(parse(&format!("control = [{}]\n{text}", round.join(", ")))).0, Verdict::Proved);
+    // The certificate of the point (0) stands, and says nothing of every point.
+    let (claim, every) = verdict(parse(text));
+    assert_eq!((claim, every.unwrap()), (Verdict::Proved, Value::Null));
+}
+
+#[test]
+fn masks_in_two_variables_are_patches() {
+    let mask = |symbol: &str| parse(&format!("[mask]\nsymbol = \"{symbol}\""));
+    // The product of two curves and the mask have the same operators.
+    let curve = "name = \"bspline\", degree = 2";
+    let (patch, by_curves) = (mask("(1+x)^3*(1+y)^3/16").complex(), product(curve, curve, "").complex());
+    let operators = |c: &secant::shape::Complex| {
+        let state = &c.shape.states[c.shape.start];
+        state.pieces.iter().map(|p| p.op.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(operators(&patch), operators(&by_curves));
+    // Loop's box spline, seen from the square, and the Zwart–Powell element, which has creases of its second derivatives only.
+    for symbol in ["(1+x)^2*(1+y)^2*(1+x*y)^2/16", "(1+x)*(1+y)*(1+x*y)*(1+x/y)/4", "(1+x)^2*(1+y)^2/4"] {
+        let case = mask(symbol);
+        assert_eq!(verdict(&case), Verdict::Proved, "{symbol}");
+        assert_eq!(says(&forged(&case, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved), "{symbol}");
+    }
+    // Two triangles meet in a crease along the diagonal.
+    assert_eq!(verdict(&mask("(1+x)*(1+y)*(1+x*y)/2")), Verdict::Refuted);
+    // The same as a graph over the plane.
+    let points: Vec<String> = (0..4).map(|k| format!("[{}, {}, {}]", k / 2, k % 2, u8::from(k == 3))).collect();
+    let graph = format!("control = [{}]\n[mask]\nsymbol = \"(1+x)^2*(1+y)^2/4\"", points.join(", "));
+    assert_eq!(verdict(&parse(&graph)), Verdict::Proved);
+    let text = "name = \"a\"\n[mask]\nsymbol = \"(1+x)^2*(1+y)^2/8\"\ndilation = \"quincunx\"\n";
+    let problem = Case::parse("a.toml", text).unwrap_err();
+    assert!(problem.message().contains("multiple of the unit matrix"), "{}", problem.message());
 }
 
 /// What the checker says of a certificate that was changed.

@@ -3,7 +3,8 @@
 
 use secant::arith::{Rational, ratio, to_f64};
 use secant::radius::Options;
-use secant::scheme::{Dilation, LatticeMask, Terms, named_mask};
+use secant::scheme::{BorderScheme, Dilation, LatticeMask, NamedSide, Terms, averaged_border, named_mask};
+use secant::theorem::border::{BorderAnswer, BorderRegularity, border_regularity};
 use secant::theorem::lattice::{Answer, LatticeRegularity, Stability, lattice_regularity};
 use secant::theorem::regularity::Attained;
 
@@ -228,5 +229,164 @@ fn files_and_certificates() {
         let output = secant(&["regularity", grid.to_str().unwrap()]).code(2);
         let shown = String::from_utf8(output.get_output().stderr.clone()).unwrap();
         assert!(shown.contains(wanted) && shown.contains("grid.toml:"), "{shown}");
+    }
+}
+
+fn border(names: [NamedSide; 2], more: Vec<((i64, usize), Terms)>) -> BorderRegularity {
+    let sides = names.map(|n| n.side().unwrap());
+    let scheme = BorderScheme::new(sides, averaged_border(names).into_iter().chain(more)).unwrap();
+    border_regularity(scheme, &Options::default()).unwrap()
+}
+
+const QUADS: NamedSide = NamedSide::CatmullClark;
+const TRIANGLES: NamedSide = NamedSide::Loop;
+
+#[test]
+fn the_border_of_stam_and_loop_is_c1_and_not_c2() {
+    let r = border([QUADS, TRIANGLES], Vec::new());
+    assert_eq!((r.smoothness(), r.is_exact()), (Some(1), true));
+    let [_, first, second] = &r.orders[..] else { panic!("three orders") };
+    // On nets modulo 1, x, y the radius is 1/4.
+    let radius = first.radius.as_ref().unwrap();
+    assert_eq!(radius.lower.as_ref().unwrap().rational(), Some(ratio(1, 4)));
+    assert!(radius.upper.as_ref().unwrap() < &ratio(2501, 10000));
+    assert_eq!(second.answer, BorderAnswer::Jump);
+    let model = second.model.as_ref().unwrap();
+    assert_eq!((model.equal.cols(), model.pairs.cols()), (5, 6));
+    // y² on the left, y² + x²/4 on the right; monomials 1, y, x, y², xy, x².
+    let number = |k: i64| ratio(k, 4);
+    let [jump] = &model.jumps()[..] else { panic!("one jump") };
+    assert_eq!(jump[0], [0, 0, 0, 4, 0, 0].map(number));
+    assert_eq!(jump[1], [0, 0, 0, 4, 0, 1].map(number));
+    // Without these nets 0.130297, attained by the word 01.
+    assert!(second.sided);
+    let upper = to_f64(second.radius.as_ref().unwrap().upper.as_ref().unwrap());
+    assert!((upper - 0.130_297).abs() < 1e-5, "{upper}");
+}
+
+#[test]
+fn a_border_that_is_none_is_as_smooth_as_the_sides() {
+    for side in [QUADS, TRIANGLES] {
+        let r = border([side, side], Vec::new());
+        assert_eq!((r.smoothness(), r.is_exact()), (Some(2), true));
+        assert_eq!(r.orders.last().unwrap().answer, BorderAnswer::Side(0));
+        assert_eq!(r.orders[2].model.as_ref().unwrap().equal.cols(), 6);
+    }
+}
+
+/// The border row is read as `b + pΔ²b` on the left and `b + rΔ²b` on the right, also by the new points of the border itself.
+fn unzipped(p: Rational, r: Rational) -> Vec<((i64, usize), Terms)> {
+    let mut found = std::collections::BTreeMap::<(i64, usize), Vec<(Vec<i64>, Rational)>>::new();
+    for (side, step, share) in [(QUADS, -1, p), (TRIANGLES, 1, r)] {
+        let both = [side, side];
+        let plain = BorderScheme::new(both.map(|n| n.side().unwrap()), averaged_border(both)).unwrap();
+        for (column, phase) in [(0, 0), (0, 1), (step, 0), (step, 1), (2 * step, 0), (2 * step, 1)] {
+            let terms = found.entry((column, phase)).or_default();
+            for (a, c) in plain.rule(column, phase as i64) {
+                if a[0] * step > 0 {
+                    terms.push((a, c));
+                } else if a[0] == 0 {
+                    let c = if column == 0 { c * ratio(1, 2) } else { c };
+                    let outer = &c * &share;
+                    terms.push((vec![0, a[1]], &c - &outer * ratio(2, 1)));
+                    terms.extend([-1, 1].map(|k| (vec![0, a[1] + k], outer.clone())));
+                }
+            }
+        }
+    }
+    found.into_iter().map(|(at, terms)| (at, Terms::new(2, terms))).collect()
+}
+
+#[test]
+fn an_unzipped_border_is_c2() {
+    let r = border([QUADS, TRIANGLES], unzipped(ratio(-1, 48), ratio(1, 48)));
+    assert_eq!((r.smoothness(), r.is_exact()), (Some(2), true));
+    let model = r.orders[2].model.as_ref().unwrap();
+    assert_eq!((model.equal.cols(), model.pairs.cols()), (6, 6));
+    // The constants differ by 1/24 and with this sign only.
+    let r = border([QUADS, TRIANGLES], unzipped(ratio(1, 48), ratio(-1, 48)));
+    assert_eq!((r.smoothness(), r.orders.last().unwrap().answer), (Some(1), BorderAnswer::Jump));
+}
+
+const STAM_LOOP: &str = "name = \"stam-loop\"\n[border]\nleft = \"catmull-clark\"\nright = \"loop\"\n";
+
+#[test]
+fn borders_in_files_and_their_certificates() {
+    let folder = tempfile::tempdir().unwrap();
+    let (case, certificate) = (folder.path().join("stam-loop.toml"), folder.path().join("c.json"));
+    std::fs::write(&case, STAM_LOOP).unwrap();
+    let (case, certificate) = (case.to_str().unwrap(), certificate.to_str().unwrap());
+    let output = secant(&["regularity", case, "--certificate", certificate]).success();
+    let text = String::from_utf8(output.get_output().stdout.clone()).unwrap();
+    assert!(text.contains("limit y^2 for x < 0 and 1/4*x^2 + y^2 for x > 0"), "{text}");
+    assert!(text.contains("smoothness  C^1, and not C^2: proved") && text.contains("C^2 up to the border"), "{text}");
+    let refused = secant(&["certify", case]).code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("secant regularity"));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let (source, proof) = (read("c.case.toml"), read("c.json"));
+    let accepted = secant_check::check(&source, &proof).unwrap();
+    let said: Vec<String> = accepted.claims.iter().map(|d| format!("{:?} {:?}", d.claim, d.verdict)).collect();
+    let smooth = |order| format!("BorderSmooth {{ order: {order} }}");
+    let wanted = [
+        smooth(0) + " Proved",
+        smooth(1) + " Proved",
+        smooth(2) + " Refuted",
+        "BorderSided { order: 2 } Proved".to_owned(),
+    ];
+    assert_eq!(said, wanted);
+    // The grids in place of the names say the same.
+    let data = |what: &str| {
+        let output = secant(&["regularity", what, "--json"]).success();
+        let mut data: serde_json::Value = serde_json::from_slice(&output.get_output().stdout).unwrap();
+        data["input"] = serde_json::Value::Null;
+        data
+    };
+    let grids = folder.path().join("c.case.toml");
+    assert_eq!(data(case), data(grids.to_str().unwrap()));
+    assert_eq!(data(case)["orders"][2]["by"], "jump");
+    // Forgeries.
+    let forged = |change: &dyn Fn(&mut serde_json::Value)| {
+        let mut whole: serde_json::Value = serde_json::from_str(&proof).unwrap();
+        change(&mut whole["proof"]);
+        secant_check::check(&source, &whole.to_string())
+    };
+    use serde_json::json;
+    assert!(forged(&|_| ()).is_ok());
+    assert!(forged(&|p| p["orders"][2]["by"] = json!("radius")).is_err(), "J is not below 1/4");
+    assert!(forged(&|p| p["orders"][1]["by"] = json!("jump")).is_err(), "no jump of order 1");
+    assert!(forged(&|p| p["orders"][2] = json!({"by": "right"})).is_err(), "both sides are C²");
+    assert!(forged(&|p| p["orders"] = json!([])).is_err());
+    assert!(forged(&|p| drop(p["orders"][0]["window"].as_array_mut().unwrap().pop())).is_err());
+    assert!(forged(&|p| p["orders"][0]["reach"] = json!(1)).is_err());
+    assert!(forged(&|p| p["sides"][0] = p["sides"][1].clone()).is_err());
+    assert!(forged(&|p| p["orders"][1]["radius"] = p["orders"][2]["radius"].clone()).is_err());
+    let moved = source.replacen("\"19/32\"", "\"1/2\"", 1).replacen("\"5/64\"", "\"11/64\"", 1);
+    assert!(moved != source && secant_check::check(&moved, &proof).is_err());
+}
+
+#[test]
+fn borders_that_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("border.toml");
+    let wide = "{ symbol = \"(1+x)^6*(1+y)^2/64/(x^3*y)\", place = [1, 0] }";
+    for (table, wanted) in [
+        ("left = \"catmull-clark\"\n".to_owned(), "right"),
+        ("left = \"doo-sabin\"\nright = \"loop\"\n".to_owned(), "catmull-clark and loop"),
+        (format!("left = \"loop\"\nright = {wide}\n"), "no weights for new points (0, 2k + 0)"),
+        ("left = \"loop\"\nright = { symbol = \"(1+x)*(1+y)\" }\n".to_owned(), "place"),
+        (
+            "left = \"loop\"\nright = \"loop\"\n[[border.stencil]]\nat = [0, 0]\nweights = [[0, 0, \"1/2\"]]\n"
+                .to_owned(),
+            "sum to 1/2",
+        ),
+        (
+            "left = \"loop\"\nright = \"loop\"\n[[border.stencil]]\nat = [0, 2]\nweights = [[0, 0, 1]]\n".to_owned(),
+            "row modulo 2",
+        ),
+    ] {
+        std::fs::write(&file, format!("name = \"a\"\n[border]\n{table}")).unwrap();
+        let output = secant(&["regularity", file.to_str().unwrap()]).code(2);
+        let shown = String::from_utf8(output.get_output().stderr.clone()).unwrap();
+        assert!(shown.contains(wanted) && shown.contains("border.toml:") && shown.contains("help"), "{shown}");
     }
 }

@@ -615,3 +615,17 @@ fn orders_in_other_shares_are_not_adopted() {
         assert!(analysed(&shared).smoothness() >= 1, "{name}");
     }
 }
+
+/// Here the curve is a cubic polynomial, although the mask is not C².
+#[test]
+fn a_mask_in_a_case_with_control_points_says_that_it_is_not_about_them() {
+    let case = |points: &str| {
+        format!("name = \"four\"\n{points}\n[scheme]\nmask = [\"-1/16\", 0, \"9/16\", 1, \"9/16\", 0, \"-1/16\"]\n")
+    };
+    let found = |points: &str| secant::ask::regularity_of_case("four", &case(points)).unwrap();
+    assert!(found("").data["remark"].is_null());
+    let about = found("control = [[-8], [-1], [0], [1], [8], [27]]");
+    assert!(about.data["remark"].as_str().is_some_and(|r| r.contains("not looked at")));
+    assert!(about.text.starts_with("note"));
+    assert_eq!(about.data["smoothness"], 1);
+}

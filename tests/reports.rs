@@ -276,3 +276,20 @@ fn the_readme_shows_what_works() {
         assert!(library.contains(&format!("//! {line}")), "the crate's documentation lacks: {line}");
     }
 }
+
+/// What is said of a product at every point rests on what is said of its curves, which is shown.
+#[test]
+fn the_report_of_a_product_proves_its_curves_smooth() {
+    let page = html::render(&report("surfaces/de-rham-product"));
+    let at = |text: &str| page.find(text).unwrap_or_else(|| panic!("{text} is missing"));
+    let (first, second) = (at("Every point of the first curve"), at("Every point of the second curve"));
+    let theorem = at(Statement::TensorEveryPoint.name());
+    assert!(
+        first < second && page.contains(Statement::Theorem6Slow.name()) && page.contains(Statement::Theorem6.name())
+    );
+    assert!(
+        page[first..second].contains("<strong>positive</strong>")
+            && page[second..].contains("<strong>positive</strong>")
+    );
+    assert!(theorem > 0);
+}

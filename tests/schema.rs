@@ -43,7 +43,7 @@ fn the_reader_has_the_keys_of_the_schema() {
     let of = |key: &str| &all["properties"][key];
     let start = "name = \"x\"\n";
     let mut own = known(&format!("{start}qqqqzzzz = 1\n"));
-    own.extend(["vertex", "parameters"].map(str::to_owned));
+    own.extend(["vertex", "parameters", "border"].map(str::to_owned));
     own.sort();
     assert_eq!(keys(&all), own);
     assert_eq!(keys(&of("map")["items"]), known(&format!("{start}[[map]]\nqqqqzzzz = 1\n")));

@@ -165,6 +165,25 @@ fn tensor_products_agree_with_the_general_theorem() {
     assert_eq!(evidence.verdict, Verdict::Proved);
 }
 
+/// Along a cell that is a point the second curve stands still: the tangent subspace is that of a corner, a plane.
+#[test]
+fn no_product_with_a_curve_that_stands_still_on_a_cell_of_the_second_level() {
+    let map = |linear: &[&[i64]], shift: [i64; 2], by: i64| {
+        Shape::affine_operator(&matrix(linear, by), &shift.map(|x| ratio(x, by)))
+    };
+    let curve = |ops| Shape::single(CellKind::Edge, ops);
+    let corner = curve(vec![map(&[&[3, 0], &[3, 2]], [0, 0], 6), map(&[&[3, 0], &[-3, 2]], [3, 3], 6)]);
+    let last = map(&[&[1, 0], &[-1, 0]], [2, 1], 3);
+    let second =
+        |first: &[&[i64]]| curve(vec![map(first, [0, 0], 3), map(&[&[1, 0], &[1, 0]], [1, 0], 3), last.clone()]);
+    // The image of the second operator is killed by the first one; then it is not.
+    let (still, moving) = (second(&[&[1, -1], &[0, 0]]), second(&[&[1, 0], &[0, 0]]));
+    assert!(still.check_curves().is_ok() && moving.check_curves().is_ok());
+    let at = |b: &Shape| product_point(&corner, b, &Address::parse("033(1)").unwrap(), &Matrix::identity(9));
+    assert!(at(&still).is_none());
+    assert_eq!(at(&moving).unwrap().verdict, Verdict::Refuted);
+}
+
 #[test]
 fn a_patch_that_collapses_to_a_line_has_dimension_1() {
     let mut complex = tensor(&spline(2), &spline(2)).unwrap();

@@ -125,6 +125,16 @@ pub enum Claim {
         /// `k`.
         order: usize,
     },
+    /// All limits of a scheme with a border are C^k.
+    BorderSmooth {
+        /// `k`.
+        order: usize,
+    },
+    /// All limits of a scheme with a border are C^k up to the border on either side.
+    BorderSided {
+        /// `k`.
+        order: usize,
+    },
     /// All limits of a mask on a lattice have the Hölder exponents below the logarithm of `1/J` to the base
     /// `index^(1/dimensions)`, for a number `J` from `low` to `high`.
     LatticeExponent {
@@ -371,6 +381,11 @@ impl Display for Claim {
             ),
             Self::LatticeSmooth { order: 0 } => f.write_str("the scheme converges uniformly for all bounded nets"),
             Self::LatticeSmooth { order } => write!(f, "all limits of the scheme are C^{order}"),
+            Self::BorderSmooth { order: 0 } => f.write_str("all limits of the scheme exist and are continuous"),
+            Self::BorderSmooth { order } => write!(f, "all limits of the scheme are C^{order}, also across its border"),
+            Self::BorderSided { order } => {
+                write!(f, "all limits of the scheme are C^{order} up to its border, on either side")
+            }
             Self::LatticeExponent { dimensions, index, low, high, exact } => {
                 let what = if *exact {
                     "the supremum of the exponents that all limits have is"

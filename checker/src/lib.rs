@@ -67,6 +67,7 @@ fn checked(case: &str, certificate: &str) -> Checked<Accepted> {
         "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => spectrum::check(case, &proof)?,
         "jsr" => jsr::check(case, &proof)?,
+        "border" => lattice::border::check(case, &proof)?,
         "lattice" => lattice::check(case, &proof)?,
         "surface" => surface::check(case, &proof)?,
         "vertex" => vertex::check(case, &proof)?,

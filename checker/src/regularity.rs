@@ -217,7 +217,11 @@ impl<'a> Level<'a> {
         for &e in &shape.reachable {
             let pieces = &shape.states[e].pieces;
             let equal = whole(pieces.len() as i64).recip();
-            all[e] = pieces.iter().map(|p| p.share.clone().map_or_else(|| equal.clone(), |s| s)).collect();
+            let share = |p: &Piece| match &p.share {
+                Some(share) => share.clone(),
+                None => equal.clone(),
+            };
+            all[e] = pieces.iter().map(share).collect();
         }
         Self::first(model, 1, Some(all))
     }

@@ -3,6 +3,7 @@
 //! Each answer comes with its certificate where one is asked for, accepted by the independent checker.
 
 mod answered;
+mod border;
 mod lattice;
 mod radius;
 mod region;

@@ -1,8 +1,9 @@
 //! The smoothness of schemes, curves and scaling functions, from joint spectral radii.
 
+use super::border::{border_answer, border_case, border_certified};
 use super::lattice::{lattice_answer, lattice_case, lattice_certified};
 use crate::arith::{Rational, parse_rational};
-use crate::case::{self, Case, LatticeCase, Origin};
+use crate::case::{self, BorderCase, Case, LatticeCase, Origin};
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
@@ -22,7 +23,8 @@ use toml::de::{DeTable, DeValue};
 /// What is asked about.
 enum Subject {
     Wavelet(usize),
-    Mask(Understood),
+    /// A mask, and whether it comes with control points, which it is not about.
+    Mask(Understood, bool),
     Curve(Box<Shape>),
 }
 
@@ -69,6 +71,9 @@ pub fn dilated_regularity(
     arity: usize,
     dilation: Option<&str>,
 ) -> Result<Smooth, Problem> {
+    if let Some(case) = plain_border(what, parameters, dilation)? {
+        return border_answer(case.scheme).map(|(smooth, _)| smooth);
+    }
     match lattice_case(what, parameters, dilation)? {
         Some(case) => lattice_answer(case.mask).map(|(smooth, _)| smooth),
         None => answer(what, &subject(what, parameters, arity)?),
@@ -80,10 +85,24 @@ pub fn dilated_regularity(
 /// # Errors
 /// As [`regularity`].
 pub fn regularity_of_case(name: &str, text: &str) -> Result<Smooth, Problem> {
+    if BorderCase::is_meant(text) {
+        return border_answer(BorderCase::parse(name, text)?.scheme).map(|(smooth, _)| smooth);
+    }
     if LatticeCase::is_meant(text) {
         return lattice_answer(LatticeCase::parse(name, text)?.mask).map(|(smooth, _)| smooth);
     }
     answer(name, &subject_of_case(name, text)?)
+}
+
+/// A case with a border, which has neither parameters nor a dilation.
+fn plain_border(what: &str, parameters: &[String], dilation: Option<&str>) -> Result<Option<BorderCase>, Problem> {
+    let case = border_case(what)?;
+    match case {
+        Some(_) if !parameters.is_empty() || dilation.is_some() => {
+            Err(wrong(format!("{what} has a [border], and neither parameters nor a dilation")))
+        }
+        other => Ok(other),
+    }
 }
 
 fn wrong(message: String) -> Problem {
@@ -115,7 +134,7 @@ fn answer(what: &str, subject: &Subject) -> Result<Smooth, Problem> {
             let text = report::enclosed(&title, &found, Meaning::Limit);
             Ok(Smooth { text, data: report::enclosed_data(&found, Meaning::Limit), decided: true })
         }
-        Subject::Mask(mask) => of_mask(what, mask, &options),
+        Subject::Mask(mask, points) => of_mask(what, (mask, *points), &options),
         Subject::Curve(shape) => {
             let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
             let found = curve_regularity(shape, &spaces, &options).map_err(|e| wrong(e.to_string()))?;
@@ -126,8 +145,11 @@ fn answer(what: &str, subject: &Subject) -> Result<Smooth, Problem> {
     }
 }
 
-fn of_mask(what: &str, mask: &Understood, options: &Options) -> Result<Smooth, Problem> {
-    let remark = mask.remark.as_ref().map(|r| report::remark(r, mask.arity));
+fn of_mask(what: &str, (mask, points): (&Understood, bool), options: &Options) -> Result<Smooth, Problem> {
+    let read = mask.remark.as_ref().map(|r| report::remark(r, mask.arity));
+    let all = points.then(|| report::ALL_POINTS.to_owned());
+    let remarks: Vec<String> = read.into_iter().chain(all).collect();
+    let remark = (!remarks.is_empty()).then(|| remarks.join("; "));
     let noted = |text: String, mut data: Value, decided| {
         data["remark"] = json!(remark);
         let head = remark.as_ref().map_or_else(String::new, |r| format!("note        {r}\n"));
@@ -181,8 +203,9 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
     if let Some(extra) = parameters.first() {
         return Err(wrong(format!("`{extra}` is a parameter, but only named schemes have parameters")));
     }
-    let mask =
-        |texts: &[String], arity, scale| understood(texts, arity, scale).map(Subject::Mask).map_err(|e| no_mask("", e));
+    let mask = |texts: &[String], arity, scale| {
+        understood(texts, arity, scale).map(|m| Subject::Mask(m, false)).map_err(|e| no_mask("", e))
+    };
     if let Some(texts) = scheme::wavelet_mask(what) {
         return mask(&texts, 2, None);
     }
@@ -242,7 +265,7 @@ fn scheme_named(name: &str, parameters: &[String]) -> Result<Subject, Problem> {
         values.insert(key.trim().to_owned(), parse_rational(value).map_err(|e| wrong(e.to_string()))?);
     }
     match scheme::mask(name, &values).map_err(|e| wrong(e.to_string()))? {
-        Some(mask) => Ok(Subject::Mask(given(&mask))),
+        Some(mask) => Ok(Subject::Mask(given(&mask), false)),
         None => {
             let shape = scheme::build(name, &values).map_err(|e| wrong(e.to_string()))?;
             Ok(Subject::Curve(Box::new(shape)))
@@ -258,14 +281,16 @@ fn given(mask: &scheme::Mask) -> Understood {
 /// The mask of a case with one, whether its curve converges or not; otherwise its curve, which must be a model that contracts.
 fn subject_of_case(name: &str, text: &str) -> Result<Subject, Problem> {
     if let Some((texts, arity, scale)) = written_mask(text) {
-        return understood(&texts, arity, scale).map(Subject::Mask).map_err(|e| no_mask(&format!("{name}: "), e));
+        let points = DeTable::parse(text).is_ok_and(|table| table.get_ref().contains_key("control"));
+        let mask = understood(&texts, arity, scale).map_err(|e| no_mask(&format!("{name}: "), e))?;
+        return Ok(Subject::Mask(mask, points));
     }
     of_read(Case::parse(name, text)?)
 }
 
 fn of_read(case: Case) -> Result<Subject, Problem> {
     if let Some(Origin::Mask(mask)) = &case.scheme {
-        return Ok(Subject::Mask(given(mask)));
+        return Ok(Subject::Mask(given(mask), case.shape.control.is_some()));
     }
     contracting(&case)?;
     Ok(Subject::Curve(Box::new(case.shape)))
@@ -336,6 +361,9 @@ pub fn certified_regularity(
     arity: usize,
     dilation: Option<&str>,
 ) -> Result<(Smooth, String, Option<String>), Problem> {
+    if let Some(case) = plain_border(what, parameters, dilation)? {
+        return border_certified(case);
+    }
     if let Some(case) = lattice_case(what, parameters, dilation)? {
         return lattice_certified(case);
     }

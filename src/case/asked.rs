@@ -72,6 +72,9 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
     if text.trim_start().starts_with("[[[") {
         return Some(pieces(text));
     }
+    if scheme::Terms::is_meant(text) {
+        return Some(Ok(case("mask", text, &format!("\n[mask]\nsymbol = {}", quoted(text)))));
+    }
     if text.contains('z') && text.contains(['(', '^', '+']) {
         return Some(Ok(case("symbol", text, &format!("\n[scheme]\nsymbol = {}", quoted(text)))));
     }

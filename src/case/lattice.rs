@@ -1,9 +1,10 @@
 //! Case files about masks on lattices: a `[mask]` table with a grid of coefficients, a symbol or a name, and a dilation.
 
 use super::node::{File, Node, Table};
+use super::{Model, Origin};
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
-use crate::scheme::{Dilation, LatticeError, LatticeMask, Terms, named_mask};
+use crate::scheme::{Dilation, LatticeError, LatticeMask, Terms, lattice_patch, named_mask};
 use malachite_base::num::conversion::traits::IsInteger;
 
 /// A case about a mask on a lattice.
@@ -40,27 +41,53 @@ impl LatticeCase {
     }
 
     fn of_table(_: &File, root: &Table<'_>) -> Result<Self, Problem> {
-        root.only(&["name", "title", "source", "mask"])?;
+        root.only(&["name", "title", "source", "control", "examine", "expect", "mask"])?;
         let name = super::read::name(root)?;
         root.optional_text("title")?;
         root.optional_text("source")?;
         let node = root.need("mask", "{ symbol = \"(1+x)^2*(1+y)^2/4\" }")?;
-        let table = node.table()?;
-        table.only(&["dilation", "grid", "origin", "symbol", "name", "parameters", "directions"])?;
-        let dilation = table.get("dilation").map(|n| dilation(&n)).transpose()?;
-        let mask = match (table.get("grid"), table.get("symbol"), table.get("name")) {
-            (Some(grid), None, None) => of_grid(&table, &grid, dilation)?,
-            (None, Some(symbol), None) => {
-                LatticeMask::parse(symbol.text()?, dilation).map_err(|e| problem(&symbol, &e))?
-            }
-            (None, None, Some(named)) => of_name(&table, &named, dilation)?,
-            _ => {
-                return Err(table
+        Ok(Self { name, mask: mask_of(&node)? })
+    }
+}
+
+/// The patch over the unit square of a `[mask]`, which stands instead of `pieces`, `[[map]]`, `[[state]]` and `[scheme]`.
+pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> {
+    super::scheme::alone(
+        case,
+        "mask",
+        &["pieces", "reversed", "map", "scheme", "state", "start", "kind", "convention"],
+    )?;
+    let mask = mask_of(node)?;
+    let (complex, _) = lattice_patch(&mask).map_err(|e| {
+        node.problem("mask", e.to_string(), "this mask").with_help("`secant regularity` says how smooth its limits are")
+    })?;
+    Ok(super::scheme::built(case, "mask", node, complex, Origin::Lattice))
+}
+
+fn mask_of(node: &Node<'_>) -> Result<LatticeMask, Problem> {
+    let table = node.table()?;
+    table.only(&["dilation", "grid", "origin", "symbol", "name", "parameters", "directions"])?;
+    let dilation = table.get("dilation").map(|n| dilation(&n)).transpose()?;
+    let mask = match (written(&table, dilation.clone())?, table.get("name")) {
+        (Some(mask), None) => mask,
+        (None, Some(named)) => of_name(&table, &named, dilation)?,
+        _ => {
+            return Err(table
                     .problem("mask", "a [mask] has one of `grid`, `symbol` and `name`", "this table")
                     .with_help("write grid = [[…]] with origin = [i, j], or symbol = \"(1+x)^2*(1+y)^2/4\", or name = \"butterfly\""));
-            }
-        };
-        Ok(Self { name, mask })
+        }
+    };
+    Ok(mask)
+}
+
+/// The mask of a table with one of `grid` and `symbol`.
+pub(super) fn written(table: &Table<'_>, dilation: Option<Dilation>) -> Result<Option<LatticeMask>, Problem> {
+    match (table.get("grid"), table.get("symbol")) {
+        (Some(grid), None) => of_grid(table, &grid, dilation).map(Some),
+        (None, Some(symbol)) => {
+            LatticeMask::parse(symbol.text()?, dilation).map(Some).map_err(|e| problem(&symbol, &e))
+        }
+        _ => Ok(None),
     }
 }
 
@@ -81,12 +108,12 @@ fn dilation(node: &Node<'_>) -> Result<Dilation, Problem> {
     Dilation::new(rows).map_err(|e| problem(node, &e))
 }
 
-fn whole_numbers(node: &Node<'_>, what: &str) -> Result<Vec<i64>, Problem> {
+pub(super) fn whole_numbers(node: &Node<'_>, what: &str) -> Result<Vec<i64>, Problem> {
     let numbers = node.array(|k| format!("{what} {k}"))?;
     numbers.iter().map(whole).collect()
 }
 
-fn whole(node: &Node<'_>) -> Result<i64, Problem> {
+pub(super) fn whole(node: &Node<'_>) -> Result<i64, Problem> {
     let x = node.number()?;
     let small = (x.is_integer() && crate::arith::abs(&x) <= MAX_PLACE).then(|| x.to_string().parse().ok());
     small.flatten().ok_or_else(|| {

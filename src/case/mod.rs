@@ -3,6 +3,7 @@
 //! The format is described in `docs/case-format.md`. Every mistake is a [`Problem`] with the line where it is.
 
 mod asked;
+mod border;
 mod chain;
 mod control;
 mod expect;
@@ -24,6 +25,7 @@ mod states;
 mod vertex;
 
 pub use asked::{asked, is_case, nothing, unaliased, written};
+pub use border::BorderCase;
 pub use control::with_control;
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::FieldCase;
@@ -123,6 +125,8 @@ pub enum Origin {
     Interpolation(Box<Interpolation>),
     /// An automaton, some of whose states name a scheme or are chains.
     States,
+    /// A mask in two variables.
+    Lattice,
     /// The neighbourhood of a vertex of a mesh.
     Mesh {
         /// The rule.
@@ -273,7 +277,9 @@ impl Case {
     pub fn beside(&self) -> Option<String> {
         let built = matches!(
             self.scheme,
-            Some(Origin::Mesh { .. } | Origin::Polygon(_) | Origin::Interpolation(_) | Origin::States)
+            Some(
+                Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::Interpolation(_) | Origin::States
+            )
         );
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })

@@ -10,7 +10,7 @@ use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
-const KEYS: [&str; 16] = [
+const KEYS: [&str; 17] = [
     "name",
     "title",
     "source",
@@ -22,6 +22,7 @@ const KEYS: [&str; 16] = [
     "interpolate",
     "map",
     "scheme",
+    "mask",
     "start",
     "state",
     "control",
@@ -157,6 +158,11 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
             .problem("vertex", "this case is about the vertices of a mesh, not about one shape", "")
             .with_help("`secant certify` goes through its valences; other commands take cases of one shape"));
     }
+    if case.get("border").is_some() {
+        return Err(case
+            .problem("border", "this case is about two masks that meet along a line, not about one shape", "")
+            .with_help("`secant regularity FILE` says how smooth the limits are across it"));
+    }
     super::parameters::left_free(case).map_or(Ok(()), Err)?;
     if let Some(span) = case.key_span("matrices") {
         return Err(case
@@ -271,7 +277,7 @@ pub(super) fn name(case: &Table<'_>) -> Result<String, Problem> {
 
 fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
     let word = case.word("convention", &["columns", "rows"])?;
-    if ["map", "scheme", "interpolate"].iter().all(|key| case.get(key).is_none()) {
+    if ["map", "scheme", "mask", "interpolate"].into_iter().all(|form| case.get(form).is_none()) {
         case.need("convention", "\"columns\"").map_err(|p| {
             p.with_help(
                 "say how the matrices act: convention = \"columns\" (operators on columns of coordinates, \
@@ -296,6 +302,9 @@ fn model(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<Mod
     }
     if let Some(node) = case.get("interpolate") {
         return interpolate::read(case, &node);
+    }
+    if let Some(node) = case.get("mask") {
+        return super::lattice::read(case, &node);
     }
     if let Some(node) = case.get("map") {
         return maps::read(case, &node, kind);

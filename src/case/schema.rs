@@ -101,6 +101,8 @@ fn root() -> Value {
         ("interpolate", interpolate()),
         ("map", list_of(&map, MAX_PIECES)),
         ("scheme", scheme_table()),
+        ("mask", mask_table()),
+        ("border", border_table()),
         ("start", text("the state whose shape is asked about")),
         ("state", list_of(&state(), MAX_STATES)),
         ("control", reference("matrix")),
@@ -194,6 +196,30 @@ fn scheme_table() -> Value {
         all.entry(parameter.name).or_insert(entry);
     }
     json!({"type": "object", "properties": all, "additionalProperties": false})
+}
+
+/// `[mask]`: a mask in several variables.
+fn mask_table() -> Value {
+    let names: Vec<&str> = scheme::lattice_names().into_iter().map(|(name, _)| name).collect();
+    object(&[
+        ("dilation", json!({"type": ["array", "string", "integer"]})),
+        ("grid", json!({"type": "array"})),
+        ("origin", json!({"type": "array", "items": {"type": "integer"}})),
+        ("symbol", text("a Laurent polynomial in x and y, as in (1+x)^2*(1+y)^2/4")),
+        ("name", words(&names)),
+        ("parameters", json!({"type": "array", "items": {"type": "string"}})),
+        ("directions", json!({"type": "array", "items": {"type": "array"}})),
+    ])
+}
+
+/// `[border]`: two masks that meet along a line.
+fn border_table() -> Value {
+    let side = || json!({"type": ["string", "object"]});
+    let stencil = object(&[
+        ("at", json!({"type": "array", "items": {"type": "integer"}, "minItems": 2, "maxItems": 2})),
+        ("weights", json!({"type": "array", "items": {"type": "array"}})),
+    ]);
+    object(&[("left", side()), ("right", side()), ("stencil", json!({"type": "array", "items": stencil}))])
 }
 
 fn vertex() -> Value {

@@ -19,15 +19,8 @@ struct Built {
 
 /// Reads the table `[scheme]`, which stands instead of `pieces`, `[[map]]` and `[[state]]`.
 pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> {
-    for key in ["pieces", "reversed", "shares", "interpolate", "map", "state", "start", "kind", "convention"] {
-        if let Some(span) = case.key_span(key) {
-            let message = format!("`{key}` and `[scheme]` exclude each other");
-            return Err(case
-                .file
-                .problem("two-forms", message, span, "cannot be combined with [scheme]")
-                .with_help("the scheme gives the operators; `secant expand` writes them out, to be changed"));
-        }
-    }
+    let others = ["pieces", "reversed", "shares", "interpolate", "map", "state", "start", "kind", "convention"];
+    alone(case, "scheme", &others)?;
     let mut table = node.table().map_err(|problem| {
         problem.with_help(
             "a case has one [scheme]; `secant junction A B` joins two of them, and a [[state]] of an automaton may name one, as in  \
@@ -55,14 +48,32 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
             (Complex::of_curves(built.shape), built.origin)
         }
     };
-    let span = case.key_span("scheme").unwrap_or_else(|| node.span());
+    Ok(self::built(case, "scheme", node, complex, origin))
+}
+
+/// Refuses what a table that gives the operators cannot be combined with.
+pub(super) fn alone(case: &Table<'_>, form: &str, others: &[&str]) -> Result<(), Problem> {
+    for key in others {
+        if let Some(span) = case.key_span(key) {
+            let message = format!("`{key}` and `[{form}]` exclude each other");
+            let problem = case.file.problem("two-forms", message, span, format!("cannot be combined with [{form}]"));
+            return Err(problem
+                .with_help(format!("the {form} gives the operators; `secant expand` writes them out, to be changed")));
+        }
+    }
+    Ok(())
+}
+
+/// The model of a table that gives all operators.
+pub(super) fn built(case: &Table<'_>, form: &str, node: &Node<'_>, complex: Complex, origin: Origin) -> Model {
+    let span = case.key_span(form).unwrap_or_else(|| node.span());
     let place = |state: &crate::shape::State| StatePlace {
         name: span.clone(),
         pieces: vec![span.clone(); state.pieces.len()],
         ..StatePlace::default()
     };
     let places = Places { states: complex.shape.states.iter().map(place).collect(), control: None };
-    Ok(Model { complex, places, unknown: Vec::new(), scheme: Some(origin) })
+    Model { complex, places, unknown: Vec::new(), scheme: Some(origin) }
 }
 
 /// Keys of the case that stand below `[scheme]` belong to it for TOML.

@@ -13,6 +13,11 @@ use serde_json::{Value, json};
 /// # Errors
 /// [`Unsupported`] where the radius has no certificate, or nothing is decided.
 pub fn lattice_certificate(name: &str, found: &LatticeRegularity) -> Result<Certificate, Unsupported> {
+    Ok(Certificate::new("lattice", name, "proved", lattice_proof(found)?))
+}
+
+/// What proves these orders.
+pub(super) fn lattice_proof(found: &LatticeRegularity) -> Result<Value, Unsupported> {
     let Ok(system) = System::plain(&found.letters) else {
         return unsupported("a window without a quotient", "window");
     };
@@ -41,11 +46,10 @@ pub fn lattice_certificate(name: &str, found: &LatticeRegularity) -> Result<Cert
         return unsupported("convergence that is not decided", "orders");
     }
     let window: Value = found.window.points.iter().map(|p| point(p)).collect();
-    let proof = json!({
+    Ok(json!({
         "rules": found.sum_rules, "window": window, "radius": radius,
         "shifts": shifts(&found.stability), "orders": orders,
-    });
-    Ok(Certificate::new("lattice", name, "proved", proof))
+    }))
 }
 
 fn point(a: &[i64]) -> Value {

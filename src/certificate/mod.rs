@@ -4,6 +4,7 @@
 //! shares no code with this crate.
 #![deny(clippy::disallowed_methods)]
 
+mod border;
 mod branch;
 mod confirm;
 mod everywhere;
@@ -21,6 +22,7 @@ mod top;
 mod tree;
 mod vertex;
 
+pub use border::border_certificate;
 pub use confirm::{Doubt, checked, confirm, confirm_orders};
 pub use joint::radius_certificate;
 pub use lattice::lattice_certificate;

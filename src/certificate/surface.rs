@@ -125,6 +125,9 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
             };
             json!({"by": "derivative", "verdict": "proved", "radius": radius, "length": length, "cells": cells})
         }
+        Answer::Proved(EverySurfaceProof::Vertex { .. }) => {
+            return unsupported("Theorem 7 beside a patch complex", "every point");
+        }
         Answer::Refuted(EverySurfaceBreak::Curve { curves, curve, .. }) => {
             let of = |k: usize| (k == *curve).then(|| &curves[k]);
             json!({"by": "product", "verdict": "refuted", "curves": product.every([of(0), of(1)])?})

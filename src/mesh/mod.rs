@@ -16,6 +16,7 @@
 
 mod certify;
 mod curvature;
+mod disc;
 mod found;
 mod interval;
 mod limit;
@@ -29,6 +30,7 @@ mod topology;
 
 pub use certify::certify;
 pub use curvature::{Curvature, Second, Size, curvature};
+pub use disc::immersed_disc;
 pub use found::{AtVertex, Bad, Found, Patches, Reason, Spot};
 pub use interval::Float;
 pub use limit::{Limit, Stencil};

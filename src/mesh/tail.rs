@@ -145,6 +145,22 @@ impl Tail {
         Ok(tail)
     }
 
+    /// The number of points of a net.
+    pub(super) fn points(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The number of a point in the net.
+    pub(super) fn at(&self, sector: usize, place: (usize, usize)) -> Option<usize> {
+        Some(self.index(sector as i64, self.orbit(place)?))
+    }
+
+    /// The net after one step of subdivision.
+    pub(super) fn step(&self, net: &[[Float; 3]]) -> Vec<[Float; 3]> {
+        let new = |row: &Vec<(usize, Float)>| std::array::from_fn(|k| sum(row.iter().map(|(i, w)| *w * net[*i][k])));
+        self.rows.iter().map(new).collect()
+    }
+
     fn index(&self, sector: i64, orbit: usize) -> usize {
         1 + sector.rem_euclid(self.valence as i64) as usize * self.places.len() + orbit
     }
@@ -325,10 +341,7 @@ impl Tail {
                     }
                 }
             }
-            let step = |row: &Vec<(usize, Float)>| -> [Float; 3] {
-                std::array::from_fn(|k| sum(row.iter().map(|(i, w)| *w * scaled[*i][k])).over(self.lambda))
-            };
-            scaled = self.rows.iter().map(step).collect();
+            scaled = self.step(&scaled).into_iter().map(|p| p.map(|x| x.over(self.lambda))).collect();
         }
         Rings::Slow(MAX_RINGS)
     }

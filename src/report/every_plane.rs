@@ -27,6 +27,16 @@ fn proof(surface: &Surface) -> Option<String> {
             decimal(&d.enclosure.hi, true, 6),
             d.share
         )),
+        Answer::Proved(EverySurfaceProof::Vertex { valence, rings: Some(rings) }) => Some(format!(
+            "Theorem 7 holds at valence {valence}, and all rings of the disc are immersed: {rings} were tested patch by patch, the \
+             others are near the characteristic map ({})",
+            Statement::VertexEveryPoint.short_name()
+        )),
+        Answer::Proved(EverySurfaceProof::Vertex { valence, rings: None }) => Some(format!(
+            "it is seen as the characteristic map at a vertex of valence {valence}, which is regular and injective ({}, {})",
+            Statement::Theorem7.short_name(),
+            Statement::VertexEveryPoint.short_name()
+        )),
         Answer::Refuted(_) | Answer::Open(_) => None,
     }
 }
@@ -58,6 +68,7 @@ pub fn value(surface: &Surface) -> Value {
             json!("product")
         }
         Answer::Proved(EverySurfaceProof::Derivative(_)) => json!("derivative"),
+        Answer::Proved(EverySurfaceProof::Vertex { .. }) => json!("vertex"),
         Answer::Refuted(EverySurfaceBreak::Point(_)) => json!("point"),
         Answer::Open(_) => Value::Null,
     };

@@ -1,5 +1,6 @@
 //! Reports: one document model, and its renderings.
 
+pub mod border;
 pub mod claims;
 pub mod document;
 pub mod every;

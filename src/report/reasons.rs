@@ -185,7 +185,7 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
             "the shape has no parameters: it starts at no face, or its faces are not divided evenly".to_owned()
         }
         EverySurfaceGap::NoProduct => {
-            "the patch is no tensor product of two curves of one state, none of whose pieces is a point".to_owned()
+            "the patch is no tensor product of two curves of one state, or a cell of one of them may be a point".to_owned()
         }
         EverySurfaceGap::Folded => {
             "the tensor product is seen through control points that fold some of its relevant space".to_owned()

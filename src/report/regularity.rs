@@ -21,6 +21,9 @@ pub fn list(numbers: &[Rational]) -> String {
     numbers.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
+/// What is said of the mask of a case with control points.
+pub const ALL_POINTS: &str = "about the mask and all control points together; those of the case are not looked at (secant certify --require c1 does)";
+
 /// What was done with the coefficients before they were a mask.
 #[must_use]
 pub fn remark(remark: &Remark, arity: usize) -> String {

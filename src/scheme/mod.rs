@@ -1,5 +1,6 @@
 //! Schemes turned into shapes: masks, named curves, tensor products, mesh rules at extraordinary vertices, imports.
 
+mod border;
 mod curves;
 mod error;
 mod fractint;
@@ -25,6 +26,7 @@ mod univariate;
 mod vertex;
 mod wavelets;
 
+pub use border::{BorderError, BorderScheme, BorderSide, MAX_COLUMN, NamedSide, averaged_border};
 pub use curves::{
     PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, hilbert, koch, lebesgue, levy, minkowski_sausage,
     okamoto, peano, plane_shape, sierpinski, takagi, terdragon,
@@ -34,7 +36,9 @@ pub use fractint::{FractintEntry, parse_fractint};
 pub use interpolation::{Interpolation, MAX_INTERPOLATION, Matching};
 pub use irrational::{FieldLocalMatrix, FieldMask, daubechies, field_local_matrix};
 pub use json::parse_json;
-pub use lattice::{BoxSpline, Dilation, LatticeError, LatticeMask, Terms, lattice_names, named_mask, point};
+pub use lattice::{
+    BoxSpline, Dilation, LatticeError, LatticeMask, Terms, lattice_names, lattice_patch, named_mask, point,
+};
 pub use laurent::{Laurent, MAX_WIDTH};
 pub use mask::{MAX_ARITY, MAX_DIMENSION, Mask, Normalisation};
 pub use mesh::Sector;
@@ -44,7 +48,7 @@ pub use registry::{Parameter, SchemeInfo, build, build_with_vertices, list, mask
 pub use rule::{AllValences, MeshRule, RuleInfo, Spline, Split, rational_cosine};
 pub(crate) use rule::{Corners, Lattice};
 pub use rules::{mesh_rule, mesh_rules};
-pub use sector::{Place, SectorStencils, Weight, sector_stencils};
+pub use sector::{Place, SectorStencils, Weight, disc_places, sector_stencils};
 pub use spans::{Ends, clamped_knots, of_spans, over_knots, windows};
 pub use tensor::{MAX_COORDINATES, kronecker, tensor};
 pub use text::{Heading, case_text, complex_text};

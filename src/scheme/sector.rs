@@ -92,6 +92,37 @@ pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<
     Ok(SectorStencils { places, rows, from_centre, centre, sector, steps: rule.steps() })
 }
 
+/// The sector and the place of each point of the disc of [`super::disc`] around a vertex, in its order; `None` is the vertex.
+///
+/// # Errors
+/// [`SchemeError::Mesh`] for dual rules.
+///
+/// # Examples
+/// ```
+/// use secant::scheme::{disc_places, mesh_rule};
+/// let places = disc_places(&mesh_rule("catmull-clark", &[].into())?, 5)?;
+/// assert_eq!((places.len(), places[0]), (31, None));
+/// assert!(places.contains(&Some((4, (1, 1)))));
+/// # Ok::<(), secant::scheme::SchemeError>(())
+/// ```
+pub fn disc_places(rule: &MeshRule, valence: usize) -> Result<Vec<Option<(usize, Place)>>, SchemeError> {
+    let failure = || SchemeError::Mesh { rule: rule.name().to_owned(), message: "no disc around a vertex".to_owned() };
+    if rule.dual() || !(3..=super::MAX_VALENCE).contains(&valence) {
+        return Err(failure());
+    }
+    let sector = rule.sector();
+    let (mesh, centre) = (Mesh::disc(&vec![sector; valence], 7), Centre::Vertex(0, 1));
+    let mut known = BTreeMap::new();
+    for (turn, view) in views(&mesh, centre).ok_or_else(failure)?.into_iter().enumerate() {
+        for place in places(sector, false, 2) {
+            known.insert(locate(&mesh, view, sector, place).ok_or_else(failure)?, (turn, place));
+        }
+    }
+    let points = mesh.walk(centre, 2).ok_or_else(failure)?.points;
+    let place = |v: &usize| if *v == 0 { Ok(None) } else { known.get(v).copied().map(Some).ok_or_else(failure) };
+    points.iter().map(place).collect()
+}
+
 /// The places of one sector up to a number of rings.
 fn places(sector: Sector, dual: bool, rings: usize) -> Vec<Place> {
     let mut all = Vec::new();

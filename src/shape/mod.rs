@@ -14,6 +14,7 @@ mod own;
 mod polytope;
 mod resolution;
 mod sample;
+mod solid;
 mod space;
 mod unknown;
 
@@ -31,5 +32,6 @@ pub use own::OwnPoints;
 pub use polytope::{Polytopes, Weights};
 pub use resolution::{MAX_CELLS, Resolution, level};
 pub use sample::{MAX_SAMPLES, Sample, depth_within, random_sample, sample, words_of_length};
+pub use solid::SolidCells;
 pub use space::{Spaces, StateSpace, difference};
 pub use unknown::{Family, Forced, MAX_UNKNOWNS, Problem, Solution, Source, UnknownError};

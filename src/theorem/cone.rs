@@ -441,7 +441,11 @@ const MAX_RATE_LENGTH: u32 = 3;
 pub fn most_pieces(shape: &Shape) -> usize {
     let states = shape.reachable().into_iter().map(|e| &shape.states[e]);
     let parts = states.flat_map(|s| (0..s.pieces.len()).map(|i| (Rational::from(1) / s.share(i)).ceiling()));
-    parts.map(|n| usize::try_from(&n).map_or(usize::MAX, |n| n)).fold(1, usize::max)
+    let number = |n: Integer| match usize::try_from(&n) {
+        Ok(n) => n,
+        Err(_) => usize::MAX,
+    };
+    parts.map(number).fold(1, usize::max)
 }
 
 /// A short number not below one that is at least 1.

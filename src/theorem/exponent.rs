@@ -88,7 +88,11 @@ impl ExponentBounds {
     pub(super) fn cut(&self, whole: Interval) -> Interval {
         let at = |bound: &Option<ExponentBound>| bound.as_ref().map(|b| b.at.clone());
         let (lo, hi) = (at(&self.below), at(&self.above));
-        Interval::new(lo.unwrap_or(whole.lo), hi.unwrap_or(whole.hi))
+        let end = |found: Option<Rational>, whole: Rational| match found {
+            Some(bound) => bound,
+            None => whole,
+        };
+        Interval::new(end(lo, whole.lo), end(hi, whole.hi))
     }
 }
 
@@ -102,7 +106,7 @@ impl Search<'_> {
     fn exponent_of(&self, system: &System, path: &[usize], k: u64) -> Option<u64> {
         let size = to_f64(&Lower::of(system, path)?.enclosure(60).mid()).ln() * path.len() as f64;
         let shares: Vec<&Rational> = self.shares.iter().flatten().collect();
-        let shrunk: f64 = path.iter().map(|a| shares.get(*a).map_or(0.0, |s| to_f64(s).ln())).sum();
+        let shrunk: f64 = path.iter().filter_map(|a| shares.get(*a)).map(|s| to_f64(s).ln()).sum();
         let alpha = k as f64 + size / shrunk;
         (alpha.is_finite() && alpha >= 0.0).then_some((alpha * DENOMINATOR as f64).floor() as u64)
     }

@@ -100,7 +100,10 @@ impl<'a> LocalContext<'a> {
 /// Some linear algebra, and the enclosure of a functional on a few hundred cells.
 #[must_use]
 pub fn local_sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -> Vec<LocalSide> {
-    sides(shape, spaces, balls, branch).map_or_else(Vec::new, |found| found)
+    match sides(shape, spaces, balls, branch) {
+        Some(found) => found,
+        None => Vec::new(),
+    }
 }
 
 fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -> Option<Vec<LocalSide>> {

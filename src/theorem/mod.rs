@@ -1,6 +1,7 @@
 //! The theorem checker: from a shape to verdicts with evidence. Statements and proofs are in `docs/theory.md`.
 #![deny(clippy::disallowed_methods)]
 
+pub mod border;
 mod branch;
 pub mod claim;
 mod components;

@@ -253,6 +253,20 @@ impl Matrix {
         (0..exponent).try_fold(Self::identity(self.rows), |p, _| p.times(self))
     }
 
+    /// A basis of the kernel, as rows.
+    pub fn kernel(&self) -> Checked<Self> {
+        let (rows, pivots) = self.echelon()?;
+        let free: Vec<usize> = (0..self.cols).filter(|j| !pivots.contains(j)).collect();
+        let mut data = vec![BigInt::zero(); free.len() * self.cols];
+        for (k, &j) in free.iter().enumerate() {
+            data[k * self.cols + j].clone_from(&rows.den);
+            for (i, &p) in pivots.iter().enumerate() {
+                data[k * self.cols + p] = -rows.data[i * self.cols + j].clone();
+            }
+        }
+        Ok(Self { rows: free.len(), cols: self.cols, data, den: rows.den })
+    }
+
     /// The only solution `X` of `self X = right`, if there is exactly one.
     pub fn solve(&self, right: &Self) -> Checked<Option<Self>> {
         let n = self.cols;

@@ -280,7 +280,7 @@ impl Reader {
 
 /// Whether shares, where there are any, are those of all pieces of a curve, positive and of sum 1.
 fn divides(state: &State) -> bool {
-    let shares: Vec<&Q> = state.pieces.iter().filter_map(|p| p.share.as_ref()).collect();
+    let shares: Vec<&Q> = state.pieces.iter().flat_map(|p| &p.share).collect();
     let own = state.kind == Kind::Edge && shares.len() == state.pieces.len();
     let whole = || shares.iter().fold(Q::zero(), |sum, s| sum + *s) == Q::one();
     shares.is_empty() || own && shares.iter().all(|s| s.is_positive()) && whole()

@@ -1,11 +1,12 @@
 //! Regularity of the limits of a mask on a lattice (theory, Theorem 14): the window and the quotient are built again from the mask;
 //! bounds of a joint spectral radius, the orders that follow, and why shifts are stable.
 
+pub mod border;
 mod read;
 mod torus;
 
 use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, bits, need, some, spend, whole};
-use crate::claim::Claim;
+use crate::claim::{Claim, Decided};
 use crate::jsr::{System, bounds};
 use num_traits::{One, ToPrimitive, Zero};
 use read::{Mask, minus, plus};
@@ -18,6 +19,20 @@ const MAX_WINDOW: usize = 256;
 /// Checks the proof of a certificate of the kind `lattice`.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let mask = Mask::read(source)?;
+    let Proved { claims, blocks } = proved(&mask, node)?;
+    Ok(Accepted { case: mask.name, verdict: Verdict::Proved, claims, points: blocks })
+}
+
+/// What is said of blocks of a radius.
+type Proof = Vec<Decided>;
+
+/// What is proved about a mask.
+struct Proved {
+    claims: Vec<Decided>,
+    blocks: Proof,
+}
+
+fn proved(mask: &Mask, node: &Node<'_>) -> Checked<Proved> {
     let [rules, window, radius, shifts, orders] = node.fields("rules window radius shifts orders")?;
     let k = rules.index(MAX_RULES + 1)?;
     rules.need(k > 0, "rules", "sum rules of order 1 at least are needed")?;
@@ -26,13 +41,13 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     }
     let whole_rules = !mask.keeps(k)?;
     let points = read_points(&window, mask.dilation.dimensions())?;
-    let window = Window { mask: &mask, points, degree: k - 1 };
+    let window = Window { mask, points, degree: k - 1 };
     node.at(window.check())?;
     let letters = node.at(window.quotient())?;
     let dims = vec![letters[0].rows];
     let arrows = letters.into_iter().map(|m| (0, 0, m)).collect();
     let found = bounds(&System { name: String::new(), dims, arrows }, &radius)?;
-    let size = Size { low: found.lower, high: found.upper, mask: &mask };
+    let size = Size { low: found.lower, high: found.upper, mask };
     let stable = !shifts.is_null();
     if stable {
         shifts.need(size.is_below(0)?, "shifts", "the radius is not below 1: there need not be a limit function")?;
@@ -81,7 +96,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         let exact = stable && whole_rules;
         claims.push(Claim::LatticeExponent { dimensions, index, low, high, exact }.is(Verdict::Proved));
     }
-    Ok(Accepted { case: mask.name, verdict: Verdict::Proved, claims, points: found.blocks })
+    Ok(Proved { claims, blocks: found.blocks })
 }
 
 /// The points of a window, ascending.
@@ -151,6 +166,24 @@ impl Mask {
     }
 }
 
+/// Operators modulo a space of nets, the rows: of a net its values at the points that are no leading columns of their echelon form,
+/// after that multiple of each row is taken off which makes the value at its leading column 0.
+fn modulo(nets: &Matrix, operators: &[Matrix]) -> Checked<Vec<Matrix>> {
+    let (rows, pivots) = nets.echelon()?;
+    let free: Vec<usize> = (0..nets.cols).filter(|j| !pivots.contains(j)).collect();
+    need(!free.is_empty(), "window", "nothing is left of the nets on the window")?;
+    let mut letters = Vec::new();
+    for operator in operators {
+        let turned = operator.transpose();
+        let kept = turned.columns(&free).transpose();
+        let taken = rows.columns(&free).transpose().times(&turned.columns(&pivots).transpose())?;
+        let whole = kept.minus(&taken);
+        need(whole.times(&rows.transpose())?.is_zero(), "window", "polynomials are not kept")?;
+        letters.push(whole.columns(&free));
+    }
+    Ok(letters)
+}
+
 /// A window with the degree of the polynomials.
 struct Window<'a> {
     mask: &'a Mask,
@@ -199,23 +232,11 @@ impl Window<'_> {
         Matrix::from_rows(self.points.len(), &self.points.iter().map(row).collect::<Vec<_>>())
     }
 
-    /// The operators modulo polynomials: of a net its values at the points that are no leading columns of the echelon form of the
-    /// polynomials, after that multiple of each of its rows is taken off which makes the value at its leading column 0.
+    /// The operators modulo polynomials.
     fn quotient(&self) -> Checked<Vec<Matrix>> {
         let all: Vec<&Vec<i64>> = self.points.iter().collect();
-        let (rows, pivots) = values(self.degree, &all)?.echelon()?;
-        let free: Vec<usize> = (0..self.points.len()).filter(|j| !pivots.contains(j)).collect();
-        need(!free.is_empty(), "window", "all nets on the window are polynomials")?;
-        let mut letters = Vec::new();
-        for digit in &self.mask.dilation.digits {
-            let turned = self.operator(digit).transpose();
-            let kept = turned.columns(&free).transpose();
-            let taken = rows.columns(&free).transpose().times(&turned.columns(&pivots).transpose())?;
-            let whole = kept.minus(&taken);
-            need(whole.times(&rows.transpose())?.is_zero(), "window", "polynomials are not kept")?;
-            letters.push(whole.columns(&free));
-        }
-        Ok(letters)
+        let operators: Vec<Matrix> = self.mask.dilation.digits.iter().map(|d| self.operator(d)).collect();
+        modulo(&values(self.degree, &all)?, &operators)
     }
 
     /// Why the shifts of the limit function are stable.

@@ -43,22 +43,28 @@ impl Mask {
             let name = some(word(node, "name")?, "case", "a name is needed")?.to_owned();
             let mask = node.field("mask")?;
             mask.known("dilation grid origin directions")?;
-            let origin = places(&mask.field("origin")?)?;
-            let s = origin.len();
-            mask.need((1..=MAX_DIMENSIONS).contains(&s), "case", "1 to 4 dimensions are read")?;
-            let dilation = match mask.get("dilation") {
-                Some(node) => node.at(Dilation::new(node.each(places)?))?,
-                None => Dilation::new((0..s).map(|i| (0..s).map(|j| if i == j { 2 } else { 0 }).collect()).collect())?,
-            };
-            mask.need(dilation.rows.len() == s, "case", "the dilation has another dimension than the grid")?;
-            let (mut terms, mut place) = (BTreeMap::new(), Vec::new());
-            grid(&mask.field("grid")?, &origin, &mut place, &mut terms)?;
-            let directions = match mask.get("directions") {
-                Some(node) => Some(node.each(places)?),
-                None => None,
-            };
-            Ok(Self { name, terms, dilation, directions })
+            Self::table(&name, &mask)
         })
+    }
+
+    /// Reads a table with a grid of coefficients.
+    pub fn table(name: &str, mask: &Node<'_>) -> Checked<Self> {
+        let name = name.to_owned();
+        let origin = places(&mask.field("origin")?)?;
+        let s = origin.len();
+        mask.need((1..=MAX_DIMENSIONS).contains(&s), "case", "1 to 4 dimensions are read")?;
+        let dilation = match mask.get("dilation") {
+            Some(node) => node.at(Dilation::new(node.each(places)?))?,
+            None => Dilation::new((0..s).map(|i| (0..s).map(|j| if i == j { 2 } else { 0 }).collect()).collect())?,
+        };
+        mask.need(dilation.rows.len() == s, "case", "the dilation has another dimension than the grid")?;
+        let (mut terms, mut place) = (BTreeMap::new(), Vec::new());
+        grid(&mask.field("grid")?, &origin, &mut place, &mut terms)?;
+        let directions = match mask.get("directions") {
+            Some(node) => Some(node.each(places)?),
+            None => None,
+        };
+        Ok(Self { name, terms, dilation, directions })
     }
 
     /// The coefficient at a point.

@@ -1,7 +1,7 @@
 //! Tensor products of two curves: `p(s, t) = a(s) ⊗ b(t)` (docs/certificate.md, section 8.1).
 
 use super::chart::Chart;
-use crate::base::{Checked, Matrix, Node, Verdict, need, together};
+use crate::base::{Checked, Matrix, Node, Verdict, need, spend, together};
 use crate::curve::{Address, Kind, Model, Piece, Place, Point, Root, Shape, State, kronecker, turns};
 
 /// The operators of a curve of one state, whose columns sum to 1.
@@ -20,7 +20,27 @@ pub fn curve(node: &Node<'_>) -> Checked<Shape> {
     Ok(Shape::new(states, 0, Matrix::identity(dim)))
 }
 
-/// Two curves, neither of them constant, with points of them.
+/// Whether outside the smallest space `K` (rows) that holds all vectors which some operator takes into it there is a vector: what is
+/// outside stays there, so no product of the operators is 0.
+fn never_vanish(operators: &[Matrix]) -> Checked<bool> {
+    let Some(size) = operators.first().map(|a| a.cols) else { return Ok(false) };
+    let mut space = Matrix::empty(size);
+    let mut grown = true;
+    while std::mem::take(&mut grown) {
+        for operator in operators {
+            spend(1, 0)?;
+            // (A | Kᵗ) (x, y) = 0.
+            let into = operator.beside(&space.transpose()).kernel()?;
+            let taken = into.part(0..into.rows, 0..size);
+            if let Some((joined, _)) = space.joined(&taken)? {
+                (space, grown) = (joined, true);
+            }
+        }
+    }
+    Ok(space.rows < size)
+}
+
+/// Two curves, no cell of which is a point, with points of them.
 pub struct Product<'a> {
     curves: Vec<(Model<'a>, Vec<Point>)>,
 }
@@ -47,10 +67,12 @@ impl<'a> Product<'a> {
             let [_, contraction, points] = node.fields("operators contraction points")?;
             let model = Model::read(shape, &contraction)?;
             shape.check_curves()?;
-            // Along a piece that is a point the curve is constant, and its germ at a parameter is not that of the set.
-            let pieces = shape.states[0].pieces.len();
-            let moves = pieces > 0 && model.spaces.solid(0)?.len() == pieces && model.spaces.of(0)?.basis.cols > 0;
-            node.need(moves, "product", "the curve or one of its pieces is a point")?;
+            // Along a cell that is a point the curve is constant, and the tangent subspace is that of the other curve.
+            let pieces = &shape.states[0].pieces;
+            let linear = pieces.iter().map(|p| model.spaces.linear(&p.op, 0, 0)).collect::<Checked<Vec<_>>>()?;
+            let moves =
+                never_vanish(&linear)? || never_vanish(&linear.iter().map(Matrix::transpose).collect::<Vec<_>>())?;
+            node.need(!pieces.is_empty() && moves, "product", "the curve or one of its cells may be a point")?;
             let check = |item: &Node<'_>| Point::check(&model, &root(shape), item);
             let points = points.each(check)?;
             read.push((model, points));
@@ -84,5 +106,29 @@ impl<'a> Product<'a> {
             both = both.min(point.verdict);
         }
         Ok(both)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::Q;
+    use num_traits::One;
+
+    #[test]
+    fn products_that_vanish() {
+        let (zero, one, two) = (Q::from_integer(0.into()), Q::one(), -Q::one());
+        let matrix = |entries: [usize; 4]| {
+            Matrix::new(2, 2, &entries.map(|k| [zero.clone(), one.clone(), two.clone()][k].clone()))
+        };
+        // The image of the second one is killed by the first one.
+        assert_eq!(never_vanish(&[matrix([1, 2, 0, 0]), matrix([1, 0, 1, 0])]), Ok(false));
+        assert_eq!(never_vanish(&[matrix([1, 0, 0, 0]), matrix([1, 0, 1, 0])]), Ok(true));
+        // Both kill a line, and keep another one.
+        let (a, b) = (matrix([1, 1, 0, 0]), matrix([1, 2, 0, 0]));
+        assert_eq!(never_vanish(&[a.clone(), b.clone()]), Ok(false));
+        assert_eq!(never_vanish(&[a.transpose(), b.transpose()]), Ok(true));
+        assert_eq!(never_vanish(&[]), Ok(false));
+        assert_eq!(never_vanish(&[Matrix::zeros(0, 0)]), Ok(false));
     }
 }

@@ -165,16 +165,22 @@ fn ring_blocks(branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
         pieces.map(|p| format!("`{}`", word_text(&p.word))).collect()
     };
     let (kept, dropped) = (cells(false), cells(true));
-    let mut blocks = Vec::new();
-    if kept.is_empty() {
-        blocks.push(Block::text("No cell is left in the ring $K$.", []));
+    let all: Vec<String> = branch.ring.iter().map(|p| format!("`{}`", word_text(&p.word))).collect();
+    let consists = if all.is_empty() {
+        "The ring $K$ is empty.".to_owned()
     } else {
-        let noun = if kept.len() == 1 { "the cell" } else { "the cells" };
-        blocks.push(Block::text(&format!("The ring $K$ consists of {noun} {}.", listed(&kept)), []));
-    }
+        let noun = if all.len() == 1 { "the cell" } else { "the cells" };
+        format!("The ring $K$ consists of {noun} {}.", listed(&all))
+    };
+    let mut blocks = vec![Block::text(&consists, [])];
     if !dropped.is_empty() {
-        let text =
+        let mut text =
             format!("By Lemma 2 these cells, which fall into $q$ as a whole, are left out: {}.", listed(&dropped));
+        text.push_str(if kept.is_empty() {
+            " No cell is left in the ring."
+        } else {
+            " Below, $K$ and $X$ stand for the other cells."
+        });
         blocks.extend(seen.once_id(Statement::Lemma2));
         blocks.push(Block::text(&text, []));
     }

@@ -20,8 +20,15 @@ use crate::theorem::{Certified, SlowCycle};
 use malachite_base::num::arithmetic::traits::Pow;
 
 pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
+    let blocks = curve(case, found, seen);
+    let heading = (!blocks.is_empty()).then(|| Block::heading(2, "Every point"));
+    heading.into_iter().chain(blocks).collect()
+}
+
+/// The same of one curve, which may be a factor of a surface.
+pub(super) fn curve(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let Some(result) = &found.everywhere else { return Vec::new() };
-    let mut blocks = vec![Block::heading(2, "Every point")];
+    let mut blocks = Vec::new();
     if let Some(cone) = &result.cone {
         let statement = cone.statement();
         if statement == Statement::Theorem6Slow {

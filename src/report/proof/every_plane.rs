@@ -5,11 +5,11 @@ use super::super::every_plane;
 use super::super::math::Math;
 use super::super::radius::decimal;
 use super::super::words::{count, listed, mark};
-use super::Quoted;
 use super::evidence::Evidence;
+use super::product::moves;
+use super::{Quoted, every};
 use crate::answer::Answer;
 use crate::case::Case;
-use crate::shape::Spaces;
 use crate::statement::Statement;
 use crate::theorem::Certified;
 use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface};
@@ -19,12 +19,23 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
     match &surface.every {
         Answer::Proved(EverySurfaceProof::Product(curves))
         | Answer::Refuted(EverySurfaceBreak::Curve { curves, .. }) => {
+            for (k, (which, found)) in ["first", "second"].into_iter().zip(curves.iter()).enumerate() {
+                let Some(factor) = surface.factors.as_ref().and_then(|f| f.get(k)) else { continue };
+                let mut own = case.clone();
+                own.shape.clone_from(&factor.shape);
+                blocks.push(Block::heading(3, &format!("Every point of the {which} curve")));
+                blocks.extend(every::curve(&own, found, seen));
+            }
             blocks.extend(seen.once_id(Statement::TensorEveryPoint));
             blocks.push(product(case, surface, curves).block());
         }
         Answer::Proved(EverySurfaceProof::Derivative(found)) => {
             blocks.extend(seen.once_id(Statement::PatchDerivative));
             blocks.push(derivative(found).block());
+        }
+        Answer::Proved(EverySurfaceProof::Vertex { valence, rings }) => {
+            blocks.extend(seen.once_id(Statement::VertexEveryPoint));
+            blocks.push(around_vertex(case, *valence, *rings).block());
         }
         Answer::Refuted(EverySurfaceBreak::Point(_)) | Answer::Open(_) => {}
     }
@@ -62,6 +73,26 @@ fn derivative(found: &PatchDerivative) -> Evidence {
         .holds("rank", &rank, [])
 }
 
+/// What was verified of the statement on the disc around a vertex.
+fn around_vertex(case: &Case, valence: usize, rings: Option<usize>) -> Evidence {
+    let at = format!(
+        "at valence {valence} the characteristic map has a Jacobian determinant of one strict sign, and a half-plane holds the \
+         image of a sector (`secant certify CASE --valence {valence}` shows both)."
+    );
+    let view = match (&case.shape.control, rings) {
+        (None, _) => "there are no control points.".to_owned(),
+        (Some(_), None) => "the control points are injective on the relevant space.".to_owned(),
+        (Some(_), Some(rings)) => format!(
+            "the leading coefficients are independent, {rings} rings pass the test patch by patch, and the later ones are within \
+             the room around the characteristic map."
+        ),
+    };
+    Evidence::of(Statement::VertexEveryPoint)
+        .holds("disc", "the shape was built from a mesh rule with polynomial patches.", [])
+        .holds("vertex", &at, [])
+        .holds("view", &view, [])
+}
+
 /// What was verified of the theorem on tensor products at every point.
 fn product(case: &Case, surface: &Surface, curves: &[Certified; 2]) -> Evidence {
     let mut evidence = Evidence::of(Statement::TensorEveryPoint).holds(
@@ -69,16 +100,10 @@ fn product(case: &Case, surface: &Surface, curves: &[Certified; 2]) -> Evidence 
         "the operators of the surface are the tensor products of those of the two curves.",
         [],
     );
-    let moves = surface.factors.as_ref().is_some_and(|factors| {
-        factors.iter().all(|f| {
-            Spaces::new(&f.shape).is_some_and(|spaces| {
-                let pieces = &f.shape.states[f.shape.start].pieces;
-                pieces.iter().all(|p| !f.shape.is_point(&spaces, p))
-            })
-        })
-    });
-    let text = if moves { "no piece of the two curves is a point." } else { "a piece may be a point." };
-    evidence.push("no-point", if moves { Tone::Good } else { Tone::Bad }, words(text));
+    for (k, factor) in surface.factors.iter().flatten().enumerate() {
+        let (tone, text) = moves(["first", "second"][k.min(1)], factor);
+        evidence.push("no-point", tone, text);
+    }
     for (which, curve) in ["first", "second"].into_iter().zip(curves) {
         let Some(every) = &curve.everywhere else {
             evidence.push("curves", Tone::Open, words(format!("nothing is known of the {which} curve.")));

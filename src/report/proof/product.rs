@@ -7,7 +7,7 @@ use super::super::words::{addresses, direction, listed, mark};
 use super::evidence::Evidence;
 use super::{Quoted, contracts, cycles, matrix, scheme};
 use crate::case::Case;
-use crate::shape::{Piece, Shape, Spaces};
+use crate::shape::{Shape, SolidCells, Spaces};
 use crate::statement::Statement;
 use crate::theorem::surface::{ProductFactor, Surface, SurfacePoint};
 use crate::theorem::{BranchReport, Outcome, PointReport, StateReport, Verdict};
@@ -177,21 +177,8 @@ pub(super) fn evidence(case: &Case, surface: &Surface, listed_above: bool) -> Ev
         }
         text.extend(words("."));
         evidence.push("product", Tone::Good, text);
-        let ranks = Spaces::new(&factor.shape).map(|spaces| {
-            let rank = |p: &Piece| (&p.op * &spaces.of(factor.shape.start).basis).rank();
-            state.pieces.iter().map(rank).collect::<Vec<usize>>()
-        });
-        match ranks {
-            Some(ranks) if ranks.iter().all(|r| *r > 0) => {
-                let ranks: Vec<String> = ranks.iter().map(ToString::to_string).collect();
-                let text = format!(
-                    "on the relevant space of the {which} curve the operators have the ranks {}.",
-                    listed(&ranks)
-                );
-                evidence.push("no-point", Tone::Good, words(text));
-            }
-            _ => evidence.push("no-point", Tone::Bad, words(format!("a piece of the {which} curve may be a point."))),
-        }
+        let (tone, text) = moves(which, factor);
+        evidence.push("no-point", tone, text);
     }
     let operators = "the operators of the surface are the tensor products of those of the two curves (column sums of 1 make them unique).";
     evidence.push("product", Tone::Good, words(operators));
@@ -203,4 +190,24 @@ pub(super) fn evidence(case: &Case, surface: &Surface, listed_above: bool) -> Ev
     };
     evidence.push("view", Tone::Good, text);
     evidence
+}
+
+/// Why no cell of a curve is a point.
+pub(super) fn moves(which: &str, factor: &ProductFactor) -> (Tone, Line) {
+    let spaces = Spaces::new(&factor.shape);
+    let Some(SolidCells { dims, rows }) = spaces.and_then(|spaces| factor.shape.solid_cells(&spaces)) else {
+        return (Tone::Bad, words(format!("a cell of the {which} curve may be a point.")));
+    };
+    let (on, act) = if rows { ("the rows on $V$", " from the right") } else { ("$V$", "") };
+    let avoided: Vec<String> = dims.iter().map(ToString::to_string).collect();
+    let text = if dims.iter().all(|k| *k == 0) {
+        format!("the operators of the {which} curve act injectively on {on}{act}, so that no product of them is 0.")
+    } else {
+        format!(
+            "the operators of the {which} curve, acting on {on}{act}, take nothing that is outside a proper subspace, of dimension {}, \
+             into it, so that no product of them is 0.",
+            listed(&avoided)
+        )
+    };
+    (Tone::Good, line(&text, []))
 }

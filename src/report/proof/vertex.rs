@@ -235,12 +235,16 @@ fn modulus(f: &AtValence) -> Line {
 
 fn setting(f: &AtValence, mut evidence: Evidence) -> Evidence {
     let Some(top) = &f.top else { return evidence };
-    let mut text = words(
-        "the scheme is symmetric by construction; besides 1, counted once, the eigenvalues of largest modulus are ",
-    );
+    let (plus, minus) = (top.members.iter().any(|m| !m.negative), top.members.iter().any(|m| m.negative));
+    let (before, after) = match (plus, minus) {
+        (true, true) => ("eigenvalues of largest modulus are ", " and $-λ$"),
+        (_, false) => ("eigenvalue of largest modulus is ", ""),
+        (false, true) => ("eigenvalue of largest modulus is $-λ$ with ", ""),
+    };
+    let mut text = line(&format!("the scheme is symmetric by construction; besides 1, counted once, the {before}"), []);
     text.extend(modulus(f));
     text.extend(line(
-        " and $-λ$ in the blocks listed, which is below 1 in modulus, and all others are at most $@$ in modulus.",
+        &format!("{after}, in the blocks listed, below 1 in modulus, and all others are at most $@$ in modulus."),
         [short_bound(&top.others)],
     ));
     evidence.push("setting", Tone::Good, text);

@@ -2,10 +2,12 @@
 
 mod dilation;
 mod named;
+mod patch;
 mod terms;
 
 pub use dilation::Dilation;
 pub use named::{BoxSpline, lattice_names, named_mask};
+pub use patch::lattice_patch;
 pub use terms::Terms;
 
 use super::SchemeError;
@@ -40,6 +42,9 @@ pub enum LatticeError {
     /// A dilation that cannot be read.
     #[error("`{0}` is no dilation: write [[1,1],[1,-1]], quincunx, sqrt3, or a whole number")]
     Text(String),
+    /// A patch of a mask that has none.
+    #[error("only masks in two variables whose dilation is a multiple of the unit matrix have patches over squares")]
+    Patch,
     /// No coefficient.
     #[error("the mask is zero")]
     Zero,
@@ -193,13 +198,17 @@ impl LatticeMask {
     #[must_use]
     pub fn case_text(&self, name: &str) -> String {
         let rows: Vec<String> = self.dilation.rows().iter().map(|r| format!("{r:?}")).collect();
-        let mut out = format!("name = {name:?}\n\n[mask]\ndilation = [{}]\n", rows.join(", "));
-        let Some((low, high)) = self.terms.corners() else { return out };
-        let _ = writeln!(out, "origin = {low:?}\ngrid = {}", self.grid(&low, &high, &mut Vec::new()));
+        let mut out = format!("name = {name:?}\n\n[mask]\ndilation = [{}]\n{}", rows.join(", "), self.grid_text());
         if let Some(splines) = &self.splines {
             let _ = writeln!(out, "directions = {:?}", splines.directions);
         }
         out
+    }
+
+    /// The lines of a case with the coefficients.
+    pub(in crate::scheme) fn grid_text(&self) -> String {
+        let Some((low, high)) = self.terms.corners() else { return String::new() };
+        format!("origin = {low:?}\ngrid = {}\n", self.grid(&low, &high, &mut Vec::new()))
     }
 
     fn grid(&self, low: &[i64], high: &[i64], at: &mut Vec<i64>) -> String {

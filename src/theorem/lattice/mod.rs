@@ -5,6 +5,7 @@ mod window;
 
 pub use stability::{Cells, Samples, Stability};
 pub use window::{MAX_RULES, MAX_WINDOW, Window, monomials};
+pub(super) use window::{modulo, operators_keep};
 
 use super::regularity::{Attained, minus_log};
 use crate::arith::{Interval, Rational};

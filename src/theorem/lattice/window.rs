@@ -1,7 +1,7 @@
 //! The operators of a mask on windows: finite sets of points whose new points depend on old points of the set only.
 
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Echelon, Matrix};
 use crate::scheme::LatticeMask;
 use std::collections::BTreeSet;
 
@@ -129,22 +129,39 @@ impl Window {
     #[must_use]
     pub fn quotient(&self, mask: &LatticeMask) -> Option<Vec<Matrix>> {
         let polynomials = values(mask.dilation().dimensions(), self.degree, &self.points).echelon();
-        let (rows, pivots) = (&polynomials.rows, &polynomials.pivots);
-        let free: Vec<usize> = (0..self.points.len()).filter(|j| !pivots.contains(j)).collect();
-        let reduced = |a: &Matrix| {
-            let row = |f: &usize| {
-                let mut row = a.row(*f).to_vec();
-                for (i, p) in pivots.iter().enumerate().filter(|(i, _)| rows[(*i, *f)] != 0) {
-                    row.iter_mut().zip(a.row(*p)).for_each(|(x, y)| *x -= &rows[(i, *f)] * y);
-                }
-                row
-            };
-            let whole = Matrix::from_rows(self.points.len(), free.iter().map(row).collect());
-            let kept = (&whole * &rows.transpose()).is_zero();
-            kept.then(|| Matrix::from_fn(free.len(), free.len(), |i, j| whole[(i, free[j])].clone()))
-        };
-        mask.dilation().digits().iter().map(|d| reduced(&self.operator(mask, d))).collect()
+        let operators: Vec<Matrix> = mask.dilation().digits().iter().map(|d| self.operator(mask, d)).collect();
+        operators_keep(&polynomials, &operators).then(|| modulo(&polynomials, &operators))
     }
+}
+
+/// Operators on nets modulo a space of nets (rows in echelon form): the values at the points that are no pivots, after that multiple
+/// of every row is taken off which makes the value at its pivot 0.
+fn reduced(space: &Echelon, operator: &Matrix) -> Matrix {
+    let (rows, pivots) = (&space.rows, &space.pivots);
+    let row = |f: usize| {
+        let mut row = operator.row(f).to_vec();
+        for (i, p) in pivots.iter().enumerate().filter(|(i, _)| rows[(*i, f)] != 0) {
+            row.iter_mut().zip(operator.row(*p)).for_each(|(x, y)| *x -= &rows[(i, f)] * y);
+        }
+        row
+    };
+    let free = (0..rows.cols()).filter(|j| !pivots.contains(j));
+    Matrix::from_rows(rows.cols(), free.map(row).collect())
+}
+
+/// Whether operators keep a space of nets.
+pub fn operators_keep(space: &Echelon, operators: &[Matrix]) -> bool {
+    operators.iter().all(|a| (&reduced(space, a) * &space.rows.transpose()).is_zero())
+}
+
+/// Operators on nets modulo a space of nets that they keep, in the coordinates that are no pivots of it.
+pub fn modulo(space: &Echelon, operators: &[Matrix]) -> Vec<Matrix> {
+    let free: Vec<usize> = (0..space.rows.cols()).filter(|j| !space.pivots.contains(j)).collect();
+    let on = |a: &Matrix| {
+        let whole = reduced(space, a);
+        Matrix::from_fn(free.len(), free.len(), |i, j| whole[(i, free[j])].clone())
+    };
+    operators.iter().map(on).collect()
 }
 
 #[cfg(test)]

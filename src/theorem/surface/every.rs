@@ -6,8 +6,11 @@ use super::place::{Chart, Spot};
 use super::tensor::Product;
 use super::verdict::{Surface, SurfacePoint};
 use crate::answer::Answer;
+use crate::shape::{Shape, Spaces};
 use crate::statement::Statement;
-use crate::theorem::{Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict};
+use crate::theorem::{
+    Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict, Viewpoint,
+};
 
 /// Whether a surface is G¹: immersed, with a tangent plane at every point, up to its border, which turns continuously.
 pub type EverySurface = Answer<EverySurfaceProof, EverySurfaceBreak, Vec<EverySurfaceGap>>;
@@ -19,6 +22,13 @@ pub enum EverySurfaceProof {
     Product(Box<[Certified; 2]>),
     /// It is C¹ in its parameters, and immersed.
     Derivative(Box<PatchDerivative>),
+    /// It lies around a vertex at which Theorem 7 holds.
+    Vertex {
+        /// The valence.
+        valence: usize,
+        /// With control points that are not injective: how many rings of the disc were tested one by one.
+        rings: Option<usize>,
+    },
 }
 
 /// Why it is not.
@@ -48,16 +58,43 @@ pub fn claim(
         Some(chart) => decide(setting, chart, product, surface),
         None => Answer::Open(vec![EverySurfaceGap::Unparametrised]),
     };
-    let by = match &every {
+    let claim = claimed(&every, surface);
+    (every, claim)
+}
+
+/// Settles what is open of every point of the surface around a vertex of a valence at which the hypotheses of Theorem 7 hold: of
+/// the disc, or of a patch at the vertex, where control points are injective, or all rings of the disc are immersed after so many
+/// of them were tested, and no point is known to have no tangent plane.
+pub fn around_vertex(found: &mut Certified, shape: &Shape, valence: usize, rings: Option<usize>) {
+    let Some(surface) = found.surface.as_mut().filter(|s| matches!(s.every, Answer::Open(_))) else { return };
+    let injective = || {
+        Spaces::new(shape).is_some_and(|spaces| {
+            let basis = &spaces.of(shape.start).basis;
+            (Viewpoint::start(shape).map() * basis).rank() == basis.cols()
+        })
+    };
+    if rings.is_none() && !injective() {
+        return;
+    }
+    surface.every = match surface.points.iter().any(|p| p.verdict == Verdict::Refuted) {
+        true => Answer::Open(vec![EverySurfaceGap::Contradiction]),
+        false => Answer::Proved(EverySurfaceProof::Vertex { valence, rings }),
+    };
+    let claim = claimed(&surface.every, surface);
+    found.claims.iter_mut().filter(|c| c.what == Assertion::PlaneEverywhere).for_each(|c| *c = claim.clone());
+}
+
+fn claimed(every: &EverySurface, surface: &Surface) -> Claim {
+    let by = match every {
         Answer::Proved(EverySurfaceProof::Product(_)) | Answer::Refuted(EverySurfaceBreak::Curve { .. }) => {
             Some(Statement::TensorEveryPoint)
         }
         Answer::Proved(EverySurfaceProof::Derivative(_)) => Some(Statement::PatchDerivative),
+        Answer::Proved(EverySurfaceProof::Vertex { .. }) => Some(Statement::VertexEveryPoint),
         Answer::Refuted(EverySurfaceBreak::Point(k)) => surface.points[*k].statement,
         Answer::Open(_) => None,
     };
-    let claim = Claim::as_found(Assertion::PlaneEverywhere, every.verdict(), by, Reason::EverySurfacePoint);
-    (every, claim)
+    Claim::as_found(Assertion::PlaneEverywhere, every.verdict(), by, Reason::EverySurfacePoint)
 }
 
 fn decide(setting: &Setting, chart: &Chart, product: Option<&Product>, surface: &Surface) -> EverySurface {

@@ -13,7 +13,7 @@ mod winding;
 
 pub use branch::leading_functionals;
 pub use derivative::PatchDerivative;
-pub use every::{EverySurface, EverySurfaceBreak, EverySurfaceProof};
+pub use every::{EverySurface, EverySurfaceBreak, EverySurfaceProof, around_vertex};
 pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
 pub use tensor::{factors, product_point};

@@ -27,18 +27,16 @@ struct Factor {
 }
 
 impl Factor {
-    /// `None` where the curve is none, it or one of its pieces is a point, or it is not known to contract. (Where a piece is a point the
-    /// curve is constant along it, and the germ at a parameter there is not that of the curve as a set.)
+    /// `None` where the curve is none, a cell of it may be a point, or it is not known to contract. (Where a cell is a point the curve
+    /// is constant along it, and the tangent subspace of the product is that of the other curve.)
     fn new(shape: &Shape, budget: &Budget) -> Option<Self> {
         shape.check().ok()?;
         let (found, _) = decide_contraction(shape, budget).ok()?;
         shape.check_curves().ok()?;
         let spaces = Spaces::new(shape)?;
-        let moves = shape.reachable().into_iter().all(|e| {
-            spaces.of(e).basis.cols() > 0 && shape.states[e].pieces.iter().all(|p| !shape.is_point(&spaces, p))
-        });
+        shape.solid_cells(&spaces)?;
         let balls = Balls::of(shape, &spaces, &found)?;
-        moves.then(|| Self {
+        Some(Self {
             shape: shape.clone(),
             contraction: found,
             spaces,
