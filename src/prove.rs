@@ -10,8 +10,8 @@ use crate::answer::{Answer, Verdict};
 use crate::budget::Budget;
 use crate::case::{Case, Origin, Question, Valences, VertexCase};
 use crate::diagnostic::Problem;
-use crate::mesh::immersed_disc;
-use crate::scheme::mesh_rules;
+use crate::mesh::{Fan, immersed_disc};
+use crate::scheme::{Sector, mesh_rules};
 use crate::stop;
 use crate::theorem::Certified;
 use crate::theorem::surface::{around_vertex, certify_complex_within};
@@ -111,8 +111,13 @@ fn examine(
     step: &(dyn Fn() + Sync),
 ) -> Result<Vec<AtValence>, Problem> {
     let flag = stop::flag();
+    let triangles = case.rule.sector() == Sector::Triangles;
+    let at = |n: usize| match case.border {
+        Some(smooth) => Ok(Fan { triangles, smooth, faces: n }.at(budget)),
+        None => at_valence_within(&case.rule, n, budget),
+    };
     let one = |&n: &usize| {
-        let found = stop::stoppable(flag.clone(), || at_valence_within(&case.rule, n, budget));
+        let found = stop::stoppable(flag.clone(), || at(n));
         step();
         found.map_err(|error| {
             Problem::new("secant::scheme", format!("{} at valence {n}: {error}", case.name)).with_source(&case.text)

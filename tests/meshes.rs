@@ -1,5 +1,7 @@
 //! Meshes with known answers, and limits against subdivision in floats that shares no code with the library.
 
+mod borders;
+
 use assert_cmd::Command;
 use secant::answer::Verdict::{self, Proved, Refuted, Undetermined};
 use secant::budget::Budget;

@@ -3,13 +3,14 @@
 use secant::algebraic::Root;
 use secant::answer::Verdict;
 use secant::arith::{Rational, ratio, to_f64};
-use secant::ask::{Regions, regions};
+use secant::ask::{Regions, RegionsOfCurve, curve_regions, regions};
 use secant::budget::{Budget, Effort};
 use secant::case::setting;
 use secant::radius::family::Search;
 use secant::radius::{Ended, Options};
-use secant::theorem::region::{Finding, OrderRegion, Part};
+use secant::theorem::region::{CurveClaim, Finding, OrderRegion, Part, Subject, member_verdict};
 use secant::theorem::regularity::regularity;
+use secant::theorem::{ModelError, certify};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -306,4 +307,194 @@ fn the_program_answers() {
     assert!(code == Some(0) && text.contains("smoothness  C^2"), "{text}{problem}");
     let (code, _, problem) = run(&["certify", &case, "t=1/50", "u=3"]);
     assert!(code == Some(2) && problem.contains("no parameter `u`"), "{problem}");
+}
+
+fn curve(name: &str, set: &[&str]) -> RegionsOfCurve {
+    let set: Vec<_> = set.iter().map(|t| setting(t).unwrap()).collect();
+    let found = curve_regions(&PathBuf::from(family(name)), &set, &Search::default(), &Budget::default()).unwrap();
+    for table in &found.found.tables {
+        for part in &table.parts {
+            let (from, to) = (part.from.to_f64().0, part.to.to_f64().0);
+            println!("{:?} {from} {to} {:?} {:?}", table.subject, part.verdict, part.basis);
+        }
+    }
+    found
+}
+
+fn says(found: &RegionsOfCurve, subject: Subject, p: &Root) -> Verdict {
+    let table = found.found.tables.iter().find(|t| t.subject == subject).expect("a table");
+    table.at(p).expect("the parts are the range")
+}
+
+/// Single members, all over the range and a little beside every end, say nothing else; how many verdicts were compared.
+fn compare_members(found: &RegionsOfCurve, count: i64) -> usize {
+    let (lo, hi) = &found.case.range;
+    let mut points: Vec<Rational> = (0..=count).map(|k| lo + (hi - lo) * ratio(k, count)).collect();
+    for end in found.found.tables.iter().flat_map(|t| &t.parts).map(|p| &p.from) {
+        let near = end.enclosure(60).0.mid();
+        let far = ratio(1, 1_000_000_000);
+        points.extend([&near - &far, &near + &far].into_iter().filter(|p| p >= lo && p <= hi));
+    }
+    points.sort();
+    points.dedup();
+    let mut compared = 0;
+    for p in &points {
+        let here = |subject| says(found, subject, &Root::from_rational(p));
+        let mut same = |subject, own| {
+            if own != Verdict::Undetermined && here(subject) != Verdict::Undetermined {
+                assert_eq!(own, here(subject), "{subject:?} at {p}");
+                compared += 1;
+            }
+        };
+        match certify(&found.family.member(p), &[]) {
+            Ok(own) => {
+                let contracts = if own.contraction.is_proved() { Verdict::Proved } else { Verdict::Undetermined };
+                same(Subject::Contraction, contracts);
+                for claim in CurveClaim::ALL {
+                    same(Subject::Curve(claim), member_verdict(&own, claim));
+                }
+            }
+            Err(ModelError::Expands { .. }) => same(Subject::Contraction, Verdict::Refuted),
+            Err(other) => panic!("{other} at {p}"),
+        }
+    }
+    compared
+}
+
+/// The verdicts on one claim at several values.
+fn expect_claim(found: &RegionsOfCurve, claim: CurveClaim, values: &[(i64, i64, Verdict)]) {
+    for (p, q, verdict) in values {
+        let here = says(found, Subject::Curve(claim), &Root::from_rational(&ratio(*p, *q)));
+        assert_eq!(here, *verdict, "{claim:?} at {p}/{q}");
+    }
+}
+
+#[test]
+fn corner_cutting() {
+    use CurveClaim::{Ends, G1, Joints};
+    use Verdict::{Proved, Refuted};
+    // On the line b = 1/4: proved for 0, (0, 3/8] and 3/4, refuted between, beyond, and below 0.
+    let line = curve("corner-cutting.toml", &["a=-1/5..9/10"]);
+    let small = 1_000_000_000;
+    expect_claim(&line, G1, &[(0, 1, Proved), (3, 8, Proved), (1, small, Proved), (3, 4, Proved), (1, 3, Proved)]);
+    expect_claim(&line, G1, &[(-1, small, Refuted), (-1, 10, Refuted), (1, 2, Refuted), (4, 5, Refuted)]);
+    expect_claim(&line, G1, &[(375_000_001, small, Refuted), (374_999_999, small, Proved)]);
+    expect_claim(&line, Ends, &[(1, 10, Proved), (1, 2, Proved), (3, 8, Proved), (7, 10, Proved)]);
+    expect_claim(&line, Joints, &[(1, 10, Proved), (1, 2, Refuted), (3, 8, Proved), (7, 10, Refuted)]);
+    assert!(compare_members(&line, 22) > 60);
+    // Both parameters equal: G¹ for (0, 1/3] and 1/2.
+    let equal = curve("de-rham.toml", &[]);
+    expect_claim(&equal, G1, &[(1, 3, Proved), (1, 2, Proved), (1, 4, Proved), (2, 5, Refuted), (3, 5, Refuted)]);
+    expect_claim(&equal, G1, &[(333_333_334, small, Refuted), (499_999_999, small, Refuted), (9, 10, Refuted)]);
+    assert!(compare_members(&equal, 14) > 40);
+}
+
+#[test]
+fn takagi_and_okamoto() {
+    use CurveClaim::{Ends, G1, Joints};
+    use Verdict::{Proved, Refuted};
+    let takagi = curve("takagi-landsberg.toml", &[]);
+    let small = 1_000_000_000;
+    expect_claim(&takagi, G1, &[(1, 4, Proved), (1, 8, Refuted), (1, 3, Refuted), (1, 2, Refuted), (3, 4, Refuted)]);
+    expect_claim(&takagi, G1, &[(250_000_001, small, Refuted), (249_999_999, small, Refuted), (-3, 5, Refuted)]);
+    expect_claim(&takagi, Joints, &[(1, 4, Proved), (1, 3, Refuted), (1, 8, Refuted)]);
+    expect_claim(&takagi, Ends, &[(1, 4, Proved), (1, 3, Proved), (-1, 3, Proved)]);
+    assert!(compare_members(&takagi, 18) > 40);
+    let okamoto = curve("okamoto.toml", &[]);
+    expect_claim(&okamoto, G1, &[(1, 3, Proved), (1, 4, Refuted), (2, 5, Refuted), (1, 2, Refuted), (3, 5, Refuted)]);
+    expect_claim(&okamoto, G1, &[(333_333_333, small, Refuted), (333_333_334, small, Refuted)]);
+    expect_claim(&okamoto, Joints, &[(1, 3, Proved)]);
+    assert!(compare_members(&okamoto, 14) > 30);
+}
+
+#[test]
+fn certificates_of_curves_are_accepted_and_forgeries_are_not() {
+    for (name, set) in [("okamoto.toml", "a=1/5..3/5"), ("takagi-landsberg.toml", "r=-3/5..3/5")] {
+        curve(name, &[set]).certificate().unwrap();
+    }
+    let found = curve("corner-cutting.toml", &["a=1/10..1/2"]);
+    let (text, plain) = found.certificate().unwrap();
+    let whole: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let accepted = secant_check::check(&plain, &text).unwrap();
+    let said: Vec<String> = accepted.claims.iter().map(ToString::to_string).collect();
+    assert!(said.iter().any(|s| s.starts_with("proved for every a strictly between") && s.contains("G1")), "{said:?}");
+    assert!(said.iter().any(|s| s.starts_with("refuted for every a strictly between") && s.contains("G1")), "{said:?}");
+    let rejects = |what: &str, change: &dyn Fn(&mut serde_json::Value)| {
+        let mut forged = whole.clone();
+        change(&mut forged["proof"]);
+        assert_ne!(forged, whole, "{what}");
+        assert!(secant_check::check(&plain, &forged.to_string()).is_err(), "{what}");
+    };
+    let fact = |why: &str| found_fact(&whole, why);
+    let (cones, corner, in_cone) = (fact("cones"), fact("corner"), fact("in-cone"));
+    rejects("a proof moved to the corners", &|p| {
+        let parts = p["claims"][2]["parts"].as_array_mut().unwrap();
+        let at = parts.iter().position(|x| x["by"][0] == corner).unwrap();
+        (parts[at]["by"][0], parts[at]["verdict"]) = (cones.into(), "proved".into());
+    });
+    rejects("a corner moved to the proof", &|p| {
+        let parts = p["claims"][2]["parts"].as_array_mut().unwrap();
+        let at = parts.iter().position(|x| x["by"][0] == cones).unwrap();
+        (parts[at]["by"][0], parts[at]["verdict"]) = (corner.into(), "refuted".into());
+    });
+    rejects("an eigenvalue that does not lead", &|p| {
+        p["facts"][in_cone]["values"][0] = serde_json::json!(["0", "1"]);
+    });
+    rejects("another ray", &|p| p["facts"][cones]["rays"][0] = serde_json::json!([["1"], ["-3"]]));
+    rejects("a cycle left out", &|p| drop(p["facts"][cones]["cycles"].as_array_mut().unwrap().pop()));
+    rejects("a window of no letters", &|p| p["facts"][cones]["at"] = serde_json::json!([0]));
+    rejects("words that do not span", &|p| p["facts"][cones]["span"] = serde_json::json!([[], []]));
+    rejects("a part left out", &|p| drop(p["claims"][2]["parts"].as_array_mut().unwrap().drain(1..3)));
+    rejects("claims exchanged", &|p| p["claims"].as_array_mut().unwrap().swap(0, 1));
+    // The border is no part of what is proved beside it.
+    rejects("a longer interval", &|p| {
+        let end = serde_json::json!({"polynomial": ["-2/5", "1"], "interval": ["2/5", "2/5"]});
+        for part in p["claims"][2]["parts"].as_array_mut().unwrap() {
+            for side in ["from", "to"] {
+                if part[side]["polynomial"][0] == "-3/8" {
+                    part[side] = end.clone();
+                }
+            }
+        }
+    });
+    let other = plain.replace("\"1/4\"", "\"1/3\"");
+    assert!(other != plain && secant_check::check(&other, &text).is_err());
+}
+
+/// The first fact with a reason.
+fn found_fact(certificate: &serde_json::Value, why: &str) -> usize {
+    let facts = certificate["proof"]["facts"].as_array().unwrap();
+    facts.iter().position(|f| f["why"] == why && f["claim"] != "joints").expect("a fact")
+}
+
+#[test]
+fn the_program_answers_about_curves() {
+    let dir = tempfile::tempdir().unwrap();
+    let run = |args: &[&str]| {
+        let out = Command::new(env!("CARGO_BIN_EXE_secant")).args(args).current_dir(dir.path()).output().unwrap();
+        (out.status.code(), String::from_utf8(out.stdout).unwrap(), String::from_utf8(out.stderr).unwrap())
+    };
+    let case = family("de-rham.toml");
+    let files = ["--report", "a.html", "--svg", "a.svg", "--certificate", "a.json"];
+    let (code, text, problem) = run(&[&["region", case.as_str(), "a=1/4..2/5"], files.as_slice()].concat());
+    assert_eq!(code, Some(1), "{text}{problem}");
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("(1/4, 1/3)") && words.contains("lines of both sides differ"), "{text}");
+    for file in ["a.html", "a.svg", "a.json", "a.case.toml"] {
+        assert!(std::fs::metadata(dir.path().join(file)).is_ok_and(|m| m.len() > 100), "{file}");
+    }
+    let (code, data, problem) = run(&["region", &case, "a=1/5..3/10", "--json"]);
+    let data: serde_json::Value = serde_json::from_str(&data).unwrap_or_else(|e| panic!("{e} {problem}"));
+    assert_eq!((code, &data["claims"][3]["claim"]), (Some(0), &"g1".into()), "{data}");
+    assert_eq!(data["claims"][3]["table"][1]["interval"], serde_json::json!(["1/5", "3/10"]));
+    // Operators that do not depend on the parameter, and control points that do.
+    let text = std::fs::read_to_string(&case).unwrap();
+    let constant = text.replace("1 - a", "3/4").replace("\"a\"", "\"1/4\"");
+    std::fs::write(dir.path().join("constant.toml"), constant).unwrap();
+    let moved = text.replace("[parameters]", "control = [[0, 0], [\"a\", 1], [1, 0]]\n\n[parameters]");
+    std::fs::write(dir.path().join("moved.toml"), moved).unwrap();
+    for name in ["constant.toml", "moved.toml"] {
+        let (code, _, problem) = run(&["region", name]);
+        assert!(code == Some(2) && problem.contains("help"), "{name}: {problem}");
+    }
 }

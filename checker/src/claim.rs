@@ -179,6 +179,17 @@ pub enum Claim {
         /// The upper end; the same for a point.
         to: Real,
     },
+    /// A curve has a property for every value of a parameter in an interval, or for one value.
+    CurveRegion {
+        /// The property.
+        what: CurveRegion,
+        /// The parameter.
+        parameter: String,
+        /// The lower end of an open interval, or the point.
+        from: Real,
+        /// The upper end; the same for a point.
+        to: Real,
+    },
     /// The unknown entries have values that satisfy all equations.
     Solvable {
         /// The number of unknowns.
@@ -243,9 +254,42 @@ impl Display for Decided {
                 let part = if from == to { format!("at {from}") } else { format!("strictly between {from} and {to}") };
                 write!(f, "{word} for every {parameter} {part}: {}", region(*order))
             }
+            Claim::CurveRegion { what, parameter, from, to } => {
+                let part = if from == to { format!("at {from}") } else { format!("strictly between {from} and {to}") };
+                write!(f, "{word} for every {parameter} {part}: {what}")
+            }
             Claim::Point { place, kind } => write!(f, "{word}: {place}, {kind}"),
             claim => write!(f, "{word}: {claim}"),
         }
+    }
+}
+
+/// What is claimed of a curve at one value of its parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CurveRegion {
+    /// The system contracts.
+    Contraction,
+    /// It has a tangent line at both ends.
+    Ends,
+    /// It has a tangent line at every joint of every level.
+    Joints,
+    /// It is G¹.
+    G1,
+}
+
+impl CurveRegion {
+    /// In the order of a certificate.
+    pub const ALL: [Self; 4] = [Self::Contraction, Self::Ends, Self::Joints, Self::G1];
+}
+
+impl Display for CurveRegion {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(match self {
+            Self::Contraction => "the system contracts",
+            Self::Ends => "the curve has a tangent line at both ends",
+            Self::Joints => "the curve has a tangent line at every joint of every level, a dense set",
+            Self::G1 => "the curve is G1: it has a tangent at every point, which turns continuously",
+        })
     }
 }
 
@@ -408,6 +452,9 @@ impl Display for Claim {
             }
             Self::Region { order, parameter, from, to } => {
                 write!(f, "for every {parameter} from {from} to {to}, the ends left out: {}", region(*order))
+            }
+            Self::CurveRegion { what, parameter, from, to } => {
+                write!(f, "for every {parameter} from {from} to {to}, the ends left out: {what}")
             }
             Self::Solvable { unknowns, equations, free, .. } => {
                 let what = "values that satisfy";

@@ -195,10 +195,13 @@ impl Answered {
     pub fn kinds(&self) -> Vec<String> {
         match &self.findings {
             Findings::Tangents { found, .. } => kinds(found),
-            Findings::Vertices { found, .. } => counted(found.iter().map(|f| match f.smooth {
-                Verdict::Proved => "C¹ valence",
-                Verdict::Refuted => "valence not C¹",
-                Verdict::Undetermined => "open valence",
+            Findings::Vertices { found, .. } => counted(found.iter().map(|f| match (f.smooth, f.border) {
+                (Verdict::Proved, None) => "C¹ valence",
+                (Verdict::Refuted, None) => "valence not C¹",
+                (Verdict::Undetermined, None) => "open valence",
+                (Verdict::Proved, Some(_)) => "C¹ fan",
+                (Verdict::Refuted, Some(_)) => "fan not C¹",
+                (Verdict::Undetermined, Some(_)) => "open fan",
             })),
         }
     }

@@ -1,13 +1,15 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
 use crate::answer::Verdict;
-use crate::case::{MaskFamilyCase, Setting, named_family};
+use crate::budget::Budget;
+use crate::case::{CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, named_family};
 use crate::diagnostic::Problem;
 use crate::radius::family::Search;
 use crate::report::document::Document;
 use crate::report::region as report;
+use crate::report::region_curve as curve_report;
 use crate::scheme;
-use crate::theorem::region::{MaskFamily, OrderRegion};
+use crate::theorem::region::{CurveFamily, CurveRegions, MaskFamily, OrderRegion};
 use serde_json::Value;
 use std::path::Path;
 
@@ -93,16 +95,155 @@ impl Regions {
     /// A [`Problem`] where the checker does not accept it.
     pub fn certificate(&self) -> Result<(String, String), Problem> {
         let plain = self.case.plain();
-        let made = crate::certificate::region_certificate(&self.case.name, &self.family, &self.orders);
-        let made = crate::certificate::checked(&plain, made).map_err(|e| {
-            Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; nothing was written")
-        })?;
-        Ok((made.text(), plain))
+        accepted(plain, crate::certificate::region_certificate(&self.case.name, &self.family, &self.orders))
     }
 
     /// The tables as data (docs/json.md).
     #[must_use]
     pub fn data(&self) -> Value {
         report::data(&self.case, &self.family, &self.orders)
+    }
+}
+
+/// A certificate that the checker accepts, with what it is about.
+fn accepted(plain: String, made: crate::certificate::Certificate) -> Result<(String, String), Problem> {
+    let made = crate::certificate::checked(&plain, made).map_err(|e| {
+        Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; nothing was written")
+    })?;
+    Ok((made.text(), plain))
+}
+
+/// The regions of a curve with a parameter.
+#[derive(Debug, Clone)]
+pub struct RegionsOfCurve {
+    /// What was asked about.
+    pub case: CurveFamilyCase,
+    /// The curve.
+    pub family: CurveFamily,
+    /// The tables.
+    pub found: CurveRegions,
+}
+
+/// The regions of a case file with `[parameters]` and maps or operators.
+///
+/// # Errors
+/// A [`Problem`] where the input is no curve of one state with one parameter that is left free.
+pub fn curve_regions(
+    path: &Path,
+    set: &[(String, Setting)],
+    search: &Search,
+    budget: &Budget,
+) -> Result<RegionsOfCurve, Problem> {
+    let case = CurveFamilyCase::read(path, set)?;
+    let wrong = |message: String| {
+        Problem::new("secant::region", format!("{}: {message}", case.name))
+            .with_help("single values can be asked: `secant certify CASE w=1/16`")
+    };
+    let family = CurveFamily::new(case.operators.clone(), case.reversed.clone(), case.control.clone())
+        .map_err(|e| wrong(e.to_string()))?;
+    let found = family.regions(&case.range, search, budget).map_err(|e| wrong(e.to_string()))?;
+    Ok(RegionsOfCurve { case, family, found })
+}
+
+impl RegionsOfCurve {
+    /// The whole as one verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let parts: Vec<Verdict> = self.found.tables.iter().flat_map(|t| &t.parts).map(|part| part.verdict).collect();
+        Verdict::all(parts.len().max(1), parts)
+    }
+
+    /// The certificate, accepted by the checker, and the family in the plain form that it is about. Members that were asked by
+    /// themselves are undetermined in it.
+    ///
+    /// # Errors
+    /// A [`Problem`] where the checker does not accept it.
+    pub fn certificate(&self) -> Result<(String, String), Problem> {
+        accepted(self.case.plain(), crate::certificate::curve_region_certificate(&self.case.name, &self.found))
+    }
+}
+
+/// What `secant region` answers.
+#[derive(Debug, Clone)]
+pub enum Family {
+    /// Of a mask.
+    Mask(Box<Regions>),
+    /// Of a curve.
+    Curve(Box<RegionsOfCurve>),
+}
+
+impl Family {
+    /// The regions of what stands for a family, of masks up to an order.
+    ///
+    /// # Errors
+    /// A [`Problem`] where it is none.
+    pub fn ask(
+        what: &str,
+        set: &[(String, Setting)],
+        most: usize,
+        search: &Search,
+        budget: &Budget,
+    ) -> Result<Self, Problem> {
+        let named = scheme::list().iter().any(|s| s.name == what);
+        if !named && FamilyForm::of(Path::new(what))? == FamilyForm::Curve {
+            return Ok(Self::Curve(Box::new(curve_regions(Path::new(what), set, search, budget)?)));
+        }
+        Ok(Self::Mask(Box::new(regions(what, set, most, search)?)))
+    }
+
+    /// The whole as one verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Self::Mask(r) => r.verdict(),
+            Self::Curve(r) => r.verdict(),
+        }
+    }
+
+    /// The tables.
+    #[must_use]
+    pub fn document(&self) -> Document {
+        match self {
+            Self::Mask(r) => r.document(),
+            Self::Curve(r) => curve_report::document(&r.case, &r.found),
+        }
+    }
+
+    /// The tables with the statements and a picture.
+    #[must_use]
+    pub fn report(&self) -> Document {
+        match self {
+            Self::Mask(r) => r.report(),
+            Self::Curve(r) => curve_report::report(&r.case, &r.found),
+        }
+    }
+
+    /// The picture as SVG.
+    #[must_use]
+    pub fn svg(&self) -> Option<String> {
+        match self {
+            Self::Mask(r) => r.svg(),
+            Self::Curve(r) => curve_report::picture(&r.case, &r.found).map(|p| p.0),
+        }
+    }
+
+    /// The tables as data (docs/json.md).
+    #[must_use]
+    pub fn data(&self) -> Value {
+        match self {
+            Self::Mask(r) => r.data(),
+            Self::Curve(r) => curve_report::data(&r.case, &r.found),
+        }
+    }
+
+    /// The certificate and what it is about, as [`Regions::certificate`].
+    ///
+    /// # Errors
+    /// A [`Problem`] where the checker does not accept it.
+    pub fn certificate(&self) -> Result<(String, String), Problem> {
+        match self {
+            Self::Mask(r) => r.certificate(),
+            Self::Curve(r) => r.certificate(),
+        }
     }
 }

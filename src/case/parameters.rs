@@ -185,15 +185,9 @@ pub fn member_text(name: &str, text: &str, set: &[(String, Setting)]) -> Result<
         };
         values.insert(name.clone(), Poly::constant(value.clone()));
     }
-    let mut edits: Vec<(Range<usize>, String)> = Vec::new();
-    for (key, value) in table.get_ref() {
-        let key: &str = key.get_ref();
-        match key {
-            "parameters" | "name" | "title" | "source" | "expect" | "examine" => {}
-            "scheme" | "vertex" => numbers(value, true, &values, &mut edits),
-            _ => numbers(value, false, &values, &mut edits),
-        }
-    }
+    let number = |f: &Poly| f.degree().is_none_or(|d| d == 0).then(|| format!("\"{}\"", f.coeff(0)));
+    let mut edits: Vec<(Range<usize>, String)> =
+        expressions(&table, &values).into_iter().filter_map(|(span, f)| Some((span, number(&f)?))).collect();
     edits.sort_by_key(|(span, _)| span.start);
     let mut out = String::new();
     let mut at = 0;
@@ -229,30 +223,75 @@ pub(super) fn with_settings(text: &str) -> Result<Option<(PathBuf, Vec<(String, 
     Ok(None)
 }
 
-/// Every string in a list, and in a table of numbers every string, that is an expression in the names becomes a number.
-fn numbers(
+/// All expressions of a case that are numbers with values for the names: where they stand, and what they are.
+pub(super) fn expressions(table: &Spanned<DeTable<'_>>, values: &BTreeMap<String, Poly>) -> Vec<(Range<usize>, Poly)> {
+    let mut found = Vec::new();
+    for (key, value) in table.get_ref() {
+        let key: &str = key.get_ref();
+        match key {
+            "parameters" | "name" | "title" | "source" | "expect" | "examine" => {}
+            "scheme" | "vertex" => collect(value, true, values, &mut found),
+            _ => collect(value, false, values, &mut found),
+        }
+    }
+    found
+}
+
+/// Every string in a list, and in a table of numbers every string, that is an expression in the names.
+fn collect(
     value: &Spanned<DeValue<'_>>,
     direct: bool,
     values: &BTreeMap<String, Poly>,
-    edits: &mut Vec<(Range<usize>, String)>,
+    found: &mut Vec<(Range<usize>, Poly)>,
 ) {
     match value.get_ref() {
-        DeValue::Array(items) => items.iter().for_each(|item| numbers(item, true, values, edits)),
+        DeValue::Array(items) => items.iter().for_each(|item| collect(item, true, values, found)),
         DeValue::Table(table) => {
             for (key, value) in table {
                 let key: &str = key.get_ref();
                 if !LISTS.contains(&key) {
-                    numbers(value, direct && !WORDS.contains(&key), values, edits);
+                    collect(value, direct && !WORDS.contains(&key), values, found);
                 }
             }
         }
         DeValue::String(text) if direct && parse_rational(text).is_err() => {
-            if let Some(q) = polynomial(text, values).ok().filter(|f| f.degree().is_none_or(|d| d == 0)) {
-                edits.push((value.span(), format!("\"{}\"", q.coeff(0))));
-            }
+            found.extend(polynomial(text, values).ok().map(|f| (value.span(), f)));
         }
         _ => {}
     }
+}
+
+/// The one parameter that is left free, and what every name stands for: the free one for itself.
+pub(super) struct Free {
+    pub parameter: String,
+    pub range: (Rational, Rational),
+    pub names: BTreeMap<String, Poly>,
+}
+
+/// The parameters of a family.
+pub(super) fn one_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Free, Problem> {
+    let all = parameters(case, set)?;
+    let free: Vec<(&String, &Rational, &Rational)> = all
+        .iter()
+        .filter_map(|(n, s)| match s {
+            Setting::Range(from, to) => Some((n, from, to)),
+            Setting::Value(_) => None,
+        })
+        .collect();
+    let [(parameter, from, to)] = free.as_slice() else {
+        let message = format!("{} parameters are left free, and exactly one is needed", free.len());
+        return Err(case.problem("parameters", message, "this case").with_help(
+            "give one of them a range, behind the case as in  w=-1/2..1/2  or under [parameters] as in  w = \"-1/2..1/2\", and the \
+             others values",
+        ));
+    };
+    let variable = Poly::linear(&Rational::from(0));
+    let value = |(n, s): &(String, Setting)| match s {
+        Setting::Value(q) => (n.clone(), Poly::constant(q.clone())),
+        Setting::Range(..) => (n.clone(), variable.clone()),
+    };
+    let names = all.iter().map(value).collect();
+    Ok(Free { parameter: (*parameter).clone(), range: ((*from).clone(), (*to).clone()), names })
 }
 
 /// The text without the lines of its table `[parameters]`.
@@ -297,33 +336,12 @@ impl MaskFamilyCase {
 
     fn of_table(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let name = super::read::name(case)?;
-        let all = parameters(case, set)?;
-        let free: Vec<(&String, &Rational, &Rational)> = all
-            .iter()
-            .filter_map(|(n, s)| match s {
-                Setting::Range(from, to) => Some((n, from, to)),
-                Setting::Value(_) => None,
-            })
-            .collect();
-        let [(parameter, from, to)] = free.as_slice() else {
-            let message = format!("{} parameters are left free, and exactly one is needed", free.len());
-            return Err(case.problem("parameters", message, "this case").with_help(
-                "give one of them a range, behind the case as in  w=-1/2..1/2  or under [parameters] as in  w = \"-1/2..1/2\", and the \
-                 others values",
-            ));
-        };
-        let variable = Poly::linear(&Rational::from(0));
-        let value = |(n, s): &(String, Setting)| match s {
-            Setting::Value(q) => (n.clone(), Poly::constant(q.clone())),
-            Setting::Range(..) => (n.clone(), variable.clone()),
-        };
-        let names: BTreeMap<String, Poly> = all.iter().map(value).collect();
+        let free = one_free(case, set)?;
         let node = case.need("scheme", "{ mask = [ … ] }")?;
         let mut table = node.table()?;
         table.what = "`[scheme]`".to_owned();
-        let (arity, mask) = coefficients(&table, &names)?;
-        let range = ((*from).clone(), (*to).clone());
-        Ok(Self { name, parameter: (*parameter).clone(), range, arity, mask })
+        let (arity, mask) = coefficients(&table, &free.names)?;
+        Ok(Self { name, parameter: free.parameter, range: free.range, arity, mask })
     }
 
     /// The family in its plain form, which a checker reads.

@@ -92,7 +92,13 @@ impl Question {
     /// # Errors
     /// As [`VertexCase::read`].
     pub fn at_valences(path: &Path, valences: Valences) -> Result<Self, Problem> {
-        Ok(Self::Vertices { case: Arc::new(VertexCase::read(path)?), valences: Some(valences) })
+        let case = VertexCase::read(path)?;
+        if case.border.is_some() {
+            let message = format!("{} is about vertices on the border, which have no valence", case.name);
+            return Err(Problem::new("secant::usage::valence", message)
+                .with_help("leave --valence out; the numbers of faces stand in the file, as in faces = \"1..12\""));
+        }
+        Ok(Self::Vertices { case: Arc::new(case), valences: Some(valences) })
     }
 
     fn of_table(file: &File, table: &Table<'_>) -> Result<Self, Problem> {

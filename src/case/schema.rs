@@ -230,6 +230,11 @@ fn vertex() -> Value {
         "valence".to_owned(),
         json!({"type": ["integer", "string"], "description": "5, \"3..32\", \"3,5,8\" or \"all\""}),
     );
+    all.insert("boundary".to_owned(), words(&["smooth", "corner"]));
+    all.insert(
+        "faces".to_owned(),
+        json!({"type": ["integer", "string"], "description": "3, \"1..12\" or \"1,2,5..7\""}),
+    );
     all.insert("cell".to_owned(), words(&["face", "disc"]));
     all.insert("weights".to_owned(), json!({"type": "array", "items": reference("number")}));
     for parameter in scheme::mesh_rules().iter().flat_map(|s| s.parameters) {

@@ -34,12 +34,16 @@ impl Valences {
         if text.trim() == "all" {
             return Ok(Self::All);
         }
+        Self::numbers(text, 3, "valence").map(Self::List)
+    }
+
+    fn numbers(text: &str, least: usize, what: &str) -> Result<Vec<usize>, String> {
         let number = |part: &str| {
-            let n: usize = part.trim().parse().map_err(|_| format!("`{}` is no valence", part.trim()))?;
-            if (3..=MAX_VALENCE).contains(&n) {
+            let n: usize = part.trim().parse().map_err(|_| format!("`{}` is no {what}", part.trim()))?;
+            if (least..=MAX_VALENCE).contains(&n) {
                 Ok(n)
             } else {
-                Err(format!("the valence {n} is not between 3 and {MAX_VALENCE}"))
+                Err(format!("the {what} {n} is not between {least} and {MAX_VALENCE}"))
             }
         };
         let mut all = BTreeSet::new();
@@ -57,7 +61,7 @@ impl Valences {
                 }
             }
         }
-        Ok(Self::List(all.into_iter().collect()))
+        Ok(all.into_iter().collect())
     }
 }
 
@@ -76,6 +80,9 @@ pub struct VertexCase {
     pub rule: MeshRule,
     /// The valences of the file.
     pub valences: Option<Valences>,
+    /// The case is about vertices on the border: whether that is a smooth curve there, or the vertex is a corner. The valences
+    /// are then numbers of faces.
+    pub border: Option<bool>,
     /// What a test expects at which valences.
     pub expect: Vec<(usize, Verdict)>,
     /// Whether the file has a `[vertex]` table; asked for valences, a `[scheme]` of a mesh is a case about vertices too.
@@ -127,15 +134,61 @@ impl VertexCase {
         };
         vertex.what = if expects { "`[vertex]`" } else { "`[scheme]`" }.to_owned();
         let (scheme, rule) = rule(&vertex)?;
-        let valences = match vertex.get("valence") {
-            None => None,
-            Some(node) => Some(valences(&node)?),
+        let border = border(&vertex, &scheme)?;
+        let asked = match (vertex.get("valence"), vertex.get("faces"), border) {
+            (Some(node), None, None) => Some(valences(&node)?),
+            (None, Some(node), Some(_)) => Some(faces(&node)?),
+            (None, None, _) => None,
+            (Some(node), ..) => {
+                return Err(node
+                    .problem("value", "on the border there is no valence".to_owned(), "not here")
+                    .with_help("write faces = \"1..12\", the numbers of faces at the vertex"));
+            }
+            (None, Some(node), None) => {
+                return Err(node
+                    .problem("value", "faces are counted on the border only".to_owned(), "not here")
+                    .with_help("write boundary = \"smooth\" or \"corner\" beside it, or valence = \"3..12\""));
+            }
         };
-        let expect = root.get("expect").filter(|_| expects).map(|node| expect(&node)).transpose()?.unwrap_or_default();
+        let read = if border.is_some() { faces } else { valences };
+        let expect =
+            root.get("expect").filter(|_| expects).map(|node| expect(&node, read)).transpose()?.unwrap_or_default();
         let source = root.optional_text("source")?.map(str::to_owned);
         let (name, text) = (case_name, file.source.clone());
-        Ok(Self { name, title, source, scheme, rule, valences, expect, declared: expects, text })
+        Ok(Self { name, title, source, scheme, rule, valences: asked, border, expect, declared: expects, text })
     }
+}
+
+/// Whether the case is about the border, and of what kind it is there.
+fn border(table: &Table<'_>, scheme: &str) -> Result<Option<bool>, Problem> {
+    let Some(node) = table.get("boundary") else { return Ok(None) };
+    if !ON_BORDERS.contains(&scheme) {
+        return Err(node
+            .problem("value", format!("{scheme} has no rules of the border"), "not with this rule")
+            .with_help(format!("those of {} are known", ON_BORDERS.join(", "))));
+    }
+    match node.text()? {
+        "smooth" => Ok(Some(true)),
+        "corner" => Ok(Some(false)),
+        other => Err(node
+            .problem("value", format!("`{other}` is no kind of border"), "not known")
+            .with_help("write boundary = \"smooth\" (a spline curve) or \"corner\" (a vertex that stays)")),
+    }
+}
+
+/// The rules of which the border is known.
+const ON_BORDERS: [&str; 3] = ["catmull-clark", "loop", "loop-warren"];
+
+/// Numbers of faces on the border.
+fn faces(node: &Node<'_>) -> Result<Valences, Problem> {
+    let text = match node.index(MAX_VALENCE) {
+        Ok(n) => n.to_string(),
+        Err(_) => node.text()?.to_owned(),
+    };
+    Valences::numbers(&text, 1, "number of faces").map(Valences::List).map_err(|error| {
+        node.problem("value", error, "no numbers of faces")
+            .with_help("write faces = 3, \"1..12\" (both ends included) or \"1,2,5..7\"")
+    })
 }
 
 fn valences(node: &Node<'_>) -> Result<Valences, Problem> {
@@ -155,7 +208,7 @@ fn valences(node: &Node<'_>) -> Result<Valences, Problem> {
 }
 
 /// What the file expects: a list of valences for each verdict.
-fn expect(node: &Node<'_>) -> Result<Vec<(usize, Verdict)>, Problem> {
+fn expect(node: &Node<'_>, read: fn(&Node<'_>) -> Result<Valences, Problem>) -> Result<Vec<(usize, Verdict)>, Problem> {
     let table = node.table()?;
     table.only(&["proved", "refuted", "undetermined"])?;
     let mut all = Vec::new();
@@ -163,7 +216,7 @@ fn expect(node: &Node<'_>) -> Result<Vec<(usize, Verdict)>, Problem> {
         [("proved", Verdict::Proved), ("refuted", Verdict::Refuted), ("undetermined", Verdict::Undetermined)]
     {
         if let Some(node) = table.get(key)
-            && let Valences::List(list) = valences(&node)?
+            && let Valences::List(list) = read(&node)?
         {
             all.extend(list.into_iter().map(|n| (n, verdict)));
         }
@@ -181,7 +234,7 @@ fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
             .problem("value", error, "not a scheme on meshes")
             .with_help(format!("the schemes are {}", names.join(", "))));
     };
-    let mut known = vec!["mesh", "valence", "cell"];
+    let mut known = vec!["mesh", "valence", "cell", "boundary", "faces"];
     known.extend(info.parameters.iter().map(|p| p.name));
     known.extend(info.rest.iter().chain(&info.list));
     table.only(&known).map_err(|problem| {

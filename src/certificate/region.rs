@@ -26,11 +26,11 @@ fn order(order: &OrderRegion, all: &mut Vec<Verdict>) -> Value {
     json!({"order": order.order, "hulls": covers, "parts": parts})
 }
 
-fn text(q: &Rational) -> Value {
+pub(super) fn text(q: &Rational) -> Value {
     json!(q.to_string())
 }
 
-fn hull(cover: &Cover) -> Value {
+pub(super) fn hull(cover: &Cover) -> Value {
     let seed = |s: &Seed| match s {
         Seed::Eigen { word, column, scale } => json!({"word": word, "column": column, "scale": text(scale)}),
         Seed::Axis { index, scale } => json!({"word": [], "column": index, "scale": text(scale)}),
@@ -51,7 +51,7 @@ fn hull(cover: &Cover) -> Value {
 /// Binary places of the interval that names an end.
 const PLACES: u64 = 160;
 
-fn end(end: &Root) -> Value {
+pub(super) fn end(end: &Root) -> Value {
     end.rational().map_or_else(
         || {
             let (f, near) = (end.minpoly().monic(), end.enclosure(PLACES).0);

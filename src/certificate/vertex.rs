@@ -92,6 +92,9 @@ fn apart(top: &Top) -> bool {
 /// The evidence for one valence.
 fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> {
     let n = found.valence;
+    if found.border.is_some() {
+        return unsupported("a vertex on the border", format!("{n} faces"));
+    }
     let (Some(top), Some(ground), Some(vector)) = (&found.top, found.ground, &found.eigenvector) else {
         return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
     };

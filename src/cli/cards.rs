@@ -10,7 +10,7 @@ use crate::guard::guarded;
 use crate::picture::characteristic::thumbnail;
 use crate::prove::Findings;
 use crate::report::html::escaped;
-use crate::report::vertex::{panel, ranges};
+use crate::report::vertex::{panel, places};
 use crate::report::{claims, figures, findings, html, words};
 use crate::shape::Solution;
 use crate::theorem::{Assertion, Certified};
@@ -174,9 +174,9 @@ fn vertices(found: &[AtValence], every: Option<&Every>) -> (Option<String>, Stri
         .map(|e| format!("proved at every valence from {} on", e.from))
         .collect();
     for kind in [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined] {
-        let list: Vec<usize> = found.iter().filter(|f| f.smooth == kind).map(|f| f.valence).collect();
+        let list: Vec<&AtValence> = found.iter().filter(|f| f.smooth == kind).collect();
         if !list.is_empty() {
-            parts.push(format!("{} at {}", marked(kind), ranges(&list)));
+            parts.push(format!("{} at {}", marked(kind), places(&list)));
         }
     }
     let shown = found.iter().filter(|f| panel(f).is_some());

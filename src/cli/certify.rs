@@ -134,7 +134,9 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
             .with_help("give one mesh at a time, with its --scheme"));
     }
     if let Some(option) =
-        [(args.scheme.is_some(), "--scheme"), (args.ply.is_some(), "--ply")].iter().find(|o| o.0 && !mesh)
+        [(args.scheme.is_some(), "--scheme"), (args.ply.is_some(), "--ply"), (args.boundary.is_some(), "--boundary")]
+            .iter()
+            .find(|o| o.0 && !mesh)
     {
         return Err(Problem::new("secant::usage", format!("{} is for a mesh", option.1))
             .with_help("a mesh is a file that ends in .obj or .off"));

@@ -5,7 +5,7 @@ use super::certify::{exit_code, extension, json_text};
 use super::output::{self, say, to_stdout, write_file};
 use super::progress::Progress;
 use crate::diagnostic::Problem;
-use crate::mesh::{Found, Model, Scheme, certify};
+use crate::mesh::{Boundary, Found, Model, Scheme, certify};
 use crate::picture::mesh::{ply, svg};
 use crate::report::{html, latex, markdown, mesh as report};
 use std::path::Path;
@@ -26,7 +26,15 @@ pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
         Problem::new("secant::usage::scheme", format!("meshes are not refined by `{name}`"))
             .with_help(format!("the schemes for meshes are {names}"))
     })?;
-    let model = Model::read(path)?;
+    let mut model = Model::read(path)?;
+    if let Some(rule) = &args.boundary {
+        let known = Boundary::named(rule).ok_or_else(|| {
+            let names = Boundary::ALL.map(Boundary::name).join(" and ");
+            Problem::new("secant::usage::boundary", format!("there is no rule `{rule}` of the border"))
+                .with_help(format!("the rules are {names}"))
+        })?;
+        model.tags.boundary = Some(known);
+    }
     let progress = Progress::of(0, "vertices", args.quiet);
     let found = certify(&model, scheme, &args.budget(), &|| progress.step());
     progress.finish();

@@ -182,6 +182,10 @@ struct CertifyArgs {
     /// For a mesh (.obj, .off): the scheme of its limit surface, catmull-clark, loop or loop-warren.
     #[arg(long, value_name = "NAME")]
     scheme: Option<String>,
+    /// For a mesh with a border: its rule, edge (a spline curve) or edge-and-corner (vertices with one face stay fixed). It goes
+    /// before what the tags of the file say.
+    #[arg(long, value_name = "RULE")]
+    boundary: Option<String>,
     /// For a mesh: write it as PLY, its vertices coloured by verdict.
     #[arg(long, value_name = "FILE")]
     ply: Option<PathBuf>,

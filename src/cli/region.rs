@@ -5,7 +5,7 @@ use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
-use crate::ask::{Regions, regions};
+use crate::ask::Family;
 use crate::budget::{Budget, Effort};
 use crate::case::setting;
 use crate::diagnostic::Problem;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct RegionArgs {
-    /// A case file with `[parameters]` and a mask, or the name of a scheme, with the range of its parameter behind it, as in
+    /// A case file with `[parameters]` and a mask, maps or operators, or the name of a scheme, with the range of its parameter behind it, as in
     /// `four-point w=-1/2..1/2`.
     #[arg(value_name = "CASE")]
     what: String,
@@ -27,7 +27,7 @@ pub struct RegionArgs {
     /// The same.
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// The highest order of smoothness that is asked about; without it all that the sum rules allow.
+    /// The highest order of smoothness of masks that is asked about; without it all that the sum rules allow.
     #[arg(long, value_name = "K")]
     order: Option<usize>,
     /// Gaps that are narrower are left.
@@ -49,7 +49,7 @@ pub struct RegionArgs {
     /// Write the tables with the statements to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Draw a bar for each order, coloured by verdict.
+    /// Draw a bar for each order or claim, coloured by verdict.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md), and the family beside it.
@@ -82,7 +82,7 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
         search = search.within(seconds);
     }
     search.hulls = args.hulls.unwrap_or(search.hulls);
-    let found = regions(&args.what, &set, args.order.unwrap_or(usize::MAX), &search)?;
+    let found = Family::ask(&args.what, &set, args.order.unwrap_or(usize::MAX), &search, &Budget::of(args.effort))?;
     files(args, &found, render)?;
     if args.json {
         print(&format!("{:#}\n", found.data()));
@@ -96,7 +96,7 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
     })
 }
 
-fn files(args: &RegionArgs, found: &Regions, render: Option<fn(&Document) -> String>) -> Result<(), Problem> {
+fn files(args: &RegionArgs, found: &Family, render: Option<fn(&Document) -> String>) -> Result<(), Problem> {
     let certificate = args.certificate.as_ref().map(|_| found.certificate()).transpose()?;
     if let (Some(path), Some(render)) = (&args.report, render) {
         write_file(path, render(&found.report()))?;

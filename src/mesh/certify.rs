@@ -1,12 +1,13 @@
 //! How a mesh is examined: its vertices, its patches, and the rings around extraordinary vertices.
 
-use super::found::{AtVertex, Bad, Found, Patches, Reason, Spot};
+use super::found::{AtVertex, Bad, Found, Patches};
 use super::interval::Float;
-use super::limit::{Limit, Stencil, collinear};
-use super::patch::{Regular, bezier, control, regular, regular_exactly};
-use super::read::{Model, Point};
-use super::refine::{Exact, Floats, Level, Space};
+use super::open::{Opened, opened};
+use super::patch::{Combination, Regular, bezier, combined, control, regular, regular_exactly};
+use super::read::{MAX_FACES, Model, Point};
+use super::refine::{Exact, Floats, Kind, Level, Space};
 use super::scheme::Scheme;
+use super::soft::Soft;
 use super::tail::Tail;
 use super::topology::Frame;
 use crate::answer::Verdict;
@@ -14,7 +15,7 @@ use crate::budget::Budget;
 use crate::diagnostic::Problem;
 use crate::scheme::{MAX_VALENCE, MeshRule};
 use crate::vertex::net::Spot as Parameter;
-use crate::vertex::{AtValence, at_valence_within, every};
+use crate::vertex::{AtValence, at_valence_within};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Halvings of a patch in floats, and exactly.
@@ -22,22 +23,27 @@ const DEPTH: usize = 8;
 /// Patches that are tested exactly at most.
 const EXACT: usize = 400;
 
-/// The largest valence that is examined.
-const LARGEST: usize = 512;
+/// A face whose patch floats did not decide, its control points, and where.
+type Left = (usize, Vec<Combination>, Parameter);
 
 /// The rule, its stencils and levels, while a mesh is examined.
-struct Work<'a> {
-    model: &'a Model,
-    scheme: Scheme,
-    rule: MeshRule,
-    budget: &'a Budget,
-    step: &'a (dyn Fn() + Sync),
-    triangles: bool,
-    /// The mesh of the file after one step, where it has faces without four corners.
-    start: Level,
+pub(super) struct Work<'a> {
+    pub model: &'a Model,
+    pub scheme: Scheme,
+    pub rule: MeshRule,
+    pub budget: &'a Budget,
+    pub step: &'a (dyn Fn() + Sync),
+    pub triangles: bool,
+    /// The mesh of the file, cut open along its sharp edges.
+    pub opened: Opened,
+    /// The same after one step, where it has faces without four corners.
+    pub start: Level,
     /// How many steps that was.
-    steps: usize,
-    exact: Vec<Option<Point>>,
+    pub steps: usize,
+    /// How many of them edges took that are sharp for some steps.
+    pub soft_steps: usize,
+    pub exact: Vec<Option<Point>>,
+    near: Vec<[Float; 3]>,
     floats: Floats,
 }
 
@@ -59,36 +65,57 @@ pub fn certify(model: &Model, scheme: Scheme, budget: &Budget, step: &(dyn Fn() 
         return Err(Problem::new("secant::mesh::triangles", message)
             .with_help("Loop's scheme is for triangles; divide the face, or take --scheme catmull-clark"));
     }
-    let file = Level::of(model.topology.clone());
-    let exact: Vec<Option<Point>> = model.points.iter().cloned().map(Some).collect();
-    let mut floats = Floats::new(scheme, file.valence.iter().map(|n| *n as usize));
-    let (start, exact, steps) = if triangles || sizes(4).is_none() {
-        (file, exact, 0)
-    } else {
-        let next = file.points(&Exact::new(scheme), false, &exact);
-        (file.refined(false), next, 1)
-    };
-    if triangles {
-        floats = Floats::new(scheme, start.valence.iter().map(|n| *n as usize).chain([6]));
+    let opened = opened(model);
+    let exact: Vec<Option<Point>> = opened.old.iter().map(|v| Some(model.points[*v as usize].clone())).collect();
+    let floats = Floats::new(scheme, opened.level.kind.iter().map(|k| k.faces()).chain([6]));
+    let soft = Soft::of(model, &opened);
+    let soft_steps = soft.steps();
+    let steps = soft_steps.max(usize::from(!triangles && sizes(4).is_some()));
+    let first = if triangles { 4 * model.topology.faces() } else { model.topology.vertex.len() };
+    let most = (1..steps).try_fold(first, |n, _| n.checked_mul(4)).filter(|n| steps == 0 || *n <= MAX_FACES);
+    if most.is_none() {
+        let message =
+            format!("the sharpest semi-sharp edge takes {soft_steps} steps, which give more than {MAX_FACES} faces");
+        return Err(Problem::new("secant::mesh::semi-sharp", message)
+            .with_help("take a smaller mesh, a smaller sharpness, or 10, which stays sharp for ever"));
     }
-    Ok(Work { model, scheme, rule, budget, step, triangles, start, steps, exact, floats }.found())
+    let (start, exact, near) = softened(scheme, &opened, soft, steps, &floats, exact);
+    Ok(Work { model, scheme, rule, budget, step, triangles, opened, start, steps, soft_steps, exact, near, floats }
+        .found())
+}
+
+/// The mesh after the steps in which edges are still sharp that do not stay so, its points, and bounds of them.
+fn softened(
+    scheme: Scheme,
+    opened: &Opened,
+    mut soft: Soft,
+    steps: usize,
+    floats: &Floats,
+    mut exact: Vec<Option<Point>>,
+) -> (Level, Vec<Option<Point>>, Vec<[Float; 3]>) {
+    let (triangles, site) = (scheme.triangles(), |v: u32| opened.site(v));
+    let mut level = opened.level.clone();
+    let mut near: Vec<[Float; 3]> = exact.iter().map(floating).collect();
+    for _ in 0..steps {
+        exact = soft.points(&level, &site, &Exact::new(scheme), triangles, &exact);
+        let bounds = soft.points(&level, &site, floats, triangles, &near);
+        near = exact.iter().zip(bounds).map(|(p, bounds)| if p.is_some() { floating(p) } else { bounds }).collect();
+        (soft, level) = (soft.next(&level), level.refined(triangles));
+    }
+    (level, exact, near)
 }
 
 impl Work<'_> {
-    fn regular_valence(&self) -> usize {
-        if self.triangles { 6 } else { 4 }
-    }
-
     fn found(&self) -> Found {
         let valences = self.valences();
         let mut vertices = self.vertices(&valences);
-        let near: Vec<[Float; 3]> = self.exact.iter().map(floating).collect();
+        let near = &self.near;
         let mut patches = Patches::default();
         let whole: Vec<usize> = (0..self.start.topology.faces()).collect();
-        let irregular = self.patches(&self.start, &whole, &near, &self.exact, self.steps, &mut patches);
+        let irregular = self.patches(&self.start, &whole, near, &self.exact, self.steps, &mut patches);
         if !irregular.is_empty() {
             let (old, level) = self.beside(&self.start, &irregular);
-            let known = pick(&near, &old);
+            let known = pick(near, &old);
             let next = level.points(&self.floats, self.triangles, &known);
             let exactly = || level.points(&Exact::new(self.scheme), self.triangles, &pick(&self.exact, &old));
             self.around(
@@ -107,112 +134,26 @@ impl Work<'_> {
             .filter(|(_, a)| a.smooth == Verdict::Proved && a.frequency == Some(1))
             .filter_map(|(n, _)| Some((*n, super::curvature::curvature(self.scheme, *n)?)))
             .collect();
-        Found { valences, curvature, vertices, patches, closed: self.model.topology.closed(), parts, part }
+        Found {
+            valences,
+            curvature,
+            vertices,
+            patches,
+            closed: self.model.topology.closed(),
+            parts,
+            part,
+            cuts: self.opened.cuts,
+            soft_steps: self.soft_steps,
+            boundary: self.model.tags.boundary,
+        }
     }
 
     /// The verdicts for almost all points at each valence that occurs.
     fn valences(&self) -> BTreeMap<usize, AtValence> {
-        let all: BTreeSet<usize> = self.start.valence.iter().map(|n| *n as usize).filter(|n| *n >= 3).collect();
+        let all: BTreeSet<usize> = self.start.kind.iter().filter_map(|k| k.inside()).filter(|n| *n >= 3).collect();
         let all: Vec<usize> = all.into_iter().filter(|n| *n <= MAX_VALENCE).collect();
         let found = super::each(&all, |n| at_valence_within(&self.rule, *n, self.budget).ok());
         all.into_iter().zip(found).filter_map(|(n, found)| Some((n, found?))).collect()
-    }
-
-    /// The vertices of the file, and the middles of faces that become extraordinary.
-    fn vertices(&self, valences: &BTreeMap<usize, AtValence>) -> Vec<AtVertex> {
-        let t = &self.model.topology;
-        let used = (0..t.vertices()).filter(|v| t.corner[*v] != super::topology::NONE);
-        let mut spots: Vec<(Spot, usize)> = used.map(|v| (Spot::Vertex(v), v)).collect();
-        if self.steps > 0 {
-            let middles = (0..t.faces()).filter(|f| t.polygon(*f).len() != 4);
-            spots.extend(middles.map(|f| (Spot::Face(f), t.vertices() + t.edges.len() + f)));
-        }
-        let used: BTreeSet<usize> =
-            self.start.valence.iter().map(|n| *n as usize).filter(|n| (3..=LARGEST).contains(n)).collect();
-        let stencils: BTreeMap<usize, Stencil> = used.iter().map(|n| (*n, Stencil::new(self.scheme, *n))).collect();
-        let common = match used.iter().next_back() {
-            Some(n) if *n > MAX_VALENCE => every(&self.rule).ok().flatten().is_some_and(|e| e.proved()),
-            _ => false,
-        };
-        super::each(&spots, |(spot, v)| {
-            let found = self.vertex(*spot, *v, valences, &stencils, common);
-            (self.step)();
-            found
-        })
-    }
-
-    fn vertex(
-        &self,
-        spot: Spot,
-        v: usize,
-        valences: &BTreeMap<usize, AtValence>,
-        stencils: &BTreeMap<usize, Stencil>,
-        common: bool,
-    ) -> AtVertex {
-        let line = match spot {
-            Spot::Vertex(v) => self.model.point_lines[v],
-            Spot::Face(f) => self.model.face_lines[f],
-        };
-        let n = self.start.valence[v] as usize;
-        let mut found = AtVertex {
-            spot,
-            line,
-            valence: n,
-            limit: None,
-            smooth: Verdict::Undetermined,
-            reason: Reason::Border,
-            extraordinary: n != self.regular_valence(),
-            rings: None,
-        };
-        let Some(stencil) = stencils.get(&n).filter(|_| n > 0) else {
-            if n > LARGEST {
-                found.reason = Reason::Valence(format!("valences over {LARGEST} are not examined"));
-            } else if n > 0 {
-                found.reason = Reason::Valence(format!("no statement is about vertices of valence {n}"));
-            }
-            return found;
-        };
-        let Some(limit) = self.limit(stencil, v) else { return found };
-        let holds = if n > MAX_VALENCE {
-            common
-                .then_some(())
-                .ok_or_else(|| format!("the valence is over {MAX_VALENCE}, and no proof for all valences is known"))
-        } else {
-            let known = valences.get(&n).filter(|a| a.smooth == Verdict::Proved && a.frequency == Some(1));
-            known.map(|_| ()).ok_or_else(|| format!("for almost all points of valence {n} it is not proved"))
-        };
-        (found.smooth, found.reason) = match (holds, limit.dependent) {
-            (Err(why), _) => (Verdict::Undetermined, Reason::Valence(why)),
-            (Ok(()), Some((false, _))) => (Verdict::Proved, Reason::Independent),
-            (Ok(()), Some((true, _))) if self.on_a_line(v) => (Verdict::Refuted, Reason::Line),
-            (Ok(()), Some((true, true))) => (Verdict::Undetermined, Reason::Vanishing),
-            (Ok(()), Some((true, false))) => (Verdict::Undetermined, Reason::Dependent),
-            (Ok(()), None) => (Verdict::Undetermined, Reason::Undecided),
-        };
-        found.limit = Some(limit);
-        found
-    }
-
-    /// The limit at a vertex; `None` where a point around the middle of a face lies on the border, for which there is no rule.
-    fn limit(&self, stencil: &Stencil, v: usize) -> Option<Limit> {
-        let t = &self.start.topology;
-        let star = t.around(v);
-        let at = |v: u32| self.exact.get(v as usize)?.as_ref();
-        let spokes = star.spokes.iter().map(|v| at(*v)).collect::<Option<Vec<&Point>>>()?;
-        let across = star.frames.iter().filter(|_| !self.triangles).map(|f| at(t.diagonal(f.corner)));
-        Some(stencil.limit(at(v as u32)?, &spokes, &across.collect::<Option<Vec<&Point>>>()?))
-    }
-
-    /// Whether all points lie on a line on which the surface depends in the faces at a vertex.
-    fn on_a_line(&self, v: usize) -> bool {
-        let t = &self.start.topology;
-        let own: Vec<u32> =
-            t.around(v).frames.iter().flat_map(|f| t.polygon(t.face[f.corner as usize] as usize)).copied().collect();
-        let faces = own.iter().flat_map(|w| t.around(*w as usize).frames);
-        let all: BTreeSet<u32> =
-            faces.flat_map(|f| t.polygon(t.face[f.corner as usize] as usize).iter().copied()).collect();
-        let points: Option<Vec<&Point>> = all.into_iter().map(|w| self.exact[w as usize].as_ref()).collect();
-        points.is_some_and(|points| collinear(&points))
     }
 
     /// Tests the patches of the regular ones of some faces; the other faces.
@@ -227,7 +168,7 @@ impl Work<'_> {
     ) -> Vec<usize> {
         let one = |f: &usize| {
             let points = control(level, *f, self.triangles)?;
-            let own: Vec<[Float; 3]> = points.iter().map(|v| near[*v as usize]).collect();
+            let own: Vec<[Float; 3]> = points.iter().map(|c| combined(&self.floats, near, c)).collect();
             let first = own[0];
             let moved: Vec<[Float; 3]> = own.iter().map(|p| std::array::from_fn(|k| p[k] - first[k])).collect();
             Some((points, regular(&self.floats, bezier(&self.floats, self.triangles, &moved), DEPTH)))
@@ -246,26 +187,21 @@ impl Work<'_> {
     }
 
     /// The exact test of what floats left open; beyond a number of patches it stays open.
-    fn exactly(
-        &self,
-        level: &Level,
-        open: Vec<(usize, Vec<u32>, Parameter)>,
-        exact: &[Option<Point>],
-        steps: usize,
-        out: &mut Patches,
-    ) {
+    fn exactly(&self, level: &Level, open: Vec<Left>, exact: &[Option<Point>], steps: usize, out: &mut Patches) {
         let space = Exact::new(self.scheme);
         let budget = EXACT.saturating_sub(out.bad.len());
-        let test = |(k, (_, points, spot)): &(usize, (usize, Vec<u32>, Parameter))| {
-            let own: Vec<Option<Point>> = points.iter().map(|v| exact.get(*v as usize).cloned().flatten()).collect();
-            let found =
-                if *k < budget { regular_exactly(&space, &bezier(&space, self.triangles, &own), DEPTH) } else { None };
+        let test = |(k, (_, points, spot)): &(usize, Left)| {
+            let net = || {
+                let own: Vec<Option<Point>> = points.iter().map(|c| combined(&space, exact, c)).collect();
+                regular_exactly(&space, &bezier(&space, self.triangles, &own), DEPTH)
+            };
+            let found = if *k < budget && !exact.is_empty() { net() } else { None };
             match found {
                 Some(found) => found,
                 None => Regular::Open(spot.clone()),
             }
         };
-        let open: Vec<(usize, (usize, Vec<u32>, Parameter))> = open.into_iter().enumerate().collect();
+        let open: Vec<(usize, Left)> = open.into_iter().enumerate().collect();
         let found = super::each(&open, test);
         for ((_, (face, ..)), found) in open.into_iter().zip(found) {
             out.tested += 1;
@@ -298,7 +234,7 @@ impl Work<'_> {
         out: &mut Patches,
     ) {
         // The faces of the part whose children are looked at: those with an extraordinary corner.
-        let special = |n: u32| n != 0 && n as usize != self.regular_valence();
+        let special = |k: Kind| k != Kind::Unknown && !k.regular(self.triangles);
         let children: Vec<usize> = self.children(level, old);
         let before = out.bad.len();
         let irregular = self.patches(level, &children, near, &[], self.steps + 1, out);
@@ -319,7 +255,7 @@ impl Work<'_> {
         let border: Vec<usize> = irregular
             .iter()
             .copied()
-            .filter(|f| !level.topology.polygon(*f).iter().any(|v| special(level.valence[*v as usize])))
+            .filter(|f| !level.topology.polygon(*f).iter().any(|v| special(level.kind[*v as usize])))
             .collect();
         out.tested += border.len();
         for f in border {
@@ -332,11 +268,10 @@ impl Work<'_> {
 
     /// The children of the faces that were irregular one step before: those at an old vertex that is a corner of such a face.
     fn children(&self, level: &Level, old: &[u32]) -> Vec<usize> {
-        let regular = self.regular_valence() as u32;
         let t = &self.start.topology;
         let mut irregular = vec![false; t.faces()];
         for (f, place) in irregular.iter_mut().enumerate() {
-            *place = t.polygon(f).iter().any(|v| self.start.valence[*v as usize] != regular);
+            *place = t.polygon(f).iter().any(|v| !self.start.kind[*v as usize].regular(self.triangles));
         }
         // Faces of the part keep their order: those with a touched vertex; children follow face by face.
         let mut touched = vec![false; t.vertices()];
@@ -369,24 +304,19 @@ impl Work<'_> {
         }
         let used: BTreeSet<usize> = vertices
             .iter()
-            .filter(|v| v.smooth == Verdict::Proved && v.valence != self.regular_valence())
-            .map(|v| v.valence)
+            .filter(|v| v.smooth == Verdict::Proved && v.extraordinary)
+            .filter_map(|v| v.kind.inside())
             .collect();
         let used: Vec<usize> = used.into_iter().collect();
         let tails: BTreeMap<usize, Result<Tail, String>> =
             used.iter().copied().zip(super::each_one(&used, |n| self.tail(*n, valences))).collect();
-        let t = &self.model.topology;
         let found = super::each_one(vertices, |v| {
-            let tail = tails.get(&v.valence).filter(|_| v.smooth == Verdict::Proved)?;
+            let tail = tails.get(&v.kind.inside()?).filter(|_| v.smooth == Verdict::Proved)?;
             let tail = match tail {
                 Ok(tail) => tail,
                 Err(why) => return Some(Err(why.clone())),
             };
-            let own = match v.spot {
-                Spot::Vertex(v) => v,
-                Spot::Face(f) => t.vertices() + t.edges.len() + f,
-            };
-            let net = number.get(&(own as u32)).and_then(|at| net(&fine, *at, tail, self.triangles));
+            let net = number.get(&(v.own as u32)).and_then(|at| net(&fine, *at, tail, self.triangles));
             let Some(net) = net else { return Some(Err("the points around the vertex are not known".to_owned())) };
             let own: Vec<[Float; 3]> = net.iter().map(|i| points[*i as usize]).collect();
             let found = tail.rings(&own);

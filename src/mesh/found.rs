@@ -1,8 +1,11 @@
 //! What is found of a mesh: C¹ at every vertex of these points, and the regularity of the whole limit surface.
 
 use super::curvature::Curvature;
+use super::fan::Ground;
 use super::limit::Limit;
 use super::patch::Regular;
+use super::refine::Kind;
+use super::tags::Boundary;
 use super::tail::Rings;
 use crate::answer::Verdict;
 use crate::scheme::MAX_VALENCE;
@@ -34,8 +37,18 @@ pub enum Reason {
     Line,
     /// The valence has no theorem, with the words why.
     Valence(String),
-    /// The vertex lies on the border.
+    /// The vertex lies on the border, for which no rule is given.
     Border,
+    /// The statement about its fan of faces on the border.
+    Fan(Ground),
+    /// The coefficients that would refute it are not certainly independent, as those of a plane net.
+    Flat,
+    /// A point around it has irrational coordinates after the steps of semi-sharp edges, or no rule.
+    Irrational,
+    /// One sharp edge ends there.
+    Dart,
+    /// The vertex is fixed, with faces all around and no sharp edge.
+    Tip,
 }
 
 /// What was found at a vertex, or in the middle of a face.
@@ -45,7 +58,15 @@ pub struct AtVertex {
     pub spot: Spot,
     /// The line in the file.
     pub line: usize,
-    /// The valence.
+    /// The rule there.
+    pub kind: Kind,
+    /// The side of its sharp edges on which the faces lie, by a number from 0; `None` in the middle of a face.
+    pub side: Option<u32>,
+    /// How many sides there are.
+    pub sides: usize,
+    /// Its number in the mesh that was cut open and refined.
+    pub(super) own: usize,
+    /// The number of its faces: inside, the valence; 0 where no rule is given.
     pub valence: usize,
     /// The limit, where there are stencils for it.
     pub limit: Option<Limit>,
@@ -53,7 +74,7 @@ pub struct AtVertex {
     pub smooth: Verdict,
     /// Why.
     pub reason: Reason,
-    /// Whether the valence is another one than that of a regular vertex inside.
+    /// Whether the surface around it is no spline of the scheme, continued by reflection over the border.
     pub extraordinary: bool,
     /// The rings around an extraordinary vertex, or why there is no bound for them.
     pub rings: Option<Result<Rings, String>>,
@@ -110,6 +131,12 @@ pub struct Found {
     pub patches: Patches,
     /// Whether the mesh has no border.
     pub closed: bool,
+    /// How many inner edges are sharp: the surface is cut open along them.
+    pub cuts: usize,
+    /// How many steps were taken in which edges or vertices are sharp that do not stay so.
+    pub soft_steps: usize,
+    /// The rule of the border.
+    pub boundary: Option<Boundary>,
     /// The parts that hang together, and whether each has two sides.
     pub parts: Vec<bool>,
     /// The part of each face.
@@ -133,7 +160,7 @@ impl Found {
         let refuted = |b: &Bad| matches!(b.found, Regular::Refuted(_) | Regular::Folded(..));
         let patches = if self.patches.bad.iter().any(refuted) {
             Verdict::Refuted
-        } else if self.patches.tested > self.patches.by_floats + self.patches.exactly || !self.closed {
+        } else if self.patches.tested > self.patches.by_floats + self.patches.exactly {
             Verdict::Undetermined
         } else {
             Verdict::Proved
@@ -153,8 +180,13 @@ impl Found {
     pub fn statements(&self) -> Vec<Statement> {
         let mut all = BTreeSet::new();
         for v in self.vertices.iter().filter(|v| v.smooth != Verdict::Undetermined) {
-            all.insert(Statement::MeshVertex);
-            all.insert(if v.valence > MAX_VALENCE { Statement::Theorem9 } else { Statement::Theorem7 });
+            all.insert(match v.reason {
+                Reason::Fan(ground) => ground.statement(),
+                _ => Statement::MeshVertex,
+            });
+            if v.kind.inside().is_some() {
+                all.insert(if v.valence > MAX_VALENCE { Statement::Theorem9 } else { Statement::Theorem7 });
+            }
         }
         if self.patches.tested > 0 {
             all.insert(Statement::MeshSurface);

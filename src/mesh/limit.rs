@@ -38,6 +38,32 @@ pub struct Limit {
     pub dependent: Option<(bool, bool)>,
 }
 
+impl Limit {
+    /// The limit with two tangent vectors, and whether they are independent.
+    #[must_use]
+    pub fn new(numbers: &Numbers, point: Option<[Number; 3]>, near: [Float; 3], tangents: [[Number; 3]; 2]) -> Self {
+        let cross = |k: usize| {
+            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+            let [x, y] = &tangents;
+            numbers.times(&y[a], &x[b]).minus(&numbers.times(&y[b], &x[a]))
+        };
+        let normal: [Number; 3] = std::array::from_fn(cross);
+        let signs = |all: &[Number]| all.iter().map(|x| numbers.sign(x)).collect::<Vec<_>>();
+        let of_normal = signs(&normal);
+        let dependent = if of_normal.iter().any(|s| matches!(s, Some(1 | -1))) {
+            Some((false, false))
+        } else if of_normal.iter().all(|s| *s == Some(0)) {
+            let all: Vec<Option<i32>> = tangents.iter().flat_map(|v| signs(v)).collect();
+            let vanishes = all.iter().all(|s| *s == Some(0));
+            (vanishes || all.iter().any(|s| matches!(s, Some(1 | -1)))).then_some((true, vanishes))
+        } else {
+            None
+        };
+        let unit = (dependent == Some((false, false))).then(|| unit(numbers, &normal));
+        Self { point, near, tangents, normal, unit, dependent }
+    }
+}
+
 impl Stencil {
     /// The stencil of a scheme at a valence of 3 or more.
     #[must_use]
@@ -58,27 +84,8 @@ impl Stencil {
     /// The limit at a vertex with its neighbours and, of quadrangles, the opposite corners of its faces.
     #[must_use]
     pub fn limit(&self, own: &Point, spokes: &[&Point], across: &[&Point]) -> Limit {
-        let tangents = self.coefficient(spokes, across);
-        let cross = |k: usize| {
-            let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-            let [x, y] = &tangents;
-            self.numbers.times(&y[a], &x[b]).minus(&self.numbers.times(&y[b], &x[a]))
-        };
-        let normal: [Number; 3] = std::array::from_fn(cross);
-        let signs = |all: &[Number]| all.iter().map(|x| self.numbers.sign(x)).collect::<Vec<_>>();
-        let of_normal = signs(&normal);
-        let dependent = if of_normal.iter().any(|s| matches!(s, Some(1 | -1))) {
-            Some((false, false))
-        } else if of_normal.iter().all(|s| *s == Some(0)) {
-            let all: Vec<Option<i32>> = tangents.iter().flat_map(|v| signs(v)).collect();
-            let vanishes = all.iter().all(|s| *s == Some(0));
-            (vanishes || all.iter().any(|s| matches!(s, Some(1 | -1)))).then_some((true, vanishes))
-        } else {
-            None
-        };
-        let unit = (dependent == Some((false, false))).then(|| self.unit(&normal));
         let (point, near) = self.point(own, spokes, across);
-        Limit { point, near, tangents, normal, unit, dependent }
+        Limit::new(&self.numbers, point, near, self.coefficient(spokes, across))
     }
 
     /// `x` and `y` of the leading coefficient `x + y ω`.
@@ -125,23 +132,23 @@ impl Stencil {
         });
         (point, near)
     }
+}
 
-    #[allow(clippy::float_arithmetic, reason = "display")]
-    fn unit(&self, normal: &[Number; 3]) -> [f64; 3] {
-        let values: Vec<Rational> = normal
-            .iter()
-            .map(|x| {
-                let (k, value) = self.numbers.enclosure(x, true);
-                k.to_interval(&value).mid()
-            })
-            .collect();
-        // Scaled exactly first: coordinates may be very large or very small.
-        let size = values.iter().map(crate::arith::abs).max().filter(|m| *m != 0);
-        let Some(size) = size else { return [f64::NAN; 3] };
-        let v: Vec<f64> = values.iter().map(|x| crate::arith::to_f64(&(x / &size))).collect();
-        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        std::array::from_fn(|k| v[k] / length)
-    }
+#[allow(clippy::float_arithmetic, reason = "display")]
+fn unit(numbers: &Numbers, normal: &[Number; 3]) -> [f64; 3] {
+    let values: Vec<Rational> = normal
+        .iter()
+        .map(|x| {
+            let (k, value) = numbers.enclosure(x, true);
+            k.to_interval(&value).mid()
+        })
+        .collect();
+    // Scaled exactly first: coordinates may be very large or very small.
+    let size = values.iter().map(crate::arith::abs).max().filter(|m| *m != 0);
+    let Some(size) = size else { return [f64::NAN; 3] };
+    let v: Vec<f64> = values.iter().map(|x| crate::arith::to_f64(&(x / &size))).collect();
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    std::array::from_fn(|k| v[k] / length)
 }
 
 /// Whether all points lie on one line (or are one).

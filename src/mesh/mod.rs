@@ -14,31 +14,41 @@
 //! ```
 #![deny(clippy::disallowed_methods)]
 
+mod border;
 mod certify;
 mod curvature;
 mod disc;
+mod fan;
 mod found;
 mod interval;
 mod limit;
 mod number;
+mod open;
 mod patch;
 mod read;
 mod refine;
 mod scheme;
+mod soft;
+mod step;
+mod tags;
 mod tail;
 mod topology;
+mod vertices;
 
+pub use border::{BorderStencil, Fan, Points};
 pub use certify::certify;
 pub use curvature::{Curvature, Second, Size, curvature};
 pub use disc::immersed_disc;
+pub use fan::{Ground, Row};
 pub use found::{AtVertex, Bad, Found, Patches, Reason, Spot};
 pub use interval::Float;
 pub use limit::{Limit, Stencil};
 pub use number::{Number, Numbers};
 pub use patch::Regular;
 pub use read::{MAX_BYTES, MAX_FACES, Model, Point, is_mesh};
-pub use refine::refined;
+pub use refine::{Kind, refined};
 pub use scheme::Scheme;
+pub use tags::{Boundary, Tags};
 pub use tail::Rings;
 pub use topology::{Fault, Frame, Star, Topology};
 

@@ -1,11 +1,12 @@
 //! Polynomial patches of regular faces, and whether their parametrisation is regular.
 
 use super::interval::Float;
-use super::refine::{Exact, Floats, Level, Space};
+use super::refine::{Exact, Floats, Kind, Level, Space};
 use super::topology::Frame;
 use crate::arith::{Rational, abs};
 use crate::vertex::net::{Net, Spot, corners, halved_corners};
 use crate::vertex::ring::{QUARTIC, QUARTIC_POINTS};
+use std::collections::BTreeMap;
 
 /// What is known of the regularity of a patch.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,57 +47,92 @@ pub fn bezier<S: Space>(space: &S, triangle: bool, points: &[S::P]) -> Net<S::P>
     Net { triangle, rows: (0..4).map(|r| columns.iter().map(|c| c[r].clone()).collect()).collect() }
 }
 
-/// The control points of the patch of a face with regular corners only.
-#[must_use]
-pub fn control(level: &Level, face: usize, triangles: bool) -> Option<Vec<u32>> {
+/// A control point of a patch as a combination of vertices: one vertex, or a reflection over the border.
+pub type Combination = Vec<(i64, u32)>;
+
+/// The directions of the neighbours of a point of the lattice, anticlockwise; of quadrangles with the corners opposite to it.
+const SIX: [(i64, i64); 6] = [(1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1)];
+const EIGHT: [(i64, i64); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
+
+/// The neighbours of a regular vertex in the order of [`SIX`] or [`EIGHT`], from a face on.
+fn neighbours(level: &Level, frame: Frame, triangles: bool) -> Option<Vec<Combination>> {
     let t = &level.topology;
-    let regular = if triangles { 6 } else { 4 };
-    if t.polygon(face).iter().any(|v| level.valence[*v as usize] != regular)
-        || t.polygon(face).len() != if triangles { 3 } else { 4 }
-    {
+    let own = t.vertex[frame.corner as usize];
+    let kind = level.kind[own as usize];
+    if !kind.regular(triangles) {
         return None;
     }
-    let stars: Vec<_> = t.corners(face).map(|corner| t.star(Frame { corner, ahead: true })).collect();
-    if triangles {
-        let [a, b, c] = stars.as_slice() else { return None };
-        let own = t.polygon(face);
-        // In the order of QUARTIC_POINTS.
-        return Some(vec![
-            a.spokes[3],
-            a.spokes[2],
-            c.spokes[4],
-            a.spokes[4],
-            own[0],
-            own[2],
-            c.spokes[3],
-            a.spokes[5],
-            own[1],
-            b.spokes[5],
-            b.spokes[3],
-            b.spokes[4],
-        ]);
+    let star = t.whole(frame);
+    let first = star.frames.iter().position(|f| f.corner == frame.corner)?;
+    let spoke = |k: usize| star.spokes[k];
+    let across = |k: usize| t.diagonal(star.frames[k].corner);
+    let one = |v: u32| vec![(1, v)];
+    // From the first face of the fan on.
+    let mut all: Vec<Combination> = Vec::new();
+    for k in 0..star.frames.len() {
+        all.push(one(spoke(k)));
+        all.extend((!triangles).then(|| one(across(k))));
     }
-    let [a, b, c, d] = stars.as_slice() else { return None };
-    let across = |star: &super::topology::Star, k: usize| t.diagonal(star.frames[k].corner);
+    match (kind, triangles) {
+        (Kind::Inside(_), _) => {}
+        (Kind::Smooth(_), false) => {
+            all.extend([one(spoke(2)), vec![(2, spoke(2)), (-1, across(1))], vec![(2, own), (-1, spoke(1))]]);
+            all.push(vec![(2, spoke(0)), (-1, across(0))]);
+        }
+        (Kind::Smooth(_), true) => {
+            all.push(one(spoke(3)));
+            all.push(vec![(1, own), (1, spoke(3)), (-1, spoke(2))]);
+            all.push(vec![(1, own), (1, spoke(0)), (-1, spoke(1))]);
+        }
+        (_, false) => {
+            let (a, b, f) = (spoke(0), spoke(1), across(0));
+            all.extend([one(b), vec![(2, b), (-1, f)], vec![(2, own), (-1, a)]]);
+            all.push(vec![(4, own), (-2, a), (-2, b), (1, f)]);
+            all.extend([vec![(2, own), (-1, b)], vec![(2, a), (-1, f)]]);
+        }
+        (_, true) => {
+            let (a, b) = (spoke(0), spoke(1));
+            all.extend([one(b), vec![(1, own), (1, b), (-1, a)], vec![(2, own), (-1, a)]]);
+            all.extend([vec![(2, own), (-1, b)], vec![(1, own), (1, a), (-1, b)]]);
+        }
+    }
+    all.rotate_left(if triangles { first } else { 2 * first });
+    Some(all)
+}
+
+/// The control points of the patch of a face with regular corners only, in the order of [`offsets`].
+#[must_use]
+pub fn control(level: &Level, face: usize, triangles: bool) -> Option<Vec<Combination>> {
+    let t = &level.topology;
     let own = t.polygon(face);
-    Some(vec![
-        across(a, 2),
-        a.spokes[3],
-        b.spokes[2],
-        across(b, 2),
-        a.spokes[2],
-        own[0],
-        own[1],
-        b.spokes[3],
-        d.spokes[3],
-        own[3],
-        own[2],
-        c.spokes[2],
-        across(d, 2),
-        d.spokes[2],
-        c.spokes[3],
-        across(c, 2),
-    ])
+    let corners: &[(i64, i64)] = if triangles { &[(0, 0), (1, 0), (0, 1)] } else { &[(0, 0), (1, 0), (1, 1), (0, 1)] };
+    if own.len() != corners.len() {
+        return None;
+    }
+    let directions: &[(i64, i64)] = if triangles { &SIX } else { &EIGHT };
+    let mut all: BTreeMap<(i64, i64), Combination> = BTreeMap::new();
+    for (k, (corner, at)) in t.corners(face).zip(corners).enumerate() {
+        all.insert(*at, vec![(1, own[k])]);
+        let around = neighbours(level, Frame { corner, ahead: true }, triangles)?;
+        for (m, point) in around.into_iter().enumerate() {
+            // The first direction at each corner is that of the next one.
+            let d = directions[(m + 2 * k) % directions.len()];
+            all.entry((at.0 + d.0, at.1 + d.1)).or_insert(point);
+        }
+    }
+    offsets(triangles).iter().map(|place| all.get(place).cloned()).collect()
+}
+
+/// The point that a combination is.
+#[must_use]
+pub fn combined<S: Space>(space: &S, points: &[S::P], combination: &Combination) -> S::P {
+    match combination.as_slice() {
+        [(1, v)] => points[*v as usize].clone(),
+        terms => {
+            let terms: Vec<(i64, &S::P)> = terms.iter().map(|(w, v)| (*w, &points[*v as usize])).collect();
+            space.sum(&terms, 1)
+        }
+    }
 }
 
 /// A space in which the test of regularity runs.

@@ -1,9 +1,10 @@
 //! Meshes from OBJ and OFF files, with exact coordinates: a decimal is the rational number that it says.
 
+use super::tags::Tags;
 use super::topology::{Fault, Topology};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
@@ -31,6 +32,8 @@ pub struct Model {
     pub face_lines: Vec<usize>,
     /// The faces and how they hang together.
     pub topology: Topology,
+    /// What is sharp, and the rule of the border.
+    pub tags: Tags,
 }
 
 struct Raw {
@@ -46,6 +49,7 @@ type Word<'a> = (&'a str, Range<usize>);
 struct Reader<'a> {
     source: &'a SourceText,
     raw: Raw,
+    tags: Vec<(Range<usize>, Vec<Word<'a>>)>,
 }
 
 fn problem(source: &SourceText, span: Range<usize>, code: &str, message: &str, note: &str, help: &str) -> Problem {
@@ -102,7 +106,7 @@ impl Model {
     /// ```
     pub fn parse(source: &SourceText, off: bool) -> Result<Self, Problem> {
         let raw = Raw { points: Vec::new(), point_spans: Vec::new(), faces: Vec::new(), face_spans: Vec::new() };
-        let mut reader = Reader { source, raw };
+        let mut reader = Reader { source, raw, tags: Vec::new() };
         if off {
             reader.off()?
         } else {
@@ -149,14 +153,10 @@ impl<'a> Reader<'a> {
                     let help = "write the mesh as `v` and `f` lines";
                     return Err(self.fail(&words[0].1, "line", "curves and surfaces are no mesh", "here", help));
                 }
-                // Subdivision tags of a renderer change the rules at what they name.
-                "t" => {
-                    let help = "take the line out if the rules without the tag are meant";
-                    return Err(self.fail(&span, "tag", "tags of vertices and edges are not read", "here", help));
-                }
+                "t" => self.tags.push((span, words)),
                 other => {
                     let message = format!("`{other}` begins no line of a mesh");
-                    let help = "lines begin with v, f, vt, vn, g, o, s, usemtl or mtllib; `#` begins a comment";
+                    let help = "lines begin with v, f, t, vt, vn, g, o, s, usemtl or mtllib; `#` begins a comment";
                     return Err(self.fail(&words[0].1, "line", &message, "here", help));
                 }
             }
@@ -301,14 +301,36 @@ impl<'a> Reader<'a> {
             source.text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(k, _)| k).collect();
         breaks.push(source.text.len());
         let line = |span: &Range<usize>| breaks.partition_point(|b| *b < span.start) + 1;
-        Ok(Model {
+        let mut model = Model {
             name: source.name.clone(),
             point_lines: raw.point_spans.iter().map(line).collect(),
             face_lines: raw.face_spans.iter().map(line).collect(),
             points: raw.points,
             topology,
-        })
+            tags: Tags::default(),
+        };
+        model.tags = tags(source, &self.tags, &model)?;
+        Ok(model)
     }
+}
+
+/// What the tags of a file say of its mesh.
+fn tags(source: &SourceText, lines: &[(Range<usize>, Vec<Word<'_>>)], model: &Model) -> Result<Tags, Problem> {
+    let mut tags = Tags::default();
+    let t = &model.topology;
+    let edge = |[c, _]: &[u32; 2]| {
+        let (a, b) = (t.vertex[*c as usize], t.vertex[t.next(*c) as usize]);
+        (a.min(b), a.max(b))
+    };
+    let edges: BTreeSet<(u32, u32)> =
+        if lines.is_empty() { BTreeSet::new() } else { t.edges.iter().map(edge).collect() };
+    for (span, words) in lines {
+        tags.read(words, model, &edges).map_err(|(word, code, message, help)| {
+            let place = word.and_then(|k| words.get(k)).map_or(span, |w| &w.1);
+            problem(source, place.clone(), code, &message, "here", help)
+        })?;
+    }
+    Ok(tags)
 }
 
 fn exponent(word: &str) -> usize {
@@ -388,7 +410,17 @@ mod tests {
             ("v 1e9999999 0 0", "number", 6),
             ("v 1 2", "point", 6),
             ("v 1 2 3 2", "weight", 6),
-            ("t crease 2/1/0 1 2 3.0", "tag", 6),
+            ("f 1 2 3\nt crease 2/1/0 0 3 10", "crease", 7),
+            ("f 1 2 3\nt crease 2/1/0 0 9 10", "index", 7),
+            ("f 1 2 3\nt crease 2/1/0 0 1 nan", "number", 7),
+            ("f 1 2 3\nt crease 2/1/0 0 1 -2", "number", 7),
+            ("f 1 2 3\nt crease 2/1/0 0 1", "tag", 7),
+            ("f 1 2 3\nt crease 1/1/0 0 1", "tag", 7),
+            ("f 1 2 3\nt crease", "tag", 7),
+            ("f 1 2 3\nt corner 1/1/0 x 10", "index", 7),
+            ("f 1 2 3\nt interpolateboundary 1/0/0 7", "tag", 7),
+            ("f 1 2 3\nt smoothtriangles 0/0/1 smooth", "tag", 7),
+            ("f 1 2 3\nt hole 1/0/0 0", "tag", 7),
             ("vertex 1 2 3", "line", 6),
             ("v 1 0 2\nv 2 0 2\nf 1 2 3\nf 1 6 7", "vertex", 1),
         ] {

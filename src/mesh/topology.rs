@@ -134,6 +134,12 @@ impl Topology {
         self.starts[face]..self.starts[face + 1]
     }
 
+    /// The first corner of the face with these vertices in this order.
+    #[must_use]
+    pub fn corner_of(&self, polygon: &[u32]) -> Option<u32> {
+        (0..self.faces()).find(|f| self.polygon(*f) == polygon).map(|f| self.starts[f])
+    }
+
     /// The vertices of a face.
     #[must_use]
     pub fn polygon(&self, face: usize) -> &[u32] {
@@ -154,7 +160,7 @@ impl Topology {
         if c == self.starts[f] { self.starts[f + 1] - 1 } else { c - 1 }
     }
 
-    fn opposite(&self, c: u32) -> Option<u32> {
+    pub(super) fn opposite(&self, c: u32) -> Option<u32> {
         let [a, b] = self.edges[self.edge[c as usize] as usize];
         Some(if a == c { b } else { a }).filter(|other| *other != NONE)
     }
@@ -199,13 +205,53 @@ impl Topology {
     /// If no face has the vertex.
     #[must_use]
     pub fn around(&self, vertex: usize) -> Star {
-        let star = self.star(Frame { corner: self.corner[vertex], ahead: true });
+        self.whole(Frame { corner: self.corner[vertex], ahead: true })
+    }
+
+    /// The whole star of the vertex of a frame, seen from its side: where it is open it begins at the border.
+    #[must_use]
+    pub fn whole(&self, frame: Frame) -> Star {
+        let star = self.star(frame);
         if star.closed {
             return star;
         }
-        let back = self.star(Frame { corner: self.corner[vertex], ahead: false });
+        let back = self.star(Frame { ahead: !frame.ahead, ..frame });
         let last = back.frames[back.frames.len() - 1];
         self.star(Frame { corner: last.corner, ahead: !last.ahead })
+    }
+
+    /// The faces that are kept, with the old numbers of their vertices.
+    #[must_use]
+    pub fn part(&self, keep: &[bool]) -> (Self, Vec<u32>) {
+        let mut number = vec![NONE; self.vertices()];
+        let mut moved = vec![NONE; self.vertex.len()];
+        let mut old = Vec::new();
+        let (mut starts, mut vertex, mut face, mut corner) = (vec![0], Vec::new(), Vec::new(), Vec::new());
+        for f in (0..self.faces()).filter(|f| keep[*f]) {
+            for c in self.corners(f) {
+                let v = self.vertex[c as usize];
+                if number[v as usize] == NONE {
+                    number[v as usize] = old.len() as u32;
+                    old.push(v);
+                    corner.push(NONE);
+                }
+                moved[c as usize] = vertex.len() as u32;
+                corner[number[v as usize] as usize] = vertex.len() as u32;
+                vertex.push(number[v as usize]);
+                face.push(starts.len() as u32 - 1);
+            }
+            starts.push(vertex.len() as u32);
+        }
+        let mut edge = vec![NONE; vertex.len()];
+        let mut edges = Vec::new();
+        for pair in &self.edges {
+            let own = pair.iter().filter(|c| **c != NONE).map(|c| moved[*c as usize]).filter(|c| *c != NONE);
+            let own: Vec<u32> = own.collect();
+            let Some(first) = own.first() else { continue };
+            own.iter().for_each(|c| edge[*c as usize] = edges.len() as u32);
+            edges.push([*first, own.get(1).map_or(NONE, |c| *c)]);
+        }
+        (Self { starts, vertex, face, edge, edges, corner }, old)
     }
 
     /// The frame of the same face at the neighbour that comes first.

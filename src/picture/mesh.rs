@@ -25,8 +25,9 @@ fn verdicts(model: &Model, found: &Found) -> Vec<Option<Verdict>> {
     let mut all = vec![None; model.points.len()];
     for v in &found.vertices {
         if let Spot::Vertex(k) = v.spot {
-            all[k] =
-                Some(if v.smooth == Verdict::Proved && !v.surrounded() { Verdict::Undetermined } else { v.smooth });
+            let own = if v.smooth == Verdict::Proved && !v.surrounded() { Verdict::Undetermined } else { v.smooth };
+            // Of several sides the worst one.
+            all[k] = Some(all[k].map_or(own, |other: Verdict| other.and(own)));
         }
     }
     all

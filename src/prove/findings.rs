@@ -85,7 +85,10 @@ impl Findings {
                     Claim::as_found(Assertion::C1AtVertices { from: e.from }, verdict, None, Reason::Conditions)
                 });
                 let single = found.iter().map(|f| {
-                    let what = Assertion::C1AtVertex { valence: f.valence };
+                    let what = match f.border {
+                        Some(smooth) => Assertion::C1AtBorder { faces: f.valence, smooth },
+                        None => Assertion::C1AtVertex { valence: f.valence },
+                    };
                     Claim::as_found(what, f.smooth, None, Reason::Valence(f.valence))
                 });
                 common.chain(single).collect()

@@ -87,6 +87,12 @@ pub fn assertion(what: &Assertion) -> String {
         Assertion::C1AtVertex { valence } => {
             return format!("for almost all control points the surface is C¹ at a vertex of valence {valence}");
         }
+        Assertion::C1AtBorder { faces, smooth } => {
+            return format!(
+                "for almost all control points the surface is C¹ up to its border at {}",
+                super::words::on_border(*smooth, &super::words::count(*faces, "face"))
+            );
+        }
         Assertion::PlaneAtVertex { valence } => {
             return format!(
                 "for almost all control points the surface has a tangent plane at a vertex of valence {valence}"
@@ -119,6 +125,7 @@ pub fn label(what: &Assertion) -> String {
         (Assertion::SomePoint, _) => "some point".to_owned(),
         (Assertion::DenseJoints | Assertion::SeenJoints, _) => "joints (dense)".to_owned(),
         (Assertion::C1AtVertex { valence } | Assertion::PlaneAtVertex { valence }, _) => format!("valence {valence}"),
+        (Assertion::C1AtBorder { faces, .. }, _) => super::words::count(*faces, "face"),
         (Assertion::C1AtVertices { from }, _) => format!("valences from {from}"),
         (_, None) => "tangents".to_owned(),
         (_, Some(Topic::Ends)) => "ends".to_owned(),

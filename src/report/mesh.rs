@@ -1,9 +1,12 @@
 //! Reports on meshes: what holds of the limit surface, by valence, and the bad vertices with their lines.
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
+use super::vertex_reasons;
 use super::words::{count, mark};
 use crate::answer::Verdict;
-use crate::mesh::{AtVertex, Bad, Curvature, Found, Model, Number, Reason, Regular, Rings, Second, Size, Spot};
+use crate::mesh::{
+    AtVertex, Bad, Boundary, Curvature, Found, Ground, Kind, Model, Number, Reason, Regular, Rings, Second, Size, Spot,
+};
 use crate::picture::mesh::svg;
 use crate::vertex::decimal;
 use serde_json::{Value, json};
@@ -18,7 +21,10 @@ const WRITTEN: usize = 16;
 #[must_use]
 pub fn place(v: &AtVertex) -> String {
     match v.spot {
-        Spot::Vertex(k) => format!("vertex {} (line {})", k + 1, v.line),
+        Spot::Vertex(k) => {
+            let side = v.side.filter(|s| *s > 0 || v.sides > 1).map(|s| format!(", side {} of {}", s + 1, v.sides));
+            format!("vertex {} (line {}){}", k + 1, v.line, side.unwrap_or_default())
+        }
         Spot::Face(k) => format!("middle of face {} (line {})", k + 1, v.line),
     }
 }
@@ -36,7 +42,25 @@ pub fn reason(v: &AtVertex) -> String {
         Reason::Undecided => "whether the leading coefficients are independent was not decided".to_owned(),
         Reason::Line => "all points on which the surface depends there lie on one line".to_owned(),
         Reason::Valence(why) => why.clone(),
-        Reason::Border => "the vertex, or a point around it, lies on the border of the mesh".to_owned(),
+        Reason::Border => {
+            "the vertex, or a point around it, lies on the border of the mesh, and no rule is given there: --boundary edge \
+             or edge-and-corner"
+                .to_owned()
+        }
+        Reason::Fan(ground @ (Ground::Modes | Ground::Sides)) => vertex_reasons::border(*ground).to_owned(),
+        Reason::Fan(ground) => format!("the leading coefficients are independent ({})", ground.statement().name()),
+        Reason::Flat => {
+            "the three coefficients that would refute a tangent plane are not certainly independent, as those of a plane net"
+                .to_owned()
+        }
+        Reason::Irrational => {
+            "a point around the vertex has irrational coordinates after the steps of the semi-sharp edges, or no rule".to_owned()
+        }
+        Reason::Dart => {
+            "one sharp edge ends there: no statement is about such a vertex, and across the edge the surface has a fold"
+                .to_owned()
+        }
+        Reason::Tip => "the vertex is fixed, with faces all around and no sharp edge; no statement is about it".to_owned(),
     }
 }
 
@@ -82,6 +106,13 @@ pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Docu
         count(model.points.len(), "point"),
         parts(found)
     )))];
+    if found.soft_steps > 0 {
+        blocks.push(Block::Paragraph(words(format!(
+            "Semi-sharp edges and vertices took {}, in exact arithmetic; then they are smooth. They move the points, but do not \
+             change the rules at which the limit at a vertex is taken, nor what holds there for almost all points.",
+            count(found.soft_steps, "step")
+        ))));
+    }
     blocks.push(Block::heading(2, "Claims"));
     blocks.push(Block::List(claims(found)));
     if whole {
@@ -123,7 +154,15 @@ fn rest(all: usize, most: usize) -> Option<Block> {
 }
 
 fn parts(found: &Found) -> String {
-    let border = if found.closed { "closed" } else { "with a border" };
+    let border = match (found.closed, found.boundary) {
+        (true, _) => "closed".to_owned(),
+        (false, None) => "with a border without a rule".to_owned(),
+        (false, Some(rule)) => format!("with a border, rule {}", rule.name()),
+    };
+    let cuts = match found.cuts {
+        0 => String::new(),
+        n => format!(", cut open along {}", count(n, "sharp edge")),
+    };
     let one_sided = found.parts.iter().filter(|two| !**two).count();
     let sides = match (one_sided, found.parts.len()) {
         (0, 1) => "one part with two sides".to_owned(),
@@ -131,7 +170,29 @@ fn parts(found: &Found) -> String {
         (1, 1) => "one part with one side".to_owned(),
         (k, n) => format!("{n} parts, {k} of them with one side"),
     };
-    format!("{border}, {sides}")
+    format!("{border}, {sides}{cuts}")
+}
+
+/// The two claims, in words that say what they are about.
+#[must_use]
+pub fn claim_words(found: &Found) -> [&'static str; 2] {
+    if found.cuts > 0 {
+        [
+            "cut open along its sharp edges, the surface is C¹ at every vertex up to its border, for these points",
+            "cut open along its sharp edges, the limit surface of this mesh is a regular C¹ surface up to its border, immersed by \
+             its parametrisation",
+        ]
+    } else if !found.closed {
+        [
+            "the surface is C¹ at every vertex up to its border, for these points",
+            "the limit surface of this mesh is a regular C¹ surface up to its border, immersed by its parametrisation",
+        ]
+    } else {
+        [
+            "the surface is C¹ at every vertex, for these points",
+            "the limit surface of this mesh is a regular C¹ surface, immersed by its parametrisation",
+        ]
+    }
 }
 
 fn claims(found: &Found) -> Vec<Line> {
@@ -141,12 +202,12 @@ fn claims(found: &Found) -> Vec<Line> {
         line
     };
     let p = &found.patches;
-    let mut surface =
-        one(found.regular(), "the limit surface of this mesh is a regular C¹ surface, immersed by its parametrisation");
+    let [vertices, whole] = claim_words(found);
+    let mut surface = one(found.regular(), whole);
     if let Some(bad) = found.first_bad() {
         surface.extend(words(format!("; {}", patch(bad))));
-    } else if !found.closed {
-        surface.extend(words("; the mesh has a border"));
+    } else if !found.closed && found.boundary.is_none() {
+        surface.extend(words("; the mesh has a border, and no rule is given there"));
     }
     let tested = format!(
         "{} tested, {} proved regular by floats with bounds, {} more exactly",
@@ -154,40 +215,54 @@ fn claims(found: &Found) -> Vec<Line> {
         p.by_floats,
         p.exactly
     );
-    vec![one(found.smooth(), "the surface is C¹ at every vertex, for these points"), surface, words(tested)]
+    vec![one(found.smooth(), vertices), surface, words(tested)]
 }
 
 fn listed(v: &AtVertex) -> Line {
-    let valence = if v.valence == 0 { "on the border".to_owned() } else { format!("valence {}", v.valence) };
-    let mut line = words(format!("{}, {valence}: ", place(v)));
+    let mut line = words(format!("{}, {}: ", place(v), kind(v.kind)));
     line.push(mark(v.smooth));
     let rings = around(v).filter(|_| v.smooth == Verdict::Proved);
     line.extend(words(match rings {
         Some(rings) => format!(" at the vertex; around it: {rings}"),
+        None if v.smooth == Verdict::Proved => {
+            format!(" at the vertex: {}; the rings around it are under no common bound", reason(v))
+        }
         None => format!(": {}", reason(v)),
     }));
     line
 }
 
+/// The rule at a vertex, in words.
+#[must_use]
+pub fn kind(kind: Kind) -> String {
+    match kind {
+        Kind::Inside(n) => format!("valence {n}"),
+        Kind::Smooth(n) => format!("border, {}", count(n as usize, "face")),
+        Kind::Corner(n) => format!("corner, {}", count(n as usize, "face")),
+        Kind::Dart(n) => format!("dart, valence {n}"),
+        Kind::Tip(n) => format!("fixed, valence {n}"),
+        Kind::Unknown => "border without a rule".to_owned(),
+    }
+}
+
 fn table(found: &Found) -> Table {
-    let mut by: BTreeMap<usize, Vec<&AtVertex>> = BTreeMap::new();
-    found.vertices.iter().for_each(|v| by.entry(v.valence).or_default().push(v));
-    let row = |(n, all): (&usize, &Vec<&AtVertex>)| {
+    let mut by: BTreeMap<Kind, Vec<&AtVertex>> = BTreeMap::new();
+    found.vertices.iter().for_each(|v| by.entry(v.kind).or_default().push(v));
+    let row = |(own, all): (&Kind, &Vec<&AtVertex>)| {
+        let inside = own.inside();
         let of = |verdict: Verdict| all.iter().filter(|v| v.smooth == verdict).count();
-        let lambda = found
-            .valences
-            .get(n)
-            .and_then(|a| a.top.as_ref())
+        let lambda = inside
+            .and_then(|n| found.valences.get(&n)?.top.as_ref())
             .map_or("–".to_owned(), |t| format!("{:.10}", decimal(t)));
         let rings = if all.iter().all(|v| !v.extraordinary) {
             "–".to_owned()
         } else {
             format!("{} of {}", all.iter().filter(|v| v.surrounded()).count(), all.len())
         };
-        let mut cells = vec![if *n == 0 { words("border") } else { words(n.to_string()) }];
+        let mut cells = vec![words(inside.map_or_else(|| kind(*own), |n| n.to_string()))];
         cells.extend([all.len().to_string(), lambda, of(Verdict::Proved).to_string()].map(words));
         cells.extend([of(Verdict::Refuted).to_string(), of(Verdict::Undetermined).to_string(), rings].map(words));
-        cells.push(words(found.curvature.get(n).map_or_else(|| "–".to_owned(), curved)));
+        cells.push(words(inside.and_then(|n| found.curvature.get(&n)).map_or_else(|| "–".to_owned(), curved)));
         cells
     };
     let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "open", "rings immersed", "curvature"];
@@ -228,7 +303,7 @@ fn limits(found: &Found, most: usize) -> Table {
         ]
     };
     let header = ["where", "limit point", "exactly", "unit normal", "C¹"];
-    let caption = words("In exact numbers t = 2cos(2π/n) at valence n.");
+    let caption = words("In exact numbers t = 2cos(2π/n) at valence n, and 2cos(π/k) at a border vertex with k faces.");
     Table { caption, header: header.map(words).to_vec(), rows: found.vertices.iter().take(most).map(row).collect() }
 }
 
@@ -243,15 +318,18 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
         let limit = v.limit.as_ref();
         let exact = |all: &[Number; 3]| json!(all.iter().map(Number::display).collect::<Vec<_>>());
         let written = |all: &[Number; 3]| if v.valence <= WRITTEN { exact(all) } else { Value::Null };
-        let (kind, number) = match v.spot {
+        let (at, number) = match v.spot {
             Spot::Vertex(k) => ("vertex", k + 1),
             Spot::Face(k) => ("face", k + 1),
         };
         json!({
-            "at": kind,
+            "at": at,
             "number": number,
             "line": v.line,
             "valence": v.valence,
+            "kind": kind(v.kind),
+            "side": v.side.map(|s| s + 1),
+            "sides": v.sides,
             "smooth": v.smooth.word(),
             "reason": reason(v),
             "rings": around(v),
@@ -259,7 +337,7 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
             "point": limit.map(|l| l.near.map(crate::mesh::Float::mid)),
             "point_exact": limit.and_then(|l| l.point.as_ref()).map(exact),
             "normal": limit.and_then(|l| l.unit),
-            "normal_exact": limit.map(|l| written(&l.normal)),
+            "normal_exact": limit.filter(|l| l.unit.is_some()).map(|l| written(&l.normal)),
             "tangents_exact": limit.map(|l| l.tangents.iter().map(written).collect::<Vec<_>>()),
         })
     };
@@ -270,13 +348,16 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
         "scheme": scheme,
         "faces": model.topology.faces(),
         "closed": found.closed,
+        "boundary": found.boundary.map(Boundary::name),
+        "sharp_edges": found.cuts,
+        "semi_sharp_steps": found.soft_steps,
         "two_sided": found.parts,
         "smooth": found.smooth().word(),
         "regular": found.regular().word(),
         "certificate": Value::Null,
         "statements": found.statements().iter().map(|s| s.id()).collect::<Vec<_>>(),
         "patches": {"tested": p.tested, "by_floats": p.by_floats, "exactly": p.exactly, "bad": p.bad.iter().map(bad).collect::<Vec<_>>()},
-        "numbers": "t = 2cos(2π/n) at valence n; a is the positive root of a² = (2 + t)a + 8 + 4t",
+        "numbers": "t = 2cos(2π/n) at valence n, n = 2k at a border vertex with k faces; a is the positive root of a² = (2 + t)a + 8 + 4t",
         "curvature": found.curvature.iter().map(|(n, c)| json!({
             "valence": n,
             "almost_all": curved(c),

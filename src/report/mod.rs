@@ -21,6 +21,7 @@ pub mod proof;
 pub mod radius;
 pub mod reasons;
 pub mod region;
+pub mod region_curve;
 pub mod regularity;
 pub mod spectrum;
 pub mod summary;

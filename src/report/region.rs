@@ -32,7 +32,7 @@ fn digits(end: &Root) -> String {
 }
 
 /// What an irrational end is.
-fn definition(end: &Root, parameter: &str) -> Option<String> {
+pub(super) fn definition(end: &Root, parameter: &str) -> Option<String> {
     end.rational().is_none().then(|| {
         let near = end.enclosure(24).0;
         format!(
@@ -57,12 +57,16 @@ pub fn verdict(finding: &Finding) -> Verdict {
 
 fn mark(finding: &Finding) -> Line {
     let verdict = verdict(finding);
-    let tone = match verdict {
+    vec![Inline::Mark(tone(verdict), verdict.word().to_owned())]
+}
+
+/// The tone of a verdict.
+pub(super) fn tone(verdict: Verdict) -> Tone {
+    match verdict {
         Verdict::Proved => Tone::Good,
         Verdict::Refuted => Tone::Bad,
         Verdict::Undetermined => Tone::Open,
-    };
-    vec![Inline::Mark(tone, verdict.word().to_owned())]
+    }
 }
 
 /// Neighbours that are known for one reason, in print one row.
@@ -129,7 +133,7 @@ fn because(family: &MaskFamily, order: &OrderRegion, part: &Part) -> String {
             let word = &r.crossings[*k].word;
             let plain = word.len() == 1 || order.order == 0;
             let power = if plain { threshold } else { format!("({threshold})^{}", word.len()) };
-            format!("word {}: spectral radius at least {power}", word_text(word))
+            word_reason(word, &power)
         }
         (Finding::SumRules, _) => match family.sum_rules {
             1 => "no more than one sum rule".to_owned(),
@@ -142,8 +146,13 @@ fn because(family: &MaskFamily, order: &OrderRegion, part: &Part) -> String {
     }
 }
 
+/// Why a word refutes.
+pub(super) fn word_reason(word: &[usize], power: &str) -> String {
+    format!("word {}: spectral radius at least {power}", word_text(word))
+}
+
 /// Why a gap is left, and what more effort would try.
-fn gap(ended: Ended) -> &'static str {
+pub(super) fn gap(ended: Ended) -> &'static str {
     match ended {
         Ended::Done => "no hull and no word was found; a smaller --width divides the gap further",
         Ended::Exhausted => "no hull and no word was found; --effort hard tries more hulls",

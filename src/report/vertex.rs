@@ -23,7 +23,7 @@ pub fn twice(found: &[AtValence]) -> String {
     let decided = |f: &&AtValence| f.smooth != Verdict::Undetermined;
     let (again, once): (Vec<&AtValence>, Vec<&AtValence>) =
         found.iter().filter(decided).partition(|f| f.again == Again::Proved);
-    let list = |of: &[&AtValence]| ranges(&of.iter().map(|f| f.valence).collect::<Vec<_>>());
+    let list = places;
     if !once.is_empty() && once.iter().all(|f| f.again == Again::NotAsked) {
         return "the independent checker was not asked: the verdicts were proved once, not twice".to_owned();
     }
@@ -171,16 +171,16 @@ pub(super) fn summary_by_valence(case: &VertexCase, found: &[AtValence], every: 
     if !equations.is_empty() {
         blocks.push(Block::List(equations));
     }
-    let mut grouped: Vec<(&VertexReason, Verdict, Vec<usize>)> = Vec::new();
+    let mut grouped: Vec<(&VertexReason, Verdict, Vec<&AtValence>)> = Vec::new();
     for f in found {
         match grouped.iter_mut().find(|(reason, verdict, _)| **reason == f.reason && *verdict == f.smooth) {
-            Some((_, _, list)) => list.push(f.valence),
-            None => grouped.push((&f.reason, f.smooth, vec![f.valence])),
+            Some((_, _, list)) => list.push(f),
+            None => grouped.push((&f.reason, f.smooth, vec![f])),
         }
     }
     let reasons = grouped.iter().map(|(reason, verdict, list)| {
         let mut line = vec![mark(*verdict)];
-        line.extend(words(format!(" at {}: {}", ranges(list), vertex_reasons::reason(reason))));
+        line.extend(words(format!(" at {}: {}", places(list), vertex_reasons::reason(reason))));
         line
     });
     let reasons: Vec<Line> = reasons.collect();
@@ -195,6 +195,14 @@ pub(super) fn summary_by_valence(case: &VertexCase, found: &[AtValence], every: 
 }
 
 fn table(case: &VertexCase, found: &[AtValence]) -> Table {
+    if let Some(smooth) = case.border {
+        let row = |f: &AtValence| vec![words(f.valence.to_string()), vec![mark(f.plane)], vec![mark(f.smooth)]];
+        let at = if smooth { "a vertex of a smooth border" } else { "a corner" };
+        let caption =
+            format!("{}: C¹ up to the border at {at} for almost all control points, by number of faces", case.title);
+        let header = ["faces", "tangent plane", "C¹ up to the border"].map(words).to_vec();
+        return Table { caption: words(caption), header, rows: found.iter().map(row).collect() };
+    }
     let header = ["valence", "λ", "blocks", "regular", "injective", "tangent plane", "C¹"].map(words).to_vec();
     let row = |f: &AtValence| {
         vec![
@@ -218,7 +226,11 @@ fn evidence_by_valence(case: &VertexCase, found: &[AtValence]) -> Vec<Block> {
 
 /// The section of one valence.
 pub(super) fn at(case: &VertexCase, f: &AtValence) -> Vec<Block> {
-    let mut blocks = vec![Block::Heading(2, words(format!("Valence {}", f.valence))), Block::Facts(evidence(f))];
+    let heading = match f.border {
+        Some(_) => count(f.valence, "face"),
+        None => format!("Valence {}", f.valence),
+    };
+    let mut blocks = vec![Block::Heading(2, words(heading)), Block::Facts(evidence(f))];
     if let Some(panel) = panel(f) {
         let title = format!("{}, valence {}", case.title, f.valence);
         blocks.push(Block::Figure {
@@ -251,9 +263,25 @@ fn all_valences(every: &Every) -> Vec<Block> {
     ]
 }
 
-/// Valences as ranges, such as `3–5, 8`.
+/// Where findings are about: `valences 3–5, 8`, or on the border `a corner with 1–2 faces`.
+#[must_use]
+pub fn places(found: &[&AtValence]) -> String {
+    let list: Vec<usize> = found.iter().map(|f| f.valence).collect();
+    match found.first().and_then(|f| f.border) {
+        Some(smooth) if list == [1] => super::words::on_border(smooth, "1 face"),
+        Some(smooth) => super::words::on_border(smooth, &format!("{} faces", numbers(&list))),
+        None => ranges(&list),
+    }
+}
+
+/// Valences as ranges, such as `valences 3–5, 8`.
 #[must_use]
 pub fn ranges(list: &[usize]) -> String {
+    let word = if list.len() == 1 { "valence" } else { "valences" };
+    format!("{word} {}", numbers(list))
+}
+
+fn numbers(list: &[usize]) -> String {
     let mut parts: Vec<(usize, usize)> = Vec::new();
     for n in list {
         match parts.last_mut() {
@@ -262,8 +290,7 @@ pub fn ranges(list: &[usize]) -> String {
         }
     }
     let name = |(a, b): &(usize, usize)| if a == b { a.to_string() } else { format!("{a}–{b}") };
-    let word = if list.len() == 1 { "valence" } else { "valences" };
-    format!("{word} {}", parts.iter().map(name).collect::<Vec<_>>().join(", "))
+    parts.iter().map(name).collect::<Vec<_>>().join(", ")
 }
 
 fn witness(case: &VertexCase, f: &AtValence) -> Option<Line> {
@@ -369,6 +396,7 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
     let signs = f.jacobian.as_ref();
     json!({
         "valence": f.valence,
+        "border": f.border.map(|smooth| if smooth { "smooth" } else { "corner" }),
         "verdict": f.smooth.word(),
         "tangent_plane": f.plane.word(),
         "reason": vertex_reasons::reason(&f.reason),

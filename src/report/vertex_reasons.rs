@@ -1,7 +1,7 @@
 //! The words of what was found at vertices of meshes and why.
 
 use crate::scheme::SchemeError;
-use crate::vertex::{Requirement, VertexReason};
+use crate::vertex::{BorderGround, Requirement, VertexReason};
 
 /// What a verdict at one valence rests on, or what is missing.
 #[must_use]
@@ -31,6 +31,8 @@ pub fn reason(reason: &VertexReason) -> String {
         VertexReason::LimitOpen => {
             "besides 1, counted once, an eigenvalue is not proved to be smaller than 1 in modulus".to_owned()
         }
+        VertexReason::Border(ground) => border(*ground).to_owned(),
+        VertexReason::BorderOpen => "the signs of the characteristic map were not decided everywhere".to_owned(),
         VertexReason::Span { .. }
         | VertexReason::Sectors
         | VertexReason::Uncovered { .. }
@@ -45,6 +47,25 @@ pub fn reason(reason: &VertexReason) -> String {
         | VertexReason::Fold
         | VertexReason::JacobianOpen
         | VertexReason::HalfPlane => map(reason),
+    }
+}
+
+/// What a verdict on the border rests on.
+#[must_use]
+pub fn border(ground: BorderGround) -> &'static str {
+    match ground {
+        BorderGround::Affine => "the characteristic map is affine (Border vertices)",
+        BorderGround::Map => "the characteristic map is regular and maps the fan to a half-plane (Border vertices)",
+        BorderGround::Jordan => {
+            "1/2 has a Jordan block, and the signs on the ring are strict (Border vertices with a Jordan block)"
+        }
+        BorderGround::OneFace => {
+            "the tangent plane is the osculating plane of the border (Border vertices with one face)"
+        }
+        BorderGround::Modes => {
+            "the tangent planes inside tend to another one than those on the border (Border vertices with too many faces)"
+        }
+        BorderGround::Sides => "there are three independent limit directions (Border vertices with too many faces)",
     }
 }
 

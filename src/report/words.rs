@@ -414,3 +414,9 @@ pub fn short_bound(x: &Rational) -> Math {
     let million = Rational::from(1_000_000);
     decimal_math(&(Rational::from((x * &million).ceiling()) / million), 6)
 }
+
+/// A vertex on the border with so many faces.
+#[must_use]
+pub fn on_border(smooth: bool, faces: &str) -> String {
+    if smooth { format!("a vertex of a smooth border with {faces}") } else { format!("a corner with {faces}") }
+}

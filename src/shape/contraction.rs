@@ -208,7 +208,8 @@ fn sharpen_code(shape: &Shape, operators: &[Vec<Scaled>], from: usize, code: &mu
     let limit = SHARP_WORDS.min(MAX_PRODUCTS / shape.states[from].dim.pow(3).max(1));
     let mut best = words.last_key_value().map(|((tau, _), _)| tau.clone()).unwrap_or_else(|| Rational::from(0));
     // What was done since the best code: each word that was replaced, and by which.
-    let mut since: Vec<((Rational, Vec<usize>), usize, Vec<(Rational, Vec<usize>)>)> = Vec::new();
+    type Sized = (Rational, Vec<usize>);
+    let mut since: Vec<(Sized, usize, Vec<Sized>)> = Vec::new();
     while words.len() < limit {
         let Some(((tau, word), (state, product))) = words.pop_last() else { return };
         if tau <= half {

@@ -335,7 +335,7 @@ fn mesh(model: &Model, scheme: Scheme, found: &Found) -> Value {
         json!({
             "name": mesh_report::place(v),
             "address": format!("line {}", v.line),
-            "parameter": format!("valence {}", v.valence),
+            "parameter": mesh_report::kind(v.kind),
             "verdict": verdict.word(),
             "kind": kind,
             "note": mesh_report::reason(v),
@@ -345,12 +345,10 @@ fn mesh(model: &Model, scheme: Scheme, found: &Found) -> Value {
             "tangent": limit.and_then(|l| l.unit).map(|n| json!({ "text": format!("normal ≈ ({})", decimals(n)) })),
         })
     });
+    let [vertices, surface] = mesh_report::claim_words(found);
     json!({
         "verdict": found.regular().word(),
-        "claims": [
-            whole("vertices", found.smooth(), "the surface is C¹ at every vertex, for these points"),
-            whole("surface", found.regular(), "the limit surface of this mesh is a regular C¹ surface, immersed by its parametrisation"),
-        ],
+        "claims": [whole("vertices", found.smooth(), vertices), whole("surface", found.regular(), surface)],
         "bad": data["patches"]["bad"],
         "limits": [],
         "points": points.take(MOST_VERTICES).collect::<Vec<_>>(),

@@ -147,6 +147,13 @@ pub enum Assertion {
         /// The valence.
         valence: usize,
     },
+    /// For almost all control points the surface is `C¹` up to its border at a vertex there.
+    C1AtBorder {
+        /// The number of its faces.
+        faces: usize,
+        /// Whether the border is a smooth curve there; otherwise the vertex is a corner.
+        smooth: bool,
+    },
     /// For almost all control points the surface has a tangent plane at a vertex of the valence.
     PlaneAtVertex {
         /// The valence.
@@ -183,6 +190,7 @@ impl Assertion {
             Self::PlaneEverywhere => "plane-everywhere",
             Self::PlaneAt { .. } => "plane-at",
             Self::C1AtVertex { .. } => "c1-at-vertex",
+            Self::C1AtBorder { .. } => "c1-at-border",
             Self::PlaneAtVertex { .. } => "plane-at-vertex",
             Self::C1AtVertices { .. } => "c1-at-vertices",
         }

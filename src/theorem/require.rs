@@ -66,9 +66,11 @@ impl Assertion {
     #[must_use]
     pub fn topic(&self) -> Option<Topic> {
         Some(match self {
-            Self::Tangents | Self::C1AtVertex { .. } | Self::PlaneAtVertex { .. } | Self::C1AtVertices { .. } => {
-                return None;
-            }
+            Self::Tangents
+            | Self::C1AtVertex { .. }
+            | Self::C1AtBorder { .. }
+            | Self::PlaneAtVertex { .. }
+            | Self::C1AtVertices { .. } => return None,
             Self::TangentAtEnds => Topic::Ends,
             Self::ExaminedJoints | Self::PlaneAtVertices => Topic::Joints,
             Self::TangentDense

@@ -5,7 +5,7 @@ use super::cosine::{gcd, minimal_polynomial};
 use super::field::{Enclosures, Field, Fixed};
 use super::limit::{self, Ring};
 use super::net::{Net, Signs};
-use super::reason::VertexReason;
+use super::reason::{BorderGround, VertexReason};
 use super::regular::Regular;
 use super::ring::{self, Values, jacobian, patches};
 use super::top::{Top, TopError, leading_value, leading_values, top};
@@ -67,8 +67,10 @@ pub enum Again {
 /// What holds at one valence.
 #[derive(Debug, Clone)]
 pub struct AtValence {
-    /// The valence.
+    /// The valence; of a vertex on the border the number of its faces.
     pub valence: usize,
+    /// On the border: whether that is a smooth curve there, or the vertex is a corner.
+    pub border: Option<bool>,
     /// C¹ for almost all control points.
     pub smooth: Verdict,
     /// A tangent plane for almost all control points (the statement of Theorem 2 or 3).
@@ -103,6 +105,7 @@ impl AtValence {
     fn new(valence: usize) -> Self {
         Self {
             valence,
+            border: None,
             smooth: Verdict::Undetermined,
             plane: Verdict::Undetermined,
             top: None,
@@ -120,9 +123,25 @@ impl AtValence {
         }
     }
 
+    /// What holds at a vertex of the border with so many faces; `curve` is whether the border is a smooth curve there.
+    #[must_use]
+    pub fn on_border(faces: usize, curve: bool, ground: BorderGround, verdict: Verdict) -> Self {
+        let plane = match (verdict, ground) {
+            (Verdict::Proved, _) => Verdict::Proved,
+            (Verdict::Refuted, BorderGround::Sides) => Verdict::Refuted,
+            _ => Verdict::Undetermined,
+        };
+        let open = verdict == Verdict::Undetermined;
+        let reason = if open { VertexReason::BorderOpen } else { VertexReason::Border(ground) };
+        Self { border: Some(curve), smooth: verdict, plane, reason, ..Self::new(faces) }
+    }
+
     /// The statements that the verdicts are instances of, in the order of the theory.
     #[must_use]
     pub fn statements(&self) -> Vec<Statement> {
+        if let VertexReason::Border(ground) = self.reason {
+            return vec![ground.statement()];
+        }
         let length = self.top.as_ref().map_or(1, |top| top.longest(self.valence).0);
         let simple = if length > 1 { Statement::Theorem3 } else { Statement::Theorem2 };
         let decided = self.smooth != Verdict::Undetermined;

@@ -19,7 +19,7 @@ pub mod turning;
 
 pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, at_valence_within, decimal};
 pub use every::{Condition, Every, every, strict_sign};
-pub use reason::{Requirement, VertexReason};
+pub use reason::{BorderGround, Requirement, VertexReason};
 
 use crate::answer::Verdict;
 

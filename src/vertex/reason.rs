@@ -1,6 +1,7 @@
 //! What was found at a vertex and why, as data. The words are in [`crate::report::vertex_reasons`].
 
 use crate::scheme::SchemeError;
+use crate::statement::Statement;
 
 /// What a verdict at one valence rests on, or what is missing. A `length` is that of the longest Jordan blocks of the largest
 /// eigenvalues, a `block` a frequency.
@@ -89,8 +90,42 @@ pub enum VertexReason {
     Fold,
     /// The sign of the Jacobian determinant is open somewhere.
     JacobianOpen,
+    /// A statement on vertices of the border.
+    Border(BorderGround),
+    /// The signs that such a statement asks for are open.
+    BorderOpen,
     /// No half-plane through 0 holds the ring of one sector.
     HalfPlane,
+}
+
+/// What a verdict on a fan of faces at the border rests on, or would.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BorderGround {
+    /// The characteristic map is affine.
+    Affine,
+    /// It is regular and maps the fan into a wedge.
+    Map,
+    /// A Jordan block of 1/2.
+    Jordan,
+    /// One face at a smooth border.
+    OneFace,
+    /// Two inner modes go before the border: the normals inside tend to another one than those on the border.
+    Modes,
+    /// An inner mode goes before the two sides of a corner.
+    Sides,
+}
+
+impl BorderGround {
+    /// The statement of which the verdict is an instance.
+    #[must_use]
+    pub fn statement(self) -> Statement {
+        match self {
+            Self::Affine | Self::Map => Statement::BorderVertex,
+            Self::Jordan => Statement::BorderJordan,
+            Self::OneFace => Statement::BorderOneFace,
+            Self::Modes | Self::Sides => Statement::BorderRefuted,
+        }
+    }
 }
 
 /// A condition of the proof for all valences at once (Theorem 9).

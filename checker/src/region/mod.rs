@@ -1,9 +1,12 @@
 //! Regions of a mask with a parameter: open intervals and single points at which the scheme converges and has limits of an order
 //! of smoothness, or not (docs/certificate.md, section 9.2).
 
+mod argument;
+mod curve;
 mod hull;
 mod model;
 mod polynomial;
+mod symbolic;
 
 use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, file, index, need, together, whole};
 use crate::claim::{Claim, Real};
@@ -229,6 +232,9 @@ fn adjugate_column(m: &Matrix, column: usize) -> Checked<Matrix> {
 
 /// Checks the proof of a certificate of the kind `region`.
 pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
+    if node.get("claims").is_some() {
+        return curve::check(source, node);
+    }
     let family = read(source)?;
     let [independent, orders] = node.fields("independent orders")?;
     let guard = independent.at(independence(&family, &independent))?;

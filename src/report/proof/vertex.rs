@@ -4,7 +4,7 @@
 use super::super::document::{Block, Document, Inline, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
 use super::super::values::{decimal_math, outward};
-use super::super::vertex::{at, functional, ranges, summary_by_valence, twice};
+use super::super::vertex::{at, functional, places, summary_by_valence, twice};
 use super::super::words::{count, mark, short_bound};
 use super::evidence::Evidence;
 use super::{Quoted, references};
@@ -85,9 +85,17 @@ fn statement(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> V
     }
     let mut text = words("Of the scheme of the case ");
     text.push(Inline::Code(case.name.clone()));
-    text.extend(line(" around a vertex of valence $n$ (a face with $n$ corners, if the scheme is dual):", []));
+    let around = match case.border {
+        None => " around a vertex of valence $n$ (a face with $n$ corners, if the scheme is dual):",
+        Some(true) => " at a vertex with $k$ faces, where the border is a smooth curve:",
+        Some(false) => " at a vertex with $k$ faces that is a corner of the border:",
+    };
+    text.extend(line(around, []));
     blocks.push(Block::Paragraph(text));
-    let (is, is_not) = ("the surface is a C¹ manifold", "the surface is not a C¹ manifold");
+    let (is, is_not) = match case.border {
+        None => ("the surface is a C¹ manifold", "the surface is not a C¹ manifold"),
+        Some(_) => ("the surface is C¹ up to its border", "the surface is not C¹ up to its border"),
+    };
     let claim = |what: &str| {
         format!("for almost all control points {what} at the vertex, with its parametrisation by the mesh")
     };
@@ -99,7 +107,7 @@ fn statement(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> V
         items.push(item);
     }
     for verdict in [Verdict::Proved, Verdict::Refuted, Verdict::Undetermined] {
-        let list: Vec<usize> = found.iter().filter(|f| f.smooth == verdict).map(|f| f.valence).collect();
+        let list: Vec<&AtValence> = found.iter().filter(|f| f.smooth == verdict).collect();
         if list.is_empty() {
             continue;
         }
@@ -110,7 +118,7 @@ fn statement(case: &VertexCase, found: &[AtValence], every: Option<&Every>) -> V
             Verdict::Undetermined => format!("whether {}", claim(is)),
         };
         let mut item = vec![mark(verdict)];
-        item.extend(words(format!(": {said}, at {}", ranges(&list))));
+        item.extend(words(format!(": {said}, at {}", places(&list))));
         items.push(item);
     }
     blocks.push(Block::List(items));
@@ -189,6 +197,9 @@ fn evidence(case: &VertexCase, f: &AtValence) -> Vec<Block> {
             Statement::Theorem7 => half_plane(f, regular(f, leading(f, setting(f, Evidence::of(statement))))),
             Statement::Theorem8 => obstruction(case, f, setting(f, Evidence::of(statement))),
             Statement::NoLimit => no_limit(f, Evidence::of(statement)),
+            Statement::BorderVertex | Statement::BorderJordan | Statement::BorderOneFace | Statement::BorderRefuted => {
+                on_border(case, f, statement)
+            }
             other => Evidence::of(other),
         };
         blocks.push(found.block());
@@ -197,6 +208,23 @@ fn evidence(case: &VertexCase, f: &AtValence) -> Vec<Block> {
         blocks.push(eigenvector(vector));
     }
     blocks
+}
+
+/// A vertex on the border, which has the rules of the scheme of the case.
+fn on_border(case: &VertexCase, f: &AtValence, statement: Statement) -> Evidence {
+    let mut evidence = Evidence::of(statement);
+    let rules = format!("the scheme is {}; a step on the fan was built from them.", case.scheme);
+    evidence.push("rules", Tone::Good, words(rules));
+    if statement != Statement::BorderOneFace {
+        evidence = evidence.holds("fan", "$k=@$.", [Math::count(f.valence)]);
+    }
+    if matches!(statement, Statement::BorderVertex | Statement::BorderJordan) {
+        let map = "the eigenvectors were computed on three rings of points, exactly or in enclosures, and all Bernstein \
+                   coefficients on the ring have the signs, but for exact zeros on the border.";
+        evidence.push("map", Tone::Good, words(map));
+    }
+    evidence.push("coefficients", Tone::Good, words("for almost all control points."));
+    evidence
 }
 
 /// The name of a statement before its ticks.

@@ -6,9 +6,18 @@
 //! limit are independent on a unit interval; the latter is so where one polynomial does not vanish. Where it does, and where a
 //! further sum rule holds, the member itself is asked.
 
+mod argue;
+mod cones;
+mod curve;
+mod fact;
 mod independence;
+mod signs;
+mod table;
 
+pub use curve::{CurveFamily, CurveFamilyError};
+pub use fact::{CurveClaim, CurveEnd, Evidence, Fact, Why};
 pub use independence::Independence;
+pub use table::{Basis, CurvePart, CurveRegions, CurveTable, Subject, member_verdict};
 
 use super::regularity::{Regularity, digits, regularity};
 use crate::algebraic::Root;
@@ -318,7 +327,7 @@ impl<'a> Purse<'a> {
 
     /// The part of one of so many orders that are to come.
     fn share(&self, orders: usize) -> Search {
-        let parts = u32::try_from(orders.max(1)).unwrap_or(u32::MAX);
+        let parts = orders.clamp(1, 1 << 20) as u32;
         Search { work: self.work / u64::from(parts), time: self.time().map(|t| t / parts), ..self.search.clone() }
     }
 

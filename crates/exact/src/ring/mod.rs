@@ -131,6 +131,47 @@ impl Ordered for Rationals {
     }
 }
 
+/// The ring of polynomials in one variable over the rationals.
+///
+/// ```
+/// use secant_exact::{arith::ratio, linalg::Matrix, poly::Poly, ring::Polynomials};
+///
+/// // x² − 2 t x is the characteristic polynomial of the matrix with all entries t.
+/// let t = Poly::linear(&ratio(0, 1));
+/// let m = Matrix::from_fn(2, 2, |_, _| t.clone());
+/// assert_eq!(m.char_poly_over(&Polynomials)[1], t.scale(&ratio(-2, 1)));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Polynomials;
+
+impl Ring for Polynomials {
+    type E = Poly;
+
+    fn integer(&self, n: &Integer) -> Poly {
+        Poly::constant(Rational::from(n))
+    }
+
+    fn add(&self, a: &Poly, b: &Poly) -> Poly {
+        a + b
+    }
+
+    fn sub(&self, a: &Poly, b: &Poly) -> Poly {
+        a - b
+    }
+
+    fn mul(&self, a: &Poly, b: &Poly) -> Poly {
+        a * b
+    }
+
+    fn is_zero(&self, a: &Poly) -> Option<bool> {
+        Some(a.is_zero())
+    }
+
+    fn neg(&self, a: &Poly) -> Poly {
+        -a
+    }
+}
+
 impl Ring for NumberField {
     type E = Elem;
 

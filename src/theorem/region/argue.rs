@@ -1,0 +1,286 @@
+//! What holds of a curve at one value of its parameter, and on the interval around it on which nothing changes its sign.
+
+use super::cones::Rays;
+use super::curve::{CurveFamily, Germ, apply, polynomial_eigenvalues};
+use super::fact::{CurveClaim, CurveEnd, Fact, Why};
+use super::signs::{At, adjugate, determinant, dot, is_stable, scaled};
+use crate::algebraic::Root;
+use crate::answer::Verdict;
+use crate::arith::Rational;
+use crate::linalg::Matrix;
+use crate::poly::Poly;
+use crate::ring::{Polynomials, Ring};
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// A product along a word with its eigenvalues that are polynomials.
+struct Word {
+    matrix: Matrix<Poly>,
+    chi: Vec<Poly>,
+    eigenvalues: Vec<Poly>,
+}
+
+/// The leading eigenvalue of a word, real, simple and alone, with `ψ(λ) adj(λ − T)`: a positive multiple of the projection to its
+/// eigenvector.
+pub(super) struct Leading {
+    pub value: Poly,
+    pub positive: bool,
+    pub projection: Matrix<Poly>,
+}
+
+/// What is known of an end of the curve.
+pub(super) enum EndGerm {
+    /// The line of the leading eigenvector: the ray on which the curve leaves the end, whether the eigenvalue is positive, and the
+    /// leading coefficient where its cycle lives, positive on that side.
+    Line {
+        value: Poly,
+        ray: Vec<Poly>,
+        positive: bool,
+        row: Vec<Poly>,
+        forward: i32,
+    },
+    /// A plane.
+    Plane,
+    Unknown,
+}
+
+/// The two sides of a joint.
+pub(super) struct Joint {
+    pub left: Option<(Vec<Poly>, bool)>,
+    pub right: Option<(Vec<Poly>, bool)>,
+}
+
+/// The arguments about one family; products of words are kept.
+pub(super) struct Arguments<'a> {
+    pub family: &'a CurveFamily,
+    /// Searches for constant rays that are left.
+    pub searches: Cell<usize>,
+    words: RefCell<BTreeMap<Vec<usize>, Rc<Word>>>,
+}
+
+impl<'a> Arguments<'a> {
+    pub fn new(family: &'a CurveFamily) -> Self {
+        Self { family, searches: Cell::new(SEARCHES), words: RefCell::default() }
+    }
+
+    /// What is decided at a value: around it too, or there only. All of it rests on contraction.
+    pub fn facts(&self, point: &Root, around: bool) -> Vec<Fact> {
+        let at = At::new(point, around);
+        let Some((chord, span)) = self.premises(&at) else { return Vec::new() };
+        let germs = [0, 1].map(|end| self.germ(&at, &self.family.germs[end], &chord));
+        let joints = self.joints(&at, &germs);
+        let mut facts = self.refuted(&at, &germs, &joints);
+        let known = |facts: &[Fact], claim| facts.iter().any(|f: &Fact| f.claim == claim);
+        if !known(&facts, CurveClaim::G1) {
+            facts.extend(self.jumps(&at, &joints));
+        }
+        for rays in Rays::ALL {
+            if CurveClaim::ALL.iter().all(|c| known(&facts, *c)) {
+                break;
+            }
+            let own = at.fork();
+            let Some(rays) = self.rays(&own, rays, &germs, &chord) else { continue };
+            let found = self.in_cone(&own, &rays, &chord, &germs, &joints);
+            facts.extend(found.into_iter().filter(|f| !known(&facts, f.claim)).collect::<Vec<_>>());
+        }
+        let value = |germ: &EndGerm| match germ {
+            EndGerm::Line { value, .. } => Some(value.clone()),
+            EndGerm::Plane | EndGerm::Unknown => None,
+        };
+        for fact in &mut facts {
+            fact.evidence.span.clone_from(&span);
+            fact.evidence.values = germs.each_ref().map(value);
+        }
+        facts
+    }
+
+    /// The chord, where the relevant space is the space of all differences and no piece is a point.
+    fn premises(&self, at: &At<'_>) -> Option<(Vec<Poly>, Vec<Vec<usize>>)> {
+        let family = self.family;
+        if family.chord_guards.iter().any(|f| at.sign(f) == 0) {
+            return None;
+        }
+        let chord = at.primitive(&family.chord)?;
+        if !family.linear.iter().all(|m| at.is_not_zero(m.entries())) {
+            return None;
+        }
+        // Words are chosen at a rational value near by; the determinant decides.
+        let near = at.point().rational().unwrap_or_else(|| at.point().enclosure(64).0.mid());
+        let n = family.dim();
+        let mut queue: std::collections::VecDeque<Vec<usize>> = [Vec::new()].into();
+        let (mut columns, mut words, mut rows) = (Vec::new(), Vec::new(), Matrix::zero(0, n));
+        while columns.len() < n {
+            let word = queue.pop_front().filter(|w| w.len() <= n + 1)?;
+            let image = word.iter().rev().fold(chord.clone(), |v, &l| apply(&family.linear[l], &v));
+            let value: Vec<Rational> = image.iter().map(|f| f.eval(&near)).collect();
+            let joined = rows.stack(&Matrix::from_rows(n, vec![value]));
+            if joined.rank() > rows.rows() {
+                rows = joined;
+                columns.push(image);
+                words.push(word.clone());
+            }
+            queue.extend((0..family.linear.len()).map(|l| [&[l], word.as_slice()].concat()));
+        }
+        let whole = Matrix::from_fn(n, n, |i, j| columns[j][i].clone());
+        (at.sign(&determinant(&whole)) != 0).then_some((chord, words))
+    }
+
+    fn word(&self, word: &[usize]) -> Rc<Word> {
+        if let Some(known) = self.words.borrow().get(word) {
+            return Rc::clone(known);
+        }
+        let matrix = self.family.product(word);
+        let chi = matrix.char_poly_over(&Polynomials);
+        let eigenvalues = polynomial_eigenvalues(&matrix, &chi);
+        let made = Rc::new(Word { matrix, chi, eigenvalues });
+        self.words.borrow_mut().insert(word.to_vec(), Rc::clone(&made));
+        made
+    }
+
+    /// The leading eigenvalue, where it is a polynomial, simple, and larger than all others in modulus.
+    pub fn leading(&self, at: &At<'_>, word: &[usize]) -> Option<Leading> {
+        let own = self.word(word);
+        own.eigenvalues.iter().find_map(|value| {
+            // The attempts of other eigenvalues fail at the value, and their guards say for how long.
+            let sign = at.sign(value);
+            if sign == 0 {
+                return None;
+            }
+            // χ = (x − λ) ψ, from the highest coefficient down.
+            let mut psi: Vec<Poly> = Vec::new();
+            for c in own.chi[1..].iter().rev() {
+                let next = psi.last().map_or_else(|| c.clone(), |p| &(p * value) + c);
+                psi.push(next);
+            }
+            psi.reverse();
+            let mut power = Polynomials.one();
+            let mut shrunk = Vec::new();
+            for c in &psi {
+                shrunk.push(c * &power);
+                power = &power * value;
+            }
+            if !is_stable(at, shrunk) {
+                return None;
+            }
+            let at_value = psi.iter().rev().fold(Poly::zero(), |v, c| &(&v * value) + c);
+            let side = at.sign(&at_value);
+            let projection = adjugate(&own.matrix, &own.chi, value).map(|f| f.scale(&Rational::from(side)));
+            (side != 0).then_some(Leading { value: value.clone(), positive: sign > 0, projection })
+        })
+    }
+
+    /// Differences from an end to points of the curve.
+    fn differences(&self, chord: &[Poly], germ: &Germ) -> Vec<Vec<Poly>> {
+        let family = self.family;
+        let forward = if germ.at_start { 1 } else { -1 };
+        let mut all = vec![scaled(chord, forward)];
+        let letters: Vec<usize> =
+            if germ.at_start { (0..family.linear.len()).collect() } else { (0..family.linear.len()).rev().collect() };
+        let mut sum: Vec<Poly> = vec![Poly::zero(); chord.len()];
+        for l in &letters[..letters.len() - 1] {
+            let step = scaled(&apply(&family.linear[*l], chord), forward * family.sign(&[*l]));
+            sum = sum.iter().zip(&step).map(|(a, b)| a + b).collect();
+            all.push(sum.clone());
+        }
+        all
+    }
+
+    fn germ(&self, at: &At<'_>, germ: &Germ, chord: &[Poly]) -> EndGerm {
+        let through = self.family.product(&germ.prefix);
+        let Some(lead) = self.leading(at, &germ.cycle) else {
+            let own = self.word(&germ.cycle);
+            let [c, b, _] = own.chi.as_slice() else { return EndGerm::Unknown };
+            let spiral = &(b * b) - &c.scale(&Rational::from(4));
+            let plane = at.sign(&spiral) < 0 && at.sign(&determinant(&through)) != 0;
+            return if plane { EndGerm::Plane } else { EndGerm::Unknown };
+        };
+        for a in self.differences(chord, germ) {
+            let Some(local) = at.primitive(&apply(&lead.projection, &a)) else { continue };
+            let Some(k) = (0..local.len()).find(|&k| at.sign(&local[k]) != 0) else { continue };
+            let row = scaled(lead.projection.row(k), at.sign(&local[k]));
+            return match at.primitive(&apply(&through, &local)) {
+                Some(ray) => {
+                    let forward = if germ.at_start { 1 } else { -1 };
+                    EndGerm::Line { value: lead.value, ray, positive: lead.positive, row, forward }
+                }
+                None => EndGerm::Unknown,
+            };
+        }
+        EndGerm::Unknown
+    }
+
+    fn joints(&self, at: &At<'_>, germs: &[EndGerm; 2]) -> Vec<Joint> {
+        let family = self.family;
+        let side = |letter: usize, finish: bool| match &germs[usize::from(finish != family.reversed[letter])] {
+            EndGerm::Line { ray, positive, .. } => {
+                at.primitive(&apply(&family.linear[letter], ray)).map(|d| (d, *positive))
+            }
+            EndGerm::Plane | EndGerm::Unknown => None,
+        };
+        let joint = |letter: usize| Joint { left: side(letter, true), right: side(letter + 1, false) };
+        (0..family.linear.len() - 1).map(joint).collect()
+    }
+
+    /// What known directions refute, without a ring condition.
+    fn refuted(&self, at: &At<'_>, germs: &[EndGerm; 2], joints: &[Joint]) -> Vec<Fact> {
+        let mut facts: Vec<Fact> = Vec::new();
+        let mut push = |claim, why| {
+            if !facts.iter().any(|f: &Fact| f.claim == claim) {
+                facts.extend(Fact::of(at, claim, Verdict::Refuted, why));
+            }
+        };
+        for (germ, end) in germs.iter().zip([CurveEnd::Start, CurveEnd::Finish]) {
+            match germ {
+                EndGerm::Plane => {
+                    push(CurveClaim::Ends, Why::Spiral(end));
+                    push(CurveClaim::G1, Why::Spiral(end));
+                }
+                EndGerm::Line { positive: false, .. } => push(CurveClaim::G1, Why::Alternates(end)),
+                _ => {}
+            }
+        }
+        for (k, joint) in joints.iter().enumerate() {
+            let (Some((a, up)), Some((b, on))) = (&joint.left, &joint.right) else { continue };
+            if !at.parallel(a, b) {
+                push(CurveClaim::Joints, Why::Corner(k));
+                push(CurveClaim::G1, Why::Corner(k));
+            } else if *up && *on && at.sign(&dot(a, b)) > 0 {
+                push(CurveClaim::G1, Why::Cusp(k));
+            }
+        }
+        facts
+    }
+
+    /// A cycle at which a tangent line is that of its leading eigenvector, while a joint that comes nearer keeps another direction.
+    fn jumps(&self, at: &At<'_>, joints: &[Joint]) -> Option<Fact> {
+        let letters = self.family.linear.len();
+        let pairs = (0..letters).flat_map(|a| (0..letters).map(move |b| vec![a, b]));
+        let words: Vec<Vec<usize>> = (0..letters).map(|l| vec![l]).chain(pairs.filter(|w| w[0] != w[1])).collect();
+        let sides = joints.iter().enumerate().flat_map(|(k, j)| [((k, 0), &j.left), ((k, 1), &j.right)]);
+        for (place, side) in sides {
+            let Some((line, _)) = side else { continue };
+            for word in &words {
+                let own = at.fork();
+                let Some(lead) = self.leading(&own, word) else { continue };
+                let image = apply(&self.word(word).matrix, line);
+                let Some(image) = own.primitive(&image) else { continue };
+                if !own.parallel(&image, line) {
+                    continue;
+                }
+                let column = (0..line.len()).find_map(|c| own.primitive(&lead.projection.column(c)));
+                if column.is_some_and(|v| !own.parallel(&v, line))
+                    && let Some(mut fact) = Fact::of(&own, CurveClaim::G1, Verdict::Refuted, Why::Jumps(word.clone()))
+                {
+                    fact.evidence.cycles = vec![(word.clone(), lead.value)];
+                    fact.evidence.place = Some(place);
+                    return Some(fact);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Searches for constant rays.
+const SEARCHES: usize = 40;
