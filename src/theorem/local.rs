@@ -100,10 +100,7 @@ impl<'a> LocalContext<'a> {
 /// Some linear algebra, and the enclosure of a functional on a few hundred cells.
 #[must_use]
 pub fn local_sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -> Vec<LocalSide> {
-    match sides(shape, spaces, balls, branch) {
-        Some(found) => found,
-        None => Vec::new(),
-    }
+    sides(shape, spaces, balls, branch).into_iter().flatten().collect()
 }
 
 fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -> Option<Vec<LocalSide>> {
