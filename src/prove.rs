@@ -13,8 +13,8 @@ use crate::diagnostic::Problem;
 use crate::mesh::{Fan, immersed_disc};
 use crate::scheme::{Sector, mesh_rules};
 use crate::stop;
-use crate::theorem::Certified;
 use crate::theorem::surface::{around_vertex, certify_complex_within};
+use crate::theorem::{Certified, certify_within};
 use crate::vertex::{AtValence, Every, Ground, at_valence_within, every};
 use std::sync::Arc;
 
@@ -48,6 +48,11 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
                 .map_err(|error| model_problem(case, &error))?;
             settle_around_vertex(case, &mut found, budget);
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
+        }
+        Question::OverField { case, further } => {
+            let addresses = [case.examine.as_slice(), further].concat();
+            let found = certify_within(&case.shape, &addresses, budget).map_err(|error| model_problem(case, &error))?;
+            Ok(Findings::OverField { case: Arc::clone(case), found: Box::new(found) })
         }
         Question::Vertices { case, valences } => {
             let (found, every) = at_valences(case, valences.as_ref().ok_or_else(no_valence)?, budget, step)?;

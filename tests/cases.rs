@@ -12,6 +12,7 @@ use secant::case::{Case, ExpectPoint, Question, Valences, VertexCase, expected_e
 use secant::certificate::{Certificate, Doubt};
 use secant::prove::{Findings, confirm, prove, unconfirmed};
 use secant::report::claims;
+use secant::report::reported::Reported;
 use secant::shape::Contraction;
 use secant::theorem::surface::{Subspace, SurfacePoint};
 use secant::theorem::{Certified, Direction, PointReport};
@@ -68,6 +69,8 @@ fn mistakes(path: &Path) -> Vec<String> {
     let mut wrong = match &findings {
         Findings::Tangents { case, .. } if case.expect.is_none() => vec!["expects nothing".to_owned()],
         Findings::Tangents { case, found } => compare(case, found),
+        Findings::OverField { case, .. } if case.expect.is_none() => vec!["expects nothing".to_owned()],
+        Findings::OverField { case, found } => compare(case, found),
         Findings::Vertices { case, .. } if case.expect.is_empty() => vec!["expects nothing".to_owned()],
         Findings::Vertices { case, found, .. } => {
             let differs = |(n, verdict): &(usize, Verdict)| match found.iter().find(|f| f.valence == *n) {
@@ -107,7 +110,7 @@ fn keep(path: &Path, certificate: &Certificate) -> Result<(), String> {
     std::fs::write(Path::new(&dir).join(name), certificate.text()).map_err(|error| error.to_string())
 }
 
-fn compare(case: &Case, found: &Certified) -> Vec<String> {
+fn compare<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Vec<String> {
     let expect = case.expect.as_ref().unwrap();
     let mut wrong = Vec::new();
     if expect.verdict.as_deref().is_some_and(|v| v != found.verdict.word()) {
@@ -177,7 +180,7 @@ fn compare_surface(expect: &ExpectPoint, found: &SurfacePoint) -> Vec<String> {
     wrong
 }
 
-fn compare_point(expect: &ExpectPoint, found: &PointReport) -> Vec<String> {
+fn compare_point<E: Reported>(expect: &ExpectPoint, found: &PointReport<E>) -> Vec<String> {
     let mut wrong = Vec::new();
     let mut check = |what: &str, wanted: Option<String>, got: String| {
         if wanted.as_ref().is_some_and(|w| *w != got) {

@@ -1,10 +1,17 @@
-//! Spectra over real number fields against SymPy, and `secant spectrum` on files with irrational entries.
+//! Spectra over real number fields against SymPy, `secant spectrum` on files with irrational entries, and verdicts on cases with
+//! such entries.
 
 use assert_cmd::Command;
-use secant::algebraic::Elem;
+use secant::algebraic::{Elem, Real};
+use secant::answer::Verdict;
+use secant::budget::Budget;
 use secant::case::matrix_file::parse_field;
+use secant::case::{Case, Question};
 use secant::jordan::FieldSpectrum;
+use secant::linalg::Entry;
+use secant::prove::{Findings, prove};
 use secant::scheme::{field_local_matrix, mesh_rule};
+use secant::theorem::{Assertion, Certified, Claim, Direction, Kind, Role};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -153,8 +160,8 @@ fn named_schemes_with_irrational_weights_have_spectra() {
     let case = file("db2.toml", &text);
     let (spectrum, _) = output(&["spectrum", case.to_str().unwrap()], 0);
     assert!(spectrum.contains("operator 1 of state") && spectrum.contains("1/4 + sqrt(3)/4"), "{spectrum}");
-    let (_, err) = output(&["certify", case.to_str().unwrap()], 2);
-    assert!(err.contains("secant::case::irrational-entry") && err.contains("secant spectrum"), "{err}");
+    let (text, err) = output(&["certify", case.to_str().unwrap()], 1);
+    assert!(text.contains("in Q(α), α = sqrt(3)") && err.contains("secant::certificate::none"));
     for (args, needle) in [
         (&["schemes", "loop-original"][..], "needs the parameter `n`"),
         (&["schemes", "loop-original", "n=seven"], "whole number"),
@@ -181,4 +188,133 @@ fn bad_entries_are_told_with_their_place() {
         let (_, err) = output(&["spectrum", path.to_str().unwrap()], 2);
         assert!(err.contains(needle), "{text}: {err}");
     }
+}
+
+/// Corner cutting (docs/theory.md §14) with `a` and `b`.
+fn corner_cutting(a: &str, b: &str) -> String {
+    cut([a, &format!("1-({a})"), b, &format!("1-({b})")])
+}
+
+fn cut([a, rest_a, b, rest_b]: [&str; 4]) -> String {
+    format!(
+        r#"name = "corner-cutting"
+convention = "columns"
+pieces = [
+  [["{rest_a}", "{b}", 0], ["{a}", "{rest_b}", "{rest_a}"], [0, 0, "{a}"]],
+  [["{b}", 0, 0], ["{rest_b}", "{rest_a}", "{b}"], [0, "{a}", "{rest_b}"]],
+]
+"#
+    )
+}
+
+fn certified(text: &str) -> Box<Certified<Real>> {
+    let question = Question::parse("case.toml", text).unwrap();
+    match prove(&question, &Budget::default()).unwrap() {
+        Findings::OverField { found, .. } => found,
+        _ => panic!("a case over a number field"),
+    }
+}
+
+fn verdict(found: &Certified<Real>, what: &Assertion) -> Verdict {
+    found.claims.iter().find(|c| c.what == *what).map(Claim::verdict).unwrap()
+}
+
+/// The embedding is part of the number: of two conjugate parameters one is G¹, the other has corners.
+#[test]
+fn conjugate_parameters_have_verdicts_of_their_own() {
+    for (a, g1) in [("(6-sqrt(2))/20", Verdict::Proved), ("(6+sqrt(2))/20", Verdict::Refuted)] {
+        let found = certified(&corner_cutting(a, a));
+        assert_eq!(verdict(&found, &Assertion::G1), g1, "{a}");
+        assert_eq!(verdict(&found, &Assertion::DenseJoints), g1, "{a}");
+        let same = found.points.iter().filter(|p| p.kind == Kind::Regular).count();
+        assert_eq!(same, usize::from(g1 == Verdict::Proved), "{a}");
+    }
+    // Rational members on both sides have the verdicts of the irrational one between them.
+    for (a, rest) in [("0.2292", "0.7708"), ("0.2293", "0.7707")] {
+        let question = Question::parse("case.toml", &cut([a, rest, a, rest])).unwrap();
+        let Findings::Tangents { found, .. } = prove(&question, &Budget::default()).unwrap() else {
+            panic!("rational")
+        };
+        assert!(found.claims.iter().any(|c| c.what == Assertion::G1 && c.verdict() == Verdict::Proved));
+    }
+}
+
+/// With `a = (3 − √5)/2` and `b = √5 − 2`, `c − a` is exactly 0: one Jordan block; a billionth further there is a corner.
+#[test]
+fn a_tie_in_the_field_is_exact() {
+    let joint = |a: &str| {
+        let found = certified(&corner_cutting(a, "sqrt(5)-2"));
+        let joint = found.points.iter().find(|p| matches!(p.role, Role::Joint { .. })).unwrap();
+        let blocks = joint.branches[1].spectrum.factors.iter().map(|f| f.blocks.clone()).max();
+        (joint.kind, blocks.unwrap())
+    };
+    assert_eq!(joint("(3-sqrt(5))/2"), (Kind::Regular, vec![2]));
+    assert_eq!(joint("(3-sqrt(5))/2+1e-9"), (Kind::Corner, vec![1]));
+}
+
+/// Cones over the field are what Theorem 6 asks for, by multiplication.
+#[test]
+fn cones_over_a_field_hold() {
+    let text = corner_cutting("sqrt(5)-2", "sqrt(5)-2");
+    let found = certified(&text);
+    let case = Case::over_field("case.toml", &text).unwrap();
+    let cones = found.cones.as_ref().unwrap();
+    let rays = &cones.cones[0].rays;
+    assert_eq!((rays.rank(), cones.maps.len()), (2, 2));
+    for (map, piece) in cones.maps.iter().zip(&case.shape.states[0].pieces) {
+        assert_eq!(&piece.op * rays, rays * &map.matrix);
+        assert!(map.matrix.entries().iter().all(|x| x.sign() > 0));
+    }
+}
+
+/// Koch's curve in true coordinates and in coordinates in which it is rational: the same kinds and dimensions, and the points are
+/// images of one another.
+#[test]
+fn coordinates_do_not_matter() {
+    let read = |path: &str| std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let found = certified(&read("cases/fields/koch-sqrt3.toml"));
+    let question = Question::parse("koch-4.toml", &read("cases/classical/koch-4.toml")).unwrap();
+    let Findings::Tangents { found: plain, .. } = prove(&question, &Budget::default()).unwrap() else {
+        panic!("rational")
+    };
+    let root = &Real::read(&["sqrt(3)"]).unwrap()[0];
+    assert_eq!(found.points.len(), plain.points.len());
+    for (a, b) in found.points.iter().zip(&plain.points) {
+        assert_eq!((a.kind, a.verdict, a.dimension), (b.kind, b.verdict, b.dimension));
+        let (a, b) = (a.image.as_ref().unwrap(), b.image.as_ref().unwrap());
+        assert_eq!((&a[0], &a[1]), (&Real::of(&b[0]), &root.times(&Real::of(&b[1]))));
+    }
+    assert_eq!(verdict(&found, &Assertion::SomePoint), Verdict::Refuted);
+}
+
+/// The tangents of db2's curve, as derived by hand: rays `(1, −2, 1)` and `(0, −1, 1)`, and a corner between.
+#[test]
+fn the_curve_of_db2() {
+    let (text, _) = output(&["schemes", "db2"], 0);
+    let found = certified(&text);
+    let [start, finish, joint] = &found.points[..] else { panic!("two ends and a joint") };
+    let decimals = |d: &Direction| d.to_f64();
+    let near = |d: &[f64], wanted: &[f64]| {
+        let norm = wanted.iter().map(|x| x * x).sum::<f64>().sqrt();
+        d.iter().zip(wanted).all(|(a, b)| (a - b / norm).abs() < 1e-9)
+    };
+    assert!(near(&decimals(&start.right[0]), &[1.0, -2.0, 1.0]), "{:?}", start.right);
+    let s = 3f64.sqrt();
+    let left = [-1.0 - s, 2.0 * s, 1.0 - s];
+    let mirrored: Vec<f64> = left.iter().rev().copied().collect();
+    let ray = decimals(&joint.left[0]);
+    assert!(near(&ray, &left) || near(&ray, &mirrored), "{ray:?}");
+    assert_eq!((finish.kind, joint.kind), (Kind::SmoothEnd, Kind::Corner));
+    let modulus = start.branches[0].spectrum.factors.iter().map(|f| f.roots[0].to_f64().0).fold(0.0, f64::max);
+    assert!((-modulus.log2() - 0.550_016).abs() < 1e-5);
+}
+
+#[test]
+fn what_is_not_read_over_a_field_is_refused() {
+    let (_, err) = output(&["certify", "cases/refused/irrational-entry.toml"], 2);
+    assert!(err.contains("secant::case::irrational-entry"), "{err}");
+    let svg = file("koch-sqrt3.svg", "");
+    let (said, _) = output(&["render", "cases/fields/koch-sqrt3.toml", "--svg", svg.to_str().unwrap()], 0);
+    assert!(said.contains("rounded points") && !said.contains("exact"), "{said}");
+    output(&["render", "cases/fields/koch-sqrt3.toml", "--error", "1/100", "--svg", svg.to_str().unwrap()], 2);
 }

@@ -47,6 +47,15 @@ fn the_zwart_powell_element() {
 }
 
 #[test]
+fn parameters_behind_the_name() {
+    let given = ["first=1/2,1,1/2".to_owned(), "second=1/2,1,1/2".to_owned()];
+    let apart = secant::ask::regularity("tensor", &given, 2).expect("an answer");
+    let behind = secant::ask::regularity(&format!("tensor {}", given.join(" ")), &[], 2).expect("an answer");
+    assert_eq!((&apart.text, &apart.data), (&behind.text, &behind.data));
+    assert!(secant::ask::regularity("tensor third=1/2,1,1/2", &[], 2).is_err());
+}
+
+#[test]
 fn loop_is_c2_and_not_c3() {
     for mask in [named("loop", &[]), symbol("(1+z1)^2*(1+z2)^2*(1+z1*z2)^2/16", None)] {
         let r = found(mask);

@@ -1,5 +1,5 @@
-use crate::arith::to_f64;
-use crate::linalg::Matrix;
+use crate::algebraic::nearest;
+use crate::linalg::{Entry, Matrix};
 use nalgebra::DMatrix;
 
 /// Whether the spectral radius of a square matrix might be 1 or more: `‖M^64‖^(1/64) >= 0.99` in floats.
@@ -7,8 +7,8 @@ use nalgebra::DMatrix;
 /// A proposal only; the exact spectrum decides.
 #[must_use]
 #[allow(clippy::float_arithmetic, reason = "proposes, the exact spectrum decides")]
-pub fn may_expand(m: &Matrix) -> bool {
-    let mut power = DMatrix::from_fn(m.rows(), m.cols(), |i, j| to_f64(&m[(i, j)]));
+pub fn may_expand<E: Entry>(m: &Matrix<E>) -> bool {
+    let mut power = DMatrix::from_fn(m.rows(), m.cols(), |i, j| nearest(&m[(i, j)]));
     let mut log_norm = 0.0;
     for _ in 0..6 {
         let norm = power.norm();

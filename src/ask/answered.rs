@@ -59,6 +59,7 @@ pub fn answered(
     let mut findings = prove_with(question, budget, step)?;
     let decided = match &findings {
         Findings::Tangents { found, .. } => found.claims.iter().any(|c| c.verdict() != Verdict::Undetermined),
+        Findings::OverField { found, .. } => found.claims.iter().any(|c| c.verdict() != Verdict::Undetermined),
         Findings::Vertices { found, .. } => !found.is_empty(),
     };
     let evidence = if check && decided {
@@ -109,6 +110,7 @@ impl Answered {
             (_, Some(Err(_))) => Checked::NoRule,
             (Findings::Tangents { .. }, Some(Ok(_))) if !self.once.is_empty() => Checked::Part,
             (Findings::Tangents { .. }, Some(Ok(_))) => Checked::Yes,
+            (Findings::OverField { .. }, Some(Ok(_))) => Checked::Part,
             (Findings::Vertices { found, every, .. }, Some(Ok(_))) => {
                 let mut decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined);
                 let all = every.is_none() && decided.all(|f| f.again == Again::Proved);
@@ -137,6 +139,10 @@ impl Answered {
     pub fn picture(&self, cones: bool) -> Result<String, Problem> {
         let (case, found) = match &self.findings {
             Findings::Tangents { case, found } => (case, found),
+            Findings::OverField { case, .. } => {
+                let drawn = if cones { None } else { figures::near(case) };
+                return drawn.map(|p| p.svg).ok_or_else(|| undrawn(&case.name));
+            }
             Findings::Vertices { case, found, .. } => {
                 let panels: Vec<_> = found.iter().filter_map(at_vertices::panel).collect();
                 return Ok(sheet(&panels, &case.title));
@@ -165,6 +171,10 @@ impl Answered {
         match &self.findings {
             Findings::Tangents { case, found } => {
                 figures::attractor_png(case, found, pixels).ok_or_else(|| undrawn(&case.name))
+            }
+            Findings::OverField { .. } => {
+                Err(Problem::new("secant::picture", "there is no PNG image of a case with irrational entries here")
+                    .with_help("take --svg, or `secant render`"))
             }
             Findings::Vertices { .. } => {
                 Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")
@@ -195,6 +205,7 @@ impl Answered {
     pub fn kinds(&self) -> Vec<String> {
         match &self.findings {
             Findings::Tangents { found, .. } => kinds(found),
+            Findings::OverField { found, .. } => counted(found.points.iter().map(|p| p.kind.word())),
             Findings::Vertices { found, .. } => counted(found.iter().map(|f| match (f.smooth, f.border) {
                 (Verdict::Proved, None) => "C¹ valence",
                 (Verdict::Refuted, None) => "valence not C¹",

@@ -34,12 +34,15 @@ pub(super) fn lattice_case(
     dilation: Option<&str>,
 ) -> Result<Option<LatticeCase>, Problem> {
     let read = |text: &str| Dilation::parse(text).map_err(|e| refused(&e));
-    if let Some(made) = named_mask(what, parameters) {
+    // The parameters may stand behind the name in one word.
+    let (name, behind) = what.split_once(' ').unwrap_or((what, ""));
+    let given: Vec<String> = behind.split_whitespace().map(str::to_owned).chain(parameters.iter().cloned()).collect();
+    if let Some(made) = named_mask(name, &given) {
         if dilation.is_some() {
             return Err(wrong(format!("`{what}` has its own dilation")));
         }
         let mask = made.map_err(|e| refused(&e))?;
-        return Ok(Some(LatticeCase { name: what.to_owned(), mask }));
+        return Ok(Some(LatticeCase { name: name.to_owned(), mask }));
     }
     if Terms::is_meant(what) && !Path::new(what).exists() {
         if let Some(extra) = parameters.first() {

@@ -1,8 +1,9 @@
 //! The spectra of a matrix, or of the operators of a case that map a state into itself.
 
+use crate::algebraic::Real;
 use crate::algebraic::field::FieldMatrix;
 use crate::case::matrix_file::{self, Format};
-use crate::case::{self, Case, FieldCase};
+use crate::case::{self, Case, is_over_field};
 use crate::certificate::{self, Doubt, Operator};
 use crate::diagnostic::{Problem, SourceText};
 use crate::jordan::{BUDGET, FieldSpectrum, Spectrum, estimated_field_work, estimated_work};
@@ -93,7 +94,7 @@ impl Matrices {
     /// As [`Matrices::ask`].
     pub fn of_case(name: &str, text: &str) -> Result<Self, Problem> {
         match Case::parse(name, text) {
-            Err(p) if over_a_field(&p) => Ok(Self::of_field_case(FieldCase::parse(name, text)?)),
+            Err(p) if is_over_field(&p) => Ok(Self::of_field_case(&Case::over_field(name, text)?)),
             case => Ok(Self::of_rational_case(case?)),
         }
     }
@@ -132,11 +133,13 @@ impl Matrices {
         Self { list, beside, decimals: 0, about: Some((text, case.name)) }
     }
 
-    fn of_field_case(case: FieldCase) -> Self {
+    fn of_field_case(case: &Case<Real>) -> Self {
         let mut list = Vec::new();
-        for (index, (state, pieces)) in case.states.into_iter().enumerate() {
-            for (letter, (_, op)) in pieces.into_iter().enumerate().filter(|(_, (target, _))| *target == index) {
-                let name = format!("operator {letter} of state {state}");
+        let base = crate::theorem::field(&case.shape);
+        for (index, state) in case.shape.states.iter().enumerate() {
+            for (letter, piece) in state.pieces.iter().enumerate().filter(|(_, p)| p.target == index) {
+                let name = format!("operator {letter} of state {}", state.name);
+                let op = FieldMatrix::over(&base, piece.op.map(Real::elem));
                 list.push(Named { name, entries: op.into(), place: Some((index, letter)) });
             }
         }
@@ -174,11 +177,6 @@ fn is_literal(text: &str) -> bool {
     let start = text.trim_start();
     let list = start.starts_with("[[") || start.starts_with("{{") || start.starts_with('[') && text.contains(';');
     list && !start.starts_with("[[[") || text.contains("atrix(") || text.contains("\\begin{")
-}
-
-/// Whether a case is refused because an entry is irrational.
-fn over_a_field(problem: &Problem) -> bool {
-    matches!(problem.id(), "secant::case::irrational-entry" | "secant::case::expression")
 }
 
 /// The spectrum of a matrix over the rationals or over a larger field.

@@ -1,72 +1,157 @@
-use super::Case;
+//! Cases with entries in a real number field, such as `sqrt(5)`.
+
 use super::node::{File, Sample};
-use crate::algebraic::Elem;
-use crate::algebraic::field::{FieldBuilder, FieldMatrix, NumberField};
+use super::{Case, Origin};
+use crate::algebraic::field::{FieldBuilder, NumberField};
+use crate::algebraic::{Elem, Real};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
+use crate::shape::{Boundary, CellKind, Piece, Shape, State};
+use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
-/// A case whose matrices may have entries in a real number field, such as `sqrt(5)`.
-///
-/// Sizes and sums are checked as for rational cases. Verdicts are proved for rational operators only, so that such a case
-/// is read for its spectra.
-#[derive(Debug, Clone)]
-pub struct FieldCase {
-    /// The smallest field of all entries.
-    pub field: NumberField,
-    /// For each state its name and its pieces: the target and the operator (columns sum to 1).
-    pub states: Vec<(String, Vec<(usize, FieldMatrix)>)>,
-}
+/// How many numbers beyond the degree of the field a case is read for, to see that its entries are linear in those of the file.
+const MORE: usize = 1;
 
-impl FieldCase {
-    /// Reads the text of a case; `name` is shown in diagnostics.
+impl Case<Real> {
+    /// Reads the text of a case whose operators, maps, masks and control points may have entries in a real number field;
+    /// `name` is shown in diagnostics. All entries are put into one field, the smallest that holds them.
     ///
     /// # Errors
-    /// As [`Case::parse`], also for expressions that cannot be read.
+    /// As [`Case::parse`], also for expressions that cannot be read; for surfaces, and for schemes that are more than a mask.
     ///
     /// # Cost
-    /// The case is read once for each degree of the field: entries are polynomials in its generator, and everything that
+    /// The case is read once more than the field has degrees: entries are polynomials in its generator, and everything that
     /// is checked is linear in them, so that values at as many rational numbers determine and check them.
-    pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
+    pub fn over_field(name: &str, text: &str) -> Result<Self, Problem> {
         let mut builder = FieldBuilder::new();
         if let Ok(table) = DeTable::parse(text) {
-            for key in ["pieces", "map", "state", "control"] {
+            for key in ["pieces", "map", "state", "control", "scheme"] {
                 if let Some(value) = table.get_ref().get(key) {
                     collect(value.get_ref(), &mut builder);
                 }
             }
         }
         let field = builder.field().clone();
-        let mut samples = Vec::with_capacity(field.degree());
-        for k in 0..field.degree() {
-            let at = Rational::from(k);
+        let mut samples = Vec::with_capacity(field.degree() + MORE);
+        for k in 0..field.degree() + MORE {
+            let at = place(k);
             let sample = Sample { builder: builder.clone(), at: at.clone() };
             samples.push((at, Case::parse_as(name, text, |source| File::sampled(source, sample))?.closed()?));
         }
-        let first = &samples[0].1.shape;
-        let mut states = Vec::with_capacity(first.states.len());
-        let mut elements = Vec::new();
-        for (s, state) in first.states.iter().enumerate() {
-            let mut pieces = Vec::with_capacity(state.pieces.len());
-            for (p, piece) in state.pieces.iter().enumerate() {
-                let values: Vec<(&Rational, &Matrix)> =
-                    samples.iter().map(|(t, c)| (t, &c.shape.states[s].pieces[p].op)).collect();
-                let matrix = interpolated(&field, &values);
-                elements.extend(matrix.entries().iter().cloned());
-                pieces.push((piece.target, matrix));
-            }
-            states.push((state.name.clone(), pieces));
-        }
-        let (small, moved) = field.shrunk(&elements);
-        let mut moved = moved.into_iter();
-        for (_, matrix) in states.iter_mut().flat_map(|(_, pieces)| pieces) {
-            let data = moved.by_ref().take(matrix.rows() * matrix.cols()).collect();
-            *matrix = FieldMatrix::new(&small, matrix.rows(), matrix.cols(), data);
-        }
-        Ok(Self { field: small, states })
+        let first = &samples[0].1;
+        let plain = matches!(first.scheme, None | Some(Origin::Mask(_)));
+        let faces = first.shape.states.iter().any(|s| s.kind == CellKind::Face);
+        let shapes: Vec<(&Rational, &Shape)> = samples.iter().map(|(t, case)| (t, &case.shape)).collect();
+        let shape = if plain && !faces { over(&field, &shapes) } else { None };
+        let Some(shape) = shape else {
+            let message = "irrational entries are read in curves and sets, and in masks of one span";
+            let help = "surfaces, and schemes that are more than a mask, need rational numbers";
+            return Err(first.problem_at_state(first.shape.start, "secant::case::irrational-entry", message, help));
+        };
+        let (_, case) = samples.swap_remove(0);
+        let Case { name, title, source, convention, faces, reversals, unknown, examine, expect, text, places, .. } =
+            case;
+        // What a scheme was built from was read with a rational number in the place of the generator.
+        let scheme = None;
+        Ok(Self {
+            name,
+            title,
+            source,
+            convention,
+            shape,
+            faces,
+            reversals,
+            scheme,
+            unknown,
+            examine,
+            expect,
+            text,
+            places,
+        })
     }
+}
+
+impl Case<Real> {
+    /// The case with its entries rounded to so many binary digits, for pictures: nothing is proved of it.
+    #[must_use]
+    pub fn rounded(&self, bits: u64) -> Case {
+        Case {
+            name: self.name.clone(),
+            title: self.title.clone(),
+            source: self.source.clone(),
+            convention: self.convention,
+            shape: self.shape.rounded(bits),
+            faces: self.faces.clone(),
+            reversals: self.reversals.clone(),
+            scheme: None,
+            unknown: Vec::new(),
+            examine: self.examine.clone(),
+            expect: None,
+            text: self.text.clone(),
+            places: self.places.clone(),
+        }
+    }
+}
+
+/// Rational numbers at which no entry of a file is likely to vanish.
+fn place(k: usize) -> Rational {
+    Rational::from(1 + k) + Rational::from_unsigneds(4_099u64, 7_919u64)
+}
+
+/// The shape whose values these are; `None` where they are not those of polynomials of smaller degree than the field.
+fn over(field: &NumberField, samples: &[(&Rational, &Shape)]) -> Option<Shape<Real>> {
+    let mut matrices: Vec<Matrix<Elem>> = Vec::new();
+    let mut read = |part: &dyn Fn(&Shape) -> Option<&Matrix>| -> Option<usize> {
+        let values: Option<Vec<(&Rational, &Matrix)>> = samples.iter().map(|(t, s)| Some((*t, part(s)?))).collect();
+        matrices.push(interpolated(field.degree(), &values?)?);
+        Some(matrices.len() - 1)
+    };
+    let first = samples[0].1;
+    let mut indices = Vec::new();
+    for (s, state) in first.states.iter().enumerate() {
+        let pieces: Option<Vec<usize>> =
+            (0..state.pieces.len()).map(|p| read(&|x| Some(&x.states.get(s)?.pieces.get(p)?.op))).collect();
+        let left = state.left.as_ref().map(|_| read(&|x| Some(&x.states.get(s)?.left.as_ref()?.op)));
+        let right = state.right.as_ref().map(|_| read(&|x| Some(&x.states.get(s)?.right.as_ref()?.op)));
+        indices.push((pieces?, left, right));
+    }
+    let control = first.control.as_ref().map(|_| read(&|x| x.control.as_ref()));
+    let elements: Vec<Elem> = matrices.iter().flat_map(|m| m.entries().iter().cloned()).collect();
+    let (small, moved) = field.shrunk(&elements);
+    let small = Arc::new(small);
+    let mut moved = moved.into_iter();
+    let matrices: Vec<Matrix<Real>> =
+        matrices.iter().map(|m| m.map(|_| Real::new(&small, moved.next().expect("as many as before")))).collect();
+    let mut states = Vec::new();
+    for (state, (pieces, left, right)) in first.states.iter().zip(indices) {
+        let piece = |(p, k): (&Piece, usize)| Piece { target: p.target, op: matrices[k].clone(), reversed: p.reversed };
+        let boundary = |old: &Option<Boundary>, k: Option<Option<usize>>| match (old, k) {
+            (Some(b), Some(k)) => Some(Some(Boundary { vertex: b.vertex, op: matrices[k?].clone() })),
+            _ => Some(None),
+        };
+        states.push(State {
+            name: state.name.clone(),
+            kind: state.kind,
+            dim: state.dim,
+            pieces: state.pieces.iter().zip(pieces).map(piece).collect(),
+            left: boundary(&state.left, left)?,
+            right: boundary(&state.right, right)?,
+        });
+    }
+    let control = match control {
+        Some(k) => Some(matrices[k?].clone()),
+        None => None,
+    };
+    Some(Shape { states, start: first.start, control, frame: first.frame })
+}
+
+/// Whether a case is refused because an entry is not rational, or is not written as a rational.
+#[must_use]
+pub fn is_over_field(problem: &Problem) -> bool {
+    matches!(problem.id(), "secant::case::irrational-entry" | "secant::case::expression")
 }
 
 /// Puts the generators of all expressions into the field; what cannot be read is reported later, in its place.
@@ -81,28 +166,36 @@ fn collect(value: &DeValue<'_>, builder: &mut FieldBuilder) {
     }
 }
 
-/// The matrix of polynomials of degree less than the number of samples with the given values.
-fn interpolated(field: &NumberField, samples: &[(&Rational, &Matrix)]) -> FieldMatrix {
-    let (rows, cols) = (samples[0].1.rows(), samples[0].1.cols());
-    FieldMatrix::from_fn(field, rows, cols, |i, j| {
+/// The matrix of polynomials of degree less than `degree` with the given values; `None` where there is none.
+fn interpolated(degree: usize, samples: &[(&Rational, &Matrix)]) -> Option<Matrix<Elem>> {
+    let size = |m: &Matrix| (m.rows(), m.cols());
+    let (rows, cols) = size(samples[0].1);
+    if samples.iter().any(|(_, m)| size(m) != (rows, cols)) {
+        return None;
+    }
+    let mut fits = true;
+    let found = Matrix::from_fn(rows, cols, |i, j| {
         // Newton's form: the value that is still missing at each next sample.
         let mut sum = Poly::zero();
         let mut basis = Poly::constant(Rational::from(1));
-        for (t, matrix) in samples {
+        for (k, (t, matrix)) in samples.iter().enumerate() {
             let missing = &matrix[(i, j)] - sum.eval(t);
+            fits &= k < degree || missing == 0;
             if missing != 0 {
                 sum = &sum + &basis.scale(&(missing / basis.eval(t)));
             }
             basis = &basis * &Poly::linear(t);
         }
         Elem(sum)
-    })
+    });
+    fits.then_some(found)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::arith::ratio;
+    use crate::linalg::Entry;
 
     const CURVE: &str = r#"
 name = "golden"
@@ -115,23 +208,23 @@ pieces = [
 
     #[test]
     fn operators_over_a_field_come_back() {
-        let case = FieldCase::parse("golden.toml", CURVE).unwrap();
-        assert_eq!(case.field.label(), Some("sqrt(5)"));
-        let (_, op) = &case.states[0].1[0];
-        assert_eq!(op[(1, 1)], Elem(Poly::new(vec![ratio(1, 1), ratio(-1, 8)])));
-        assert_eq!(op[(1, 0)], Elem::zero());
+        let case = Case::over_field("golden.toml", CURVE).unwrap();
+        let op = &case.shape.states[0].pieces[0].op;
+        assert_eq!(op[(1, 1)].field().unwrap().label(), Some("sqrt(5)"));
+        assert_eq!(op[(1, 1)].elem(), Elem(Poly::new(vec![ratio(1, 1), ratio(-1, 8)])));
+        assert_eq!(op[(1, 0)].rational(), Some(ratio(0, 1)));
     }
 
     #[test]
-    fn verdicts_are_refused_with_a_way_on() {
+    fn rational_cases_have_rational_entries() {
         let problem = Case::parse("golden.toml", CURVE).unwrap_err();
         assert_eq!(problem.id(), "secant::case::irrational-entry");
         assert_eq!(problem.position(), Some((5, 10)));
-        assert!(problem.remedy().unwrap().contains("secant spectrum"));
         let rational = CURVE.replace("sqrt(5)", "sqrt(4)");
         let problem = Case::parse("golden.toml", &rational).unwrap_err();
         assert_eq!((problem.id(), problem.remedy()), ("secant::case::expression", Some("write \"1/4\" here")));
-        assert!(FieldCase::parse("golden.toml", &rational).unwrap().field.is_rational());
+        let case = Case::over_field("golden.toml", &rational).unwrap();
+        assert!(case.shape.states[0].pieces.iter().all(|p| Real::field_of(p.op.entries()).is_none()));
     }
 
     #[test]
@@ -143,7 +236,7 @@ pieces = [
             ("1 - sqrt(5)/8", "1 - wurzel(5)/8", "number"),
             ("1 - sqrt(5)/8", "half", "number"),
         ] {
-            let problem = FieldCase::parse("golden.toml", &CURVE.replace(from, to)).unwrap_err();
+            let problem = Case::over_field("golden.toml", &CURVE.replace(from, to)).unwrap_err();
             assert_eq!(problem.id(), format!("secant::case::{code}"), "{to}");
         }
     }

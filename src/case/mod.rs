@@ -30,13 +30,14 @@ pub use border::BorderCase;
 pub use control::with_control;
 pub use curve_family::{CurveFamilyCase, FamilyForm};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
-pub use field::FieldCase;
+pub use field::is_over_field;
 pub use lattice::LatticeCase;
 pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting};
 pub use question::{Question, Subject};
 pub use schema::schema;
 pub use vertex::{Valences, VertexCase};
 
+use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::{Heading, Interpolation, Mask, MeshRule, complex_text};
 use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
@@ -82,9 +83,9 @@ impl Convention {
     }
 }
 
-/// A case file, read and checked.
+/// A case file, read and checked; with entries in a real number field it is a `Case<Real>` ([`Case::over_field`]).
 #[derive(Debug, Clone)]
-pub struct Case {
+pub struct Case<E = Rational> {
     /// The name, made of letters, digits, `-`, `_` and `.`.
     pub name: String,
     /// One line for people; the name where the file has none.
@@ -94,7 +95,7 @@ pub struct Case {
     /// How the matrices were written.
     pub convention: Convention,
     /// The shape. Sizes and column sums are checked; adjacency is not (the engine does that).
-    pub shape: Shape,
+    pub shape: Shape<E>,
     /// Boundaries of the face states, by index of the state; their identities hold.
     pub faces: BTreeMap<usize, Face>,
     /// Reversals of edge states, by index of the state.
@@ -263,15 +264,6 @@ impl Case {
         }
     }
 
-    /// The mask that `[scheme]` was understood to give.
-    #[must_use]
-    pub fn mask(&self) -> Option<&Mask> {
-        match &self.scheme {
-            Some(Origin::Mask(mask) | Origin::Polygon(Some(mask))) => Some(mask),
-            _ => None,
-        }
-    }
-
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, data to interpolate, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
@@ -285,6 +277,17 @@ impl Case {
         );
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
+    }
+}
+
+impl<E> Case<E> {
+    /// The mask that `[scheme]` was understood to give.
+    #[must_use]
+    pub fn mask(&self) -> Option<&Mask> {
+        match &self.scheme {
+            Some(Origin::Mask(mask) | Origin::Polygon(Some(mask))) => Some(mask),
+            _ => None,
+        }
     }
 
     /// A problem of one operator, shown at its matrix in the file.

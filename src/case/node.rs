@@ -203,8 +203,8 @@ impl<'a> Node<'a> {
                 let field = builder.field().describe();
                 let message = format!("{} is irrational, a number of {field}", self.what);
                 Err(self.problem("irrational-entry", message, "an irrational number").with_help(
-                    "verdicts are proved for rational operators only; `secant spectrum FILE` prints the exact spectra over \
-                     the number field of this case",
+                    "`secant certify`, `render` and `spectrum` read curves and sets with entries in a real number field; everything \
+                     else needs rational numbers",
                 ))
             }
         }

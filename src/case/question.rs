@@ -2,10 +2,12 @@
 
 use super::node::{File, Table};
 use super::{Case, MAX_LETTERS, Valences, VertexCase};
+use crate::algebraic::Real;
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
+use crate::linalg::Entry;
 use crate::scheme::{Heading, complex_text};
-use crate::shape::{Address, CellKind, Complex};
+use crate::shape::{Address, CellKind, Complex, Shape};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -17,6 +19,13 @@ pub enum Question {
     Tangents {
         /// The shape and the points that the file names.
         case: Arc<Case>,
+        /// Further points, after those of the file.
+        further: Vec<Address>,
+    },
+    /// The tangents of a curve or a set with entries in a real number field.
+    OverField {
+        /// The shape and the points that the file names.
+        case: Arc<Case<Real>>,
         /// Further points, after those of the file.
         further: Vec<Address>,
     },
@@ -58,7 +67,24 @@ impl Question {
     /// As [`Question::read`], apart from open entries.
     pub fn read_open(path: &Path) -> Result<Self, Problem> {
         let source = SourceText::read(path)?;
-        super::read::parsed(&source.name, &source.text, File::new, Self::of_table)
+        Self::parse_open(&source.name, &source.text)
+    }
+
+    /// The same of a text; where an entry is irrational, over the field of the entries.
+    fn parse_open(name: &str, text: &str) -> Result<Self, Problem> {
+        match super::read::parsed(name, text, File::new, Self::of_table) {
+            Err(problem) if super::is_over_field(&problem) => {
+                let case = Case::over_field(name, text)?;
+                let irrational = crate::shape::entries(&case.shape).any(|x| x.field().is_some());
+                // A rational number that is written as an expression.
+                if irrational {
+                    Ok(Self::OverField { case: Arc::new(case), further: Vec::new() })
+                } else {
+                    Err(problem)
+                }
+            }
+            read => read,
+        }
     }
 
     /// Reads the text of a case; `name` is shown in diagnostics.
@@ -75,7 +101,7 @@ impl Question {
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
-        super::read::parsed(name, text, File::new, Self::of_table)?.closed()
+        Self::parse_open(name, text)?.closed()
     }
 
     /// The tangents of a shape that was made in the program; the name is made of letters, digits, `-`, `_` and `.`.
@@ -116,7 +142,7 @@ impl Question {
                 case.refuse_open()?;
                 Ok(Self::Tangents { case, further })
             }
-            vertices @ Self::Vertices { .. } => Ok(vertices),
+            other => Ok(other),
         }
     }
 
@@ -130,23 +156,12 @@ impl Question {
                 "letters first, then the repeated letters in brackets: `0(1)` is 0111…; or a parameter such as 1/3 or 0.5",
             )
         };
-        let Self::Tangents { case, further } = &mut self else {
-            return Err(problem("a case about the vertices of a mesh has no addresses".to_owned()));
-        };
-        let address = match parameter(text) {
-            Some(t) => case.shape.address_of(case.shape.start, &t).ok_or_else(|| {
-                problem(format!("the parameter {t} has no address here: it is between 0 and 1, and of a curve"))
-            })?,
-            None => Address::parse(text).map_err(|e| problem(e.to_string()))?,
-        };
-        if address.prefix.len() + address.cycle.len() > MAX_LETTERS {
-            return Err(problem("the address is too long".to_owned()));
-        }
-        let normal = |a: &Address| a.normalise(&case.shape, case.shape.start);
-        let own = normal(&address).map_err(|e| problem(e.to_string()))?;
-        // What is asked twice is one question.
-        if !case.examine.iter().chain(further.iter()).any(|known| normal(known).as_ref() == Ok(&own)) {
-            further.push(address);
+        match &mut self {
+            Self::Tangents { case, further } => add_address(case, further, text).map_err(problem)?,
+            Self::OverField { case, further } => add_address(case, further, text).map_err(problem)?,
+            Self::Vertices { .. } => {
+                return Err(problem("a case about the vertices of a mesh has no addresses".to_owned()));
+            }
         }
         Ok(self)
     }
@@ -156,11 +171,8 @@ impl Question {
     pub fn subject(&self) -> Subject {
         match self {
             Self::Vertices { .. } => Subject::Vertices,
-            Self::Tangents { case, .. } => match case.shape.states[case.shape.start].kind {
-                CellKind::Edge => Subject::Curve,
-                CellKind::Face => Subject::Surface,
-                CellKind::Vertex | CellKind::Set => Subject::Set,
-            },
+            Self::Tangents { case, .. } => subject(&case.shape),
+            Self::OverField { case, .. } => subject(&case.shape),
         }
     }
 
@@ -169,6 +181,7 @@ impl Question {
     pub fn name(&self) -> &str {
         match self {
             Self::Tangents { case, .. } => &case.name,
+            Self::OverField { case, .. } => &case.name,
             Self::Vertices { case, .. } => &case.name,
         }
     }
@@ -178,6 +191,7 @@ impl Question {
     pub fn title(&self) -> &str {
         match self {
             Self::Tangents { case, .. } => &case.title,
+            Self::OverField { case, .. } => &case.title,
             Self::Vertices { case, .. } => &case.title,
         }
     }
@@ -187,9 +201,38 @@ impl Question {
     pub fn text(&self) -> &SourceText {
         match self {
             Self::Tangents { case, .. } => &case.text,
+            Self::OverField { case, .. } => &case.text,
             Self::Vertices { case, .. } => &case.text,
         }
     }
+}
+
+fn subject<E>(shape: &Shape<E>) -> Subject {
+    match shape.states[shape.start].kind {
+        CellKind::Edge => Subject::Curve,
+        CellKind::Face => Subject::Surface,
+        CellKind::Vertex | CellKind::Set => Subject::Set,
+    }
+}
+
+/// Adds the address or parameter of a text to what is asked, unless it is asked already.
+fn add_address<E: Entry>(case: &Case<E>, further: &mut Vec<Address>, text: &str) -> Result<(), String> {
+    let address = match parameter(text) {
+        Some(t) => case
+            .shape
+            .address_of(case.shape.start, &t)
+            .ok_or_else(|| format!("the parameter {t} has no address here: it is between 0 and 1, and of a curve"))?,
+        None => Address::parse(text).map_err(|e| e.to_string())?,
+    };
+    if address.prefix.len() + address.cycle.len() > MAX_LETTERS {
+        return Err("the address is too long".to_owned());
+    }
+    let normal = |a: &Address| a.normalise(&case.shape, case.shape.start);
+    let own = normal(&address).map_err(|e| e.to_string())?;
+    if !case.examine.iter().chain(further.iter()).any(|known| normal(known).as_ref() == Ok(&own)) {
+        further.push(address);
+    }
+    Ok(())
 }
 
 /// A parameter: a fraction or a decimal, `0`, `1`, or any of them behind `t=`; other digits are letters.

@@ -33,8 +33,8 @@ pub fn run(args: &CertifyArgs) -> u8 {
 
 fn one(path: &Path, args: &CertifyArgs) -> Result<(Arc<Case>, Vec<PointLook>), Problem> {
     let Question::Tangents { case, further } = super::question::question(path, args)? else {
-        return Err(Problem::new("secant::usage", "--approx is not for vertices of a mesh")
-            .with_help("--json and --report hold the evidence: signs, half-planes, winding numbers"));
+        return Err(Problem::new("secant::usage", "--approx is for rational entries, and not for vertices of a mesh")
+            .with_help("without it the answer is exact; --json and --report hold the evidence"));
     };
     let addresses = [case.examine.as_slice(), &further].concat();
     let seen = look(&case.shape, &addresses).ok_or_else(|| {

@@ -125,12 +125,18 @@ fn made(path: &Path, stem: &str, wanted: Report) -> Result<Made, Problem> {
                 ),
             )
         }
+        Findings::OverField { case, .. } => {
+            let picture = figures::near(case).map(|p| p.thumbnail);
+            let kinds = escaped(&answered.kinds().join(", "));
+            (picture, format!("{}: {kinds}", marked(answered.findings.verdict())))
+        }
         Findings::Vertices { found, every, .. } => vertices(found, every.as_ref()),
     };
     let link = wanted.linked.then(|| format!("{}/{stem}.html", names(path).0));
     let title = answered.findings.title();
     let kinds = match &answered.findings {
         Findings::Tangents { found, .. } => found.points.iter().map(|p| p.kind.word().to_owned()).collect(),
+        Findings::OverField { found, .. } => found.points.iter().map(|p| p.kind.word().to_owned()).collect(),
         Findings::Vertices { .. } => Vec::new(),
     };
     Ok(Made {

@@ -95,6 +95,9 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 
 /// Says so where the verdict was not proved again, or a state plays no part.
 fn note(answered: &Answered) {
+    if let (Findings::OverField { .. }, Some(Err(unsupported))) = (&answered.findings, &answered.evidence) {
+        note_unconfirmed(&unsupported.to_string());
+    }
     let Findings::Tangents { case, .. } = &answered.findings else { return };
     let mut why = match &answered.evidence {
         Some(Err(unsupported)) => vec![unsupported.to_string()],
@@ -221,7 +224,7 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
     if let Some((path, content)) = proof {
         let case = match &answered.findings {
             Findings::Tangents { case, .. } => Some(case),
-            Findings::Vertices { .. } => None,
+            Findings::OverField { .. } | Findings::Vertices { .. } => None,
         };
         write_certificate(path, content, case.and_then(|case| case.beside()))?;
     }
@@ -243,6 +246,10 @@ fn replay(findings: &Findings) -> Result<String, Problem> {
     match findings {
         Findings::Tangents { case, found } => crate::replay::coq(case, found)
             .map_err(|missing| Problem::new("secant::coq::none", missing.to_string()).with_help(help)),
+        Findings::OverField { case, .. } => {
+            let message = format!("no formal theorem of proofs/ covers irrational entries ({})", case.name);
+            Err(Problem::new("secant::coq::none", message).with_help(help))
+        }
         Findings::Vertices { case, .. } => {
             let message = format!("no formal theorem of proofs/ covers the vertices of a mesh ({})", case.name);
             Err(Problem::new("secant::coq::none", message).with_help(help))

@@ -6,7 +6,7 @@ use super::output::{self, say, settle, to_stdout, write_file};
 use super::progress::Progress;
 use super::question::joined;
 use crate::arith::{parse_rational, to_f64};
-use crate::case::Case;
+use crate::case::{Case, Question};
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::{PLOT_PIXELS, Plot, View, resized};
@@ -21,6 +21,8 @@ use std::path::{Path, PathBuf};
 const MAX_DEPTH: usize = 64;
 /// Cells drawn where no depth is given.
 const DEFAULT_POINTS: usize = 20_000;
+/// Binary digits to which irrational entries are rounded.
+const ROUNDED_BITS: u64 = 128;
 
 #[derive(Debug, Args)]
 pub struct RenderArgs {
@@ -129,7 +131,11 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
         return Err(Problem::new("secant::usage::render", "one case is drawn at a time")
             .with_help("parameters follow the name of a scheme, as in `four-point w=1/16`"));
     };
-    let case = Case::ask(&path.to_string_lossy())?;
+    let (case, rounded) = drawn(&path.to_string_lossy())?;
+    if rounded && args.error.is_some() {
+        let message = "irrational entries are rounded to be drawn, so that no error is proved";
+        return Err(Problem::new("secant::render", message).with_help("leave out --error"));
+    }
     let view = view(&case, args)?;
     let contracts = contraction(&case.shape, |_| false);
     let proved = args.error.as_deref().map(|text| bounded(&case, &contracts, text)).transpose()?;
@@ -146,7 +152,8 @@ fn render(args: &RenderArgs) -> Result<String, Problem> {
     let near = args.error.as_ref().filter(|_| proved.is_some()).map_or_else(String::new, |distance| {
         format!("; they are points of the shape, and none of its points is farther than {distance} from all of them")
     });
-    Ok(format!("{}: {} exact points{faces}, {how}{near}{note}\n", case.name, found.points.len()))
+    let exact = if rounded { "rounded" } else { "exact" };
+    Ok(format!("{}: {} {exact} points{faces}, {how}{near}{note}\n", case.name, found.points.len()))
 }
 
 /// Writes all files; each is made before the first is written.
@@ -169,6 +176,14 @@ fn write(plot: &Plot, title: &str, args: &RenderArgs) -> Result<(), Problem> {
         files.push((path, plot.ply(title).into_bytes()));
     }
     files.iter().try_for_each(|(path, content)| write_file(path, content))
+}
+
+/// The case, and whether its entries are irrational and rounded to be drawn.
+fn drawn(text: &str) -> Result<(Case, bool), Problem> {
+    match Question::ask(text) {
+        Ok(Question::OverField { case, .. }) => Ok((case.rounded(ROUNDED_BITS), true)),
+        _ => Ok((Case::ask(text)?, false)),
+    }
 }
 
 /// The depth at which no cell is larger than was asked.

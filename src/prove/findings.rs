@@ -1,5 +1,6 @@
 //! What was found, and having it proved again.
 
+use crate::algebraic::Real;
 use crate::answer::Verdict;
 use crate::case::{Case, VertexCase};
 use crate::certificate::{self, Certificate, Doubt, Unsupported};
@@ -18,6 +19,13 @@ pub enum Findings {
         case: Arc<Case>,
         /// The claims and their evidence.
         found: Box<Certified>,
+    },
+    /// The tangents of a curve or a set with entries in a real number field.
+    OverField {
+        /// The case.
+        case: Arc<Case<Real>>,
+        /// The claims and their evidence.
+        found: Box<Certified<Real>>,
     },
     /// Smoothness at the vertices of a mesh.
     Vertices {
@@ -42,6 +50,7 @@ impl Findings {
     pub fn verdict_on(&self, required: &Required) -> Verdict {
         match self {
             Self::Tangents { found, .. } => required.verdict(&found.claims),
+            Self::OverField { found, .. } => required.verdict(&found.claims),
             Self::Vertices { found, every, .. } => overall(found, every.as_ref()),
         }
     }
@@ -51,6 +60,7 @@ impl Findings {
     pub fn name(&self) -> &str {
         match self {
             Self::Tangents { case, .. } => &case.name,
+            Self::OverField { case, .. } => &case.name,
             Self::Vertices { case, .. } => &case.name,
         }
     }
@@ -60,6 +70,7 @@ impl Findings {
     pub fn title(&self) -> &str {
         match self {
             Self::Tangents { case, .. } => &case.title,
+            Self::OverField { case, .. } => &case.title,
             Self::Vertices { case, .. } => &case.title,
         }
     }
@@ -69,6 +80,7 @@ impl Findings {
     pub fn text(&self) -> &SourceText {
         match self {
             Self::Tangents { case, .. } => &case.text,
+            Self::OverField { case, .. } => &case.text,
             Self::Vertices { case, .. } => &case.text,
         }
     }
@@ -79,6 +91,7 @@ impl Findings {
     pub fn claims(&self) -> Vec<Claim> {
         match self {
             Self::Tangents { found, .. } => found.claims.clone(),
+            Self::OverField { found, .. } => found.claims.clone(),
             Self::Vertices { found, every, .. } => {
                 let common = every.iter().map(|e| {
                     let verdict = if e.proved() { Verdict::Proved } else { Verdict::Undetermined };
@@ -108,6 +121,7 @@ impl Findings {
 pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
     match findings {
         Findings::Tangents { case, found } => certificate::confirm(case, found),
+        Findings::OverField { case, .. } => Err(over_a_field(&case.name).into()),
         Findings::Vertices { case, found, every } => {
             Ok(certificate::confirm_vertices(case, found)?.without(all_at_once(every.as_ref())))
         }
@@ -121,10 +135,16 @@ pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
 pub fn unconfirmed(findings: &Findings) -> Result<Certificate, Unsupported> {
     match findings {
         Findings::Tangents { case, found } => certificate::certificate(case, found),
+        Findings::OverField { case, .. } => Err(over_a_field(&case.name)),
         Findings::Vertices { case, found, every } => {
             Ok(certificate::vertex_certificate(case, found)?.without(all_at_once(every.as_ref())))
         }
     }
+}
+
+/// Entries in a number field, for which there are no rules.
+fn over_a_field(name: &str) -> Unsupported {
+    Unsupported { what: "irrational entries".to_owned(), place: name.to_owned() }
 }
 
 /// The proof for all valences at once, which has no rule.

@@ -1,19 +1,18 @@
 //! What the engine refuses, as a problem of the case file.
 
-use crate::arith::Rational;
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::shape::{CurveError, Frame, word_text};
 use crate::theorem::ModelError;
 
 /// What the engine refuses, shown where it stands in the file.
-pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
+pub fn model_problem<E>(case: &Case<E>, error: &ModelError) -> Problem {
     let code = error.code();
     match error {
         ModelError::Curve(CurveError::Apart { state, index, piece, ends, begins }) => {
             // Affine maps are read as operators on the simplex 0, e_1, …; the user knows the coordinates after the first.
             let skip = usize::from(case.shape.frame == Frame::Affine);
-            let tuple = |v: &[Rational]| tuple(v.get(skip..).unwrap_or(v));
+            let tuple = |v: &[String]| tuple(v.get(skip..).unwrap_or(v));
             let place = if case.shape.states.len() > 1 { format!(" of state `{state}`") } else { String::new() };
             let before = piece.saturating_sub(1);
             let (begins, ends) = (tuple(begins), tuple(ends));
@@ -43,7 +42,7 @@ pub fn model_problem(case: &Case, error: &ModelError) -> Problem {
     }
 }
 
-fn tuple(point: &[Rational]) -> String {
-    let coordinates: Vec<String> = point.iter().map(|x| x.to_string().replace('-', "−")).collect();
+fn tuple(point: &[String]) -> String {
+    let coordinates: Vec<String> = point.iter().map(|x| x.replace('-', "−")).collect();
     format!("({})", coordinates.join(", "))
 }

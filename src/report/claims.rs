@@ -1,6 +1,7 @@
 //! The words of claims and of the reasons why they are refuted or open: the only place where they are written.
 
 use super::reasons::{self, UNKNOWN};
+use super::reported::Reported;
 use super::vertex_reasons;
 use crate::case::Case;
 use crate::shape::word_text;
@@ -154,7 +155,7 @@ pub fn judged(claim: &Claim) -> String {
 
 /// Why a claim is refuted or open; `None` where it is proved.
 #[must_use]
-pub fn reason(case: &Case, found: &Certified, claim: &Claim) -> Option<String> {
+pub fn reason<E: Reported>(case: &Case<E>, found: &Certified<E>, claim: &Claim) -> Option<String> {
     claim.reason().map(|reason| sentence(case, found, claim.verdict(), reason))
 }
 
@@ -182,7 +183,7 @@ pub fn reason_at_vertices(found: &[AtValence], claim: &Claim) -> Option<String> 
     })
 }
 
-fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -> String {
+fn sentence<E: Reported>(case: &Case<E>, found: &Certified<E>, verdict: Verdict, reason: &Reason) -> String {
     let refuted = verdict == Verdict::Refuted;
     let either = |no: &str, open: &str| if refuted { no.to_owned() } else { open.to_owned() };
     match reason {
@@ -221,10 +222,14 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
         Reason::Similarities => {
             "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
         }
-        Reason::EveryPoint | Reason::InsidePoint => {
-            let every = found.everywhere.as_ref();
-            every.and_then(|e| reasons::everywhere(found, e)).unwrap_or_else(unknown)
+        Reason::Irrational => {
+            "orders of smoothness are decided of rational entries only, and here are others".to_owned()
         }
+        Reason::Broken(index) => found.points.get(*index).map_or_else(unknown, reasons::broken),
+        Reason::NoCone => {
+            "no common cone was found, and with entries in a number field nothing else is looked for".to_owned()
+        }
+        Reason::EveryPoint | Reason::InsidePoint => E::every_sentence(found).unwrap_or_else(unknown),
         Reason::Order(order) => match &found.parameter {
             Some(Parameter::Orders(orders)) => {
                 orders.orders.get(*order).and_then(|o| super::regularity::outcome(&case.shape, o))
@@ -249,7 +254,7 @@ fn sentence(case: &Case, found: &Certified, verdict: Verdict, reason: &Reason) -
     }
 }
 
-fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
+fn of_surface<E>(case: &Case<E>, surface: &Surface, reason: &Reason) -> String {
     let said = |point: &SurfacePoint| reasons::plane(point).unwrap_or_else(unknown);
     match reason {
         Reason::SurfacePoint(index) => surface.points.get(*index).map_or_else(unknown, said),
@@ -268,7 +273,7 @@ fn of_surface(case: &Case, surface: &Surface, reason: &Reason) -> String {
     }
 }
 
-fn of_point(point: &PointReport) -> String {
+fn of_point<E: Reported>(point: &PointReport<E>) -> String {
     reasons::point(point).unwrap_or(UNKNOWN).to_owned()
 }
 

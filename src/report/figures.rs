@@ -4,7 +4,7 @@ use super::document::{Block, Line, line, words};
 use super::text::math_line;
 use super::values::{root_decimals, root_math};
 use super::words::{addresses, count, listed, point_name};
-use crate::algebraic::{Elem, Root};
+use crate::algebraic::{Elem, Real, Root};
 use crate::arith::{Rational, to_f64};
 use crate::case::Case;
 use crate::jordan::Spectrum;
@@ -16,6 +16,8 @@ use crate::theorem::{
 
 /// Most points that are marked in a picture.
 const MAX_MARKS: usize = 12;
+/// Binary digits of the entries from which a case with irrational ones is drawn.
+const PICTURE_BITS: u64 = 64;
 
 /// The attractor with the points examined and the rays found there; `None` where it cannot be drawn.
 #[must_use]
@@ -28,6 +30,12 @@ pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
         picture.alt = format!("{} {}.", picture.alt, named.join("; "));
     }
     Some(picture)
+}
+
+/// The shape of a case with irrational entries, drawn with rational ones nearby.
+#[must_use]
+pub fn near(case: &Case<Real>) -> Option<Picture> {
+    picture::attractor(&case.shape.rounded(PICTURE_BITS), &case.title, &[])
 }
 
 /// The picture of [`attractor`] as a PNG file, so many pixels wide, without the words in it.

@@ -18,6 +18,9 @@ pub fn proof(findings: &Findings) -> Document {
 pub fn proof_at(findings: &Findings, level: Level) -> Document {
     match findings {
         Findings::Tangents { case, found } => proof::document_at(case, found, level),
+        Findings::OverField { case, found } => {
+            summary::summary(case, found, &Required::default(), level != Level::Summary)
+        }
         Findings::Vertices { case, found, every } => proof::vertex_document(case, found, every.as_ref()),
     }
 }
@@ -27,6 +30,7 @@ pub fn proof_at(findings: &Findings, level: Level) -> Document {
 pub fn summary(findings: &Findings, required: &Required, verbose: bool) -> Document {
     match findings {
         Findings::Tangents { case, found } => summary::summary(case, found, required, verbose),
+        Findings::OverField { case, found } => summary::summary(case, found, required, verbose),
         Findings::Vertices { case, found, every } => vertex::document(case, found, every.as_ref(), verbose),
     }
 }
@@ -36,6 +40,7 @@ pub fn summary(findings: &Findings, required: &Required, verbose: bool) -> Docum
 pub fn brief(findings: &Findings, required: &Required) -> Document {
     match findings {
         Findings::Tangents { case, found } => summary::brief(case, found, required),
+        Findings::OverField { case, found } => summary::brief(case, found, required),
         Findings::Vertices { case, found, every } => vertex::document(case, found, every.as_ref(), false),
     }
 }
@@ -45,6 +50,7 @@ pub fn brief(findings: &Findings, required: &Required) -> Document {
 pub fn json(findings: &Findings, required: &Required) -> Value {
     match findings {
         Findings::Tangents { case, found } => json::report(case, found, required),
+        Findings::OverField { case, found } => json::report(case, found, required),
         Findings::Vertices { case, found, every } => vertex::json(case, found, every.as_ref(), &findings.claims()),
     }
 }

@@ -2,19 +2,20 @@
 
 use super::claims;
 use super::reasons;
+use super::reported::Reported;
 use super::text::math_line;
 use super::values::{decimal, direction_decimals, elem_math, exponent, root_decimals};
 use super::words::ratio;
 use crate::algebraic::Root;
-use crate::arith::Rational;
 use crate::case::Case;
 use crate::diagnostic::Problem;
+use crate::jordan::Spectral;
 use crate::shape::{Contraction, word_text};
-use crate::theorem::local::LocalContext;
+use crate::theorem::local::LocalSide;
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role,
-    Side, Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Required, Role, Side,
+    Verdict, Witness,
 };
 use serde_json::{Value, json};
 
@@ -23,8 +24,8 @@ pub const VERSION: u32 = 1;
 
 /// Everything that was found, as data.
 #[must_use]
-pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
-    json!({
+pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required) -> Value {
+    let mut out = json!({
         "version": VERSION,
         "case": case.name,
         "title": case.title,
@@ -38,20 +39,22 @@ pub fn report(case: &Case, found: &Certified, required: &Required) -> Value {
         "contraction": contraction(&found.contraction),
         "every_point": match &found.surface {
             Some(surface) => super::every_plane::value(surface),
-            None => super::every::value(found),
+            None => E::every_value(found),
         },
-        "parameter": match &found.parameter {
-            Some(Parameter::Orders(orders)) => super::regularity::curve_data(&case.shape, orders),
-            _ => Value::Null,
-        },
+        "parameter": E::parameter_value(case, found),
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => {
-                let local = LocalContext::new(&case.shape, &found.contraction);
-                found.points.iter().map(|p| point(case, p, local.as_ref())).collect()
+                let local = E::local_sides(case, found);
+                let of = |k: usize| local.get(k).map_or(&[][..], Vec::as_slice);
+                found.points.iter().enumerate().map(|(k, p)| point(case, p, of(k))).collect()
             }
         },
-    })
+    });
+    if let Some(field) = E::field_text(&case.shape) {
+        out["field"] = json!(field);
+    }
+    out
 }
 
 fn surface_point(p: &SurfacePoint) -> Value {
@@ -139,14 +142,14 @@ fn surface_branch(b: &SurfaceBranch) -> Value {
     })
 }
 
-fn spectrum_value(spectrum: &crate::jordan::Spectrum) -> Value {
+fn spectrum_value<S: Spectral>(spectrum: &S) -> Value {
     let member = |m: &crate::jordan::Eigenvalue| {
-        let mut value = root_value(spectrum.root(*m));
-        value["multiplicity"] = json!(spectrum.factor(*m).multiplicity);
-        value["blocks"] = json!(spectrum.factor(*m).blocks);
+        let mut value = root_value(spectrum.value(*m));
+        value["multiplicity"] = json!(spectrum.part(m.factor).multiplicity);
+        value["blocks"] = json!(spectrum.part(m.factor).blocks);
         value
     };
-    spectrum.classes.iter().map(|class| class.members.iter().map(member).collect::<Value>()).collect()
+    spectrum.classes().iter().map(|class| class.members.iter().map(member).collect::<Value>()).collect()
 }
 
 /// A refused case as data.
@@ -177,7 +180,7 @@ fn limit(limit: &Limit) -> Value {
     }
 }
 
-fn claim(case: &Case, found: &Certified, c: &Claim) -> Value {
+fn claim<E: Reported>(case: &Case<E>, found: &Certified<E>, c: &Claim) -> Value {
     json!({
         "kind": c.what.id(),
         "about": c.what.topic().map(|t| t.to_string()),
@@ -215,11 +218,10 @@ fn contraction(c: &Contraction) -> Value {
     }
 }
 
-fn point(case: &Case, p: &PointReport, local: Option<&LocalContext<'_>>) -> Value {
+fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>, local: &[LocalSide]) -> Value {
     let lead = p.branches.iter().find(|b| matches!(b.outcome, Outcome::AtLeast { .. } | Outcome::Open { .. }));
     let lead = lead.or_else(|| p.branches.first());
-    let sides = p.branches.iter().flat_map(|b| local.map_or_else(Vec::new, |l| l.sides(b)));
-    let sides: Vec<Value> = sides.map(|side| super::local::value(&side)).collect();
+    let sides: Vec<Value> = local.iter().map(super::local::value).collect();
     let mut out = json!({
         "address": p.branches.first().map(|b| b.address.to_string()),
         "addresses": p.branches.iter().map(|b| b.address.to_string()).collect::<Vec<_>>(),
@@ -249,7 +251,7 @@ fn point(case: &Case, p: &PointReport, local: Option<&LocalContext<'_>>) -> Valu
     out
 }
 
-fn role(case: &Case, role: &Role) -> Value {
+fn role<E>(case: &Case<E>, role: &Role) -> Value {
     match role {
         Role::LeftEnd => json!({ "kind": "left-end" }),
         Role::RightEnd => json!({ "kind": "right-end" }),
@@ -265,17 +267,18 @@ fn role(case: &Case, role: &Role) -> Value {
 }
 
 /// What is said of a branch: eigenvalue, Jordan block, theorem, rate, Hölder exponent, witness or reason.
-fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
+fn branch_fields<E: Reported>(b: &BranchReport<E>) -> Vec<(&'static str, Value)> {
     match &b.outcome {
         Outcome::Line { statement, eigenvalue, block, rate, holder, proof, .. } => {
             // Rates need the ring condition; exponents besides a parameter.
             let curve = b.ring.iter().all(|p| p.position != Position::Unordered);
             let where_known = |value: Value, known: bool| if known { value } else { Value::Null };
-            let root = &b.spectrum.factors[eigenvalue.0].roots[eigenvalue.1];
+            let part = b.spectrum.part(eigenvalue.0);
+            let root = &part.roots[eigenvalue.1];
             let exponent = exponent(&holder.eigenvalue.modulus(80), &holder.scale);
             vec![
                 ("eigenvalue", root_value(root)),
-                ("jordan", json!({ "block": block, "blocks": b.spectrum.factors[eigenvalue.0].blocks })),
+                ("jordan", json!({ "block": block, "blocks": part.blocks })),
                 ("theorem", json!(statement.id())),
                 ("rate", where_known(rate_value(rate), proof.is_some())),
                 (
@@ -290,8 +293,8 @@ fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
         Outcome::AtLeast { statement, eigenvalues, witness, .. } => {
             let mut fields = vec![("theorem", json!(statement.id()))];
             if let Some(&(f, r)) = eigenvalues.first() {
-                fields.insert(0, ("eigenvalue", root_value(&b.spectrum.factors[f].roots[r])));
-                fields.insert(1, ("jordan", json!({ "blocks": b.spectrum.factors[f].blocks })));
+                fields.insert(0, ("eigenvalue", root_value(&b.spectrum.part(f).roots[r])));
+                fields.insert(1, ("jordan", json!({ "blocks": b.spectrum.part(f).blocks })));
             }
             fields.push(("witness", witness.as_ref().map_or_else(|| spanning(b, eigenvalues), witness_value)));
             fields
@@ -304,12 +307,12 @@ fn branch_fields(b: &BranchReport) -> Vec<(&'static str, Value)> {
 }
 
 /// The eigenvalues whose directions span more than a line: they are the witness of the corollary.
-fn spanning(b: &BranchReport, eigenvalues: &[(usize, usize)]) -> Value {
-    let roots: Vec<Value> = eigenvalues.iter().map(|&(f, r)| root_value(&b.spectrum.factors[f].roots[r])).collect();
+fn spanning<E: Reported>(b: &BranchReport<E>, eigenvalues: &[(usize, usize)]) -> Value {
+    let roots: Vec<Value> = eigenvalues.iter().map(|&(f, r)| root_value(&b.spectrum.part(f).roots[r])).collect();
     json!({ "kind": "eigenvalues", "eigenvalues": roots })
 }
 
-fn branch_value(b: &BranchReport) -> Value {
+fn branch_value<E: Reported>(b: &BranchReport<E>) -> Value {
     let mut out = json!({
         "address": b.address.to_string(),
         "side": match b.side { Side::Left => "left", Side::Right => "right", Side::Both => "both" },
@@ -365,7 +368,7 @@ fn rate_value(rate: &Rate) -> Value {
     }
 }
 
-fn witness_value(w: &Witness) -> Value {
+fn witness_value<E: Reported>(w: &Witness<E>) -> Value {
     match w {
         Witness::Point { address, offset } => {
             json!({ "kind": "point", "address": address.to_string(), "offset": rationals(offset) })
@@ -384,6 +387,6 @@ fn witness_value(w: &Witness) -> Value {
     }
 }
 
-fn rationals(v: &[Rational]) -> Vec<String> {
+fn rationals<E: ToString>(v: &[E]) -> Vec<String> {
     v.iter().map(ToString::to_string).collect()
 }

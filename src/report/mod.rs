@@ -23,6 +23,7 @@ pub mod reasons;
 pub mod region;
 pub mod region_curve;
 pub mod regularity;
+pub mod reported;
 pub mod spectrum;
 pub mod summary;
 pub mod surface;

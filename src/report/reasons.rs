@@ -1,6 +1,7 @@
 //! The words of why branches, points, curves and surfaces are refuted or open.
 
 use crate::answer::Answer;
+use crate::jordan::Scalar;
 use crate::shape::word_text;
 use crate::theorem::surface::{EverySurfaceBreak, Surface, SurfaceBranch, SurfacePoint};
 use crate::theorem::{
@@ -61,7 +62,7 @@ fn either(gap: BranchGap) -> &'static str {
 
 /// Why a point of a curve or a set is refuted or open; `None` where it is proved.
 #[must_use]
-pub fn point(point: &PointReport) -> Option<&'static str> {
+pub fn point<E: Scalar>(point: &PointReport<E>) -> Option<&'static str> {
     point.reason.map(|reason| match reason {
         PointGap::Dimension => "the tangent subspace has more than one dimension",
         PointGap::Spread => {
@@ -72,7 +73,7 @@ pub fn point(point: &PointReport) -> Option<&'static str> {
     })
 }
 
-fn of_branch(report: &BranchReport) -> Option<&'static str> {
+fn of_branch<E: Scalar>(report: &BranchReport<E>) -> Option<&'static str> {
     match report.outcome {
         Outcome::NoGerm { reason } => Some(no_germ(reason)),
         Outcome::Open { reason, .. } => Some(branch(reason)),
@@ -225,7 +226,9 @@ pub fn defect(defect: Defect) -> &'static str {
 }
 
 /// What breaks at a point.
-fn broken(point: &PointReport) -> String {
+/// What breaks G¹ at a point.
+#[must_use]
+pub fn broken<E: Scalar>(point: &PointReport<E>) -> String {
     let what = match point.kind {
         Kind::Cusp => "the half-tangents of both sides are the same ray: a cusp",
         Kind::Oscillating => "both rays of the line are limits of secants of one side",
@@ -236,7 +239,7 @@ fn broken(point: &PointReport) -> String {
 }
 
 /// Where a point lies.
-fn place(point: &PointReport) -> String {
+fn place<E: Scalar>(point: &PointReport<E>) -> String {
     let after = |path: &[usize]| match path {
         [] => String::new(),
         path => format!(" in cell {}", word_text(path)),

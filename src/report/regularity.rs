@@ -330,7 +330,7 @@ fn cycle(shape: &Shape, path: &[usize]) -> String {
 
 /// Why an order is refuted or open.
 #[must_use]
-pub fn outcome(shape: &Shape, o: &CurveOrder) -> Option<String> {
+pub fn outcome<E>(shape: &Shape<E>, o: &CurveOrder) -> Option<String> {
     let k = o.order;
     let state = |e: usize| match shape.states.len() {
         1 => String::new(),

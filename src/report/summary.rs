@@ -3,8 +3,9 @@
 use super::claims;
 use super::document::{Block, Document, Inline, Line, Table, Tone, code, formula, line, words};
 use super::math::Math;
-use super::proof::{parameter, results_table};
+use super::proof::parameter;
 use super::reasons;
+use super::reported::{Reported, vector};
 use super::values::{decimals_math, direction_decimals};
 use super::words::{
     addresses, contraction, count, dimension, direction, holder, listed, mark, outcome, point_name, rate, ray_line,
@@ -12,7 +13,7 @@ use super::words::{
 };
 use crate::case::{Case, Origin};
 use crate::shape::{CellKind, Frame};
-use crate::theorem::local::LocalContext;
+use crate::theorem::local::LocalSide;
 use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict};
 
 /// Points in the table at the top; all of them follow one by one.
@@ -23,7 +24,7 @@ const CLASSES: usize = 3;
 
 /// Sums up what was found; `verbose` adds branches, rates and exponents.
 #[must_use]
-pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: bool) -> Document {
+pub fn summary<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required, verbose: bool) -> Document {
     let mut blocks = Vec::new();
     if case.title != case.name {
         blocks.push(Block::Paragraph(words(case.title.clone())));
@@ -37,13 +38,14 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
     blocks.extend(points_table(case, found));
     blocks.push(Block::heading(2, "Shape"));
     blocks.push(Block::Facts(shape_facts(case, found)));
-    if let Some(every) = &found.everywhere {
+    if let Some(every) = E::every_facts(case, found) {
         blocks.push(Block::heading(2, "Every point"));
-        blocks.push(Block::Facts(super::every::facts(case, found, every)));
+        blocks.push(Block::Facts(every));
     }
-    let local = LocalContext::new(&case.shape, &found.contraction).filter(|_| verbose);
-    for point in &found.points {
-        blocks.extend(point_blocks(case, point, verbose, local.as_ref()));
+    let local = if verbose { E::local_sides(case, found) } else { Vec::new() };
+    for (k, point) in found.points.iter().enumerate() {
+        let sides = local.get(k).map_or(&[][..], Vec::as_slice);
+        blocks.extend(point_blocks(case, point, verbose, sides));
     }
     if let Some(surface) = &found.surface {
         blocks.push(Block::heading(2, "Every point"));
@@ -61,7 +63,7 @@ pub fn summary(case: &Case, found: &Certified, required: &Required, verbose: boo
 
 /// The answers with the statements behind them, the examined points, and the verdict.
 #[must_use]
-pub fn brief(case: &Case, found: &Certified, required: &Required) -> Document {
+pub fn brief<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required) -> Document {
     let row = |claim: &Claim| {
         let by = claim.statement().map_or_else(|| words("–"), |s| words(statement(s)));
         vec![words(claims::label(&claim.what)), vec![mark(claim.verdict())], by]
@@ -70,13 +72,13 @@ pub fn brief(case: &Case, found: &Certified, required: &Required) -> Document {
     let rows = found.claims.iter().map(row).collect();
     let mut blocks: Vec<Block> = mask_line(case).map(Block::Paragraph).into_iter().collect();
     blocks.push(Block::Table(Table { caption: Line::new(), header, rows }));
-    blocks.extend(points_table(case, found).or_else(|| results_table(case, found)));
+    blocks.extend(points_table(case, found).or_else(|| E::results(case, found)));
     blocks.push(Block::Paragraph(overall_line(found, required)));
     Document { title: case.name.clone(), blocks }
 }
 
 /// The mask that was understood.
-pub(super) fn mask_line(case: &Case) -> Option<Line> {
+pub(super) fn mask_line<E>(case: &Case<E>) -> Option<Line> {
     let mask = case.mask()?;
     let arity = if mask.arity() == 2 { String::new() } else { format!(" of arity {}", mask.arity()) };
     let mut out = line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]);
@@ -88,7 +90,7 @@ pub(super) fn mask_line(case: &Case) -> Option<Line> {
 }
 
 /// What is claimed, each with its answer, statement and reason.
-pub(super) fn claims_table(case: &Case, found: &Certified) -> Block {
+pub(super) fn claims_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Block {
     let row = |claim: &Claim| {
         let mut said = words(claims::judged(claim));
         if let Some(s) = claim.statement() {
@@ -104,11 +106,11 @@ pub(super) fn claims_table(case: &Case, found: &Certified) -> Block {
 }
 
 /// The examined points: address, parameter, kind, and the tangent as a ray of travel, exactly and in decimals.
-fn points_table(case: &Case, found: &Certified) -> Option<Block> {
+fn points_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Block> {
     if found.points.is_empty() {
         return None;
     }
-    let row = |point: &PointReport| {
+    let row = |point: &PointReport<E>| {
         let parameter = point.branches.first().and_then(|b| parameter(&case.shape, &b.address));
         let decimals = point
             .tangent
@@ -133,7 +135,7 @@ fn points_table(case: &Case, found: &Certified) -> Option<Block> {
 
 /// What holds, what fails, what is open, and what decides.
 #[must_use]
-pub fn overall_line(found: &Certified, required: &Required) -> Line {
+pub fn overall_line<E: Reported>(found: &Certified<E>, required: &Required) -> Line {
     let of = |verdict: Verdict| {
         let labels: Vec<String> =
             found.claims.iter().filter(|c| c.verdict() == verdict).map(|c| claims::label(&c.what)).collect();
@@ -163,7 +165,7 @@ pub fn overall_line(found: &Certified, required: &Required) -> Line {
 }
 
 /// A claim with its verdict, statement and reason.
-pub(super) fn claim_line(case: &Case, found: &Certified, claim: &Claim) -> Line {
+pub(super) fn claim_line<E: Reported>(case: &Case<E>, found: &Certified<E>, claim: &Claim) -> Line {
     let mut out = vec![mark(claim.verdict())];
     out.extend(words(format!(": {}", claims::judged(claim))));
     if let Some(s) = claim.statement() {
@@ -176,7 +178,7 @@ pub(super) fn claim_line(case: &Case, found: &Certified, claim: &Claim) -> Line 
 }
 
 /// What the shape is, in one line.
-pub(super) fn shape_line(case: &Case, found: &Certified) -> Line {
+pub(super) fn shape_line<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Line {
     let shape = &case.shape;
     let start = &shape.states[shape.start];
     let what = match start.kind {
@@ -208,8 +210,11 @@ pub(super) fn shape_line(case: &Case, found: &Certified) -> Line {
     }
 }
 
-fn shape_facts(case: &Case, found: &Certified) -> Vec<(String, Line)> {
+fn shape_facts<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Vec<(String, Line)> {
     let mut facts = vec![("shape".to_owned(), shape_line(case, found))];
+    if let Some(field) = E::field_text(&case.shape) {
+        facts.push(("entries".to_owned(), words(format!("in {field}"))));
+    }
     facts.push(("contraction".to_owned(), contraction(&found.contraction)));
     if let Some(start) = found.states.iter().find(|s| s.state == case.shape.start) {
         let text = if start.visible == start.relevant {
@@ -223,7 +228,7 @@ fn shape_facts(case: &Case, found: &Certified) -> Vec<(String, Line)> {
     facts
 }
 
-fn point_blocks(case: &Case, point: &PointReport, verbose: bool, local: Option<&LocalContext<'_>>) -> Vec<Block> {
+fn point_blocks<E: Reported>(case: &Case<E>, point: &PointReport<E>, verbose: bool, local: &[LocalSide]) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -233,7 +238,7 @@ fn point_blocks(case: &Case, point: &PointReport, verbose: bool, local: Option<&
     }
     let mut facts = vec![("verdict".to_owned(), verdict_line(point))];
     let place = point.image.as_ref().unwrap_or(&point.position);
-    facts.push(("point".to_owned(), vec![Inline::Math(Math::vector(place))]));
+    facts.push(("point".to_owned(), vec![Inline::Math(vector(place))]));
     if let Some(tangent) = &point.tangent {
         facts.push(("tangent".to_owned(), direction(tangent)));
     }
@@ -245,13 +250,13 @@ fn point_blocks(case: &Case, point: &PointReport, verbose: bool, local: Option<&
     for branch in &branches {
         facts.extend(branch_facts(branches.len() > 1, branch, verbose, point.role != Role::SetPoint));
     }
-    for side in point.branches.iter().flat_map(|b| local.map_or_else(Vec::new, |l| l.sides(b))) {
-        facts.push((super::local::name(&side), super::local::fact(&side)));
+    for side in local {
+        facts.push((super::local::name(side), super::local::fact(side)));
     }
     vec![Block::Heading(3, head), Block::Facts(facts)]
 }
 
-fn verdict_line(point: &PointReport) -> Line {
+fn verdict_line<E: Reported>(point: &PointReport<E>) -> Line {
     let mut out = vec![mark(point.verdict)];
     match point.kind {
         Kind::Line => out.extend(words(": a tangent line exists (its rays are not settled)")),
@@ -272,10 +277,10 @@ fn verdict_line(point: &PointReport) -> Line {
 }
 
 /// Both branches, or one where they are the same.
-fn shown_branches(point: &PointReport) -> Vec<&BranchReport> {
-    let mut out: Vec<&BranchReport> = Vec::new();
+fn shown_branches<E: Reported>(point: &PointReport<E>) -> Vec<&BranchReport<E>> {
+    let mut out: Vec<&BranchReport<E>> = Vec::new();
     for branch in &point.branches {
-        let same = |b: &&BranchReport| b.linear == branch.linear && b.address.cycle == branch.address.cycle;
+        let same = |b: &&BranchReport<E>| b.linear == branch.linear && b.address.cycle == branch.address.cycle;
         if !out.iter().any(same) {
             out.push(branch);
         }
@@ -283,7 +288,12 @@ fn shown_branches(point: &PointReport) -> Vec<&BranchReport> {
     out
 }
 
-fn branch_facts(several: bool, branch: &BranchReport, verbose: bool, ordered: bool) -> Vec<(String, Line)> {
+fn branch_facts<E: Reported>(
+    several: bool,
+    branch: &BranchReport<E>,
+    verbose: bool,
+    ordered: bool,
+) -> Vec<(String, Line)> {
     let side = match branch.side {
         Side::Left => " (left)",
         Side::Right => " (right)",

@@ -3,13 +3,14 @@
 use super::document::{Inline, Line, Tone, line, words};
 use super::math::Math;
 use super::reasons;
+use super::reported::{Reported, vector};
 use super::values::{
     decimal_math, decimals_math, direction_decimals, direction_math, enclosed, exponent, is_rational, lambda_math,
     polynomial, root_math,
 };
 use crate::algebraic::Root;
 use crate::arith::Rational;
-use crate::jordan::{Eigenvalue, Spectrum};
+use crate::jordan::{Eigenvalue, Spectral};
 use crate::shape::{Contraction, Shape, word_text};
 use crate::theorem::{
     BranchReport, Dimension, Direction, Holder, Kind, Outcome, PointReport, Rate, RingProof, Role, Statement, Verdict,
@@ -51,7 +52,7 @@ pub fn count(number: usize, noun: &str) -> String {
 
 /// What a point is called at the start of a sentence: `Left end`, `Joint of pieces 0 and 1`.
 #[must_use]
-pub fn point_name(shape: &Shape, point: &PointReport) -> String {
+pub fn point_name<E: Reported>(shape: &Shape<E>, point: &PointReport<E>) -> String {
     let phrase = point_phrase(shape, point);
     let mut letters = phrase.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
@@ -59,7 +60,7 @@ pub fn point_name(shape: &Shape, point: &PointReport) -> String {
 
 /// The same inside a sentence: `left end`, `joint of pieces 0 and 1`.
 #[must_use]
-pub fn point_phrase(shape: &Shape, point: &PointReport) -> String {
+pub fn point_phrase<E: Reported>(shape: &Shape<E>, point: &PointReport<E>) -> String {
     match &point.role {
         Role::LeftEnd => "left end".to_owned(),
         Role::RightEnd => "right end".to_owned(),
@@ -80,7 +81,7 @@ pub fn point_phrase(shape: &Shape, point: &PointReport) -> String {
 
 /// The addresses of the branches, without repetition.
 #[must_use]
-pub fn addresses(point: &PointReport) -> Vec<String> {
+pub fn addresses<E: Reported>(point: &PointReport<E>) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
     for branch in &point.branches {
         let text = branch.address.to_string();
@@ -127,7 +128,7 @@ pub fn rays(list: &[Direction]) -> Line {
 
 /// The rays of both sides in one line.
 #[must_use]
-pub fn ray_line(point: &PointReport) -> Line {
+pub fn ray_line<E: Reported>(point: &PointReport<E>) -> Line {
     let mut out = Line::new();
     for (side, list) in [("left", &point.left), ("right", &point.right)] {
         if list.is_empty() {
@@ -146,11 +147,11 @@ pub fn ray_line(point: &PointReport) -> Line {
 
 /// An eigenvalue with its multiplicity and blocks, as in `1/2 (one block of size 2)`.
 #[must_use]
-pub fn eigenvalue(spectrum: &Spectrum, member: Eigenvalue) -> Line {
-    let factor = spectrum.factor(member);
-    let mut out = vec![Inline::Math(root_math(spectrum.root(member)))];
+pub fn eigenvalue<S: Spectral>(spectrum: &S, member: Eigenvalue) -> Line {
+    let factor = spectrum.part(member.factor);
+    let mut out = vec![Inline::Math(root_math(spectrum.value(member)))];
     if factor.multiplicity > 1 {
-        out.extend(words(format!(" ({})", blocks(&factor.blocks))));
+        out.extend(words(format!(" ({})", blocks(factor.blocks))));
     }
     out
 }
@@ -167,9 +168,9 @@ pub fn blocks(sizes: &[usize]) -> String {
 
 /// The eigenvalues by descending modulus, at most `most` classes of them.
 #[must_use]
-pub fn spectrum_line(spectrum: &Spectrum, most: usize) -> Line {
+pub fn spectrum_line<S: Spectral>(spectrum: &S, most: usize) -> Line {
     let mut out = Line::new();
-    for (k, class) in spectrum.classes.iter().take(most).enumerate() {
+    for (k, class) in spectrum.classes().iter().take(most).enumerate() {
         if k > 0 {
             out.extend(words("; then "));
         }
@@ -183,8 +184,8 @@ pub fn spectrum_line(spectrum: &Spectrum, most: usize) -> Line {
             out.extend(words(" of equal modulus"));
         }
     }
-    if spectrum.classes.len() > most {
-        out.extend(words(format!("; {} of smaller modulus", count(spectrum.classes.len() - most, "class"))));
+    if spectrum.classes().len() > most {
+        out.extend(words(format!("; {} of smaller modulus", count(spectrum.classes().len() - most, "class"))));
     }
     out
 }
@@ -288,14 +289,14 @@ pub fn cell(word: &[usize]) -> String {
 
 /// A witness in words.
 #[must_use]
-pub fn witness(w: &Witness) -> Line {
+pub fn witness<E: Reported>(w: &Witness<E>) -> Line {
     match w {
         Witness::Point { address, offset } => line(
             &format!(
                 "the point of the ring with address `{address}` has no component in the leading part: its offset from $q$ is $x=@$ in \
                  coordinates of $V$, and the functional vanishes there exactly"
             ),
-            [Math::vector(offset)],
+            [vector(offset)],
         ),
         Witness::SignChange { positive, above, negative, below } => {
             let mut out = line(
@@ -336,7 +337,7 @@ pub fn ring_proof(proof: &RingProof) -> String {
 
 /// What follows at a branch, in one line.
 #[must_use]
-pub fn outcome(branch: &BranchReport) -> Line {
+pub fn outcome<E: Reported>(branch: &BranchReport<E>) -> Line {
     match &branch.outcome {
         Outcome::Line { statement: s, proof, .. } => {
             let how = proof.as_ref().map_or_else(|| "no ring condition needed".to_owned(), ring_proof);

@@ -1,5 +1,5 @@
 use super::Shape;
-use crate::linalg::{Matrix, Scaled};
+use crate::linalg::{Entry, Matrix, Products};
 use std::fmt;
 use thiserror::Error;
 
@@ -74,7 +74,7 @@ impl Address {
     ///
     /// # Errors
     /// [`AddressError::Letter`] where a letter does not exist.
-    pub fn normalise(&self, shape: &Shape, start: usize) -> Result<Self, AddressError> {
+    pub fn normalise<E: Entry>(&self, shape: &Shape<E>, start: usize) -> Result<Self, AddressError> {
         let letter = |k: usize| {
             if k < self.prefix.len() { self.prefix[k] } else { self.cycle[(k - self.prefix.len()) % self.cycle.len()] }
         };
@@ -179,7 +179,7 @@ pub fn word_text(word: &[usize]) -> String {
 /// Most short cycles of a state whose fixed points are computed.
 const MAX_CYCLES: usize = 40;
 
-impl Shape {
+impl<E: Entry> Shape<E> {
     /// The states passed when `word` is read from `start`: `word.len() + 1` of them.
     ///
     /// # Panics
@@ -199,7 +199,7 @@ impl Shape {
     /// # Panics
     /// If a letter does not exist.
     #[must_use]
-    pub fn product(&self, start: usize, word: &[usize]) -> (Matrix, usize) {
+    pub fn product(&self, start: usize, word: &[usize]) -> (Matrix<E>, usize) {
         let mut state = start;
         let mut product = Matrix::identity(self.states[start].dim);
         for &i in word {
@@ -212,13 +212,13 @@ impl Shape {
 
     /// The operators of all pieces, by state and letter, for products of many words.
     #[must_use]
-    pub fn scaled_operators(&self) -> Vec<Vec<Scaled>> {
-        self.states.iter().map(|s| s.pieces.iter().map(|p| Scaled::of(&p.op)).collect()).collect()
+    pub fn scaled_operators(&self) -> Vec<Vec<E::Product>> {
+        self.states.iter().map(|s| s.pieces.iter().map(|p| <E::Product>::of(&p.op)).collect()).collect()
     }
 
     /// The fixed points of the words of one and two letters that lead back to a state; none of those that are not unique.
     #[must_use]
-    pub fn short_cycles(&self, state: usize) -> Vec<(Address, Vec<crate::arith::Rational>)> {
+    pub fn short_cycles(&self, state: usize) -> Vec<(Address, Vec<E>)> {
         let letters = |e: usize| 0..self.states[e].pieces.len();
         let target = |e: usize, i: usize| self.states[e].pieces[i].target;
         let one = letters(state).filter(|&i| target(state, i) == state).map(|i| vec![i]);
@@ -243,7 +243,7 @@ impl Shape {
     /// # Panics
     /// If a letter does not exist.
     #[must_use]
-    pub fn point(&self, start: usize, address: &Address) -> Option<Vec<crate::arith::Rational>> {
+    pub fn point(&self, start: usize, address: &Address) -> Option<Vec<E>> {
         let (prefix, state) = self.product(start, &address.prefix);
         let (cycle, _) = self.product(state, &address.cycle);
         Some(prefix.apply(&fixed_point(&cycle)?))
@@ -252,17 +252,13 @@ impl Shape {
 
 /// The unique fixed point with coordinate sum 1 of a square operator with column sums 1, if unique.
 #[must_use]
-pub fn fixed_point(operator: &Matrix) -> Option<Vec<crate::arith::Rational>> {
-    use crate::arith::Rational;
+pub fn fixed_point<E: Entry>(operator: &Matrix<E>) -> Option<Vec<E>> {
     let n = operator.rows();
     let kernel = (operator - &Matrix::identity(n)).kernel();
     if kernel.cols() != 1 {
         return None;
     }
     let v = kernel.column(0);
-    let sum = v.iter().fold(Rational::from(0), |s, x| s + x);
-    if sum == 0 {
-        return None;
-    }
-    Some(v.into_iter().map(|x| x / &sum).collect())
+    let sum = E::sum(v.iter());
+    v.iter().map(|x| x.over(&sum)).collect()
 }

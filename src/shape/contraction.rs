@@ -1,9 +1,8 @@
 //! Whether a system contracts: Dobrushin's coefficient over a finite complete prefix code (theory §1).
 
 use super::{Polytopes, Shape};
-use crate::arith::{Natural, Rational, abs};
-use crate::linalg::{Matrix, Scaled};
-use malachite_base::num::arithmetic::traits::UnsignedAbs;
+use crate::arith::Rational;
+use crate::linalg::{Entry, Matrix, Products};
 use std::collections::BTreeMap;
 
 /// A word with the bound of its operator on differences.
@@ -69,45 +68,32 @@ pub const MAX_WORDS: usize = 20_000;
 
 /// How many multiplications of numbers those words may cost together.
 const MAX_PRODUCTS: usize = 5_000_000;
+/// Binary digits to which the sizes of irrational numbers are bounded.
+pub(super) const BITS: u64 = 96;
 /// How many words of a state a code may have when it is lengthened only to make the balls smaller.
 const SHARP_WORDS: usize = 512;
 
-/// `τ(T) = max_{i,j} ½ Σ_k |t_ki − t_kj|`, the norm of `T` on zero-sum vectors induced by the 1-norm.
+/// `τ(T) = max_{i,j} ½ Σ_k |t_ki − t_kj|`, the norm of `T` on zero-sum vectors induced by the 1-norm; a little more where entries
+/// are irrational.
 ///
 /// # Cost
 /// `O(rows * cols²)`.
 #[must_use]
-pub fn dobrushin(op: &Matrix) -> Rational {
-    scaled_dobrushin(&Scaled::of(op))
+pub fn dobrushin<E: Entry>(op: &Matrix<E>) -> Rational {
+    <E::Product>::of(op).half_distance()
 }
 
-fn scaled_dobrushin(op: &Scaled) -> Rational {
-    // Over one denominator, differences and their sums are integers.
-    let scaled = op.entries();
-    let mut largest = Natural::from(0u32);
-    for i in 0..scaled.cols() {
-        for j in 0..i {
-            let terms = (0..scaled.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
-            let distance = terms.fold(Natural::from(0u32), |s, x| s + x);
-            if distance > largest {
-                largest = distance;
-            }
-        }
-    }
-    Rational::from_naturals(largest, op.denominator() << 1u64)
-}
-
-/// The sum of absolute values.
+/// The sum of absolute values; a little more where entries are irrational.
 #[must_use]
-pub fn norm1(v: &[Rational]) -> Rational {
-    v.iter().fold(Rational::from(0), |s, x| s + abs(x))
+pub fn norm1<E: Entry>(v: &[E]) -> Rational {
+    v.iter().fold(Rational::from(0), |s, x| s + x.enclosure(BITS).magnitude())
 }
 
 /// The linear part of a square operator on zero-sum vectors, in the basis `e_k − e_0`.
 #[must_use]
-pub fn linear_part(op: &Matrix) -> Matrix {
+pub fn linear_part<E: Entry>(op: &Matrix<E>) -> Matrix<E> {
     Matrix::from_fn(op.rows().saturating_sub(1), op.cols().saturating_sub(1), |i, j| {
-        &op[(i + 1, j + 1)] - &op[(i + 1, 0)]
+        op[(i + 1, j + 1)].minus(&op[(i + 1, 0)])
     })
 }
 
@@ -116,7 +102,7 @@ pub fn linear_part(op: &Matrix) -> Matrix {
 ///
 /// # Cost
 /// At most [`MAX_WORDS`] products.
-pub fn contraction(shape: &Shape, expands: impl FnMut(&Matrix) -> bool) -> Contraction {
+pub fn contraction<E: Entry>(shape: &Shape<E>, expands: impl FnMut(&Matrix<E>) -> bool) -> Contraction {
     contraction_within(shape, MAX_WORDS, MAX_PRODUCTS, expands)
 }
 
@@ -124,17 +110,20 @@ pub fn contraction(shape: &Shape, expands: impl FnMut(&Matrix) -> bool) -> Contr
 ///
 /// # Cost
 /// At most `words` products.
-pub fn contraction_within(
-    shape: &Shape,
+pub fn contraction_within<E: Entry>(
+    shape: &Shape<E>,
     words: usize,
     work: usize,
-    mut expands: impl FnMut(&Matrix) -> bool,
+    mut expands: impl FnMut(&Matrix<E>) -> bool,
 ) -> Contraction {
     let mut codes: Vec<Vec<ContractingWord>> = vec![Vec::new(); shape.states.len()];
     let mut constant = Rational::from(0);
     let operators = shape.scaled_operators();
-    let mut open: Vec<(usize, Vec<usize>, usize, Scaled)> =
-        shape.reachable().into_iter().map(|e| (e, Vec::new(), e, Scaled::identity(shape.states[e].dim))).collect();
+    let mut open: Vec<(usize, Vec<usize>, usize, E::Product)> = shape
+        .reachable()
+        .into_iter()
+        .map(|e| (e, Vec::new(), e, <E::Product>::identity(shape.states[e].dim)))
+        .collect();
     let (mut length, mut count) = (0, 0);
     let largest = shape.states.iter().map(|s| s.dim).fold(1, usize::max);
     let budget = words.min(work / largest.pow(3).max(1));
@@ -151,7 +140,7 @@ pub fn contraction_within(
                 let op = product.times(&operators[state][letter]);
                 let mut word = word.clone();
                 word.push(letter);
-                let tau = scaled_dobrushin(&op);
+                let tau = op.half_distance();
                 if tau < 1 {
                     if tau > constant {
                         constant.clone_from(&tau);
@@ -182,7 +171,7 @@ impl Contraction {
 impl Contracting {
     /// Replaces words by their extensions, those with the largest `τ` first, while the code stays short, and keeps the best
     /// code met on the way: smaller constants give smaller balls around the attractors.
-    fn sharpen(&mut self, shape: &Shape) {
+    fn sharpen<E: Entry>(&mut self, shape: &Shape<E>) {
         let operators = shape.scaled_operators();
         for (from, code) in self.codes.iter_mut().enumerate() {
             sharpen_code(shape, &operators, from, code);
@@ -194,17 +183,22 @@ impl Contracting {
 }
 
 /// Words by `τ`, with the state where they end and their product.
-type Words = BTreeMap<(Rational, Vec<usize>), (usize, Scaled)>;
+type Words<P> = BTreeMap<(Rational, Vec<usize>), (usize, P)>;
 
-fn sharpen_code(shape: &Shape, operators: &[Vec<Scaled>], from: usize, code: &mut Vec<ContractingWord>) {
+fn sharpen_code<E: Entry>(
+    shape: &Shape<E>,
+    operators: &[Vec<E::Product>],
+    from: usize,
+    code: &mut Vec<ContractingWord>,
+) {
     let half = Rational::from(1) / Rational::from(2);
     let product = |c: &ContractingWord| {
-        let start = (from, Scaled::identity(shape.states[from].dim));
+        let start = (from, <E::Product>::identity(shape.states[from].dim));
         c.word.iter().fold(start, |(state, product), &letter| {
             (shape.states[state].pieces[letter].target, product.times(&operators[state][letter]))
         })
     };
-    let mut words: Words = code.iter().map(|c| ((c.tau.clone(), c.word.clone()), product(c))).collect();
+    let mut words: Words<E::Product> = code.iter().map(|c| ((c.tau.clone(), c.word.clone()), product(c))).collect();
     let limit = SHARP_WORDS.min(MAX_PRODUCTS / shape.states[from].dim.pow(3).max(1));
     let mut best = words.last_key_value().map(|((tau, _), _)| tau.clone()).unwrap_or_else(|| Rational::from(0));
     // What was done since the best code: each word that was replaced, and by which.
@@ -219,7 +213,7 @@ fn sharpen_code(shape: &Shape, operators: &[Vec<Scaled>], from: usize, code: &mu
         let mut longer = Vec::new();
         for (letter, piece) in shape.states[state].pieces.iter().enumerate() {
             let op = product.times(&operators[state][letter]);
-            let key = (scaled_dobrushin(&op), [word.as_slice(), &[letter]].concat());
+            let key = (op.half_distance(), [word.as_slice(), &[letter]].concat());
             longer.push(key.clone());
             words.insert(key, (piece.target, op));
         }

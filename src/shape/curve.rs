@@ -2,7 +2,7 @@
 
 use super::{Address, CellKind, Piece, Shape, Spaces};
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Entry, Matrix};
 use thiserror::Error;
 
 /// Letters after which the expansion of a parameter is given up.
@@ -29,7 +29,7 @@ impl End {
 
     /// The end of a piece that lies at this end of its state.
     #[must_use]
-    pub fn in_piece(self, piece: &Piece) -> Self {
+    pub fn in_piece<E>(self, piece: &Piece<E>) -> Self {
         if piece.reversed { self.other() } else { self }
     }
 }
@@ -48,9 +48,9 @@ pub enum CurveError {
         /// The piece that begins elsewhere.
         piece: usize,
         /// Where the piece before ends.
-        ends: Vec<Rational>,
+        ends: Vec<String>,
         /// Where it begins.
-        begins: Vec<Rational>,
+        begins: Vec<String>,
     },
     /// An end of a piece is not one point.
     #[error(
@@ -82,21 +82,21 @@ pub enum CurveError {
         /// Its column.
         column: usize,
         /// The difference.
-        residual: Rational,
+        residual: String,
     },
 }
 
-impl Shape {
+impl<E: Entry> Shape<E> {
     /// Whether a piece is a single point.
     #[must_use]
-    pub fn is_point(&self, spaces: &Spaces, piece: &Piece) -> bool {
+    pub fn is_point(&self, spaces: &Spaces<E>, piece: &Piece<E>) -> bool {
         (&piece.op * &spaces.of(piece.target).basis).is_zero()
     }
 
     /// The address of an end of the curve of a state, through its outermost pieces for which `skip` is false.
     ///
     /// Returns `None` for a state where all pieces are skipped.
-    pub fn end_address(&self, state: usize, end: End, mut skip: impl FnMut(&Piece) -> bool) -> Option<Address> {
+    pub fn end_address(&self, state: usize, end: End, mut skip: impl FnMut(&Piece<E>) -> bool) -> Option<Address> {
         let mut seen: Vec<(usize, End)> = Vec::new();
         let mut letters = Vec::new();
         let (mut at, mut side) = (state, end);
@@ -159,7 +159,7 @@ impl Shape {
 
     /// An end point of the curve of a state.
     #[must_use]
-    pub fn end_point(&self, state: usize, end: End) -> Option<Vec<Rational>> {
+    pub fn end_point(&self, state: usize, end: End) -> Option<Vec<E>> {
         self.point(state, &self.end_address(state, end, |_| false)?)
     }
 
@@ -206,6 +206,8 @@ impl Shape {
                 let (ends, begins) = (outer(k, End::Finish)?, outer(k + 1, End::Start)?);
                 if ends != begins {
                     let state = self.states[e].name.clone();
+                    let text = |x: Vec<E>| x.iter().map(ToString::to_string).collect();
+                    let (ends, begins) = (text(ends), text(begins));
                     return Err(CurveError::Apart { state, index: e, piece: k + 1, ends, begins });
                 }
             }
@@ -214,7 +216,7 @@ impl Shape {
     }
 
     /// Boundary operator of a state at an end, where given.
-    fn boundary(&self, state: usize, end: End) -> Option<&super::Boundary> {
+    fn boundary(&self, state: usize, end: End) -> Option<&super::Boundary<E>> {
         match end {
             End::Start => self.states[state].left.as_ref(),
             End::Finish => self.states[state].right.as_ref(),
@@ -252,11 +254,19 @@ impl Shape {
         Ok(())
     }
 
-    fn compare(&self, e: usize, piece: usize, identity: String, a: &Matrix, b: &Matrix) -> Result<(), CurveError> {
+    fn compare(
+        &self,
+        e: usize,
+        piece: usize,
+        identity: String,
+        a: &Matrix<E>,
+        b: &Matrix<E>,
+    ) -> Result<(), CurveError> {
         for row in 0..a.rows() {
             for column in 0..a.cols() {
-                let residual = &a[(row, column)] - &b[(row, column)];
-                if residual != 0 {
+                let residual = a[(row, column)].minus(&b[(row, column)]);
+                if !residual.is_zero() {
+                    let residual = residual.to_string();
                     let state = self.states[e].name.clone();
                     return Err(CurveError::Identity { state, index: e, piece, identity, row, column, residual });
                 }

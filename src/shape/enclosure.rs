@@ -1,16 +1,16 @@
 //! Balls (and polygons) that hold the attractors, and what a functional does on a cell (theory §7).
 
-use super::contraction::{Contracting, norm1};
+use super::contraction::{BITS, Contracting, norm1};
 use super::hull::{Hulls, hulls};
 use super::{Contraction, OwnPoints, Polytopes, Shape, Spaces, Weights, difference};
-use crate::arith::{Integer, Interval, Rational};
-use crate::linalg::{Matrix, Scaled, dot};
+use crate::arith::{Interval, Rational};
+use crate::linalg::{Entry, Matrix, Products};
 
 /// For every reachable state a ball `B(base, radius)` of the 1-norm that holds its attractor.
 #[derive(Debug, Clone)]
-pub struct Balls {
+pub struct Balls<E: Entry = Rational> {
     radius: Vec<Rational>,
-    hulls: Option<Vertices>,
+    hulls: Option<Vertices<E>>,
     /// How the images of the vertices of the hulls are combined, where that was found with them.
     weights: Option<HullWeights>,
     simplex: bool,
@@ -18,26 +18,23 @@ pub struct Balls {
 
 /// Polytopes, and the vertices of each state as the columns of a matrix, if there are any.
 #[derive(Debug, Clone)]
-struct Vertices {
-    hulls: Hulls,
-    columns: Vec<Option<Scaled>>,
+struct Vertices<E: Entry> {
+    hulls: Vec<Vec<Vec<E>>>,
+    columns: Vec<Option<E::Product>>,
 }
 
-impl Vertices {
-    fn new(hulls: Hulls) -> Self {
-        let columns = |vertices: &Vec<Vec<Rational>>| {
+impl<E: Entry> Vertices<E> {
+    fn new(hulls: Vec<Vec<Vec<E>>>) -> Self {
+        let columns = |vertices: &Vec<Vec<E>>| {
             let dim = vertices.first()?.len();
-            Some(Scaled::of(&Matrix::from_columns(dim, vertices)))
+            Some(<E::Product>::of(&Matrix::from_columns(dim, vertices)))
         };
         Self { columns: hulls.iter().map(columns).collect(), hulls }
     }
 
     /// The smallest and the largest value of a functional at the vertices of a state.
-    fn range(&self, state: usize, row: &[Rational]) -> Option<Interval> {
-        let values = Scaled::column(row).transpose().times(self.columns[state].as_ref()?);
-        let value = |x: &Integer| Rational::from_integers_ref(x, &Integer::from(values.denominator()));
-        let entries = || values.entries().entries().iter();
-        Some(Interval { lo: value(entries().min()?), hi: value(entries().max()?) })
+    fn range(&self, state: usize, row: &[E], bits: u64) -> Option<Interval> {
+        self.columns[state].as_ref()?.range(row, bits)
     }
 }
 
@@ -49,7 +46,7 @@ impl Balls {
     #[must_use]
     pub fn of(shape: &Shape, spaces: &Spaces, contraction: &Contraction) -> Option<Self> {
         match contraction {
-            Contraction::Proved(proof) => Some(Self::new(shape, spaces, proof)),
+            Contraction::Proved(proof) => Some(Self::of_words(shape, spaces, proof)),
             Contraction::Polytopes(proof) => {
                 let mut radius = vec![Rational::from(0); shape.states.len()];
                 for e in shape.reachable() {
@@ -68,12 +65,33 @@ impl Balls {
         }
     }
 
+    /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
+    #[must_use]
+    pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
+        if shape.reachable().iter().any(|e| spaces.of(*e).basis.cols() > 2) {
+            return None;
+        }
+        let found = own_hulls(shape, spaces).or_else(|| hulls(shape, spaces))?;
+        Some(Self { hulls: Some(Vertices::new(found)), weights: None, ..self.clone() })
+    }
+
+    /// The same balls with polytopes inside which the attractors lie as well.
+    #[must_use]
+    pub fn with_polytopes(&self, polytopes: &Polytopes) -> Self {
+        let hulls = Some(Vertices::new(polytopes.vertices.clone()));
+        let weights = Some(polytopes.weights.clone());
+        Self { hulls, weights, ..self.clone() }
+    }
+}
+
+impl<E: Entry> Balls<E> {
     /// Radii from a proof of contraction: `radius_e >= ‖T_w q − q_e‖ + τ(T_w) radius` for every word of the code.
-    fn new(shape: &Shape, spaces: &Spaces, proof: &Contracting) -> Self {
+    #[must_use]
+    pub fn of_words(shape: &Shape<E>, spaces: &Spaces<E>, proof: &Contracting) -> Self {
         let operators = shape.scaled_operators();
         let mut shifts: Vec<Vec<(Rational, &Rational, usize)>> = Vec::new();
         for (e, code) in proof.codes.iter().enumerate() {
-            let base = |state: usize| Scaled::column(&spaces.of(state).base);
+            let base = |state: usize| <E::Product>::column(&spaces.of(state).base);
             let shift = |c: &super::ContractingWord| {
                 let path = shape.path(e, &c.word);
                 let along = path.iter().zip(&c.word).rev();
@@ -106,24 +124,6 @@ impl Balls {
         Self { radius, hulls: None, weights: None, simplex: false }
     }
 
-    /// The same balls with convex polygons inside which the attractors lie as well, where there are such.
-    #[must_use]
-    pub fn with_hulls(&self, shape: &Shape, spaces: &Spaces) -> Option<Self> {
-        if shape.reachable().iter().any(|e| spaces.of(*e).basis.cols() > 2) {
-            return None;
-        }
-        let found = own_hulls(shape, spaces).or_else(|| hulls(shape, spaces))?;
-        Some(Self { hulls: Some(Vertices::new(found)), weights: None, ..self.clone() })
-    }
-
-    /// The same balls with polytopes inside which the attractors lie as well.
-    #[must_use]
-    pub fn with_polytopes(&self, polytopes: &Polytopes) -> Self {
-        let hulls = Some(Vertices::new(polytopes.vertices.clone()));
-        let weights = Some(polytopes.weights.clone());
-        Self { hulls, weights, ..self.clone() }
-    }
-
     /// How the images of the vertices of the hulls are combined, where that is known.
     #[must_use]
     pub fn hull_weights(&self) -> Option<&HullWeights> {
@@ -133,9 +133,9 @@ impl Balls {
     /// The same balls together with the simplex of the coordinates, which holds the attractors where all operators of the
     /// states that are reached are nonnegative.
     #[must_use]
-    pub fn with_simplex(&self, shape: &Shape) -> Self {
+    pub fn with_simplex(&self, shape: &Shape<E>) -> Self {
         let pieces = || shape.reachable().into_iter().flat_map(|e| shape.states[e].pieces.iter());
-        let nonnegative = |op: &crate::linalg::Matrix| (0..op.rows()).all(|i| op.row(i).iter().all(|x| *x >= 0));
+        let nonnegative = |op: &Matrix<E>| op.entries().iter().all(|x| x.sign() >= 0);
         Self { simplex: pieces().all(|p| nonnegative(&p.op)), ..self.clone() }
     }
 
@@ -147,7 +147,7 @@ impl Balls {
 
     /// The vertices of the polygon of a state, where polygons are used.
     #[must_use]
-    pub fn hull(&self, state: usize) -> Option<&[Vec<Rational>]> {
+    pub fn hull(&self, state: usize) -> Option<&[Vec<E>]> {
         Some(&self.hulls.as_ref()?.hulls[state])
     }
 
@@ -159,22 +159,23 @@ impl Balls {
 
     /// A bound of the 1-norm of all points of the attractor.
     #[must_use]
-    pub fn norm_bound(&self, spaces: &Spaces, state: usize) -> Rational {
+    pub fn norm_bound(&self, spaces: &Spaces<E>, state: usize) -> Rational {
         norm1(&spaces.of(state).base) + &self.radius[state]
     }
 
     /// Encloses `row · a` for all `a` in the attractor of `state`; `row` is already multiplied by the operator of the cell.
+    /// Irrational ends are rounded outwards by at most `2^-bits`.
     #[must_use]
-    pub fn enclose(&self, spaces: &Spaces, state: usize, row: &[Rational]) -> Interval {
-        if let Some(range) = self.hulls.as_ref().and_then(|h| h.range(state, row)) {
+    pub fn enclose(&self, spaces: &Spaces<E>, state: usize, row: &[E], bits: u64) -> Interval {
+        if let Some(range) = self.hulls.as_ref().and_then(|h| h.range(state, row, bits)) {
             return range;
         }
-        let centre = dot(row, &spaces.of(state).base);
+        let centre = E::dot(row, &spaces.of(state).base).enclosure(bits);
         let spread = oscillation(row) / Rational::from(2) * &self.radius[state];
-        let ball = Interval { lo: &centre - &spread, hi: centre + spread };
+        let ball = Interval { lo: &centre.lo - &spread, hi: centre.hi + spread };
         match (row.iter().min(), row.iter().max()) {
             (Some(lo), Some(hi)) if self.simplex => {
-                Interval { lo: ball.lo.max(lo.clone()), hi: ball.hi.min(hi.clone()) }
+                Interval { lo: ball.lo.max(lo.enclosure(bits).lo), hi: ball.hi.min(hi.enclosure(bits).hi) }
             }
             _ => ball,
         }
@@ -189,11 +190,11 @@ fn own_hulls(shape: &Shape, spaces: &Spaces) -> Option<Hulls> {
     Some(found.iter().enumerate().map(|(e, polygon)| own.outwards(e, polygon)).collect())
 }
 
-/// `max − min` of the entries.
+/// `max − min` of the entries; a little more where they are irrational.
 #[must_use]
-pub fn oscillation(row: &[Rational]) -> Rational {
+pub fn oscillation<E: Entry>(row: &[E]) -> Rational {
     match (row.iter().max(), row.iter().min()) {
-        (Some(hi), Some(lo)) => hi - lo,
+        (Some(hi), Some(lo)) => hi.minus(lo).enclosure(BITS).hi,
         _ => Rational::from(0),
     }
 }

@@ -1,7 +1,7 @@
 //! Connected attractors: pieces that share points with known addresses (theory §7, Linked pieces).
 
 use super::{Address, Shape};
-use crate::arith::Rational;
+use crate::linalg::Entry;
 use std::collections::BTreeMap;
 
 /// Pairs of addresses of one point, whose first letters join the pieces of a state to one another.
@@ -12,7 +12,7 @@ const MAX_PIECES: usize = 12;
 /// Most pieces for which points behind two letters are compared too.
 const FEW_PIECES: usize = 5;
 
-impl Shape {
+impl<E: Entry> Shape<E> {
     /// For `from` and every state that can be reached from it, in breadth-first order, pairs of addresses of one point that join
     /// all pieces of the state: then the attractor of `from` is connected. `None` where the points with short addresses do not
     /// join them.
@@ -44,7 +44,7 @@ impl Shape {
         }
         // The part of each piece in what is joined already.
         let mut part: Vec<usize> = (0..pieces.len()).collect();
-        let mut known: BTreeMap<Vec<Rational>, (usize, Address)> = BTreeMap::new();
+        let mut known: BTreeMap<Vec<E>, (usize, Address)> = BTreeMap::new();
         let mut links = Vec::new();
         for (letter, piece) in pieces.iter().enumerate() {
             let mut inner = self.landmarks(piece.target);

@@ -13,6 +13,7 @@ mod model;
 mod own;
 mod polytope;
 mod resolution;
+mod rounded;
 mod sample;
 mod solid;
 mod space;
@@ -27,7 +28,7 @@ pub use contraction::{
 pub use curve::{CurveError, End};
 pub use enclosure::{Balls, HullWeights, oscillation};
 pub use identities::{Complex, ComplexError, Face, Failure, Identity, IdentityKind, Layout, OpName, Reversal, Side};
-pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State};
+pub use model::{Boundary, CellKind, Frame, Piece, Shape, ShapeError, State, entries};
 pub use own::OwnPoints;
 pub use polytope::{Polytopes, Weights};
 pub use resolution::{MAX_CELLS, Resolution, level};

@@ -1,5 +1,5 @@
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Entry, Matrix};
 use thiserror::Error;
 
 /// What a state of the automaton stands for.
@@ -26,11 +26,11 @@ pub enum Frame {
 
 /// One piece of a state: `A_e` contains `op * A_target`.
 #[derive(Debug, Clone)]
-pub struct Piece {
+pub struct Piece<E = Rational> {
     /// Index of the state whose attractor is mapped.
     pub target: usize,
     /// The operator, `dim(e) x dim(target)`, every column summing to 1.
-    pub op: Matrix,
+    pub op: Matrix<E>,
     /// Whether the piece runs against the parameter of `e` (edges only).
     pub reversed: bool,
     /// What the piece takes of the parameter of `e`; `None`: an equal part. Either all pieces of an edge have one, or none has.
@@ -39,16 +39,16 @@ pub struct Piece {
 
 /// A boundary operator `∂ : X_vertex -> X_edge`.
 #[derive(Debug, Clone)]
-pub struct Boundary {
+pub struct Boundary<E = Rational> {
     /// Index of the vertex state.
     pub vertex: usize,
     /// The operator, `dim(edge) x dim(vertex)`, every column summing to 1.
-    pub op: Matrix,
+    pub op: Matrix<E>,
 }
 
 /// A state (cell) of the automaton.
 #[derive(Debug, Clone)]
-pub struct State {
+pub struct State<E = Rational> {
     /// Its name in the case file.
     pub name: String,
     /// What it stands for.
@@ -56,14 +56,14 @@ pub struct State {
     /// Number of barycentric coordinates.
     pub dim: usize,
     /// Its pieces, by letter; of an edge, in the order of the parameter.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<Piece<E>>,
     /// `∂_0`, where the case gives it.
-    pub left: Option<Boundary>,
+    pub left: Option<Boundary<E>>,
     /// `∂_1`, where the case gives it.
-    pub right: Option<Boundary>,
+    pub right: Option<Boundary<E>>,
 }
 
-impl State {
+impl<E> State<E> {
     /// What a piece takes of the parameter: its own share, or an equal part.
     ///
     /// # Panics
@@ -91,15 +91,16 @@ impl State {
     }
 }
 
-/// A self-similar shape: the attractors of an automaton of operators (theory §1).
+/// A self-similar shape: the attractors of an automaton of operators (theory §1), with entries in the rationals or in a real
+/// number field.
 #[derive(Debug, Clone)]
-pub struct Shape {
+pub struct Shape<E = Rational> {
     /// The states.
-    pub states: Vec<State>,
+    pub states: Vec<State<E>>,
     /// The state whose attractor is the shape.
     pub start: usize,
     /// Control points, `d x dim(start)`, one column each; `None`: the shape lies in barycentric space.
-    pub control: Option<Matrix>,
+    pub control: Option<Matrix<E>>,
     /// How the case was written.
     pub frame: Frame,
 }
@@ -144,7 +145,7 @@ pub enum ShapeError {
         /// The column, from 0.
         column: usize,
         /// Its sum.
-        sum: Rational,
+        sum: String,
     },
     /// A control matrix that does not fit the start state.
     #[error("{found} control points are given, but state `{state}` has {expected} coordinates")]
@@ -178,7 +179,7 @@ pub enum ShapeError {
     },
 }
 
-impl Shape {
+impl<E: Entry> Shape<E> {
     /// Checks sizes and column sums of all operators, boundaries and control points.
     ///
     /// # Errors
@@ -216,7 +217,7 @@ impl Shape {
         Ok(())
     }
 
-    fn check_operator(&self, state: &State, piece: usize, p: &Piece) -> Result<(), ShapeError> {
+    fn check_operator(&self, state: &State<E>, piece: usize, p: &Piece<E>) -> Result<(), ShapeError> {
         let (found, expected) = ((p.op.rows(), p.op.cols()), (state.dim, self.states[p.target].dim));
         if found != expected {
             return Err(ShapeError::Size { state: state.name.clone(), piece, found, expected });
@@ -225,14 +226,17 @@ impl Shape {
             return Err(ShapeError::Kind { state: state.name.clone(), piece });
         }
         match first_bad_column(&p.op) {
-            Some((column, sum)) => Err(ShapeError::Sum { state: state.name.clone(), piece, column, sum }),
+            Some((column, sum)) => {
+                let sum = sum.to_string();
+                Err(ShapeError::Sum { state: state.name.clone(), piece, column, sum })
+            }
             None => Ok(()),
         }
     }
 
     /// A shape with a single state.
     #[must_use]
-    pub fn single(kind: CellKind, operators: Vec<Matrix>) -> Self {
+    pub fn single(kind: CellKind, operators: Vec<Matrix<E>>) -> Self {
         let dim = operators.first().map_or(0, Matrix::rows);
         let pieces = operators.into_iter().map(|op| Piece { target: 0, op, reversed: false, share: None }).collect();
         let state = State { name: "A".to_owned(), kind, dim, pieces, left: None, right: None };
@@ -244,17 +248,17 @@ impl Shape {
     /// # Panics
     /// If `linear` is not square or `shift` has another length.
     #[must_use]
-    pub fn affine_operator(linear: &Matrix, shift: &[Rational]) -> Matrix {
+    pub fn affine_operator(linear: &Matrix<E>, shift: &[E]) -> Matrix<E> {
         let d = shift.len();
         assert_eq!((linear.rows(), linear.cols()), (d, d), "affine map");
-        let image = |point: usize| -> Vec<Rational> {
+        let image = |point: usize| -> Vec<E> {
             let mut x = shift.to_vec();
             if point > 0 {
                 for (i, entry) in x.iter_mut().enumerate() {
-                    *entry += &linear[(i, point - 1)];
+                    *entry = entry.plus(&linear[(i, point - 1)]);
                 }
             }
-            let mut column = vec![Rational::from(1) - x.iter().fold(Rational::from(0), |s, v| s + v)];
+            let mut column = vec![E::integer(1).minus(&E::sum(x.iter()))];
             column.extend(x);
             column
         };
@@ -263,8 +267,8 @@ impl Shape {
 
     /// The control matrix `0, e_1, …, e_d` that leads from the simplex back to `R^d`.
     #[must_use]
-    pub fn affine_control(d: usize) -> Matrix {
-        Matrix::from_fn(d, d + 1, |i, j| Rational::from(u8::from(i + 1 == j)))
+    pub fn affine_control(d: usize) -> Matrix<E> {
+        Matrix::from_fn(d, d + 1, |i, j| E::integer(i64::from(i + 1 == j)))
     }
 
     /// Whether some piece that can be reached has a share of the parameter of its own.
@@ -290,8 +294,14 @@ impl Shape {
     }
 }
 
-fn first_bad_column(op: &Matrix) -> Option<(usize, Rational)> {
+/// All entries of the operators of pieces and of the control points.
+pub fn entries<E: Clone>(shape: &Shape<E>) -> impl Iterator<Item = &E> {
+    let ops = shape.states.iter().flat_map(|s| s.pieces.iter().map(|p| &p.op));
+    ops.chain(&shape.control).flat_map(|m| m.entries())
+}
+
+fn first_bad_column<E: Entry>(op: &Matrix<E>) -> Option<(usize, E)> {
     (0..op.cols())
-        .map(|j| (j, (0..op.rows()).fold(Rational::from(0), |s, i| s + &op[(i, j)])))
-        .find(|(_, sum)| *sum != 1)
+        .map(|j| (j, (0..op.rows()).fold(E::zero(), |s, i| s.plus(&op[(i, j)]))))
+        .find(|(_, sum)| *sum != E::integer(1))
 }

@@ -2,37 +2,37 @@
 
 use super::{Address, Shape, fixed_point};
 use crate::arith::Rational;
-use crate::linalg::{Matrix, closures};
+use crate::linalg::{Entry, Matrix, closures};
 
 /// The span of the differences of the attractor of one state.
 #[derive(Debug, Clone)]
-pub struct StateSpace {
-    /// A rational point of the attractor.
-    pub base: Vec<Rational>,
+pub struct StateSpace<E = Rational> {
+    /// A point of the attractor with coordinates in the field of the entries.
+    pub base: Vec<E>,
     /// Its address.
     pub base_address: Address,
     /// A basis of `V_e = span(A_e − A_e)`, as columns (`dim(e) x dim V_e`).
-    pub basis: Matrix,
+    pub basis: Matrix<E>,
     /// A left inverse of `basis`: coordinates in `V_e` (`dim V_e x dim(e)`).
-    pub coordinates: Matrix,
+    pub coordinates: Matrix<E>,
     /// Rows on `V_e` whose common kernel is the largest family that stays in the kernel of the control points
     /// (or, without control points, of the paths from the start); as many rows as that quotient has dimensions.
-    pub visible: Matrix,
+    pub visible: Matrix<E>,
     /// Points of the attractor with short addresses, see [`Shape::landmarks`].
-    pub landmarks: Vec<(Address, Vec<Rational>)>,
+    pub landmarks: Vec<(Address, Vec<E>)>,
 }
 
 /// The relevant spaces of all reachable states; `None` for the others.
 #[derive(Debug, Clone)]
-pub struct Spaces(Vec<Option<StateSpace>>);
+pub struct Spaces<E = Rational>(Vec<Option<StateSpace<E>>>);
 
-impl Spaces {
+impl<E: Entry> Spaces<E> {
     /// The space of a reachable state.
     ///
     /// # Panics
     /// If the state is not reachable from the start.
     #[must_use]
-    pub fn of(&self, state: usize) -> &StateSpace {
+    pub fn of(&self, state: usize) -> &StateSpace<E> {
         self.0[state].as_ref().expect("a reachable state")
     }
 
@@ -43,7 +43,7 @@ impl Spaces {
     /// # Cost
     /// At most `Σ dim(e)` rounds of one product per transition each.
     #[must_use]
-    pub fn new(shape: &Shape) -> Option<Self> {
+    pub fn new(shape: &Shape<E>) -> Option<Self> {
         let reachable = shape.reachable();
         let mut base = vec![None; shape.states.len()];
         for &e in &reachable {
@@ -66,13 +66,13 @@ impl Spaces {
 
     /// The linear part of `op : X_from -> X_to` in the bases of `V`: `op * basis(from) = basis(to) * result`.
     #[must_use]
-    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Matrix {
+    pub fn linear(&self, op: &Matrix<E>, to: usize, from: usize) -> Matrix<E> {
         &self.of(to).coordinates * &(op * &self.of(from).basis)
     }
 
     /// The coordinates of a vector of `V_state` in the visible quotient `W_state`.
     #[must_use]
-    pub fn in_visible(&self, state: usize, v: &[Rational]) -> Vec<Rational> {
+    pub fn in_visible(&self, state: usize, v: &[E]) -> Vec<E> {
         let space = self.of(state);
         space.visible.apply(&space.coordinates.apply(v))
     }
@@ -80,7 +80,7 @@ impl Spaces {
     /// The map `W_from -> W_to` of visible quotients (theory §9) that `op : X_from -> X_to` induces; `None` where it induces
     /// none, which happens for no piece of a shape.
     #[must_use]
-    pub fn on_visible(&self, op: &Matrix, to: usize, from: usize) -> Option<Matrix> {
+    pub fn on_visible(&self, op: &Matrix<E>, to: usize, from: usize) -> Option<Matrix<E>> {
         let onto = &self.of(to).visible * &self.linear(op, to, from);
         // The rows of `onto` are combinations of the echelon rows of `from`, with the coefficients in their leading columns.
         let target = self.of(from).visible.echelon();
@@ -90,7 +90,7 @@ impl Spaces {
 }
 
 /// Reads letter 0 from every state until a state repeats.
-fn base_point(shape: &Shape, start: usize) -> Option<(Address, Vec<Rational>)> {
+fn base_point<E: Entry>(shape: &Shape<E>, start: usize) -> Option<(Address, Vec<E>)> {
     let address = Address::periodic(vec![0]).normalise(shape, start).ok()?;
     let (prefix, state) = shape.product(start, &address.prefix);
     let (cycle, _) = shape.product(state, &address.cycle);
@@ -98,11 +98,11 @@ fn base_point(shape: &Shape, start: usize) -> Option<(Address, Vec<Rational>)> {
     Some((address, point))
 }
 
-type BasePoints = [Option<(Address, Vec<Rational>)>];
+type BasePoints<E> = [Option<(Address, Vec<E>)>];
 
 /// The smallest family with `T_i q − q_e ∈ V_e` and `T_i V ⊂ V_e`, as row bases.
-fn close_spans(shape: &Shape, reachable: &[usize], base: &BasePoints) -> Vec<Matrix> {
-    let mut spans: Vec<Matrix> = shape.states.iter().map(|s| Matrix::zero(0, s.dim)).collect();
+fn close_spans<E: Entry>(shape: &Shape<E>, reachable: &[usize], base: &BasePoints<E>) -> Vec<Matrix<E>> {
+    let mut spans: Vec<Matrix<E>> = shape.states.iter().map(|s| Matrix::zero(0, s.dim)).collect();
     let point = |e: usize| &base[e].as_ref().expect("a reachable state").1;
     for &e in reachable {
         let rows = shape.states[e].pieces.iter().map(|p| difference(&p.op.apply(point(p.target)), point(e))).collect();
@@ -114,8 +114,8 @@ fn close_spans(shape: &Shape, reachable: &[usize], base: &BasePoints) -> Vec<Mat
 }
 
 /// The row spaces `Σ_u rows(P T_u)` over all paths `u` from the start.
-fn close_rows(shape: &Shape, reachable: &[usize]) -> Vec<Matrix> {
-    let mut rows: Vec<Matrix> = shape.states.iter().map(|s| Matrix::zero(0, s.dim)).collect();
+fn close_rows<E: Entry>(shape: &Shape<E>, reachable: &[usize]) -> Vec<Matrix<E>> {
+    let mut rows: Vec<Matrix<E>> = shape.states.iter().map(|s| Matrix::zero(0, s.dim)).collect();
     let start = shape.start;
     rows[start] = shape.view().echelon().rows;
     let pieces = reachable.iter().flat_map(|&e| shape.states[e].pieces.iter().map(move |p| (e, p)));
@@ -125,22 +125,22 @@ fn close_rows(shape: &Shape, reachable: &[usize]) -> Vec<Matrix> {
 
 /// `a − b`, entry by entry.
 #[must_use]
-pub fn difference(a: &[Rational], b: &[Rational]) -> Vec<Rational> {
-    a.iter().zip(b).map(|(x, y)| x - y).collect()
+pub fn difference<E: Entry>(a: &[E], b: &[E]) -> Vec<E> {
+    a.iter().zip(b).map(|(x, y)| x.minus(y)).collect()
 }
 
 /// A left inverse of a matrix with independent columns.
-fn left_inverse(basis: &Matrix) -> Matrix {
+fn left_inverse<E: Entry>(basis: &Matrix<E>) -> Matrix<E> {
     basis
         .transpose()
         .solve(&Matrix::identity(basis.cols()))
         .map_or_else(|| Matrix::zero(basis.cols(), basis.rows()), |x| x.transpose())
 }
 
-impl Shape {
+impl<E: Entry> Shape<E> {
     /// The map from the start state into the space where the shape is looked at: the control matrix, or the identity.
     #[must_use]
-    pub fn view(&self) -> Matrix {
+    pub fn view(&self) -> Matrix<E> {
         self.control.clone().unwrap_or_else(|| Matrix::identity(self.states[self.start].dim))
     }
 }

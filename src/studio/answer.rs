@@ -6,7 +6,7 @@ use crate::answer::Verdict;
 use crate::arith::to_f64;
 use crate::ask::{Answered, Checked, answered};
 use crate::budget::{Budget, Effort};
-use crate::case::Case;
+use crate::case::{Case, Question};
 use crate::diagnostic::Problem;
 use crate::mesh::{Found, Model, Scheme, certify};
 use crate::picture::{MarkStyle, Projection, mesh as mesh_picture};
@@ -93,6 +93,11 @@ impl Kept {
     pub fn prove(asked: Asked, spend: Spend, check: bool) -> Result<Self, Problem> {
         let budget = spend.budget();
         let found = match &asked {
+            Asked::Case(Question::OverField { .. }) => {
+                let message = "cases with irrational entries are not shown here";
+                return Err(Problem::new("secant::case::irrational-entry", message)
+                    .with_help("`secant certify` and `secant render` read this case"));
+            }
             Asked::Case(question) => What::Case(Box::new(answered(question, check, &budget, &|| {})?)),
             Asked::Mesh { model, scheme, .. } => What::Mesh(Box::new(certify(model, *scheme, &budget, &|| {})?)),
         };
@@ -105,7 +110,7 @@ impl Kept {
             (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => mesh(model, *scheme, found),
             (_, What::Case(answered)) => match &answered.findings {
                 Findings::Tangents { case, found } => tangents(case, found, answered),
-                Findings::Vertices { .. } => vertices(answered),
+                Findings::OverField { .. } | Findings::Vertices { .. } => vertices(answered),
             },
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         };
@@ -190,7 +195,7 @@ impl Kept {
         match &self.found {
             What::Case(answered) => match &answered.findings {
                 Findings::Tangents { case, found } => proof::point_document(case, found, number),
-                Findings::Vertices { .. } => None,
+                Findings::OverField { .. } | Findings::Vertices { .. } => None,
             },
             What::Mesh(_) => None,
         }
@@ -201,7 +206,7 @@ impl Kept {
 fn beside(answered: &Answered) -> Option<String> {
     match &answered.findings {
         Findings::Tangents { case, .. } => case.beside(),
-        Findings::Vertices { .. } => None,
+        Findings::OverField { .. } | Findings::Vertices { .. } => None,
     }
 }
 

@@ -51,6 +51,13 @@ pub fn drawing(asked: &Asked) -> Drawing {
             words: "The characteristic maps are drawn with the proof.".to_owned(),
             ..Drawing::default()
         },
+        Asked::Case(question @ Question::OverField { .. }) => Drawing {
+            kind: "vertices",
+            title: question.title().to_owned(),
+            text,
+            words: "A case with irrational entries is drawn with the proof.".to_owned(),
+            ..Drawing::default()
+        },
         Asked::Case(question @ Question::Tangents { case, .. }) => {
             let shape = match question.subject() {
                 Subject::Surface => surface(case),

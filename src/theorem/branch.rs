@@ -2,6 +2,7 @@
 
 use super::direction::Direction;
 use super::gap::{BranchGap, NoGerm};
+use super::provable::Provable;
 use super::ring::{Functional, Part, Position, Ring, RingAnswer, RingPiece, RingProof, Witness, standard_ring};
 use super::sign::changes_sign;
 use super::verdict::{BranchReport, Holder, Outcome, Rate, Rays, Side};
@@ -9,31 +10,33 @@ use super::viewpoint::Viewpoint;
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
 use crate::budget::Budget;
-use crate::jordan::{Chain, Factor, Spectrum};
+use crate::jordan::{Chain, Eigenvalue, Over, Part as Factor, Scalar, Spectral};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, HullWeights, Shape, Spaces, difference};
 use crate::statement::Statement;
 use std::cell::OnceCell;
 
 /// What all branches of a shape share.
-pub struct Context<'a> {
+pub struct Context<'a, E: Scalar = Rational> {
     /// The shape.
-    pub shape: &'a Shape,
+    pub shape: &'a Shape<E>,
+    /// The field of its entries.
+    pub base: &'a E::Base,
     /// Its relevant spaces.
-    pub spaces: &'a Spaces,
+    pub spaces: &'a Spaces<E>,
     /// Balls that hold its attractors.
-    pub balls: &'a Balls,
+    pub balls: &'a Balls<E>,
     /// The same with convex polygons, tried where the balls do not suffice.
-    pub hulls: &'a OnceCell<Option<Balls>>,
+    pub hulls: &'a OnceCell<Option<Balls<E>>>,
     /// Where addresses are read from, and how the shape is seen there.
-    pub from: Viewpoint,
+    pub from: Viewpoint<E>,
     /// How long the search may go on.
     pub budget: &'a Budget,
 }
 
-impl Context<'_> {
+impl<E: Scalar> Context<'_, E> {
     /// The convex polygons by state, where they were made.
-    pub(super) fn polygons(&self) -> Option<Vec<Vec<Vec<Rational>>>> {
+    pub(super) fn polygons(&self) -> Option<Vec<Vec<Vec<E>>>> {
         let balls = self.hulls.get()?.as_ref()?;
         (0..self.shape.states.len()).map(|e| balls.hull(e).map(<[_]>::to_vec)).collect()
     }
@@ -45,39 +48,38 @@ impl Context<'_> {
 }
 
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
-struct Quotient {
+struct Quotient<E> {
     /// `Y <- V`, reduced echelon form.
-    pub chart: Matrix,
+    pub chart: Matrix<E>,
     /// `V <- Y`, a right inverse.
-    pub lift: Matrix,
+    pub lift: Matrix<E>,
 }
 
-impl Quotient {
-    pub fn new(view: &Matrix, linear: &Matrix) -> Self {
+impl<E: Scalar> Quotient<E> {
+    pub fn new(view: &Matrix<E>, linear: &Matrix<E>) -> Self {
         let rows = view.closure(&[linear]).echelon();
-        let lift =
-            Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| Rational::from(u8::from(rows.pivots[k] == i)));
+        let lift = Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| E::integer(i64::from(rows.pivots[k] == i)));
         Self { chart: rows.rows, lift }
     }
 }
 
 /// What every branch of a curve, a set or a surface starts from: the fixed point of its cycle, and `L` on the visible quotient.
-pub(super) struct Local {
+pub(super) struct Local<E: Scalar = Rational> {
     pub state: usize,
-    pub cycle_operator: Matrix,
-    pub fixed: Vec<Rational>,
-    pub transport: Matrix,
+    pub cycle_operator: Matrix<E>,
+    pub fixed: Vec<E>,
+    pub transport: Matrix<E>,
     pub relevant: usize,
-    pub chart: Matrix,
-    pub linear: Matrix,
-    pub view: Matrix,
-    pub spectrum: Spectrum,
-    pub ring: Vec<RingPiece>,
+    pub chart: Matrix<E>,
+    pub linear: Matrix<E>,
+    pub view: Matrix<E>,
+    pub spectrum: E::Spectrum,
+    pub ring: Vec<RingPiece<E>>,
 }
 
-impl Local {
+impl<E: Scalar> Local<E> {
     /// `None` where the fixed point of the cycle is not unique.
-    pub fn new(cx: &Context, address: &Address) -> Option<Self> {
+    pub fn new(cx: &Context<E>, address: &Address) -> Option<Self> {
         let (prefix, state) = cx.shape.product(cx.from.root(), &address.prefix);
         let (cycle_operator, _) = cx.shape.product(state, &address.cycle);
         let fixed = crate::shape::fixed_point(&cycle_operator)?;
@@ -89,7 +91,7 @@ impl Local {
         let linear = &(&quotient.chart * &linear_v) * &quotient.lift;
         let view = &on_v * &quotient.lift;
         let chart = &quotient.chart * &space.coordinates;
-        let spectrum = Spectrum::of(&linear);
+        let spectrum = E::spectrum(&linear, cx.base);
         let mut ring = standard_ring(cx.shape, cx.spaces, state, &address.cycle, &fixed);
         mark_collapsing(cx, &chart, &linear, &fixed, &mut ring);
         let relevant = space.basis.cols();
@@ -101,7 +103,7 @@ impl Local {
 ///
 /// Returns `None` where the fixed point of the cycle is not unique.
 #[must_use]
-pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchReport> {
+pub fn examine<E: Provable>(cx: &Context<E>, address: &Address, side: Side) -> Option<BranchReport<E>> {
     let shape = cx.shape;
     let Local { state, cycle_operator, fixed, transport, relevant, chart, linear, view, spectrum, ring } =
         Local::new(cx, address)?;
@@ -126,23 +128,29 @@ pub fn examine(cx: &Context, address: &Address, side: Side) -> Option<BranchRepo
         ring,
         outcome: Outcome::NoGerm { reason: NoGerm::NoSpace },
     };
-    let seen: Vec<RingPiece> = report.ring.iter().filter(|p| !p.collapses).cloned().collect();
+    let seen: Vec<RingPiece<E>> = report.ring.iter().filter(|p| !p.collapses).cloned().collect();
     report.outcome = Analysis { cx, branch: &report, seen: &seen }.outcome();
     Some(report)
 }
 
 /// Marks the pieces that fall into `q` as a whole (Lemma 2).
-fn mark_collapsing(cx: &Context, chart: &Matrix, linear: &Matrix, fixed: &[Rational], ring: &mut [RingPiece]) {
+fn mark_collapsing<E: Scalar>(
+    cx: &Context<E>,
+    chart: &Matrix<E>,
+    linear: &Matrix<E>,
+    fixed: &[E],
+    ring: &mut [RingPiece<E>],
+) {
     let falls = &invertible_rows(linear) * chart;
     for piece in ring {
         let space = cx.spaces.of(piece.end);
         let point = falls.apply(&difference(&piece.op.apply(&space.base), fixed));
-        piece.collapses = point.iter().all(|x| *x == 0) && (&falls * &(&piece.op * &space.basis)).is_zero();
+        piece.collapses = point.iter().all(E::is_zero) && (&falls * &(&piece.op * &space.basis)).is_zero();
     }
 }
 
 /// The reduced rows of all large powers: a vector is in the generalised kernel where they vanish on it.
-fn invertible_rows(m: &Matrix) -> Matrix {
+fn invertible_rows<E: Scalar>(m: &Matrix<E>) -> Matrix<E> {
     let mut rows = Matrix::identity(m.rows());
     loop {
         let next = (&rows * m).echelon().rows;
@@ -153,15 +161,15 @@ fn invertible_rows(m: &Matrix) -> Matrix {
     }
 }
 
-pub(super) fn power(m: &Matrix, exponent: usize) -> Matrix {
+pub(super) fn power<E: Scalar>(m: &Matrix<E>, exponent: usize) -> Matrix<E> {
     (0..exponent).fold(Matrix::identity(m.rows()), |p, _| &p * m)
 }
 
-struct Analysis<'a> {
-    cx: &'a Context<'a>,
-    branch: &'a BranchReport,
+struct Analysis<'a, E: Scalar> {
+    cx: &'a Context<'a, E>,
+    branch: &'a BranchReport<E>,
     /// The ring without the pieces that collapse.
-    seen: &'a [RingPiece],
+    seen: &'a [RingPiece<E>],
 }
 
 /// The part of the spectrum with the largest modulus.
@@ -171,31 +179,34 @@ struct Top<'a> {
     /// Factor and root of every eigenvalue with a block of that length, once per such block.
     longest: Vec<(usize, usize)>,
     /// The factor of the first of them.
-    factor: &'a Factor,
+    factor: Factor<'a>,
     /// Its root.
     root: &'a Root,
+    /// The generator of the field of its chains that belongs to the root.
+    place: &'a Root,
 }
 
-fn top(spectrum: &Spectrum) -> Option<Top<'_>> {
-    let class = spectrum.classes.first()?;
-    let block = class.members.iter().map(|m| spectrum.factors[m.factor].blocks[0]).max()?;
+fn top<S: Spectral>(spectrum: &S) -> Option<Top<'_>> {
+    let class = spectrum.classes().first()?;
+    let block = class.members.iter().map(|m| spectrum.part(m.factor).blocks[0]).max()?;
     let longest: Vec<(usize, usize)> = class
         .members
         .iter()
         .flat_map(|m| {
-            let count = spectrum.factors[m.factor].blocks.iter().filter(|&&b| b == block).count();
+            let count = spectrum.part(m.factor).blocks.iter().filter(|&&b| b == block).count();
             std::iter::repeat_n((m.factor, m.root), count)
         })
         .collect();
     let &(f, r) = longest.first()?;
-    let factor = &spectrum.factors[f];
-    Some(Top { block, longest, factor, root: &factor.roots[r] })
+    let factor = spectrum.part(f);
+    Some(Top { block, longest, factor, root: &factor.roots[r], place: &factor.places[r] })
 }
 
-impl Analysis<'_> {
-    fn ring(&self) -> Ring<'_> {
+impl<E: Provable> Analysis<'_, E> {
+    fn ring(&self) -> Ring<'_, E> {
         Ring {
             shape: self.cx.shape,
+            base: self.cx.base,
             spaces: self.cx.spaces,
             balls: self.cx.balls,
             state: self.branch.state,
@@ -206,21 +217,21 @@ impl Analysis<'_> {
     }
 
     /// The ring condition with balls, then with polygons where there are any.
-    fn decide(&self, functionals: &[Functional]) -> RingAnswer {
+    fn decide(&self, functionals: &[Functional]) -> RingAnswer<E> {
         let small = self.branch.relevant <= 2;
         let cx = self.cx;
         let answer = self.ring().decide(functionals, if small { cx.budget.first_cells } else { cx.budget.cells });
         if !matches!(answer, RingAnswer::Open { .. }) {
             return answer;
         }
-        match cx.hulls.get_or_init(|| super::own_enclosures(cx.shape, cx.spaces, cx.balls)) {
+        match cx.hulls.get_or_init(|| E::enclosures(cx.shape, cx.spaces, cx.balls)) {
             Some(hulls) => Ring { balls: hulls, ..self.ring() }.decide(functionals, self.cx.budget.cells),
             None if small => self.ring().decide(functionals, self.cx.budget.cells),
             None => answer,
         }
     }
 
-    fn outcome(&self) -> Outcome {
+    fn outcome(&self) -> Outcome<E> {
         let b = self.branch;
         if b.linear.rows() == 0 {
             return Outcome::NoGerm { reason: NoGerm::SinglePoint };
@@ -238,10 +249,9 @@ impl Analysis<'_> {
     }
 
     /// `L` is nilpotent: the germ is that of the finitely many `M^m K` that contain `q`.
-    fn nilpotent(&self) -> Outcome {
-        let coordinates: Vec<Functional> = (0..self.branch.linear.rows())
-            .map(|k| Functional::rational(Matrix::identity(self.branch.linear.rows()).row(k)))
-            .collect();
+    fn nilpotent(&self) -> Outcome<E> {
+        let n = self.branch.linear.rows();
+        let coordinates: Vec<Functional> = (0..n).map(|k| Functional::rational(Matrix::identity(n).row(k))).collect();
         let mut images = self.branch.ring.clone();
         let mut turns = 0;
         // From the index of nilpotency on, the images of the ring are the point itself.
@@ -268,7 +278,7 @@ impl Analysis<'_> {
     }
 
     /// `dim U >= 2`: the corollary refutes without the ring, if the view does not fold `U`.
-    fn many_directions(&self, top: &Top) -> Outcome {
+    fn many_directions(&self, top: &Top) -> Outcome<E> {
         let spectrum = &self.branch.spectrum;
         let dimension = visible_dimension(&self.branch.view, spectrum, &top.longest, top.block);
         if dimension >= 2 {
@@ -284,13 +294,14 @@ impl Analysis<'_> {
     }
 
     /// `dim U = 1`: one real eigenvalue with one longest block.
-    fn one_direction(&self, top: &Top) -> Outcome {
+    fn one_direction(&self, top: &Top) -> Outcome<E> {
         let b = self.branch;
         let (factor, root) = top.longest[0];
         let functional = Functional {
             row: leading_functional(top.factor, top.block),
-            root: Some(top.root.clone()),
+            root: Some(top.place.clone()),
             part: Part::Real,
+            alpha: top.factor.over.alpha.cloned(),
         };
         let answer = self.decide(std::slice::from_ref(&functional));
         let statement = if top.block == 1 { Statement::Theorem2 } else { Statement::Theorem3 };
@@ -323,14 +334,14 @@ impl Analysis<'_> {
     }
 
     /// The ring condition fails or is open: isolation first, then what the witness gives.
-    fn ring_fails(&self, top: &Top, functional: &Functional, answer: RingAnswer) -> Outcome {
+    fn ring_fails(&self, top: &Top, functional: &Functional, answer: RingAnswer<E>) -> Outcome<E> {
         let open = |reason, place| Outcome::Open {
             reason,
             place,
             at_least: 1,
             direction: Some(self.direction(top).normalised()),
         };
-        let isolation = match self.decide(&isolation_functionals(&self.branch.linear)) {
+        let isolation = match self.decide(&isolation_functionals(&self.branch.linear, self.cx.base)) {
             RingAnswer::Holds(proof) => proof,
             RingAnswer::Fails(Witness::Point { address, .. }) => {
                 let mut place = address.prefix;
@@ -396,8 +407,8 @@ impl Analysis<'_> {
         &self,
         functional: &Functional,
         isolation: &RingProof,
-        known: Option<&Witness>,
-    ) -> Option<(RingProof, Witness)> {
+        known: Option<&Witness<E>>,
+    ) -> Option<(RingProof, Witness<E>)> {
         let b = self.branch;
         let decide = |functionals: &[Functional]| self.decide(functionals);
         changes_sign(&self.ring(), &decide, (&b.spectrum, &b.linear, &b.view), functional, isolation, known)
@@ -405,15 +416,15 @@ impl Analysis<'_> {
 
     /// Whether `E_1` is exactly one real block.
     fn is_single_block(&self, top: &Top) -> bool {
-        self.branch.spectrum.classes[0].members.len() == 1 && top.factor.blocks.len() == 1
+        self.branch.spectrum.classes()[0].members.len() == 1 && top.factor.blocks.len() == 1
     }
 
     /// Whether the orbit of a witness proves a second visible direction: its cyclic hull has a top of smaller modulus, whose
     /// directions the view does not send into the line.
-    fn leaves_line(&self, top: &Top, offset: &[Rational]) -> bool {
+    fn leaves_line(&self, top: &Top, offset: &[E]) -> bool {
         let hull = krylov(&self.branch.linear, offset);
         let Some(restricted) = restrict(&self.branch.linear, &hull) else { return false };
-        let spectrum = Spectrum::of(&restricted);
+        let spectrum = E::spectrum(&restricted, self.cx.base);
         let Some(own) = self::top(&spectrum) else { return false };
         if own.root.is_zero() || own.root.cmp_modulus(top.root) != std::cmp::Ordering::Less {
             return false;
@@ -421,12 +432,11 @@ impl Analysis<'_> {
         let view = &self.branch.view * &hull;
         let line = self.direction(top);
         own.longest.iter().any(|&(f, r)| {
-            let factor = &spectrum.factors[f];
-            let root = &factor.roots[r];
-            let chain = longest_chain(&factor.right, own.block);
-            if root.is_real() {
-                let coords = apply(&view, &chain.vectors[0]);
-                let second = Direction { root: root.clone(), coords };
+            let factor = spectrum.part(f);
+            let chain = longest_chain(factor.right, own.block);
+            if factor.roots[r].is_real() {
+                let coords = apply(&view, &chain.vectors[0], factor.over);
+                let second = Direction { root: factor.places[r].clone(), coords };
                 second.coords.iter().any(|c| !c.is_zero()) && line.same_line(&second).is_none()
             } else {
                 visible_dimension(&view, &spectrum, &[(f, r)], own.block) >= 2
@@ -436,15 +446,15 @@ impl Analysis<'_> {
 
     /// `G v` for the eigenvector `v` at the end of the longest chain.
     fn direction(&self, top: &Top) -> Direction {
-        let chain = longest_chain(&top.factor.right, top.block);
-        Direction { root: top.root.clone(), coords: apply(&self.branch.view, &chain.vectors[0]) }
+        let chain = longest_chain(top.factor.right, top.block);
+        Direction { root: top.place.clone(), coords: apply(&self.branch.view, &chain.vectors[0], top.factor.over) }
     }
 
     /// The sign `s` such that points with a positive functional tend to `s` times the given ray: it compares the functional
     /// with the top of the longest chain, and the normalised direction with `G v`.
     fn sense(&self, top: &Top, direction: &Direction) -> Option<i32> {
-        let f = &top.factor.poly;
-        let chain = longest_chain(&top.factor.right, top.block);
+        let f = top.factor.over.modulus;
+        let chain = longest_chain(top.factor.right, top.block);
         let row = leading_functional(top.factor, top.block);
         let last = &chain.vectors[top.block - 1];
         let zero = Elem::from_rational(&Rational::from(0));
@@ -452,7 +462,7 @@ impl Analysis<'_> {
         let orientation = self.direction(top).same_line(direction)?;
         // λ^{-ℓ} in the leading coefficient u.
         let parity = if top.block.is_multiple_of(2) { top.root.sign() } else { 1 };
-        Some(pairing.sign(top.root) * orientation * parity)
+        Some(pairing.sign(top.place) * orientation * parity)
     }
 
     /// The limit rays per side of the point: the signs on the ring, closed under the map of one turn.
@@ -494,9 +504,9 @@ impl Analysis<'_> {
 }
 
 /// The rows that vanish on the generalised kernel of `linear` (theory §3, Isolation): all coordinates where it is invertible.
-pub(super) fn isolation_functionals(linear: &Matrix) -> Vec<Functional> {
+pub(super) fn isolation_functionals<E: Scalar>(linear: &Matrix<E>, base: &E::Base) -> Vec<Functional> {
     let rows = invertible_rows(linear);
-    (0..rows.rows()).map(|k| Functional::rational(rows.row(k))).collect()
+    (0..rows.rows()).map(|k| Functional::of(rows.row(k), base)).collect()
 }
 
 pub(super) fn longest_chain(chains: &[Chain], block: usize) -> &Chain {
@@ -504,22 +514,22 @@ pub(super) fn longest_chain(chains: &[Chain], block: usize) -> &Chain {
 }
 
 /// The functional whose value is the coefficient of the last vector of the longest right chain, up to a factor.
-fn leading_functional(factor: &Factor, block: usize) -> Vec<Elem> {
-    longest_chain(&factor.left, block).vectors[0].clone()
+fn leading_functional(factor: Factor<'_>, block: usize) -> Vec<Elem> {
+    longest_chain(factor.left, block).vectors[0].clone()
 }
 
 /// For a single block of length 2: the functional that reads the coefficient of `v_1` where that of `v_2` vanishes, with the
 /// sign for which `c_1 c_2` is that of the chain.
-fn second_functional(factor: &Factor) -> Vec<Elem> {
-    longest_chain(&factor.left, 2).vectors[1].clone()
+fn second_functional(factor: Factor<'_>) -> Vec<Elem> {
+    longest_chain(factor.left, 2).vectors[1].clone()
 }
 
-pub(super) fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
-    let zero = Elem::from_rational(&Rational::from(0));
+/// `matrix v` for a vector over a field that holds the entries of the matrix.
+pub(super) fn apply<E: Scalar>(matrix: &Matrix<E>, v: &[Elem], over: Over<'_>) -> Vec<Elem> {
     (0..matrix.rows())
         .map(|i| {
-            let terms = matrix.row(i).iter().zip(v).filter(|(a, _)| **a != 0);
-            terms.fold(zero.clone(), |s, (a, x)| s.add(&x.scale(a)))
+            let terms = matrix.row(i).iter().zip(v).filter(|(a, _)| !a.is_zero());
+            terms.fold(Elem::zero(), |s, (a, x)| s.add(&a.scaled(x, over)))
         })
         .collect()
 }
@@ -528,7 +538,12 @@ pub(super) fn apply(matrix: &Matrix, v: &[Elem]) -> Vec<Elem> {
 /// longest chains.
 ///
 /// Exact where the view is injective; otherwise a nonzero 2x2 minor of two spanning vectors is looked for in enclosures.
-fn visible_dimension(view: &Matrix, spectrum: &Spectrum, members: &[(usize, usize)], block: usize) -> usize {
+fn visible_dimension<E: Scalar>(
+    view: &Matrix<E>,
+    spectrum: &E::Spectrum,
+    members: &[(usize, usize)],
+    block: usize,
+) -> usize {
     if view.rank() == view.cols() {
         return real_dimension(spectrum, members, block);
     }
@@ -539,10 +554,10 @@ fn visible_dimension(view: &Matrix, spectrum: &Spectrum, members: &[(usize, usiz
             continue;
         }
         done.push((f, r));
-        let factor = &spectrum.factors[f];
+        let factor = spectrum.part(f);
         for chain in factor.right.iter().filter(|c| c.vectors.len() == block) {
-            let image = apply(view, &chain.vectors[0]);
-            let boxes: Vec<_> = image.iter().map(|e| e.enclosure(&factor.roots[r], 128)).collect();
+            let image = apply(view, &chain.vectors[0], factor.over);
+            let boxes: Vec<_> = image.iter().map(|e| e.enclosure(&factor.places[r], 128)).collect();
             vectors.push(boxes.iter().map(|(re, _)| re.clone()).collect());
             if !factor.roots[r].is_real() {
                 vectors.push(boxes.into_iter().map(|(_, im)| im).collect());
@@ -557,25 +572,25 @@ fn visible_dimension(view: &Matrix, spectrum: &Spectrum, members: &[(usize, usiz
 }
 
 /// The dimension of `U`: every block counts once per eigenvalue, conjugates included.
-fn real_dimension(spectrum: &Spectrum, members: &[(usize, usize)], block: usize) -> usize {
+fn real_dimension<S: Spectral>(spectrum: &S, members: &[(usize, usize)], block: usize) -> usize {
     let mut done: Vec<(usize, usize)> = Vec::new();
     for &m in members {
         if !done.contains(&m) {
             done.push(m);
         }
     }
-    let per_root = |f: usize| spectrum.factors[f].blocks.iter().filter(|&&b| b == block).count();
+    let per_root = |f: usize| spectrum.part(f).blocks.iter().filter(|&&b| b == block).count();
     let listed: usize = done.iter().map(|&(f, _)| per_root(f)).sum();
     // A complex eigenvalue listed without its conjugate still spans a plane.
     let lonely = done.iter().filter(|&&(f, r)| {
-        let root = &spectrum.factors[f].roots[r];
-        !root.is_real() && !done.iter().any(|&(g, s)| g == f && spectrum.factors[g].roots[s].same(&root.conjugate()))
+        let root = &spectrum.part(f).roots[r];
+        !root.is_real() && !done.iter().any(|&(g, s)| g == f && spectrum.part(g).roots[s].same(&root.conjugate()))
     });
     listed + lonely.map(|&(f, _)| per_root(f)).sum::<usize>()
 }
 
 /// A basis of the cyclic hull of `x`, as columns.
-pub fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
+pub fn krylov<E: Scalar>(linear: &Matrix<E>, x: &[E]) -> Matrix<E> {
     let mut rows = Matrix::zero(0, x.len());
     let mut v = x.to_vec();
     loop {
@@ -589,20 +604,19 @@ pub fn krylov(linear: &Matrix, x: &[Rational]) -> Matrix {
 }
 
 /// The matrix of `linear` on an invariant subspace.
-pub fn restrict(linear: &Matrix, basis: &Matrix) -> Option<Matrix> {
+pub fn restrict<E: Scalar>(linear: &Matrix<E>, basis: &Matrix<E>) -> Option<Matrix<E>> {
     basis.solve(&(linear * basis))
 }
 
-fn rate(spectrum: &Spectrum, top: &Top) -> Rate {
+fn rate<S: Spectral>(spectrum: &S, top: &Top) -> Rate {
     if top.block > 1 {
         return Rate::Harmonic;
     }
-    let Some(next) = spectrum.classes.get(1) else { return Rate::Exact };
-    let root = |m: &crate::jordan::Eigenvalue| &spectrum.factors[m.factor].roots[m.root];
-    let slower = root(&next.members[0]);
+    let Some(next) = spectrum.classes().get(1) else { return Rate::Exact };
+    let slower = spectrum.value(next.members[0]);
     if slower.is_zero() {
         return Rate::Exact;
     }
-    let longest = next.members.iter().map(|m| spectrum.factors[m.factor].blocks[0]).fold(1, usize::max);
+    let longest = next.members.iter().map(|m: &Eigenvalue| spectrum.part(m.factor).blocks[0]).fold(1, usize::max);
     Rate::Geometric { slower: slower.clone(), dominant: top.root.clone(), power: longest - 1 }
 }

@@ -3,6 +3,7 @@
 use super::verdict::{About, BranchReport, Certified, Outcome};
 use crate::answer::{Answer, Verdict};
 use crate::arith::{Interval, Rational};
+use crate::jordan::Scalar;
 use crate::shape::Address;
 use crate::statement::Statement;
 
@@ -290,6 +291,12 @@ pub enum Reason {
     NoSpan,
     /// All maps are similarities of a plane.
     Similarities,
+    /// What breaks at a point.
+    Broken(usize),
+    /// No common cone was found; with irrational entries nothing else is looked for.
+    NoCone,
+    /// There are irrational entries, with which this is not looked at.
+    Irrational,
     /// What was found about every point of the curve ([`super::Certified::everywhere`]).
     EveryPoint,
     /// The same, where it is refuted at a point that is neither an end nor a joint, so that no other claim speaks of it.
@@ -347,7 +354,7 @@ impl Limit {
     }
 }
 
-impl Certified {
+impl<E: Scalar> Certified<E> {
     /// The limits that ended searches whose answer an undetermined claim waits for, each once.
     #[must_use]
     pub fn limits(&self) -> Vec<Limit> {
@@ -363,7 +370,7 @@ impl Certified {
     }
 
     fn limits_of(&self, reason: &Reason) -> Vec<Limit> {
-        let cells = |branch: &BranchReport| match &branch.outcome {
+        let cells = |branch: &BranchReport<E>| match &branch.outcome {
             Outcome::Open { place: Some(cell), .. } => {
                 Some(Limit::Cells { branch: branch.address.clone(), cell: cell.clone() })
             }

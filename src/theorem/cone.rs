@@ -13,7 +13,7 @@ use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
 
 /// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ConeMap {
+pub struct ConeMap<E = Rational> {
     /// The state of the piece.
     pub state: usize,
     /// Its letter.
@@ -21,20 +21,20 @@ pub struct ConeMap {
     /// `−1` for a piece run backwards, otherwise `1`.
     pub sign: i32,
     /// `B`.
-    pub matrix: Matrix,
+    pub matrix: Matrix<E>,
 }
 
 /// The cone of one state.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Cone {
+pub struct Cone<E = Rational> {
     /// The state.
     pub state: usize,
     /// `G`: the rays as columns, in the barycentric coordinates of the state.
-    pub rays: Matrix,
+    pub rays: Matrix<E>,
     /// `f` with `f G > 0`.
-    pub functional: Vec<Rational>,
+    pub functional: Vec<E>,
     /// `y >= 0`, not 0, with `chord = G y`.
-    pub chord: Vec<Rational>,
+    pub chord: Vec<E>,
 }
 
 /// The certificate of Theorem 6, or of Theorem 6′ where some `B` is not positive.

@@ -3,16 +3,18 @@
 use super::branch::Context;
 use super::claim::{Assertion, Claim, Reason};
 use super::frames::{self, FrameKind, FrameReport, Frames};
+use super::provable::Provable;
 use super::verdict::{Certified, DenseSet, PointReport, Role};
 use super::viewpoint::Viewpoint;
 use super::{add_point, point};
 use crate::answer::Verdict;
+use crate::arith::Rational;
 use crate::linalg::{Matrix, closures};
 use crate::shape::CellKind;
 use crate::statement::Statement;
 
 /// The hypotheses of Theorem 5 on injectivity, in the visible quotients.
-pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
+pub fn dense_set<E: Provable>(cx: &Context<E>, joints: Vec<usize>) -> DenseSet<E> {
     let mut injective = Vec::new();
     for e in cx.shape.reachable() {
         if cx.shape.states[e].kind != CellKind::Edge {
@@ -30,7 +32,7 @@ pub fn dense_set(cx: &Context, joints: Vec<usize>) -> DenseSet {
 }
 
 /// Adds the claims about the dense set; `count` is the number of first-level joints that there are.
-pub fn claims(cx: &Context, mut dense: DenseSet, count: usize, found: &mut Certified) {
+pub fn claims<E: Provable>(cx: &Context<E>, mut dense: DenseSet<E>, count: usize, found: &mut Certified<E>) {
     let folded = dense.injective.iter().find(|(_, _, ok)| !ok).map(|&(state, letter, _)| (state, letter));
     let first = Verdict::all(count, dense.joints.iter().map(|&i| found.points[i].verdict));
     let with = |verdict| dense.joints.iter().copied().find(|&i| found.points[i].verdict == verdict);
@@ -45,8 +47,9 @@ pub fn claims(cx: &Context, mut dense: DenseSet, count: usize, found: &mut Certi
     } else if first == Verdict::Refuted || (folded.is_none() && dense.view_injective) {
         found.claims.push(plain(first, reason(first)));
     } else {
-        dense.frames = frames::frames(cx);
-        match dense.frames.as_ref().and_then(|frames| by_frames(cx, frames, found)) {
+        let all = E::by_frames(cx, found);
+        dense.frames = all.frames;
+        match all.claim {
             Some(claim) => found.claims.push(claim),
             None => partly(cx, &mut dense, count, folded, found),
         }
@@ -54,8 +57,22 @@ pub fn claims(cx: &Context, mut dense: DenseSet, count: usize, found: &mut Certi
     found.dense = Some(dense);
 }
 
-/// Theorems 11 and 11″: all joints, or one that has no tangent.
-fn by_frames(cx: &Context, frames: &Frames, found: &mut Certified) -> Option<Claim> {
+/// The frames of a curve, and the claim about all joints that they decide.
+#[derive(Default)]
+pub struct DenseClaim {
+    frames: Option<Frames>,
+    claim: Option<Claim>,
+}
+
+/// Theorems 11 and 11″, where the frames are found.
+pub fn by_frames(cx: &Context, found: &mut Certified) -> DenseClaim {
+    let frames = frames::frames(cx);
+    let claim = frames.as_ref().and_then(|frames| seen_joints(cx, frames, found));
+    DenseClaim { frames, claim }
+}
+
+/// All joints, or one that has no tangent.
+fn seen_joints(cx: &Context, frames: &Frames, found: &mut Certified) -> Option<Claim> {
     let refuted = frames.frames.iter().find_map(|f| Some((f, f.refuted()?)));
     if let Some((frame, joint)) = refuted {
         let Role::Joint { path, state, left, right } = &joint.role else { return None };
@@ -77,7 +94,13 @@ fn by_frames(cx: &Context, frames: &Frames, found: &mut Certified) -> Option<Cla
 }
 
 /// What remains where not all joints are decided: those of the first levels, and a dense set.
-fn partly(cx: &Context, dense: &mut DenseSet, count: usize, folded: Option<(usize, usize)>, found: &mut Certified) {
+fn partly<E: Provable>(
+    cx: &Context<E>,
+    dense: &mut DenseSet<E>,
+    count: usize,
+    folded: Option<(usize, usize)>,
+    found: &mut Certified<E>,
+) {
     let examined = examine_deeper(cx, dense, count, found);
     found.claims.push(examined);
     let by_frames = dense.frames.as_ref().is_some_and(|f| f.frames.iter().all(FrameReport::dense));
@@ -93,7 +116,7 @@ fn partly(cx: &Context, dense: &mut DenseSet, count: usize, folded: Option<(usiz
 }
 
 /// Examines joints of deeper levels one by one, and claims a tangent at all joints examined.
-fn examine_deeper(cx: &Context, dense: &DenseSet, count: usize, found: &mut Certified) -> Claim {
+fn examine_deeper<E: Provable>(cx: &Context<E>, dense: &DenseSet<E>, count: usize, found: &mut Certified<E>) -> Claim {
     let mut examined = dense.joints.clone();
     let deep = deep_joints(cx);
     let count = count + deep.len();
@@ -108,7 +131,7 @@ fn examine_deeper(cx: &Context, dense: &DenseSet, count: usize, found: &mut Cert
 }
 
 /// Theorem 5′, its operators being injective.
-fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
+fn projected<E: Provable>(cx: &Context<E>, dense: &mut DenseSet<E>) -> Claim {
     let what = Assertion::ProjectedJoints;
     let Some(upstairs) = first_level_joints(cx) else { return Claim::open(what, Reason::Unexamined) };
     dense.upstairs = upstairs;
@@ -123,26 +146,31 @@ fn projected(cx: &Context, dense: &mut DenseSet) -> Claim {
 
 /// The first-level joints of all reachable edge states, each in the visible quotient of its own state; `None` where one of
 /// them cannot be examined.
-fn first_level_joints(cx: &Context) -> Option<Vec<PointReport>> {
+fn first_level_joints<E: Provable>(cx: &Context<E>) -> Option<Vec<PointReport<E>>> {
     let edges = cx.shape.reachable().into_iter().filter(|e| cx.shape.states[*e].kind == CellKind::Edge);
     let pairs = edges.flat_map(|e| point::joint_pairs(cx, e).into_iter().map(move |pair| (e, pair)));
     pairs.map(|(state, pair)| first_level_joint(cx, state, pair)).collect()
 }
 
 /// The joint of two pieces of a state in the visible quotient of that state.
-pub fn first_level_joint(cx: &Context, state: usize, (left, right): (usize, usize)) -> Option<PointReport> {
+pub fn first_level_joint<E: Provable>(
+    cx: &Context<E>,
+    state: usize,
+    (left, right): (usize, usize),
+) -> Option<PointReport<E>> {
     let own = Context { from: Viewpoint::quotient(cx.spaces, state), ..*cx };
     point::examine_point(&own, &point::joint_spec(&own, &[], left, right)?)
 }
 
 /// Whether the smallest invariant family that contains the (rational) tangent lines is all of `W`.
-fn tangents_span(cx: &Context, upstairs: &[PointReport]) -> bool {
+fn tangents_span<E: Provable>(cx: &Context<E>, upstairs: &[PointReport<E>]) -> bool {
     let reachable = cx.shape.reachable();
     let dimension = |e: usize| cx.spaces.of(e).visible.rows();
-    let mut spans: Vec<Matrix> = cx.shape.states.iter().map(|_| Matrix::zero(0, 0)).collect();
+    let mut spans: Vec<Matrix<E>> = cx.shape.states.iter().map(|_| Matrix::zero(0, 0)).collect();
     for &e in &reachable {
-        let at_home = |p: &&PointReport| matches!(p.role, Role::Joint { state, .. } if state == e);
-        let lines = upstairs.iter().filter(at_home).filter_map(|p| p.tangent.as_ref()?.rational());
+        let at_home = |p: &&PointReport<E>| matches!(p.role, Role::Joint { state, .. } if state == e);
+        let lifted = |v: Vec<Rational>| v.iter().map(E::of).collect::<Vec<E>>();
+        let lines = upstairs.iter().filter(at_home).filter_map(|p| p.tangent.as_ref()?.rational().map(lifted));
         spans[e] = Matrix::from_rows(dimension(e), lines.collect()).echelon().rows;
     }
     let mut arrows = Vec::new();
@@ -161,7 +189,7 @@ fn tangents_span(cx: &Context, upstairs: &[PointReport]) -> bool {
 }
 
 /// Joints of the levels after the first, in breadth-first order.
-fn deep_joints(cx: &Context) -> Vec<(Vec<usize>, usize, usize)> {
+fn deep_joints<E: Provable>(cx: &Context<E>) -> Vec<(Vec<usize>, usize, usize)> {
     let mut joints = Vec::new();
     let mut level: Vec<(Vec<usize>, usize)> = vec![(Vec::new(), cx.shape.start)];
     for _ in 1..cx.budget.levels {

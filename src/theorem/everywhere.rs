@@ -12,6 +12,7 @@ use super::smoothness::CurveOrder;
 use super::verdict::{Certified, Kind, PointReport, Role, Verdict};
 use super::{add_point, point, shortest_paths};
 use crate::arith::Rational;
+use crate::jordan::Scalar;
 use crate::radius::Options;
 use crate::shape::{Address, CellKind, Shape, Spaces};
 use crate::statement::Statement;
@@ -155,7 +156,7 @@ fn as_graph(cx: &Context, every: Everywhere, graph: Graph) -> Everywhere {
 }
 
 /// Whether a point contradicts invariant cones.
-fn has_no_cone(p: &PointReport) -> bool {
+fn has_no_cone<E: Scalar>(p: &PointReport<E>) -> bool {
     match p.verdict {
         Verdict::Refuted => p.kind != Kind::Corner,
         Verdict::Proved => matches!(p.kind, Kind::Cusp | Kind::Oscillating),
@@ -163,7 +164,8 @@ fn has_no_cone(p: &PointReport) -> bool {
     }
 }
 
-fn breaks(p: &PointReport) -> bool {
+/// Whether a point refutes G¹.
+pub(super) fn breaks<E: Scalar>(p: &PointReport<E>) -> bool {
     p.verdict == Verdict::Refuted || has_no_cone(p)
 }
 

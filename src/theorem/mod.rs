@@ -6,6 +6,7 @@ mod branch;
 pub mod claim;
 mod components;
 pub mod cone;
+mod cone_over;
 mod cone_search;
 mod dense;
 mod derived;
@@ -22,6 +23,7 @@ pub mod lattice;
 pub mod local;
 pub mod parameter;
 mod point;
+mod provable;
 pub mod region;
 pub mod regularity;
 mod require;
@@ -39,12 +41,14 @@ pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
 pub use claim::{AboutPlane, Assertion, Claim, Limit, Measure, Reason, Seen};
 pub use components::{Component, Components};
+pub use cone_over::ConesOver;
 pub use direction::{Direction, primitive};
 pub use everywhere::{EveryJoint, Everywhere};
 pub use frames::{FrameCones, FrameKind, FrameReport, Frames, SeenState};
 pub use gap::{BranchGap, Defect, EveryGap, EverySurfaceGap, NoChart, NoGerm, PlaneGap, PointGap, TopRow};
 pub use hodograph::{Hodograph, Span, Turn};
 pub use parameter::Parameter;
+pub use provable::Provable;
 pub use require::{Required, Topic, UnknownTopic};
 pub use ring::{Discharged, Functional, Part, Position, RingAnswer, RingPiece, RingProof, Witness};
 pub use sign::{Depth, depths};
@@ -59,7 +63,7 @@ pub use viewpoint::Viewpoint;
 use crate::algebraic::Root;
 use crate::arith::Rational;
 use crate::budget::Budget;
-use crate::jordan::Spectrum;
+use crate::jordan::{Scalar, Spectral};
 use crate::linalg::Matrix;
 use crate::radius::{NormContraction, contraction_by_norms, polytopes};
 use crate::shape::{
@@ -131,7 +135,7 @@ impl ModelError {
 ///
 /// # Cost
 /// Dominated by contraction (at most [`crate::shape::MAX_WORDS`] products) and the ring conditions of the branches.
-pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelError> {
+pub fn certify<E: Provable>(shape: &Shape<E>, addresses: &[Address]) -> Result<Certified<E>, ModelError> {
     certify_within(shape, addresses, &Budget::default())
 }
 
@@ -139,19 +143,24 @@ pub fn certify(shape: &Shape, addresses: &[Address]) -> Result<Certified, ModelE
 ///
 /// # Errors
 /// As [`certify`].
-pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> Result<Certified, ModelError> {
+pub fn certify_within<E: Provable>(
+    shape: &Shape<E>,
+    addresses: &[Address],
+    budget: &Budget,
+) -> Result<Certified<E>, ModelError> {
     shape.check()?;
-    let (contraction, norm) = decide_contraction(shape, budget)?;
+    let (contraction, norm) = E::contraction(shape, budget)?;
     if !contraction.is_proved() {
         return Ok(without_contraction(&contraction, norm));
     }
     shape.check_curves()?;
     let spaces = Spaces::new(shape).ok_or(ModelError::FixedPoint)?;
-    let Some(balls) = Balls::of(shape, &spaces, &contraction) else {
+    let Some(balls) = E::balls(shape, &spaces, &contraction) else {
         return Ok(without_contraction(&contraction, None));
     };
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape), budget };
+    let (base, from) = (field(shape), Viewpoint::start(shape));
+    let cx = Context { shape, base: &base, spaces: &spaces, balls: &balls, hulls: &hulls, from, budget };
     let mut found = Certified::nothing(&contraction);
     found.states = shape.reachable().into_iter().map(|e| state_report(&cx, e)).collect();
     found.similarities = similarity::similarities(&cx);
@@ -161,19 +170,16 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
     }
     if shape.states[shape.start].kind == CellKind::Edge {
         certify_curve(&cx, &asked, &mut found);
-        found.parameter = parameter::parameter(&cx);
-        found.everywhere = everywhere::everywhere(&cx, &mut found);
-        parameter::adopt_derivative(&mut found);
     } else {
         certify_set(&cx, &asked, &mut found);
     }
-    found.polygons = cx.polygons();
-    found.polygon_weights = cx.polygon_weights();
     if found.similarities.is_some() {
         let by = Some(Statement::Similarities);
         found.claims.push(Claim::refuted(Assertion::SomePoint, by, Reason::Similarities));
     }
-    parameter::add_claims(&mut found);
+    E::everywhere(&cx, &mut found);
+    found.polygons = cx.polygons();
+    found.polygon_weights = cx.polygon_weights();
     found.verdict = found.overall();
     Ok(found)
 }
@@ -185,9 +191,9 @@ pub fn certify_within(shape: &Shape, addresses: &[Address], budget: &Budget) -> 
 ///
 /// # Cost
 /// At most [`crate::shape::MAX_WORDS`] products, then polytopes or a joint spectral radius.
-pub fn contraction_of(shape: &Shape) -> Result<Contraction, ModelError> {
+pub fn contraction_of<E: Provable>(shape: &Shape<E>) -> Result<Contraction, ModelError> {
     shape.check()?;
-    Ok(decide_contraction(shape, &Budget::default())?.0)
+    Ok(E::contraction(shape, &Budget::default())?.0)
 }
 
 /// Largest number of coordinates of a state for which norms other than those of words are tried.
@@ -201,17 +207,31 @@ fn slow_words() -> Rational {
     Rational::from(31) / Rational::from(32)
 }
 
+/// The field of the entries of a shape.
+pub fn field<E: Scalar>(shape: &Shape<E>) -> E::Base {
+    E::base(crate::shape::entries(shape))
+}
+
+fn expanding<E>(shape: &Shape<E>, index: usize, word: &[usize]) -> ModelError {
+    ModelError::Expands { state: shape.states[index].name.clone(), index, word: word.to_vec() }
+}
+
+/// Decides contraction of a checked shape by words.
+fn word_contraction<E: Scalar>(shape: &Shape<E>, budget: &Budget) -> Result<Contraction, ModelError> {
+    let base = field(shape);
+    let found = contraction_within(shape, budget.words, budget.work, |linear| expands(linear, &base));
+    match &found {
+        Contraction::Refuted { state, word } => Err(expanding(shape, *state, word)),
+        _ => Ok(found),
+    }
+}
+
 /// Decides contraction of a checked shape by words, then by norms; with an upper bound below 1 of the joint spectral radius of
 /// the linear parts where that is known, but nothing that encloses the attractor.
-fn decide_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Option<Rational>), ModelError> {
-    let expanding = |index: usize, word: &[usize]| {
-        let state = shape.states[index].name.clone();
-        Err(ModelError::Expands { state, index, word: word.to_vec() })
-    };
-    let found = contraction_within(shape, budget.words, budget.work, expands);
+fn rational_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Option<Rational>), ModelError> {
+    let found = word_contraction(shape, budget)?;
     let largest = shape.reachable().into_iter().map(|e| shape.states[e].dim).fold(0, usize::max);
     match &found {
-        Contraction::Refuted { state, word } => return expanding(*state, word),
         // Words that hardly contract give balls far too large.
         Contraction::Proved(proof) if largest <= MAX_SLOW_DIMENSION && proof.constant > slow_words() => {
             return Ok((polytopes(shape).map_or(found, Contraction::Polytopes), None));
@@ -231,7 +251,7 @@ fn decide_contraction(shape: &Shape, budget: &Budget) -> Result<(Contraction, Op
     }
     match norms {
         Some(NormContraction::Enclosed(polytopes)) => Ok((Contraction::Polytopes(polytopes), None)),
-        Some(NormContraction::Refuted { state, word, .. }) => expanding(state, &word),
+        Some(NormContraction::Refuted { state, word, .. }) => Err(expanding(shape, state, &word)),
         Some(NormContraction::Proved(radius)) => Ok((found, radius.upper)),
         _ => Ok((found, None)),
     }
@@ -256,7 +276,7 @@ fn own_enclosures(shape: &Shape, spaces: &Spaces, balls: &Balls) -> Option<Balls
     Some(balls.with_polytopes(&own_polytopes(shape, spaces)?))
 }
 
-fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Certified {
+fn without_contraction<E: Scalar>(contraction: &Contraction, norm: Option<Rational>) -> Certified<E> {
     let (length, open) = match contraction {
         Contraction::Undetermined { length, open } => (*length, *open),
         _ => (0, 0),
@@ -268,7 +288,7 @@ fn without_contraction(contraction: &Contraction, norm: Option<Rational>) -> Cer
     Certified { claims: vec![Claim::open(Assertion::Tangents, gap)], ..Certified::nothing(contraction) }
 }
 
-fn state_report(cx: &Context, state: usize) -> StateReport {
+fn state_report<E: Scalar>(cx: &Context<E>, state: usize) -> StateReport<E> {
     let space = cx.spaces.of(state);
     StateReport {
         state,
@@ -280,17 +300,17 @@ fn state_report(cx: &Context, state: usize) -> StateReport {
 }
 
 /// Whether the linear part of a cycle has spectral radius at least 1: a float proposes, the exact spectrum decides.
-fn expands(linear: &Matrix) -> bool {
+fn expands<E: Scalar>(linear: &Matrix<E>, base: &E::Base) -> bool {
     if !crate::approx::may_expand(linear) {
         return false;
     }
-    let spectrum = Spectrum::of(linear);
-    let Some(class) = spectrum.classes.first() else { return false };
-    let root: &Root = spectrum.root(class.members[0]);
+    let spectrum = E::spectrum(linear, base);
+    let Some(class) = spectrum.classes().first() else { return false };
+    let root: &Root = spectrum.value(class.members[0]);
     root.cmp_modulus_rational(&Rational::from(1)) != std::cmp::Ordering::Less
 }
 
-fn add_point(cx: &Context, spec: Option<point::PointSpec>, found: &mut Certified) -> Option<usize> {
+fn add_point<E: Provable>(cx: &Context<E>, spec: Option<point::PointSpec>, found: &mut Certified<E>) -> Option<usize> {
     let spec = spec?;
     if let Some(known) = found.points.iter().position(|p| same_place(&p.role, &spec)) {
         return Some(known);
@@ -303,7 +323,7 @@ fn same_place(role: &Role, spec: &point::PointSpec) -> bool {
     *role == spec.role && !matches!(role, Role::Interior | Role::SetPoint)
 }
 
-fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
+fn certify_curve<E: Provable>(cx: &Context<E>, asked: &[Address], found: &mut Certified<E>) {
     let shape = cx.shape;
     let mut ends = Vec::new();
     for end in [End::Start, End::Finish] {
@@ -330,7 +350,7 @@ fn certify_curve(cx: &Context, asked: &[Address], found: &mut Certified) {
     }
 }
 
-fn certify_set(cx: &Context, asked: &[Address], found: &mut Certified) {
+fn certify_set<E: Provable>(cx: &Context<E>, asked: &[Address], found: &mut Certified<E>) {
     let start = cx.shape.start;
     let pieces = cx.shape.states[start].pieces.iter().enumerate();
     let mut addresses: Vec<Address> =
@@ -345,7 +365,7 @@ fn certify_set(cx: &Context, asked: &[Address], found: &mut Certified) {
 }
 
 /// A shortest path from the start to every reachable state.
-fn shortest_paths(shape: &Shape) -> Vec<(Vec<usize>, usize)> {
+fn shortest_paths<E>(shape: &Shape<E>) -> Vec<(Vec<usize>, usize)> {
     let mut paths = vec![(Vec::new(), shape.start)];
     let mut next = 0;
     while next < paths.len() {
@@ -362,14 +382,14 @@ fn shortest_paths(shape: &Shape) -> Vec<(Vec<usize>, usize)> {
     paths
 }
 
-fn end_claim(found: &Certified, ends: &[usize]) -> Claim {
+fn end_claim<E: Scalar>(found: &Certified<E>, ends: &[usize]) -> Claim {
     let verdict = Verdict::all(2, ends.iter().map(|&i| found.points[i].verdict));
     let reason =
         ends.iter().find(|&&i| found.points[i].verdict == verdict).map_or(Reason::Unexamined, |&i| Reason::End(i));
     Claim::as_found(Assertion::TangentAtEnds, verdict, None, reason)
 }
 
-fn point_claim(found: &Certified, index: Option<usize>, address: &Address) -> Claim {
+fn point_claim<E: Scalar>(found: &Certified<E>, index: Option<usize>, address: &Address) -> Claim {
     let what = |about| Assertion::TangentAt { address: address.clone(), about, point: index };
     let Some(index) = index else { return Claim::open(what(About::Branch), Reason::Unexamined) };
     let point = &found.points[index];

@@ -3,8 +3,9 @@
 use super::branch::{Context, examine};
 use super::direction::Direction;
 use super::gap::PointGap;
+use super::provable::Provable;
 use super::verdict::{BranchReport, Dimension, Kind, Outcome, PointReport, Role, Side, Verdict};
-use crate::arith::Rational;
+use crate::jordan::Scalar;
 use crate::shape::{Address, CellKind, End, Piece};
 
 /// A point to examine: where it sits and its branches.
@@ -17,8 +18,8 @@ pub struct PointSpec {
 }
 
 /// The branch at an end of the cell reached by `path`, or `None` where the cell is a point.
-fn end_branch(cx: &Context, path: &[usize], state: usize, end: End) -> Option<Address> {
-    let skip = |p: &Piece| cx.shape.is_point(cx.spaces, p);
+fn end_branch<E: Provable>(cx: &Context<E>, path: &[usize], state: usize, end: End) -> Option<Address> {
+    let skip = |p: &Piece<E>| cx.shape.is_point(cx.spaces, p);
     let mut address = cx.shape.end_address(state, end, skip)?;
     address.prefix.splice(0..0, path.iter().copied());
     Some(address)
@@ -26,7 +27,7 @@ fn end_branch(cx: &Context, path: &[usize], state: usize, end: End) -> Option<Ad
 
 /// An end point of the start state.
 #[must_use]
-pub fn end_spec(cx: &Context, end: End) -> Option<PointSpec> {
+pub fn end_spec<E: Provable>(cx: &Context<E>, end: End) -> Option<PointSpec> {
     let address = end_branch(cx, &[], cx.from.root(), end)?;
     let (role, side) = match end {
         End::Start => (Role::LeftEnd, Side::Right),
@@ -37,7 +38,7 @@ pub fn end_spec(cx: &Context, end: End) -> Option<PointSpec> {
 
 /// The pairs of neighbouring pieces of a state that are no points.
 #[must_use]
-pub fn joint_pairs(cx: &Context, state: usize) -> Vec<(usize, usize)> {
+pub fn joint_pairs<E: Provable>(cx: &Context<E>, state: usize) -> Vec<(usize, usize)> {
     let pieces = &cx.shape.states[state].pieces;
     let kept: Vec<usize> = (0..pieces.len()).filter(|&i| !cx.shape.is_point(cx.spaces, &pieces[i])).collect();
     kept.windows(2).map(|w| (w[0], w[1])).collect()
@@ -45,7 +46,7 @@ pub fn joint_pairs(cx: &Context, state: usize) -> Vec<(usize, usize)> {
 
 /// The joint between two pieces of the state that `path` reaches.
 #[must_use]
-pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Option<PointSpec> {
+pub fn joint_spec<E: Provable>(cx: &Context<E>, path: &[usize], left: usize, right: usize) -> Option<PointSpec> {
     let shape = cx.shape;
     let state = *shape.path(cx.from.root(), path).last()?;
     let branch = |letter: usize, end: End| {
@@ -63,14 +64,14 @@ pub fn joint_spec(cx: &Context, path: &[usize], left: usize, right: usize) -> Op
     Some(PointSpec { role: Role::Joint { path: path.to_vec(), state, left, right }, branches })
 }
 
-fn orientation(cx: &Context, path: &[usize]) -> i32 {
+fn orientation<E: Provable>(cx: &Context<E>, path: &[usize]) -> i32 {
     let states = cx.shape.path(cx.from.root(), path);
     path.iter().zip(&states).map(|(&i, &e)| if cx.shape.states[e].pieces[i].reversed { -1 } else { 1 }).product()
 }
 
 /// The point with a normalised address: an end point, a joint, or a point inside.
 #[must_use]
-pub fn address_spec(cx: &Context, address: &Address) -> Option<PointSpec> {
+pub fn address_spec<E: Provable>(cx: &Context<E>, address: &Address) -> Option<PointSpec> {
     let shape = cx.shape;
     let states = shape.path(cx.from.root(), &address.prefix);
     let state = *states.last()?;
@@ -99,7 +100,7 @@ pub fn address_spec(cx: &Context, address: &Address) -> Option<PointSpec> {
 }
 
 /// Whether the fixed point of a cycle is an end of its cell: no piece that is more than a point lies on that side.
-fn end_of_cell(cx: &Context, state: usize, cycle: &[usize]) -> Option<End> {
+fn end_of_cell<E: Provable>(cx: &Context<E>, state: usize, cycle: &[usize]) -> Option<End> {
     [End::Start, End::Finish].into_iter().find(|&end| {
         let (mut at, mut side) = (state, end);
         for _ in 0..2 {
@@ -123,20 +124,20 @@ fn end_of_cell(cx: &Context, state: usize, cycle: &[usize]) -> Option<End> {
 
 /// Examines a point.
 #[must_use]
-pub fn examine_point(cx: &Context, spec: &PointSpec) -> Option<PointReport> {
-    let branches: Vec<BranchReport> =
+pub fn examine_point<E: Provable>(cx: &Context<E>, spec: &PointSpec) -> Option<PointReport<E>> {
+    let branches: Vec<BranchReport<E>> =
         spec.branches.iter().map(|(side, address)| examine(cx, address, *side)).collect::<Option<_>>()?;
     let position = cx.shape.point(cx.from.root(), &branches[0].address)?;
     let image = cx.from.image(&position);
     Some(conclude(spec.role.clone(), position, image, branches))
 }
 
-fn conclude(
+fn conclude<E: Scalar>(
     role: Role,
-    position: Vec<Rational>,
-    image: Option<Vec<Rational>>,
-    branches: Vec<BranchReport>,
-) -> PointReport {
+    position: Vec<E>,
+    image: Option<Vec<E>>,
+    branches: Vec<BranchReport<E>>,
+) -> PointReport<E> {
     let at_least = branches.iter().map(lower_bound).fold(0, usize::max);
     let mut report = PointReport {
         role,
@@ -199,7 +200,7 @@ fn conclude(
 }
 
 /// The tangent in the direction of travel: towards the ray of what follows, or away from that of what comes before.
-fn along(tangent: &Direction, report: &PointReport) -> Direction {
+fn along<E: Scalar>(tangent: &Direction, report: &PointReport<E>) -> Direction {
     let sign = match (report.left.as_slice(), report.right.as_slice()) {
         (_, [after]) => tangent.same_line(after),
         ([before], []) => tangent.same_line(before).map(|s| -s),
@@ -209,7 +210,7 @@ fn along(tangent: &Direction, report: &PointReport) -> Direction {
 }
 
 /// Where a side is not decided: whether the directions known to lie in the two tangent subspaces span a plane all the same.
-fn spread(branches: &[BranchReport]) -> Option<Dimension> {
+fn spread<E: Scalar>(branches: &[BranchReport<E>]) -> Option<Dimension> {
     let open = branches.iter().any(|b| matches!(b.outcome, Outcome::Open { .. }));
     let known: Vec<&Direction> = branches
         .iter()
@@ -223,7 +224,7 @@ fn spread(branches: &[BranchReport]) -> Option<Dimension> {
     differ.then_some(Dimension { at_least: 2, exact: false })
 }
 
-fn lower_bound(branch: &BranchReport) -> usize {
+fn lower_bound<E: Scalar>(branch: &BranchReport<E>) -> usize {
     match &branch.outcome {
         Outcome::Line { .. } => 1,
         Outcome::AtLeast { dimension, .. } => *dimension,
@@ -232,7 +233,7 @@ fn lower_bound(branch: &BranchReport) -> usize {
     }
 }
 
-fn kind(report: &PointReport) -> Kind {
+fn kind<E: Scalar>(report: &PointReport<E>) -> Kind {
     let (left, right) = (&report.left, &report.right);
     let one_sided = matches!(report.role, Role::LeftEnd | Role::RightEnd);
     let opposite = |a: &Direction, b: &Direction| a.same_line(b) == Some(-1);

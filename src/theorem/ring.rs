@@ -1,8 +1,9 @@
 //! The ring of a branch, and the ring condition `0 ∉ π(X)` by branch and bound (theory §3, §7).
 
 use crate::algebraic::{Elem, Root};
-use crate::arith::{Integer, Interval, Rational, abs};
-use crate::linalg::{Matrix, dot};
+use crate::arith::{Integer, Interval, Rational};
+use crate::jordan::{Over, Scalar};
+use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Shape, Spaces, difference, oscillation, repetition};
 use std::collections::{BTreeMap, VecDeque};
 
@@ -19,13 +20,13 @@ pub enum Position {
 
 /// A piece of the ring: `op · A_end`.
 #[derive(Debug, Clone)]
-pub struct RingPiece {
+pub struct RingPiece<E = Rational> {
     /// The word that leaves the cycle in its last letter.
     pub word: Vec<usize>,
     /// The state where the word ends.
     pub end: usize,
     /// Its operator.
-    pub op: Matrix,
+    pub op: Matrix<E>,
     /// Its place.
     pub position: Position,
     /// Whether the whole piece falls into `q` after finitely many turns (Lemma 2), so that the germ does not see it.
@@ -50,13 +51,24 @@ pub struct Functional {
     pub root: Option<Root>,
     /// The part.
     pub part: Part,
+    /// The generator of the field of the shape as a polynomial in the root, where that is not the field of the rationals.
+    pub alpha: Option<Elem>,
 }
 
 impl Functional {
     /// A rational functional.
     #[must_use]
     pub fn rational(row: &[Rational]) -> Self {
-        Self { row: row.iter().map(Elem::from_rational).collect(), root: None, part: Part::Real }
+        Self::of(row, &())
+    }
+
+    /// A functional with entries in the field of the shape.
+    #[must_use]
+    pub fn of<E: Scalar>(row: &[E], base: &E::Base) -> Self {
+        let row: Vec<Elem> = row.iter().map(E::elem).collect();
+        let root = E::generator(base).filter(|_| row.iter().any(|x| x.is_rational().is_none())).cloned();
+        let alpha = root.as_ref().map(|r| Elem::generator(r.minpoly()));
+        Self { row, root, part: Part::Real, alpha }
     }
 
     /// A dyadic approximation of the entries and a bound of its error in each.
@@ -79,11 +91,15 @@ impl Functional {
         (self.row.iter().map(entry).collect(), error)
     }
 
-    /// Whether the algebraic functional vanishes at a rational vector of `Y`, exactly.
+    /// Whether the algebraic functional vanishes at a vector of `Y`, exactly.
     #[must_use]
-    pub fn vanishes(&self, y: &[Rational]) -> bool {
-        let zero = Elem::from_rational(&Rational::from(0));
-        self.row.iter().zip(y).fold(zero, |s, (e, x)| s.add(&e.scale(x))).is_zero()
+    pub fn vanishes<E: Scalar>(&self, y: &[E]) -> bool {
+        let Some(root) = &self.root else {
+            let entries = self.row.iter().map(|e| E::of(&e.is_rational().expect("irrational entries have a root")));
+            return E::dot(&entries.collect::<Vec<E>>(), y).is_zero();
+        };
+        let over = Over { modulus: root.minpoly(), alpha: self.alpha.as_ref() };
+        self.row.iter().zip(y).fold(Elem::zero(), |s, (e, x)| s.add(&x.scaled(e, over))).is_zero()
     }
 }
 
@@ -119,13 +135,13 @@ pub struct RingProof {
 
 /// A proof that the functionals do have a common zero on the ring.
 #[derive(Debug, Clone)]
-pub enum Witness {
+pub enum Witness<E = Rational> {
     /// A point with an eventually periodic address where all vanish exactly.
     Point {
         /// Its address from the branch's state.
         address: Address,
         /// The point minus `q`, in coordinates of `Y`.
-        offset: Vec<Rational>,
+        offset: Vec<E>,
     },
     /// Two points of one connected part of the ring at which the only functional has opposite signs.
     SignChange {
@@ -156,11 +172,11 @@ pub enum Witness {
 
 /// The answer to a ring condition.
 #[derive(Debug, Clone)]
-pub enum RingAnswer {
+pub enum RingAnswer<E = Rational> {
     /// `0 ∉ π(X)`.
     Holds(RingProof),
     /// `0 ∈ π(X)`.
-    Fails(Witness),
+    Fails(Witness<E>),
     /// Not decided.
     Open {
         /// The cell in which it failed.
@@ -169,32 +185,36 @@ pub enum RingAnswer {
 }
 
 /// The ring of a branch with what is needed to examine it.
-pub struct Ring<'a> {
+pub struct Ring<'a, E: Scalar = Rational> {
     /// The shape.
-    pub shape: &'a Shape,
+    pub shape: &'a Shape<E>,
+    /// The field of its entries.
+    pub base: &'a E::Base,
     /// Its relevant spaces.
-    pub spaces: &'a Spaces,
+    pub spaces: &'a Spaces<E>,
     /// Its balls.
-    pub balls: &'a Balls,
+    pub balls: &'a Balls<E>,
     /// The state of the branch.
     pub state: usize,
     /// The fixed point.
-    pub fixed: &'a [Rational],
+    pub fixed: &'a [E],
     /// `Y`-coordinates: `chart (x − q)`.
-    pub chart: &'a Matrix,
+    pub chart: &'a Matrix<E>,
     /// The pieces.
-    pub pieces: &'a [RingPiece],
+    pub pieces: &'a [RingPiece<E>],
 }
 
 /// A cell with the functionals carried to it.
-pub(super) struct Node {
+pub(super) struct Node<E = Rational> {
     pub word: Vec<usize>,
     pub end: usize,
     pub position: Position,
-    pub rows: Vec<Vec<Rational>>,
+    pub rows: Vec<Vec<E>>,
 }
 
 const MAX_BITS: u64 = 1_024;
+/// Binary digits to which values at points are enclosed.
+const SIGN_BITS: u64 = 256;
 /// How many cells have their ends evaluated in search of a sign change.
 const SIGN_NODES: usize = 1_000;
 /// After how many cells points with short cycles are tried as witnesses, and then the limit of the cell at hand each time that
@@ -209,14 +229,14 @@ const WITNESS_NODES: usize = 400;
 
 /// The standard ring of the cycle `w` at `state`, without pieces that lie in `M A_e` or repeat a kept one (theory §3).
 #[must_use]
-pub fn standard_ring(
-    shape: &Shape,
-    spaces: &Spaces,
+pub fn standard_ring<E: Scalar>(
+    shape: &Shape<E>,
+    spaces: &Spaces<E>,
     state: usize,
     cycle: &[usize],
-    fixed: &[Rational],
-) -> Vec<RingPiece> {
-    let mut ring: Vec<RingPiece> = Vec::new();
+    fixed: &[E],
+) -> Vec<RingPiece<E>> {
+    let mut ring: Vec<RingPiece<E>> = Vec::new();
     let mut product = Matrix::identity(shape.states[state].dim);
     let (mut at, mut orientation) = (state, 1);
     for (i, &turn) in cycle.iter().enumerate() {
@@ -230,7 +250,7 @@ pub fn standard_ring(
                 (true, true) => Position::Before,
                 (true, false) => Position::After,
             };
-            let same = |other: &Matrix, target: usize| target == piece.target && *other == piece.op;
+            let same = |other: &Matrix<E>, target: usize| target == piece.target && *other == piece.op;
             let repeated = !ordered
                 && (same(&pieces[turn].op, pieces[turn].target)
                     || ring[kept_from..].iter().any(|r| r.end == piece.target && r.op == op));
@@ -251,13 +271,13 @@ pub fn standard_ring(
     ring
 }
 
-impl Ring<'_> {
+impl<E: Scalar> Ring<'_, E> {
     /// Decides whether the functionals have a common zero on the ring.
     ///
     /// # Cost
     /// At most `budget` products of a row and an operator per precision.
     #[must_use]
-    pub fn decide(&self, functionals: &[Functional], budget: usize) -> RingAnswer {
+    pub fn decide(&self, functionals: &[Functional], budget: usize) -> RingAnswer<E> {
         let mut bits = 64;
         loop {
             match self.attempt(functionals, bits, budget) {
@@ -275,17 +295,25 @@ impl Ring<'_> {
     }
 
     /// A functional on `Y` as a row on `R^n` that vanishes at `q`.
-    pub(super) fn row_on_points(&self, on_y: &[Rational]) -> Vec<Rational> {
-        let row = self.chart.apply_left(on_y);
-        let at_q = dot(&row, self.fixed);
-        row.into_iter().map(|x| x - &at_q).collect()
+    pub(super) fn row_on_points(&self, on_y: &[Rational]) -> Vec<E> {
+        let row = self.chart.apply_left(&on_y.iter().map(E::of).collect::<Vec<E>>());
+        let at_q = E::dot(&row, self.fixed);
+        row.iter().map(|x| x.minus(&at_q)).collect()
     }
 
-    fn attempt(&self, functionals: &[Functional], bits: u64, budget: usize) -> Attempt {
+    /// What is added by rounding irrational numbers to so many binary digits.
+    fn rounding(&self, bits: u64) -> Rational {
+        match E::generator(self.base) {
+            Some(_) => Rational::from(1) >> bits,
+            None => Rational::from(0),
+        }
+    }
+
+    fn attempt(&self, functionals: &[Functional], bits: u64, budget: usize) -> Attempt<E> {
         let bound = self.chart_bound();
         let approximations: Vec<(Vec<Rational>, Rational)> = functionals.iter().map(|f| f.approximate(bits)).collect();
         let errors: Vec<Rational> = approximations.iter().map(|(_, e)| e * &bound).collect();
-        let rows: Vec<Vec<Rational>> = approximations.iter().map(|(row, _)| self.row_on_points(row)).collect();
+        let rows: Vec<Vec<E>> = approximations.iter().map(|(row, _)| self.row_on_points(row)).collect();
         let mut queue = self.roots(&rows);
         let mut discharged: Vec<Discharged> = Vec::new();
         let mut signs = Signs::default();
@@ -297,7 +325,7 @@ impl Ring<'_> {
                 .rows
                 .iter()
                 .zip(&errors)
-                .map(|(row, e)| &self.balls.enclose(self.spaces, node.end, row) + &Interval::symmetric(e.clone()))
+                .map(|(row, e)| &self.balls.enclose(self.spaces, node.end, row, bits) + &Interval::symmetric(e.clone()))
                 .collect();
             if functionals.len() == 1
                 && node.position != Position::Unordered
@@ -336,7 +364,11 @@ impl Ring<'_> {
                     None => RingAnswer::Open { place: node.word },
                 });
             }
-            let hopeless = |(b, e): (&Interval, &Rational)| *e > 0 && b.width() < e * Rational::from(16);
+            let rounding = self.rounding(bits);
+            let hopeless = |(b, e): (&Interval, &Rational)| {
+                let e = e + &rounding;
+                e > 0 && b.width() < e * Rational::from(16)
+            };
             if bounds.iter().zip(&errors).all(hopeless) {
                 return Attempt::MoreBits(node.word);
             }
@@ -351,7 +383,7 @@ impl Ring<'_> {
     }
 
     /// Points of opposite sign of one functional in one connected part, looked for among the ends of the first cells.
-    fn find_sign_change(&self, functional: &Functional, cells: usize) -> Option<Witness> {
+    fn find_sign_change(&self, functional: &Functional, cells: usize) -> Option<Witness<E>> {
         let (row, error) = functional.approximate(256);
         let error = error * self.chart_bound();
         let mut queue = self.roots(&[self.row_on_points(&row)]);
@@ -367,15 +399,15 @@ impl Ring<'_> {
     }
 
     /// Points of opposite sign of one functional on one piece of the ring, for pieces that are connected.
-    pub(super) fn sign_change_on_piece(&self, functional: &Functional, cells: usize) -> Option<Witness> {
+    pub(super) fn sign_change_on_piece(&self, functional: &Functional, cells: usize) -> Option<Witness<E>> {
         self.pieces
             .iter()
             .find_map(|piece| Ring { pieces: std::slice::from_ref(piece), ..*self }.find_sign_change(functional, cells))
     }
 
     /// The pieces of the ring as cells, with the rows carried to them.
-    pub(super) fn roots(&self, rows: &[Vec<Rational>]) -> VecDeque<Node> {
-        let node = |p: &RingPiece| Node {
+    pub(super) fn roots(&self, rows: &[Vec<E>]) -> VecDeque<Node<E>> {
+        let node = |p: &RingPiece<E>| Node {
             word: p.word.clone(),
             end: p.end,
             position: p.position,
@@ -384,7 +416,7 @@ impl Ring<'_> {
         self.pieces.iter().map(node).collect()
     }
 
-    pub(super) fn children(&self, node: &Node) -> Vec<Node> {
+    pub(super) fn children(&self, node: &Node<E>) -> Vec<Node<E>> {
         let pieces = self.shape.states[node.end].pieces.iter().enumerate();
         pieces
             .map(|(letter, piece)| {
@@ -397,18 +429,16 @@ impl Ring<'_> {
     }
 
     /// Evaluates the only functional at the ends of the cell and compares with the signs met before in the same part.
-    fn sign_change(&self, signs: &mut Signs, node: &Node, error: &Rational) -> Option<Witness> {
+    fn sign_change(&self, signs: &mut Signs, node: &Node<E>, error: &Rational) -> Option<Witness<E>> {
         let part = usize::from(node.position == Position::After);
         for (address, point) in &self.spaces.of(node.end).landmarks {
-            let value = dot(&node.rows[0], point);
-            if abs(&value) <= *error {
-                continue;
-            }
-            let known = &mut signs.0[part][usize::from(value > 0)];
+            let value = E::dot(&node.rows[0], point).enclosure(SIGN_BITS);
+            let bound = &value + &Interval::symmetric(error.clone());
+            let Some(sign) = bound.sign().filter(|s| *s != 0) else { continue };
+            let known = &mut signs.0[part][usize::from(sign > 0)];
             if known.is_none() {
                 let prefix = [node.word.as_slice(), &address.prefix].concat();
                 let address = Address { prefix, cycle: address.cycle.clone() };
-                let bound = &Interval::point(value) + &Interval::symmetric(error.clone());
                 *known = Some((address, bound));
             }
         }
@@ -420,9 +450,9 @@ impl Ring<'_> {
     pub(super) fn point_witness(
         &self,
         functionals: &[Functional],
-        node: &Node,
+        node: &Node<E>,
         errors: &[Rational],
-    ) -> Option<Witness> {
+    ) -> Option<Witness<E>> {
         let landmarks = self.spaces.of(node.end).landmarks.iter();
         landmarks.into_iter().find_map(|(address, local)| self.zero(functionals, node, errors, address, local))
     }
@@ -431,19 +461,19 @@ impl Ring<'_> {
     fn zero(
         &self,
         functionals: &[Functional],
-        node: &Node,
+        node: &Node<E>,
         errors: &[Rational],
         address: &Address,
-        local: &[Rational],
-    ) -> Option<Witness> {
-        if node.rows.iter().zip(errors).any(|(row, e)| abs(&dot(row, local)) > *e) {
+        local: &[E],
+    ) -> Option<Witness<E>> {
+        if node.rows.iter().zip(errors).any(|(row, e)| E::dot(row, local).absolute() > E::of(e)) {
             return None;
         }
         let prefix = [node.word.as_slice(), &address.prefix].concat();
         self.zero_at(functionals, &Address { prefix, cycle: address.cycle.clone() })
     }
 
-    fn zero_at(&self, functionals: &[Functional], address: &Address) -> Option<Witness> {
+    fn zero_at(&self, functionals: &[Functional], address: &Address) -> Option<Witness<E>> {
         let address = address.normalise(self.shape, self.state).ok()?;
         let offset = self.chart.apply(&difference(&self.shape.point(self.state, &address)?, self.fixed));
         functionals.iter().all(|f| f.vanishes(&offset)).then_some(Witness::Point { address, offset })
@@ -451,12 +481,7 @@ impl Ring<'_> {
 
     /// What is tried once where the condition is not decided soon: points with short cycles, and a change of sign on a connected
     /// piece of a set.
-    fn early_witness(
-        &self,
-        functionals: &[Functional],
-        rows: &[Vec<Rational>],
-        errors: &[Rational],
-    ) -> Option<Witness> {
+    fn early_witness(&self, functionals: &[Functional], rows: &[Vec<E>], errors: &[Rational]) -> Option<Witness<E>> {
         let found = self.periodic_witness(functionals, rows, errors);
         match functionals {
             [only] if found.is_none() && self.pieces.iter().all(|p| p.position == Position::Unordered) => {
@@ -471,7 +496,7 @@ impl Ring<'_> {
         &self,
         functionals: &[Functional],
         words: impl Iterator<Item = &'w [usize]>,
-    ) -> Option<Witness> {
+    ) -> Option<Witness<E>> {
         let mut tried: Vec<(&[usize], &[usize])> = Vec::new();
         for word in words {
             let Some((head, cycle, _)) = repetition(word) else { continue };
@@ -491,13 +516,8 @@ impl Ring<'_> {
     }
 
     /// Points of the first cells whose cycles have at most two letters.
-    fn periodic_witness(
-        &self,
-        functionals: &[Functional],
-        rows: &[Vec<Rational>],
-        errors: &[Rational],
-    ) -> Option<Witness> {
-        let mut known: BTreeMap<usize, Vec<(Address, Vec<Rational>)>> = BTreeMap::new();
+    fn periodic_witness(&self, functionals: &[Functional], rows: &[Vec<E>], errors: &[Rational]) -> Option<Witness<E>> {
+        let mut known: BTreeMap<usize, Vec<(Address, Vec<E>)>> = BTreeMap::new();
         let mut queue = self.roots(rows);
         for _ in 0..PERIODIC_CELLS {
             let node = queue.pop_front()?;
@@ -512,34 +532,34 @@ impl Ring<'_> {
     }
 
     /// The point to which the cell shrinks if the letters at its end, repeated three times or more, go on for ever.
-    fn limit_witness(&self, functionals: &[Functional], word: &[usize]) -> Option<Witness> {
+    fn limit_witness(&self, functionals: &[Functional], word: &[usize]) -> Option<Witness<E>> {
         let (head, cycle, _) = repetition(word)?;
         self.zero_at(functionals, &Address { prefix: head.to_vec(), cycle: cycle.to_vec() })
     }
 
     /// Two points of one connected part of the ring at which a functional has opposite signs: of a curve before or after the
     /// cycle's cell, otherwise of one piece that is connected because its pieces share points.
-    pub(super) fn connected_sign_change(&self, functional: &Functional) -> Option<Witness> {
-        let ordered = |p: &&RingPiece| p.position != Position::Unordered;
-        let pieces: Vec<RingPiece> = self.pieces.iter().filter(ordered).cloned().collect();
+    pub(super) fn connected_sign_change(&self, functional: &Functional) -> Option<Witness<E>> {
+        let ordered = |p: &&RingPiece<E>| p.position != Position::Unordered;
+        let pieces: Vec<RingPiece<E>> = self.pieces.iter().filter(ordered).cloned().collect();
         if let Some(found) = (Ring { pieces: &pieces, ..*self }).find_sign_change(functional, SIGN_NODES) {
             return Some(found);
         }
         let mut connected: BTreeMap<usize, bool> = BTreeMap::new();
-        let mut joined = |p: &&RingPiece| {
+        let mut joined = |p: &&RingPiece<E>| {
             p.position == Position::Unordered
                 && *connected.entry(p.end).or_insert_with(|| self.shape.links(p.end).is_some())
         };
-        let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| joined(p)).cloned().collect();
+        let pieces: Vec<RingPiece<E>> = self.pieces.iter().filter(|p| joined(p)).cloned().collect();
         Ring { pieces: &pieces, ..*self }.sign_change_on_piece(functional, PERIODIC_CELLS)
     }
 
     /// Looks for a connected part of the ring on which `c_2` takes both signs while `c_1` has one strict sign wherever `c_2`
     /// vanishes (theory §6).
     #[must_use]
-    pub fn crossing(&self, c1: &Functional, c2: &Functional, budget: usize) -> Option<Witness> {
+    pub fn crossing(&self, c1: &Functional, c2: &Functional, budget: usize) -> Option<Witness<E>> {
         [Position::Before, Position::After].into_iter().find_map(|part| {
-            let pieces: Vec<RingPiece> = self.pieces.iter().filter(|p| p.position == part).cloned().collect();
+            let pieces: Vec<RingPiece<E>> = self.pieces.iter().filter(|p| p.position == part).cloned().collect();
             let ring = Ring { pieces: &pieces, ..*self };
             let Witness::SignChange { positive, negative, .. } = ring.find_sign_change(c2, SIGN_NODES)? else {
                 return None;
@@ -556,7 +576,7 @@ impl Ring<'_> {
 #[derive(Default)]
 struct Signs([[Option<(Address, Interval)>; 2]; 2]);
 
-enum Attempt {
-    Answer(RingAnswer),
+enum Attempt<E> {
+    Answer(RingAnswer<E>),
     MoreBits(Vec<usize>),
 }

@@ -1,13 +1,14 @@
 //! What the program says: verdicts, points, rays, and the evidence for each.
 
 use super::claim::Claim;
+use super::cone_over::ConesOver;
 use super::direction::Direction;
 use super::frames::Frames;
 use super::gap::{BranchGap, NoGerm, PointGap};
 use super::ring::{RingPiece, RingProof, Witness};
 pub use crate::answer::Verdict;
 use crate::arith::Rational;
-use crate::jordan::Spectrum;
+use crate::jordan::Scalar;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, HullWeights};
 use crate::statement::Statement;
@@ -166,7 +167,7 @@ pub struct Holder {
 
 /// What was found at a branch.
 #[derive(Debug, Clone)]
-pub enum Outcome {
+pub enum Outcome<E = Rational> {
     /// The tangent subspace is a line.
     Line {
         /// The statement applied.
@@ -199,7 +200,7 @@ pub enum Outcome {
         /// The proof that the branch is isolated, where the statement needs it.
         isolation: Option<RingProof>,
         /// The point or sign change that refutes the ring condition, where the statement needs it.
-        witness: Option<Witness>,
+        witness: Option<Witness<E>>,
     },
     /// There are no points of the shape near the point on this branch.
     NoGerm {
@@ -221,7 +222,7 @@ pub enum Outcome {
 
 /// One branch `u w^ω` and all that was computed for it.
 #[derive(Debug, Clone)]
-pub struct BranchReport {
+pub struct BranchReport<E: Scalar = Rational> {
     /// Which side of the point it describes.
     pub side: Side,
     /// Its address from the start state.
@@ -233,28 +234,28 @@ pub struct BranchReport {
     /// `+1` or `-1`: the product of orientation signs along the cycle.
     pub cycle_sign: i32,
     /// `M = T_w`.
-    pub cycle_operator: Matrix,
+    pub cycle_operator: Matrix<E>,
     /// The fixed point `q` of `M`.
-    pub fixed: Vec<Rational>,
+    pub fixed: Vec<E>,
     /// `G = P T_u`, from the state's space to the space where the shape is looked at.
-    pub transport: Matrix,
+    pub transport: Matrix<E>,
     /// Dimension of `V`, the relevant space of the state.
     pub relevant: usize,
     /// Coordinates on the visible quotient `Y = V/N_G`: `Y`-coordinates of `x` are `chart (x − q)`.
-    pub chart: Matrix,
+    pub chart: Matrix<E>,
     /// `L` on `Y`.
-    pub linear: Matrix,
+    pub linear: Matrix<E>,
     /// `G` on `Y`.
-    pub view: Matrix,
+    pub view: Matrix<E>,
     /// The spectrum of `L` on `Y`.
-    pub spectrum: Spectrum,
+    pub spectrum: E::Spectrum,
     /// The ring.
-    pub ring: Vec<RingPiece>,
+    pub ring: Vec<RingPiece<E>>,
     /// What follows.
-    pub outcome: Outcome,
+    pub outcome: Outcome<E>,
 }
 
-impl BranchReport {
+impl<E: Scalar> BranchReport<E> {
     /// Whether all points of the shape near the branch's point belong to the branch, as far as it is isolated (theory §9, Branch
     /// and shape): it has no prefix, its cell is seen through a map that is injective on `Y`, and no piece of the ring was set
     /// aside.
@@ -267,13 +268,13 @@ impl BranchReport {
     }
 }
 
-impl PointReport {
+impl<E: Scalar> PointReport<E> {
     /// What the verdict is about.
     #[must_use]
     pub fn about(&self) -> About {
         match self.role {
             Role::SetPoint if self.verdict == Verdict::Refuted => About::Shape,
-            Role::SetPoint if self.branches.iter().all(BranchReport::is_shape) => About::Shape,
+            Role::SetPoint if self.branches.iter().all(BranchReport::<E>::is_shape) => About::Shape,
             Role::SetPoint => About::Branch,
             _ => About::Curve,
         }
@@ -282,15 +283,15 @@ impl PointReport {
 
 /// One examined point.
 #[derive(Debug, Clone)]
-pub struct PointReport {
+pub struct PointReport<E: Scalar = Rational> {
     /// Where it sits.
     pub role: Role,
     /// The point in the barycentric space of the start state.
-    pub position: Vec<Rational>,
+    pub position: Vec<E>,
     /// Its image under the control points.
-    pub image: Option<Vec<Rational>>,
+    pub image: Option<Vec<E>>,
     /// Its branches; of a joint the left one first.
-    pub branches: Vec<BranchReport>,
+    pub branches: Vec<BranchReport<E>>,
     /// Whether there is a tangent line: the tangent subspace has dimension 1.
     pub verdict: Verdict,
     /// The kind.
@@ -310,7 +311,7 @@ pub struct PointReport {
 
 /// The hypotheses of Theorem 5 as found.
 #[derive(Debug, Clone)]
-pub struct DenseSet {
+pub struct DenseSet<E: Scalar = Rational> {
     /// For every piece of a reachable state: state, letter, and whether the operator is injective on the visible quotient of `V`.
     pub injective: Vec<(usize, usize, bool)>,
     /// Whether the control points (or the identity) are injective on the visible quotient of the start state.
@@ -318,14 +319,14 @@ pub struct DenseSet {
     /// Indices, in [`Certified::points`], of the first-level joints of all reachable edge states.
     pub joints: Vec<usize>,
     /// For Theorem 5′: the same joints in the visible quotients `W_e` of their own states, before the control points.
-    pub upstairs: Vec<PointReport>,
+    pub upstairs: Vec<PointReport<E>>,
     /// The frames of Theorems 11, 11′ and 11″, where Theorem 5 does not apply.
     pub frames: Option<Frames>,
 }
 
 /// What is known of the relevant space of one reachable state.
 #[derive(Debug, Clone)]
-pub struct StateReport {
+pub struct StateReport<E = Rational> {
     /// Index of the state.
     pub state: usize,
     /// `dim V_e`.
@@ -333,14 +334,14 @@ pub struct StateReport {
     /// Dimension of its visible quotient.
     pub visible: usize,
     /// The base point.
-    pub base: Vec<Rational>,
+    pub base: Vec<E>,
     /// Radius of the 1-norm ball around the base point that holds the attractor.
     pub radius: Rational,
 }
 
 /// Everything `certify` found.
 #[derive(Debug, Clone)]
-pub struct Certified {
+pub struct Certified<E: Scalar = Rational> {
     /// The claims; the first is the main one.
     pub claims: Vec<Claim>,
     /// The verdict on the tangents examined, without what is claimed of every point and of the parameter; that of the
@@ -349,17 +350,19 @@ pub struct Certified {
     /// Contraction.
     pub contraction: Contraction,
     /// The reachable states.
-    pub states: Vec<StateReport>,
+    pub states: Vec<StateReport<E>>,
     /// The examined points.
-    pub points: Vec<PointReport>,
+    pub points: Vec<PointReport<E>>,
     /// The evidence for the dense set; `None` for shapes that are no curves.
-    pub dense: Option<DenseSet>,
+    pub dense: Option<DenseSet<E>>,
     /// Convex polygons by state (vertices in its barycentric space) that hold the attractors, where some ring proof uses them.
-    pub polygons: Option<Vec<Vec<Vec<Rational>>>>,
+    pub polygons: Option<Vec<Vec<Vec<E>>>>,
     /// How the images of their vertices are combined, where that was found with them.
     pub polygon_weights: Option<HullWeights>,
     /// The scalar product for which all maps are similarities, where there is one.
-    pub similarities: Option<super::similarity::Similarities>,
+    pub similarities: Option<super::similarity::Similarities<E>>,
+    /// The cones that prove G¹ of a curve with entries in a number field.
+    pub cones: Option<ConesOver<E>>,
     /// What is known of every point of a curve (Theorem 6).
     pub everywhere: Option<super::everywhere::Everywhere>,
     /// What is known of a curve in its uniform parameter (Theorem E).
@@ -368,7 +371,7 @@ pub struct Certified {
     pub surface: Option<super::surface::Surface>,
 }
 
-impl Certified {
+impl<E: Scalar> Certified<E> {
     /// The verdict on all claims about tangents together; undetermined where there are none.
     #[must_use]
     pub fn overall(&self) -> Verdict {
@@ -394,6 +397,7 @@ impl Certified {
             polygons: None,
             polygon_weights: None,
             similarities: None,
+            cones: None,
             everywhere: None,
             parameter: None,
             surface: None,

@@ -211,7 +211,7 @@ fn in_latex(cell: &str, at: usize, depth: usize) -> Result<String, Mistake> {
             continue;
         }
         let name: String = cell[k + 1..].chars().take_while(char::is_ascii_alphabetic).collect();
-        k += 1 + name.len().max(usize::from(name.is_empty()));
+        k += 1 + name.len();
         match name.as_str() {
             "frac" | "dfrac" | "tfrac" => {
                 let (top, next) = group(k)?;
@@ -230,7 +230,10 @@ fn in_latex(cell: &str, at: usize, depth: usize) -> Result<String, Mistake> {
                 k = next;
             }
             "cdot" | "times" => out.push('*'),
-            "left" | "right" | "" | "displaystyle" | "quad" => {}
+            "left" | "right" | "displaystyle" | "quad" => {}
+            // Spaces such as `\,` and a backslash before a blank, also the blank behind the entry.
+            "" if cell[k..].is_empty() => {}
+            "" if cell[k..].starts_with([',', ';', ':', '!', ' ']) => k += 1,
             "pi" | "cos" | "sin" => out.push_str(&name),
             _ => {
                 return Err(Mistake::new("number", at, format!("`\\{name}` is not read in an entry"))
@@ -291,6 +294,10 @@ mod tests {
     #[test]
     fn what_cannot_be_read_says_why() {
         let problem = |text: &str| parse_field("m", text).err().map(|p| p.message().to_owned()).unwrap_or_default();
+        for entry in ["1\\5", "\\é", "1\\\u{0}"] {
+            let text = format!("\\begin{{matrix}} {entry} & 0 \\\\ 0 & 1 \\end{{matrix}}");
+            assert!(problem(&text).contains("is not read in an entry"), "{text}");
+        }
         assert!(problem("[[1. ... 0.]\n [0. ... 1.]]").contains("left entries out"));
         assert!(problem("Matrix([[Symbol('w'), Integer(0)], [Integer(0), Rational(1, 2)]])").contains("symbol"));
         assert!(problem("\\begin{bmatrix} \\alpha & 0 \\\\ 0 & 1 \\end{bmatrix}").contains("alpha"));

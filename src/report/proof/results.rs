@@ -6,6 +6,7 @@ use super::super::surface::{point_name as surface_point_name, span};
 use super::super::words::{addresses, count, direction, mark, point_name};
 use crate::arith::Rational;
 use crate::case::Case;
+use crate::linalg::Entry;
 use crate::shape::{Address, Shape};
 use crate::theorem::surface::{Subspace, Surface, SurfacePoint};
 use crate::theorem::{Certified, PointReport};
@@ -79,7 +80,7 @@ fn short(space: &Subspace) -> Line {
 /// The parameter of an address, where the pieces of a cell take their shares of its interval;
 /// `None` where a state on the way is no curve.
 #[must_use]
-pub fn parameter(shape: &Shape, address: &Address) -> Option<Rational> {
+pub fn parameter<E: Entry>(shape: &Shape<E>, address: &Address) -> Option<Rational> {
     let after = shape.path(shape.start, &address.prefix);
     let (slope, offset) = shape.parameter_map(*after.last()?, &address.cycle)?;
     let fixed = offset / (Rational::from(1) - slope);

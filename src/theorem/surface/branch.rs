@@ -129,7 +129,7 @@ fn functionals_at(spectrum: &Spectrum, factor: usize, roots: &[usize], vector: &
         if !root.is_real() && root.conjugate().index() < r && roots.contains(&(r - 1)) {
             continue;
         }
-        let part = |part| Functional { row: vector.to_vec(), root: Some(root.clone()), part };
+        let part = |part| Functional { row: vector.to_vec(), root: Some(root.clone()), part, alpha: None };
         out.push(part(Part::Real));
         if !root.is_real() {
             out.push(part(Part::Imaginary));
@@ -164,6 +164,7 @@ impl Analysis<'_> {
         let cx = &self.setting.cx;
         Ring {
             shape: cx.shape,
+            base: &(),
             spaces: cx.spaces,
             balls: cx.balls,
             state: self.branch.state,
@@ -273,7 +274,7 @@ impl Analysis<'_> {
     ) -> SurfaceOutcome {
         let open = |base: SurfaceOutcome, reason, place| SurfaceOutcome { open: Some((reason, place)), ..base };
         let letters = |a: Address| -> Vec<usize> { a.prefix.into_iter().chain(a.cycle).collect() };
-        let isolation = match self.decide(&isolation_functionals(&self.branch.linear)) {
+        let isolation = match self.decide(&isolation_functionals(&self.branch.linear, &())) {
             RingAnswer::Holds(proof) => proof,
             RingAnswer::Fails(Witness::Point { address, .. }) => {
                 return open(base, BranchGap::KernelPoint, Some(letters(address)));

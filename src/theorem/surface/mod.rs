@@ -24,7 +24,7 @@ pub use verdict::{
 
 use super::{
     AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Statement, Verdict,
-    Viewpoint, decide_contraction, state_report, without_contraction,
+    Viewpoint, rational_contraction, state_report, without_contraction,
 };
 use crate::answer::Answer;
 use crate::budget::Budget;
@@ -66,7 +66,7 @@ pub fn certify_complex_within(
     shape.check()?;
     complex.check()?;
     let product = tensor::Product::of(complex, budget);
-    let (words, norm) = decide_contraction(shape, budget)?;
+    let (words, norm) = rational_contraction(shape, budget)?;
     let contraction = match &product {
         Some(product) if !words.is_proved() => Contraction::Product(product.contraction()),
         _ => words,
@@ -80,7 +80,8 @@ pub fn certify_complex_within(
     };
     let balls = balls.with_simplex(shape);
     let hulls = std::cell::OnceCell::new();
-    let cx = Context { shape, spaces: &spaces, balls: &balls, hulls: &hulls, from: Viewpoint::start(shape), budget };
+    let from = Viewpoint::start(shape);
+    let cx = Context { shape, base: &(), spaces: &spaces, balls: &balls, hulls: &hulls, from, budget };
     let chart = Chart::new(complex);
     let quick = product.is_some() && shape.states[shape.start].dim > LARGE_PRODUCT;
     let setting = Setting { cx, complex, chart: chart.as_ref().ok(), quick };

@@ -2,7 +2,7 @@
 
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Interval, Rational, abs};
-use crate::jordan::Factor;
+use crate::jordan::{Factor, Over};
 use crate::linalg::Matrix;
 use crate::poly::Poly;
 use crate::theorem::branch::apply;
@@ -42,7 +42,8 @@ impl Subspace {
     /// Where all roots of the factor are listed the span is rational: it is that of the coefficient vectors.
     #[must_use]
     pub fn of_vectors(view: &Matrix, factor: &Factor, roots: &[usize], vectors: &[&[Elem]]) -> Self {
-        let images = vectors.iter().map(|v| apply(view, v));
+        let over = Over { modulus: &factor.poly, alpha: None };
+        let images = vectors.iter().map(|v| apply(view, v, over));
         let mut generators = Vec::new();
         for image in images {
             if factor.roots.iter().enumerate().all(|(k, _)| roots.contains(&k)) {

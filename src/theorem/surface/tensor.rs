@@ -6,11 +6,12 @@ use super::verdict::{ProductEvidence, ProductFactor, SurfacePoint};
 use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::budget::Budget;
+use crate::jordan::Over;
 use crate::linalg::Matrix;
 use crate::shape::{Address, Balls, CellKind, Complex, Contraction, Layout, ProductContraction, Shape, Spaces, norm1};
 use crate::theorem::{
-    Certified, Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, decide_contraction,
-    point,
+    Certified, Context, Dimension, Direction, PlaneGap, PointReport, Statement, Verdict, Viewpoint, point,
+    rational_contraction,
 };
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -31,7 +32,7 @@ impl Factor {
     /// is constant along it, and the tangent subspace of the product is that of the other curve.)
     fn new(shape: &Shape, budget: &Budget) -> Option<Self> {
         shape.check().ok()?;
-        let (found, _) = decide_contraction(shape, budget).ok()?;
+        let (found, _) = rational_contraction(shape, budget).ok()?;
         shape.check_curves().ok()?;
         let spaces = Spaces::new(shape)?;
         shape.solid_cells(&spaces)?;
@@ -55,7 +56,7 @@ impl Factor {
 
     fn context(&self) -> Context<'_> {
         let Self { shape, spaces, balls, hulls, budget, .. } = self;
-        Context { shape, spaces, balls, hulls, from: Viewpoint::start(shape), budget }
+        Context { shape, base: &(), spaces, balls, hulls, from: Viewpoint::start(shape), budget }
     }
 
     fn evidence(&self) -> ProductFactor {
@@ -196,7 +197,7 @@ fn conclude(a: PointReport, b: PointReport, view: &Matrix) -> ProductEvidence {
     if let (Some(x), Some(y)) = (&a.tangent, &b.tangent) {
         let line = |d: &Direction, coords: Vec<Elem>| Direction {
             root: d.root.clone(),
-            coords: crate::theorem::branch::apply(view, &coords),
+            coords: crate::theorem::branch::apply(view, &coords, Over { modulus: d.root.minpoly(), alpha: None }),
         };
         let along = x.coords.iter().flat_map(|e| b.position.iter().map(move |q| e.scale(q))).collect();
         let up = a.position.iter().flat_map(|q| y.coords.iter().map(move |e| e.scale(q))).collect();

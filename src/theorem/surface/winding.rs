@@ -60,7 +60,7 @@ impl Search<'_> {
     /// A functional with a strict sign on the cell.
     fn strict(&self, node: &Node) -> Option<Discharged> {
         for (functional, (row, error)) in node.rows.iter().zip(&self.errors).enumerate() {
-            let values = self.ring.balls.enclose(self.ring.spaces, node.end, row);
+            let values = self.ring.balls.enclose(self.ring.spaces, node.end, row, 64);
             let bound = &values + &Interval::symmetric(error.clone());
             if let Some(sign @ (1 | -1)) = bound.sign() {
                 let (word, position) = (node.word.clone(), Position::Unordered);
@@ -164,7 +164,7 @@ mod tests {
     use crate::linalg::Matrix;
     use crate::scheme::{bspline, tensor};
     use crate::shape::{Balls, Spaces};
-    use crate::theorem::decide_contraction;
+    use crate::theorem::rational_contraction;
 
     /// The bilinear patch is the unit square itself: `(s − a, t − b)` has a zero in it, once around or once against the clock,
     /// or none.
@@ -175,10 +175,20 @@ mod tests {
         let shape = &complex.shape;
         let chart = Chart::new(&complex).unwrap();
         let spaces = Spaces::new(shape).unwrap();
-        let balls = Balls::of(shape, &spaces, &decide_contraction(shape, &crate::budget::Budget::default()).unwrap().0)
-            .unwrap();
+        let balls =
+            Balls::of(shape, &spaces, &rational_contraction(shape, &crate::budget::Budget::default()).unwrap().0)
+                .unwrap();
         let nothing = Matrix::zero(0, 4);
-        let ring = Ring { shape, spaces: &spaces, balls: &balls, state: 0, fixed: &[], chart: &nothing, pieces: &[] };
+        let ring = Ring {
+            shape,
+            base: &(),
+            spaces: &spaces,
+            balls: &balls,
+            state: 0,
+            fixed: &[],
+            chart: &nothing,
+            pieces: &[],
+        };
         let search = Search { chart: &chart, complex: &complex, ring: &ring, errors: [ratio(0, 1), ratio(0, 1)] };
         // Values at the corners in the order of the control points, read off the corners of the patch.
         let corner = |k: usize| shape.point(0, &crate::shape::Address::periodic(vec![k])).unwrap();

@@ -15,6 +15,7 @@ mod elem;
 pub mod field;
 mod isolate;
 mod modulus;
+mod number;
 mod propose;
 mod real;
 mod relation;
@@ -22,6 +23,7 @@ mod root;
 
 pub use elem::{Elem, cmp_real, locate};
 pub use modulus::sqrt_down;
+pub use number::{Real, nearest};
 pub use root::{Root, positive_roots, real_roots, roots};
 
 #[cfg(test)]

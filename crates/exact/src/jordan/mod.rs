@@ -7,6 +7,7 @@ mod echelon;
 mod field;
 mod generators;
 mod operator;
+mod scalar;
 mod summand;
 mod symmetry;
 
@@ -18,6 +19,7 @@ use malachite_base::num::logic::traits::SignificantBits;
 
 pub use crate::linalg::char_poly;
 pub use field::{FieldFactor, FieldSpectrum, estimated_field_work};
+pub use scalar::{Over, Part, Scalar, Spectral};
 
 /// A chain of generalised eigenvectors of one Jordan block, for every root `θ` of a factor at once: entries are
 /// elements of `Q[x] / (factor)`.

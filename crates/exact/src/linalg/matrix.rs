@@ -1,8 +1,7 @@
 use super::elimination;
-use super::sums::Line;
-use crate::arith::{Integer, Natural, Rational};
-use crate::poly::ints;
-use crate::ring::{Field, Rationals, Ring};
+use super::entry::Entry;
+use crate::arith::Rational;
+use crate::ring::{Field, Ring};
 use std::borrow::Borrow;
 use std::ops::{Add, Index, IndexMut, Mul, Sub};
 
@@ -225,37 +224,41 @@ impl<E: Clone> Echelon<E> {
     /// A basis of the vectors that the rows annihilate, as columns.
     #[must_use]
     pub fn kernel<K: Ring<E = E>>(&self, k: &K) -> Matrix<E> {
+        self.annihilated(&k.zero(), &k.one(), |x| k.neg(x))
+    }
+
+    fn annihilated(&self, zero: &E, one: &E, negated: impl Fn(&E) -> E) -> Matrix<E> {
         let cols = self.rows.cols;
         let free: Vec<usize> = (0..cols).filter(|c| !self.pivots.contains(c)).collect();
-        let mut basis = Matrix::from_fn(cols, free.len(), |_, _| k.zero());
+        let mut basis = Matrix::from_fn(cols, free.len(), |_, _| zero.clone());
         for (j, &f) in free.iter().enumerate() {
-            basis[(f, j)] = k.one();
+            basis[(f, j)] = one.clone();
             for (r, &p) in self.pivots.iter().enumerate() {
-                basis[(p, j)] = k.neg(&self.rows[(r, f)]);
+                basis[(p, j)] = negated(&self.rows[(r, f)]);
             }
         }
         basis
     }
 }
 
-/// Rational entries.
-impl Matrix {
+/// Entries that are real numbers known exactly.
+impl<E: Entry> Matrix<E> {
     /// The `rows x cols` matrix of zeros.
     #[must_use]
     pub fn zero(rows: usize, cols: usize) -> Self {
-        Self { rows, cols, data: vec![Rational::from(0); rows * cols] }
+        Self { rows, cols, data: vec![E::zero(); rows * cols] }
     }
 
     /// The identity of size `n`.
     #[must_use]
     pub fn identity(n: usize) -> Self {
-        Self::from_fn(n, n, |i, j| Rational::from(u8::from(i == j)))
+        Self::from_fn(n, n, |i, j| E::integer(i64::from(i == j)))
     }
 
     /// Whether every entry is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {
-        self.data.iter().all(|x| *x == 0)
+        self.data.iter().all(E::is_zero)
     }
 
     /// `self * v` for a column `v`.
@@ -263,10 +266,9 @@ impl Matrix {
     /// # Panics
     /// If `v.len() != self.cols()`.
     #[must_use]
-    pub fn apply(&self, v: &[Rational]) -> Vec<Rational> {
+    pub fn apply(&self, v: &[E]) -> Vec<E> {
         assert_eq!(v.len(), self.cols, "vector length");
-        let right = Line::of(v.iter());
-        (0..self.rows).map(|i| Line::of(self.row(i).iter()).dot(&right)).collect()
+        E::apply(self, v)
     }
 
     /// `v * self` for a row `v`.
@@ -274,46 +276,21 @@ impl Matrix {
     /// # Panics
     /// If `v.len() != self.rows()`.
     #[must_use]
-    pub fn apply_left(&self, v: &[Rational]) -> Vec<Rational> {
+    pub fn apply_left(&self, v: &[E]) -> Vec<E> {
         assert_eq!(v.len(), self.rows, "vector length");
-        let used: Vec<usize> = (0..v.len()).filter(|i| v[*i] != 0).collect();
-        match used[..] {
-            [] => vec![Rational::from(0); self.cols],
-            [i] if v[i] == 1 => self.row(i).to_vec(),
-            [i] => self.row(i).iter().map(|x| x * &v[i]).collect(),
-            _ => {
-                let left = Line::of(used.iter().map(|i| &v[*i]));
-                let column = |j: usize| Line::of(used.iter().map(move |i| &self[(*i, j)]));
-                (0..self.cols).map(|j| left.dot(&column(j))).collect()
-            }
-        }
-    }
-
-    /// The least common denominator of all entries, and the entries times it.
-    ///
-    /// ```
-    /// use secant_exact::{arith::ratio, linalg::Matrix};
-    ///
-    /// let (d, scaled) = Matrix::from_fn(1, 2, |_, j| ratio(1, [4, 6][j])).cleared();
-    /// assert_eq!((d, scaled.entries()), (12u32.into(), &[3.into(), 2.into()][..]));
-    /// ```
-    #[must_use]
-    pub fn cleared(&self) -> (Natural, Matrix<Integer>) {
-        let d = ints::common_denominator(&self.data);
-        let scaled = self.map(|x| ints::cleared(x, &d));
-        (d, scaled)
+        E::apply_left(v, self)
     }
 
     /// `factor * self`.
     #[must_use]
-    pub fn scale(&self, factor: &Rational) -> Self {
-        self.map(|x| x * factor)
+    pub fn scale(&self, factor: &E) -> Self {
+        self.map(|x| x.times(factor))
     }
 
-    /// The reduced row echelon form (Gauss–Jordan), by integers without common factors of rows.
+    /// The reduced row echelon form (Gauss–Jordan); over the rationals by integers without common factors of rows.
     ///
     /// # Cost
-    /// `O(rows * cols * rank)` integer operations; entries may grow.
+    /// `O(rows * cols * rank)` operations; entries may grow.
     ///
     /// ```
     /// use secant_exact::{arith::ratio, linalg::Matrix};
@@ -322,25 +299,14 @@ impl Matrix {
     /// assert_eq!(a.echelon().pivots, [0]);
     /// ```
     #[must_use]
-    pub fn echelon(&self) -> Echelon {
-        let (rows, pivots) = elimination::upper(self.cleared_rows(), self.cols);
-        let rows = elimination::divided(elimination::reduced_upper(rows, &pivots), &pivots);
-        Echelon { rows: Self::from_rows(self.cols, rows), pivots }
+    pub fn echelon(&self) -> Echelon<E> {
+        E::echelon(self)
     }
 
     /// The columns of the leading ones of the row echelon form: each that is no combination of those before it.
     #[must_use]
     pub fn pivots(&self) -> Vec<usize> {
-        elimination::upper(self.cleared_rows(), self.cols).1
-    }
-
-    /// The rows, each times its common denominator.
-    fn cleared_rows(&self) -> Vec<Vec<Integer>> {
-        let cleared = |row: &[Rational]| {
-            let d = ints::common_denominator(row);
-            row.iter().map(|x| ints::cleared(x, &d)).collect()
-        };
-        (0..self.rows).map(|i| cleared(self.row(i))).collect()
+        E::pivots(self)
     }
 
     /// The rank.
@@ -359,7 +325,7 @@ impl Matrix {
     /// ```
     #[must_use]
     pub fn kernel(&self) -> Self {
-        self.echelon().kernel(&Rationals)
+        self.echelon().annihilated(&E::zero(), &E::integer(1), E::negated)
     }
 
     /// One solution `X` of `self X = right`, or `None` where there is none (free unknowns are set to 0).
@@ -369,15 +335,15 @@ impl Matrix {
     ///
     /// # Examples
     /// ```
-    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    /// use secant_exact::{arith::{Rational, ratio}, linalg::Matrix};
     /// let a = Matrix::from_fn(2, 2, |i, j| ratio([[2, 0], [0, 4]][i][j], 1));
     /// let b = Matrix::from_columns(2, &[vec![ratio(1, 1), ratio(1, 1)]]);
     /// assert_eq!(a.solve(&b).expect("invertible").column(0), [ratio(1, 2), ratio(1, 4)]);
-    /// assert_eq!(Matrix::zero(2, 2).solve(&b), None);
+    /// assert_eq!(Matrix::<Rational>::zero(2, 2).solve(&b), None);
     /// ```
     #[must_use]
     pub fn solve(&self, right: &Self) -> Option<Self> {
-        self.beside(right).echelon().solution(self.cols, &Rational::from(0))
+        self.beside(right).echelon().solution(self.cols, &E::zero())
     }
 
     /// The inverse, or `None` for a singular or non-square matrix.
@@ -425,8 +391,11 @@ impl Matrix {
 /// # Cost
 /// At most as many eliminations for each arrow as the sum of the dimensions of the result.
 #[must_use]
-pub fn closures<M: Borrow<Matrix>>(spaces: Vec<Matrix>, arrows: &[(usize, usize, M)]) -> Vec<Matrix> {
-    let mut spaces: Vec<Matrix> = spaces.into_iter().map(|s| s.echelon().rows).collect();
+pub fn closures<E: Entry, M: Borrow<Matrix<E>>>(
+    spaces: Vec<Matrix<E>>,
+    arrows: &[(usize, usize, M)],
+) -> Vec<Matrix<E>> {
+    let mut spaces: Vec<Matrix<E>> = spaces.into_iter().map(|s| s.echelon().rows).collect();
     loop {
         let mut grown = false;
         for (from, to, map) in arrows {
@@ -458,30 +427,27 @@ impl<E> IndexMut<(usize, usize)> for Matrix<E> {
     }
 }
 
-impl Mul for &Matrix {
-    type Output = Matrix;
-    fn mul(self, other: Self) -> Matrix {
+impl<E: Entry> Mul for &Matrix<E> {
+    type Output = Matrix<E>;
+    fn mul(self, other: Self) -> Matrix<E> {
         assert_eq!(self.cols, other.rows, "inner dimension");
-        let left: Vec<Line> = (0..self.rows).map(|i| Line::of(self.row(i).iter())).collect();
-        let right: Vec<Line> =
-            (0..other.cols).map(|j| Line::of((0..other.rows).map(move |i| &other[(i, j)]))).collect();
-        Matrix::from_fn(self.rows, other.cols, |i, j| left[i].dot(&right[j]))
+        E::product(self, other)
     }
 }
 
-impl Add for &Matrix {
-    type Output = Matrix;
-    fn add(self, other: Self) -> Matrix {
+impl<E: Entry> Add for &Matrix<E> {
+    type Output = Matrix<E>;
+    fn add(self, other: Self) -> Matrix<E> {
         assert_eq!((self.rows, self.cols), (other.rows, other.cols), "matrix size");
-        Matrix::from_fn(self.rows, self.cols, |i, j| &self[(i, j)] + &other[(i, j)])
+        Matrix::from_fn(self.rows, self.cols, |i, j| self[(i, j)].plus(&other[(i, j)]))
     }
 }
 
-impl Sub for &Matrix {
-    type Output = Matrix;
-    fn sub(self, other: Self) -> Matrix {
+impl<E: Entry> Sub for &Matrix<E> {
+    type Output = Matrix<E>;
+    fn sub(self, other: Self) -> Matrix<E> {
         assert_eq!((self.rows, self.cols), (other.rows, other.cols), "matrix size");
-        Matrix::from_fn(self.rows, self.cols, |i, j| &self[(i, j)] - &other[(i, j)])
+        Matrix::from_fn(self.rows, self.cols, |i, j| self[(i, j)].minus(&other[(i, j)]))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Products of many rational matrices as integers over one denominator: no fraction is reduced on the way.
 
-use super::Matrix;
-use crate::arith::{Integer, Natural, Rational};
+use super::{Matrix, Products};
+use crate::arith::{Integer, Interval, Natural, Rational};
 use malachite_base::num::arithmetic::traits::{AddMulAssign, UnsignedAbs};
 use malachite_base::num::basic::traits::Zero;
 
@@ -117,6 +117,52 @@ impl Scaled {
             return self;
         }
         Self { denominator: self.denominator >> twos, entries: self.entries.map(|x| x >> twos) }
+    }
+}
+
+impl Products<Rational> for Scaled {
+    fn of(matrix: &Matrix) -> Self {
+        Self::of(matrix)
+    }
+
+    fn column(vector: &[Rational]) -> Self {
+        Self::column(vector)
+    }
+
+    fn identity(n: usize) -> Self {
+        Self::identity(n)
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        Self::times(self, other)
+    }
+
+    fn reduced(&self) -> Matrix {
+        Self::reduced(self)
+    }
+
+    fn distance1(&self, other: &Self) -> Rational {
+        Self::distance1(self, other)
+    }
+
+    fn half_distance(&self) -> Rational {
+        // Over one denominator, differences and their sums are integers.
+        let scaled = &self.entries;
+        let mut largest = Natural::ZERO;
+        for i in 0..scaled.cols() {
+            for j in 0..i {
+                let terms = (0..scaled.rows()).map(|k| (&scaled[(k, i)] - &scaled[(k, j)]).unsigned_abs());
+                largest = largest.max(terms.fold(Natural::ZERO, |s, x| s + x));
+            }
+        }
+        Rational::from_naturals(largest, &self.denominator << 1u64)
+    }
+
+    fn range(&self, row: &[Rational], _: u64) -> Option<Interval> {
+        let values = Self::column(row).transpose().times(self);
+        let value = |x: &Integer| Rational::from_integers_ref(x, &Integer::from(&values.denominator));
+        let entries = || values.entries.entries().iter();
+        Some(Interval { lo: value(entries().min()?), hi: value(entries().max()?) })
     }
 }
 

@@ -76,6 +76,26 @@ impl NumberField {
         self.label.as_deref()
     }
 
+    /// The generator as an expression that [`NumberField::read`] understands: its text, or `root(p, lo, hi)`.
+    #[must_use]
+    pub fn text(&self) -> String {
+        if let Some(label) = self.label() {
+            return label.to_owned();
+        }
+        let others: Vec<Root> = super::real_roots(self.poly()).into_iter().filter(|r| !r.same(&self.root)).collect();
+        let mut bits = 4;
+        loop {
+            // Strictly inside, as the ends of an enclosure may be the root itself.
+            let step = Rational::from(1) >> bits;
+            let own = self.root.enclosure(bits).0.outward(bits);
+            let wide = Interval::new(own.lo - &step, own.hi + step);
+            if others.iter().all(|r| r.enclosure(bits).0.disjoint(&wide)) {
+                return format!("root({}, {}, {})", self.poly().display("x"), wide.lo, wide.hi);
+            }
+            bits += 4;
+        }
+    }
+
     /// The monic minimal polynomial of the generator.
     #[must_use]
     pub fn poly(&self) -> &Poly {

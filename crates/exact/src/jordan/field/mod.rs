@@ -76,16 +76,29 @@ impl FieldSpectrum {
     #[must_use]
     pub fn of(a: &FieldMatrix) -> Self {
         assert_eq!(a.rows(), a.cols(), "square matrix");
-        let a = a.shrunk();
-        if let Some(rational) = a.rational() {
+        Self::over(&a.shrunk())
+    }
+
+    /// As [`FieldSpectrum::of`] over the field of the matrix, also where a smaller one holds its entries: the fields of the
+    /// chains hold it.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    ///
+    /// # Cost
+    /// As [`FieldSpectrum::of`] with the degree of that field.
+    #[must_use]
+    pub fn over(a: &FieldMatrix) -> Self {
+        assert_eq!(a.rows(), a.cols(), "square matrix");
+        if let Some(rational) = a.rational().filter(|_| a.field().is_rational()) {
             return Self::from_rational(Spectrum::of(&rational));
         }
-        let factors: Vec<FieldFactor> = part::all(&a).into_iter().map(|p| p.finished(a.field())).collect();
+        let factors: Vec<FieldFactor> = part::all(a).into_iter().map(|p| p.finished(a.field())).collect();
         let count: usize = factors.iter().map(|f| f.roots.len() * f.multiplicity).sum();
         assert_eq!(count, a.rows(), "the multiplicities add up to the size");
         let transpose = a.transpose();
         for f in &factors {
-            let holds = modular::holds(f, &a, &f.right) && modular::holds(f, &transpose, &f.left);
+            let holds = modular::holds(f, a, &f.right) && modular::holds(f, &transpose, &f.left);
             assert!(holds && f.blocks.iter().sum::<usize>() == f.multiplicity, "the chains satisfy their equations");
         }
         Self::assembled(a.field().clone(), a.rows(), factors)
