@@ -80,6 +80,14 @@ pub enum Measure {
     Shares,
 }
 
+impl Measure {
+    /// The parameter of a shape.
+    #[must_use]
+    pub fn of<E: crate::linalg::Entry>(shape: &crate::shape::Shape<E>) -> Self {
+        if shape.has_shares() { Self::Shares } else { Self::Uniform }
+    }
+}
+
 /// What a claim says. Every list of points that an index points into is named with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]

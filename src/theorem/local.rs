@@ -283,7 +283,7 @@ impl Germ<'_> {
                     });
                 }
                 let reach = Interval::new(cell.from.clone(), &cell.from + &cell.slope);
-                let values = self.balls.enclose(self.spaces, cell.state, &cell.row);
+                let values = self.balls.enclose(self.spaces, cell.state, &cell.row, 64);
                 outer.push(&values * &inverse_power(&reach, order)?);
             }
             spent += cells.len();
