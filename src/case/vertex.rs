@@ -141,12 +141,12 @@ impl VertexCase {
             (None, None, _) => None,
             (Some(node), ..) => {
                 return Err(node
-                    .problem("value", "on the border there is no valence".to_owned(), "not here")
+                    .problem("value", "on the border there is no valence", "not here")
                     .with_help("write faces = \"1..12\", the numbers of faces at the vertex"));
             }
             (None, Some(node), None) => {
                 return Err(node
-                    .problem("value", "faces are counted on the border only".to_owned(), "not here")
+                    .problem("value", "faces are counted on the border only", "not here")
                     .with_help("write boundary = \"smooth\" or \"corner\" beside it, or valence = \"3..12\""));
             }
         };
