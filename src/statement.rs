@@ -98,6 +98,7 @@ statements! {
     LinkedPieces = "linked-pieces",
     OwnPoints = "own-points",
     Holder = "holder",
+    LocalDerivative = "local-derivative",
     Transport = "transport",
     BranchAndShape = "branch-and-shape",
     LowerBounds = "lower-bounds",

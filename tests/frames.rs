@@ -97,7 +97,7 @@ fn what_one_entrance_hides_another_shows() {
 fn wrapped(shape: &Shape) -> Shape {
     let mut out = shape.clone();
     let dim = shape.states[shape.start].dim;
-    let pieces = vec![Piece { target: shape.start, op: Matrix::identity(dim), reversed: false }];
+    let pieces = vec![Piece { target: shape.start, op: Matrix::identity(dim), reversed: false, share: None }];
     let name = "in front".to_owned();
     out.states.push(State { name, kind: CellKind::Edge, dim, pieces, left: None, right: None });
     out.start = shape.states.len();

@@ -73,7 +73,7 @@ fn tensor_products_of_different_curves_are_complexes() {
         name: "v".into(),
         kind: CellKind::Vertex,
         dim: 1,
-        pieces: vec![Piece { target: 1, op: Matrix::identity(1), reversed: false }],
+        pieces: vec![Piece { target: 1, op: Matrix::identity(1), reversed: false, share: None }],
         left: None,
         right: None,
     });
@@ -94,14 +94,14 @@ fn inclusion(rows: usize, cols: usize, shift: usize) -> Matrix {
 }
 
 fn edge(name: &str, dim: usize, pieces: Vec<(usize, Matrix)>, left: (usize, Matrix), right: (usize, Matrix)) -> State {
-    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false }).collect();
+    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false, share: None }).collect();
     let boundary = |(vertex, op)| Some(Boundary { vertex, op });
     State { name: name.into(), kind: CellKind::Edge, dim, pieces, left: boundary(left), right: boundary(right) }
 }
 
 fn vertex(name: &str, index: usize, op: Matrix) -> State {
     let dim = op.rows();
-    let pieces = vec![Piece { target: index, op, reversed: false }];
+    let pieces = vec![Piece { target: index, op, reversed: false, share: None }];
     State { name: name.into(), kind: CellKind::Vertex, dim, pieces, left: None, right: None }
 }
 

@@ -5,7 +5,10 @@ use proptest::prelude::*;
 use secant::arith::{Integer, Rational, abs, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::radius::Options;
+use secant::scheme::Interpolation;
 use secant::shape::{CellKind, End, Frame, Piece, Shape, Spaces, State};
+use secant::theorem::Side;
+use secant::theorem::local::{LocalContext, LocalLimit, LocalSide};
 use secant::theorem::smoothness::{CurveRegularity, Outcome, Seen, curve_regularity};
 
 /// An affine map `R^m -> R^n` as rows `[shift, coefficients…]`, on the simplices `0, e_1, …`.
@@ -25,7 +28,7 @@ fn integers(rows: &[&[(i64, i64)]]) -> Matrix {
 
 fn state(name: &str, pieces: Vec<(usize, Matrix)>) -> State {
     let dim = pieces[0].1.rows();
-    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false }).collect();
+    let pieces = pieces.into_iter().map(|(target, op)| Piece { target, op, reversed: false, share: None }).collect();
     State { name: name.into(), kind: CellKind::Edge, dim, pieces, left: None, right: None }
 }
 
@@ -360,6 +363,256 @@ proptest! {
                 quotients(shape, jump.right, jump.seen.as_ref().unwrap());
             }
         }
+    }
+}
+
+fn numbers(list: &[(i64, i64)]) -> Vec<Rational> {
+    list.iter().map(|&(p, q)| ratio(p, q)).collect()
+}
+
+fn factors(list: &[Rational]) -> Vec<Matrix> {
+    list.iter().map(|a| Matrix::from_rows(1, vec![vec![a.clone()]])).collect()
+}
+
+#[test]
+fn interpolation_that_is_c2_and_not_c3() {
+    let points = [[(0, 1), (0, 1)], [(1, 3), (4, 5)], [(1, 1), (1, 1)]].map(|p| numbers(&p));
+    let cubic = numbers(&[(0, 1), (3060, 2716), (-1089, 2716), (66, 2716)]);
+    let polynomials = vec![vec![cubic], vec![numbers(&[(4, 5)])]];
+    let data = Interpolation::new(&points, factors(&numbers(&[(1, 20), (1, 5)])), polynomials).unwrap();
+    let found = analysed(&data.shape().unwrap());
+    assert_eq!((found.smoothness(), found.is_smooth(3), found.polynomial), (2, Some(false), false));
+    assert_eq!(found.orders.iter().map(|o| o.dims[0]).collect::<Vec<_>>(), [4, 3, 2, 1]);
+    assert_eq!(found.orders[3].outcome, Outcome::Cycle);
+    assert_eq!(found.orders[3].radius.as_ref().unwrap().lower.as_ref().unwrap().rational(), Some(ratio(27, 20)));
+    // The derivatives by Theorem 10, at the ends and at the inner point.
+    for (k, ends, middle) in [(1, [(2700, 679), (0, 1)], (810, 679)), (2, [(-8910, 679), (0, 1)], (-8019, 1358))] {
+        let own = data.matching(k).unwrap();
+        let middle = ratio(middle.0, middle.1);
+        assert_eq!(own.ends.unwrap().to_vec(), numbers(&ends), "order {k}");
+        assert_eq!(own.joints, [[middle.clone(), middle]], "order {k}");
+    }
+    assert_eq!(data.matching(3).unwrap().ratios[0], ratio(27, 20));
+    holds_exponent(&found, (20f64.ln() / 3f64.ln()).min(5f64.ln() / 1.5f64.ln()));
+}
+
+/// The enclosure holds the number, and is as narrow as it is said to be.
+fn holds_exponent(found: &CurveRegularity, expected: f64) {
+    let bounds = found.exponent.as_ref().unwrap();
+    let (lo, hi) = (to_f64(&bounds.lo), to_f64(&bounds.hi));
+    assert!(lo <= expected + 1e-12 && expected <= hi + 1e-12 && hi - lo < 6e-3, "{expected} in {lo}..{hi}");
+}
+
+/// The function with the derivatives `slopes` at the points: cubic pieces that Hermite's conditions give.
+fn hermite(xs: &[Rational], ys: &[Rational], slopes: &[Rational], alpha: &[Rational]) -> Vec<Vec<Vec<Rational>>> {
+    let last = alpha.len();
+    let (from, width) = (&xs[0], &xs[last] - &xs[0]);
+    let piece = |j: usize| {
+        let share = (&xs[j + 1] - &xs[j]) / &width;
+        let value = |end: usize, y: usize| &ys[y] - &alpha[j] * &ys[end];
+        let slope = |end: usize, y: usize| (&slopes[y] * &share - &alpha[j] * &slopes[end]) * &width;
+        let ([p, q], [u, v]) = ([value(0, j), value(last, j + 1)], [slope(0, j), slope(last, j + 1)]);
+        let three = ratio(3, 1) * (&q - &p);
+        let cubic = [p.clone(), u.clone(), &three - ratio(2, 1) * &u - &v, ratio(2, 1) * (&p - &q) + &u + &v];
+        // In t = (x − from)/width; from is 0 in the tests, so that x = width t.
+        assert_eq!(*from, 0);
+        let scaled = cubic.iter().scan(ratio(1, 1), |w, c| {
+            let own = c / &*w;
+            *w *= &width;
+            Some(own)
+        });
+        vec![scaled.collect()]
+    };
+    (0..last).map(piece).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+    /// Theorem E and the numbers of Theorem 10 decide alike.
+    #[test]
+    fn interpolation_is_decided_as_by_barnsley_and_harrington(
+        gaps in prop::collection::vec(1i64..5, 2..4),
+        ys in prop::collection::vec(-3i64..4, 4),
+        slopes in prop::collection::vec(-3i64..4, 4),
+        sizes in prop::collection::vec(-7i64..8, 3),
+        moved in prop::bool::ANY,
+    ) {
+        let n = gaps.len();
+        let xs: Vec<Rational> = (0..=n).map(|k| ratio(gaps[..k].iter().sum(), 1)).collect();
+        let (mut ys, slopes): (Vec<_>, Vec<_>) = (0..=n).map(|k| (ratio(ys[k], 1), ratio(slopes[k], 2))).unzip();
+        let alpha: Vec<Rational> = sizes[..n].iter().map(|s| ratio(*s, 8)).collect();
+        let cubics = hermite(&xs, &ys, &slopes, &alpha);
+        let points = |ys: &[Rational]| -> Vec<Vec<Rational>> {
+            xs.iter().zip(ys).map(|(x, y)| vec![x.clone(), y.clone()]).collect()
+        };
+        let data = if moved {
+            ys[0] += ratio(1, 3);
+            Interpolation::affine(&points(&ys), factors(&alpha)).unwrap()
+        } else {
+            Interpolation::new(&points(&ys), factors(&alpha), cubics).unwrap()
+        };
+        let found = analysed(&data.shape().unwrap());
+        let mut smooth = true;
+        for (k, order) in found.orders.iter().enumerate().skip(1) {
+            let own = data.matching(k).unwrap();
+            smooth &= match own.ends {
+                Some(_) => own.joints.iter().all(|[a, b]| a == b),
+                None => found.polynomial,
+            };
+            prop_assert_eq!(order.smooth(), Some(smooth), "order {} of {:?}", k, data);
+        }
+        // Hermite's conditions make it C¹ where the factors allow it.
+        let shares = data.shares();
+        if !moved && alpha.iter().zip(&shares).all(|(a, s)| abs(a) < *s) {
+            prop_assert!(found.smoothness() >= 1);
+        }
+        // The exponent of what is no polynomial is that of its largest factor, or of the order whose equations fail.
+        if !found.polynomial {
+            let exponent = |(a, s): (&Rational, &Rational)| to_f64(&abs(a)).ln() / to_f64(s).ln();
+            let least = alpha.iter().zip(&shares).filter(|(a, _)| **a != 0).map(exponent).fold(f64::INFINITY, f64::min);
+            holds_exponent(&found, least.min(found.smoothness() as f64 + 1.0));
+        }
+    }
+}
+
+#[test]
+fn equal_shares_are_the_uniform_parameter() {
+    for (name, parameters) in
+        [("four-point", vec![]), ("bspline", vec![("degree".to_owned(), ratio(3, 1))]), ("takagi", vec![])]
+    {
+        let shape = secant::scheme::build(name, &parameters.into_iter().collect()).unwrap();
+        let mut shared = shape.clone();
+        for state in &mut shared.states {
+            let share = ratio(1, state.pieces.len() as i64);
+            state.pieces.iter_mut().for_each(|p| p.share = Some(share.clone()));
+        }
+        let (uniform, own) = (analysed(&shape), analysed(&shared));
+        assert_eq!((uniform.smoothness(), uniform.polynomial), (own.smoothness(), own.polynomial), "{name}");
+        for (a, b) in uniform.orders.iter().zip(&own.orders) {
+            assert_eq!((a.smooth(), &a.dims), (b.smooth(), &b.dims), "{name}");
+        }
+        if let (Some(a), Some(b)) = (&uniform.exponent, &own.exponent) {
+            assert!(a.lo <= b.hi && b.lo <= a.hi, "{name}: {a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn certificates_of_exponents_in_shares_are_checked() {
+    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/fif/unequal.toml");
+    let (_, certificate, expanded) = secant::ask::certified_regularity(case, &[], 2, None).unwrap();
+    let expanded = expanded.unwrap();
+    let accepted = secant_check::check(&expanded, &certificate).unwrap();
+    let between = |c: &secant_check::Decided| matches!(c.claim, secant_check::Claim::ExponentBetween { .. });
+    assert!(accepted.claims.iter().any(between));
+    let value: serde_json::Value = serde_json::from_str(&certificate).unwrap();
+    let bounds = "/proof/exponent";
+    for (place, new) in [
+        ("/below/at", serde_json::json!("1300/2048")),
+        ("/below/factors/0/0", serde_json::json!("1")),
+        ("/above/factors/0/0", serde_json::json!("3")),
+        ("/above/at", serde_json::json!("1/2")),
+        ("/below/radius", value.pointer("/proof/exponent/above/radius").unwrap().clone()),
+    ] {
+        let mut forged = value.clone();
+        *forged.pointer_mut(&format!("{bounds}{place}")).unwrap() = new;
+        assert!(secant_check::check(&expanded, &forged.to_string()).is_err(), "{place}");
+    }
+    // Other shares are another case.
+    let other = expanded.replace("share = \"1/3\"", "share = \"1/2\"").replace("share = \"2/3\"", "share = \"1/2\"");
+    assert_ne!(other, expanded);
+    assert!(secant_check::check(&other, &certificate).is_err());
+}
+
+/// The sides of the points of a curve: by point, those of all branches.
+fn sides(shape: &Shape, addresses: &[&str]) -> Vec<Vec<LocalSide>> {
+    let addresses: Vec<_> = addresses.iter().map(|a| secant::shape::Address::parse(a).unwrap()).collect();
+    let found = secant::theorem::certify(shape, &addresses).unwrap();
+    let context = LocalContext::new(shape, &found.contraction).unwrap();
+    found.points.iter().map(|p| p.branches.iter().flat_map(|b| context.sides(b)).collect()).collect()
+}
+
+fn values(point: &[LocalSide]) -> Vec<(Side, Option<usize>, Vec<Rational>)> {
+    let value = |s: &LocalSide| match &s.limit {
+        LocalLimit::Value(v) => v.clone(),
+        other => panic!("{other:?}"),
+    };
+    point.iter().map(|s| (s.side, s.integer, value(s))).collect()
+}
+
+#[test]
+fn local_derivatives_of_takagi_curves() {
+    let curve = |p, q| secant::scheme::build("takagi", &[("alpha".to_owned(), ratio(p, q))].into()).unwrap();
+    // 2x − 2x² at 0, at 1, at the joint 1/2, and at 1/3 from both sides.
+    let parabola = sides(&curve(1, 4), &["(01)"]);
+    let expected = [
+        vec![(Side::Right, [(1, 1), (2, 1)])],
+        vec![(Side::Left, [(-1, 1), (2, 1)])],
+        vec![(Side::Left, [(-1, 1), (0, 1)]), (Side::Right, [(1, 1), (0, 1)])],
+        vec![(Side::Left, [(-1, 1), (-2, 3)]), (Side::Right, [(1, 1), (2, 3)])],
+    ];
+    for (point, wanted) in parabola.iter().zip(expected) {
+        let wanted: Vec<_> = wanted.into_iter().map(|(side, v)| (side, Some(1), numbers(&v))).collect();
+        assert_eq!(values(point), wanted);
+    }
+    // Takagi's own curve: a block of length 2.
+    let takagi = sides(&curve(1, 2), &[]);
+    assert_eq!((takagi[0][0].integer, &takagi[0][0].limit), (Some(1), &LocalLimit::Diverges(1)));
+    // Factor 2/3: the order ln(2/3)/ln(1/2), and a band that dense values of (y + 3x)/x^h fill.
+    let rough = &sides(&curve(2, 3), &[])[0][0];
+    let h = 1.5f64.ln() / 2f64.ln();
+    assert!(to_f64(&rough.order.lo) <= h + 1e-14 && h <= to_f64(&rough.order.hi) + 1e-14 && rough.integer.is_none());
+    let LocalLimit::Band { direction, least, most } = &rough.limit else { panic!("{rough:?}") };
+    assert_eq!(*direction, numbers(&[(0, 1), (1, 1)]));
+    fn height(x: f64, depth: u32) -> f64 {
+        let x = x.min(1.0 - x);
+        if depth == 0 { 0.0 } else { x + 2.0 / 3.0 * height(2.0 * x, depth - 1) }
+    }
+    let sampled = (2048..=4096).map(|k| f64::from(k) / 4096.0).map(|x| (height(x, 40) + 3.0 * x) / x.powf(h));
+    let (lo, hi) = sampled.fold((f64::INFINITY, 0f64), |(lo, hi), b| (lo.min(b), hi.max(b)));
+    assert!(to_f64(&least.lo) <= lo + 1e-9 && lo <= to_f64(&least.hi) + 1e-9, "{lo} {least:?}");
+    assert!(to_f64(&most.lo) <= hi + 1e-9 && hi <= to_f64(&most.hi) + 1e-9, "{hi} {most:?}");
+    assert!(hi - lo > 0.1 && to_f64(&least.width()) < 0.7 && to_f64(&most.width()) < 0.7, "{least:?} {most:?}");
+}
+
+#[test]
+fn local_derivatives_in_a_parameter_with_shares() {
+    let points = [[(0, 1), (0, 1)], [(1, 3), (4, 5)], [(1, 1), (1, 1)]].map(|p| numbers(&p));
+    let cubic = numbers(&[(0, 1), (3060, 2716), (-1089, 2716), (66, 2716)]);
+    let polynomials = vec![vec![cubic], vec![numbers(&[(4, 5)])]];
+    let data = Interpolation::new(&points, factors(&numbers(&[(1, 20), (1, 5)])), polynomials).unwrap();
+    let found = sides(&data.shape().unwrap(), &[]);
+    let seen: Vec<_> =
+        found.iter().take(3).flat_map(|p| values(p)).map(|(side, h, v)| (side, h, v[1].clone())).collect();
+    let expected =
+        [(Side::Right, (2700, 679)), (Side::Left, (0, 1)), (Side::Left, (-810, 679)), (Side::Right, (810, 679))];
+    assert_eq!(seen, expected.map(|(side, (p, q))| (side, Some(1), ratio(p, q))));
+}
+
+/// A curve that is C¹ in a parameter of other shares is not claimed to be C¹ in the uniform one.
+#[test]
+fn orders_in_other_shares_are_not_adopted() {
+    for name in ["chaikin-four-point", "m1-5-smooth"] {
+        let file = format!("{}/cases/junction/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let shape = secant::case::Case::read(file.as_ref()).unwrap().shape;
+        let found = secant::theorem::certify(&shape, &[]).unwrap();
+        let derivative = found.everywhere.as_ref().and_then(|e| e.derivative.as_ref()).unwrap();
+        assert!(derivative.shares.is_some(), "{name}");
+        if let Some(secant::theorem::Parameter::Orders(orders)) = &found.parameter {
+            assert!(orders.orders.iter().all(|o| o.shares.is_none()), "{name}");
+            assert_eq!(orders.orders[1].threshold, ratio(1, 2), "{name}");
+            assert_ne!(orders.orders[1].smooth(), Some(true), "{name}");
+        }
+        // With the shares written down it is the case's own parameter (of the smaller one, for time).
+        if name == "chaikin-four-point" {
+            continue;
+        }
+        let mut shared = shape.clone();
+        for (e, own) in shape.reachable().into_iter().zip(derivative.shares.as_ref().unwrap()) {
+            shared.states[e].pieces.iter_mut().zip(own).for_each(|(p, s)| p.share = Some(s.clone()));
+        }
+        assert!(analysed(&shared).smoothness() >= 1, "{name}");
     }
 }
 

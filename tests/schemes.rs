@@ -2,7 +2,7 @@
 
 use secant::arith::{Rational, parse_rational, ratio};
 use secant::linalg::Matrix;
-use secant::scheme::{self, Laurent, Mask, Normalisation, SchemeError};
+use secant::scheme::{self, Interpolation, Laurent, Mask, Normalisation, SchemeError};
 use secant::shape::{CellKind, End, Shape};
 use std::collections::BTreeMap;
 
@@ -203,16 +203,21 @@ fn classical_curves_run_from_0_to_1() {
 
 #[test]
 fn interpolation_passes_through_its_points() {
-    let points = [[0, 0], [1, 2], [3, 1], [4, 4]].map(|p| p.map(|x| ratio(x, 1)));
-    let factors = [ratio(1, 3), ratio(-1, 2), ratio(1, 5)];
-    let shape = scheme::fractal_interpolation(&points, &factors).unwrap();
+    let points: Vec<Vec<Rational>> = [[0, 0], [1, 2], [3, 1], [4, 4]].map(|p| p.map(|x| ratio(x, 1)).to_vec()).to_vec();
+    let number = |p, q| Matrix::from_rows(1, vec![vec![ratio(p, q)]]);
+    let factors = vec![number(1, 3), number(-1, 2), number(1, 5)];
+    let data = Interpolation::affine(&points, factors.clone()).unwrap();
+    assert_eq!(data.shares(), [ratio(1, 4), ratio(1, 2), ratio(1, 4)]);
+    let shape = data.shape().unwrap();
     let control = shape.control.clone().unwrap();
     let start = shape.end_point(0, End::Start).unwrap();
     for (k, point) in points.iter().take(3).enumerate() {
-        assert_eq!(control.apply(&shape.states[0].pieces[k].op.apply(&start)), point);
+        assert_eq!(control.apply(&shape.states[0].pieces[k].op.apply(&start)), *point);
     }
-    assert!(scheme::fractal_interpolation(&points, &factors[..2]).is_err());
-    assert!(scheme::fractal_interpolation(&points, &[ratio(1, 1), ratio(0, 1), ratio(0, 1)]).is_err());
+    assert!(Interpolation::affine(&points, factors[..2].to_vec()).is_err());
+    assert!(Interpolation::affine(&points, vec![number(1, 1), number(0, 1), number(0, 1)]).is_err());
+    let lines = vec![vec![vec![ratio(0, 1), ratio(1, 1)]]; 3];
+    assert!(Interpolation::new(&points, factors, lines).is_err());
 }
 
 #[test]

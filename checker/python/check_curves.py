@@ -321,6 +321,12 @@ class Case:
             piece = lambda p: (names.index(p["to"]), operator(p["matrix"]), p.get("reversed", False))
             self.states = [(s.get("kind", kind), [piece(p) for p in s["piece"]]) for s in case["state"]]
         self.dims = [len(pieces[0][1]) for _, pieces in self.states]
+        given = [case.get("map")] if "map" in case else [s["piece"] for s in case["state"]] if "state" in case else []
+        given = [[p.get("share") for p in pieces] for pieces in given] or [case.get("shares", [None])]
+        self.shares = [None if set(row) == {None} else [number(x) for x in row] for row in given]
+        for (kind, pieces), row in zip(self.states, self.shares):
+            whole = row is None or kind == "edge" and len(row) == len(pieces) and all(x > 0 for x in row) and sum(row) == 1
+            need(whole, "case")
         for e, (_, pieces) in enumerate(self.states):
             for target, op, _ in pieces:
                 need(len(op) == self.dims[e] and len(op[0]) == self.dims[target], "case")

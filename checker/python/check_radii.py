@@ -271,17 +271,21 @@ class Smoothness:
 
     def __init__(self, case, value):
         form, version, _, name, verdict, proof = envelope(value)
-        contraction, orders = fields(proof, "contraction", "orders")
+        shared = any(row is not None for row in case.shares)
+        contraction, orders, *exponent = fields(proof, "contraction", "orders", *(["exponent"] if shared else []))
         need(form == "secant certificate" and version == 1 and verdict == "proved" and name == case.name, "format")
         self.case, self.verdict, self.lines = case, verdict, []
         model = Model(case, contraction)
-        space, chord = self.first(model)
+        own = {e: case.shares[e] or [Q(1, len(model.states[e][1]))] * len(model.states[e][1]) for e in model.reachable}
+        space, chord = self.first(model, own if shared else None)
+        best = (0, space)
         need(0 < len(orders) <= MAX_ORDERS, "orders")
         last = False
         for k, item in enumerate(orders):
             need(not last, "orders")
             before = space
             order, dims, radius, outcome = fields(item, "order", "dims", "radius", "outcome")
+            self.order = k
             if k:
                 space = self.differences(k, chord)
             found = [len(space[e]) for e in model.reachable]
@@ -302,6 +306,30 @@ class Smoothness:
             smooth = outcome in ("curve", "holds")
             last = last or not smooth
             self.lines.append(f"{'proved' if smooth else 'refuted'}: the curve is C^{k}; radius from {low} to {high}")
+            best = (k, space) if smooth else best
+        if shared and any(best[1].values()):
+            low, high = self.exponents(*best, exponent[0])
+            self.lines.append(f"proved: the supremum of the exponents lies from {low} to {high}")
+
+    def exponents(self, k, space, value):
+        bounds = [Q(k), Q(k + 1)]
+        for side, item in enumerate(fields(value, "below", "above")):
+            if item is None:
+                continue
+            at, factors, radius = fields(item, "at", "factors", "radius")
+            at = rational(at)
+            need(bounds[0] < at < bounds[1] and len(factors) == len(self.model.reachable), "orders")
+            factors = {e: [rational(x) for x in row] for e, row in zip(self.model.reachable, factors)}
+            for e, row in factors.items():
+                need(len(row) == len(self.shares[e]), "orders")
+                for r, s in zip(row, self.shares[e]):
+                    # r against s^(−p/q).
+                    whole = r ** at.denominator * s ** at.numerator
+                    need(r > 0 and (whole <= 1 if side else whole >= 1), "orders")
+            low, high = self.radius(space, radius, factors)
+            need(low >= 1 if side else high < 1, "orders")
+            bounds[side] = at
+        return bounds
 
     def first(self, model, shares=None):
         """The spaces and the chords of the curves themselves; shares are what pieces take of the parameter, where not alike."""
@@ -309,6 +337,7 @@ class Smoothness:
         need(all(model.states[e][0] == "edge" for e in model.reachable), "orders")
         counts = {e: len(model.states[e][1]) for e in model.reachable}
         self.own = shares is not None
+        self.n = 1
         self.shares = shares if self.own else {e: [Q(1, n)] * n for e, n in counts.items()}
         if not self.own:
             back = [n for e, n in counts.items() if any(e in check_reached(model, p[0]) for p in model.states[e][1])]
@@ -343,7 +372,7 @@ class Smoothness:
                 rows[e] = echelon(rows[e] + [apply(matrix, v) for v in rows[target]])[0]
         return rows
 
-    def radius(self, space, value):
+    def radius(self, space, value, factors=None):
         place, arrows = {e: k for k, e in enumerate(self.model.reachable)}, []
         if value is None:
             need(not any(space.values()), "orders")
@@ -354,7 +383,7 @@ class Smoothness:
             for c, v in zip(coordinates, images):
                 need([sum(x * row[j] for x, row in zip(c, space[e])) for j in range(self.dim[e])] == v, "orders")
             # With shares it is the scaled operators whose radius is bounded.
-            scale = 1 / self.shares[e][letter] if self.own else 1
+            scale = factors[e][letter] if factors else (1 / self.shares[e][letter]) ** self.order if self.own else 1
             coordinates = [[scale * x for x in c] for c in coordinates]
             arrows.append((place[e], place[target], transpose(coordinates, len(pivots))))
         return System([len(space[e]) for e in self.model.reachable], arrows).bounds(value)
@@ -400,6 +429,7 @@ class Smoothness:
 def graph(model, value, given=None):
     """The curve is a graph over its uniform parameter, or over the one with the given shares (Theorem 12)."""
     curve, start, shares = Smoothness.__new__(Smoothness), model.case.start, None
+    curve.order = 1
     if given is not None:
         need(isinstance(given, list) and len(given) == len(model.reachable), "graph")
         shares = {e: [rational(x) for x in row] for e, row in zip(model.reachable, given)}

@@ -94,12 +94,12 @@ pub enum Claim {
         /// The bound.
         bound: Q,
     },
-    /// The curve is C^k in the uniform parameter.
+    /// The curve is C^k in its parameter: the uniform one, or the one with the shares of the case.
     Smooth {
         /// `k`.
         order: usize,
     },
-    /// The curve is a polynomial in the uniform parameter.
+    /// The curve is a polynomial in its parameter.
     Polynomial,
     /// The supremum of the exponents `k + a` of the curve, with Hölder exponents `a` of the derivative of order `k`, is the
     /// logarithm of `1/r` to the base of the number of pieces, for a number `r` from `low` to `high`.
@@ -111,6 +111,13 @@ pub enum Claim {
         /// The least `r`.
         low: Q,
         /// The greatest `r`.
+        high: Q,
+    },
+    /// In a parameter with shares the supremum of the exponents `k + a` lies between two numbers.
+    ExponentBetween {
+        /// The lower one.
+        low: Q,
+        /// The upper one.
         high: Q,
     },
     /// All limits of a mask on a lattice are C^k; of order 0: the scheme converges uniformly.
@@ -404,8 +411,12 @@ impl Display for Claim {
             Self::Block { dims, norm, bound } => {
                 write!(f, "block of dimensions {}: at most {bound}, by a norm of the kind {norm}", list(dims))
             }
-            Self::Smooth { order } => write!(f, "the curve is C^{order} in the uniform parameter"),
-            Self::Polynomial => f.write_str("the curve is a polynomial in the uniform parameter"),
+            Self::Smooth { order } => write!(f, "the curve is C^{order} in its parameter"),
+            Self::Polynomial => f.write_str("the curve is a polynomial in its parameter"),
+            Self::ExponentBetween { low, high } => write!(
+                f,
+                "the supremum of its exponents k + a, with Hölder exponents a of the derivative of order k, lies from {low} to {high}"
+            ),
             Self::Exponent { order, pieces, low, high } => write!(
                 f,
                 "the supremum of its exponents k + a, with Hölder exponents a of the derivative of order k = {order}, is the \

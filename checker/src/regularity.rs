@@ -1,11 +1,12 @@
-//! Orders of smoothness of a curve in the uniform parameter: joint spectral radii on a descending chain of invariant spaces, and
+//! Orders of smoothness of a curve in its parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, list, need, some, total, whole};
+use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, bits, list, need, number, some, spend, total, whole};
 use crate::claim::Claim;
 use crate::curve::{Case, End, Kind, Model, Piece, Shape, Spaces, Way, close};
 use crate::jsr::{System, bounds};
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
 
 /// Most orders of one certificate.
 const MAX_ORDERS: usize = 32;
@@ -28,10 +29,18 @@ struct Level<'a> {
 
 /// Checks the proof of a certificate of the kind `regularity`.
 pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
-    let [contraction, orders] = node.fields("contraction orders")?;
+    let shared = case.shape.pieces().any(|(_, p)| p.share.is_some());
+    let (contraction, orders, exponents) = if shared {
+        let [contraction, orders, exponents] = node.fields("contraction orders exponent")?;
+        (contraction, orders, Some(exponents))
+    } else {
+        let [contraction, orders] = node.fields("contraction orders")?;
+        (contraction, orders, None)
+    };
     let model = Model::read(&case.shape, &contraction)?;
     contraction.at(case.shape.check_curves())?;
-    let mut level = node.at(Level::uniform(&model))?;
+    let mut level = node.at(Level::own(&model))?;
+    let mut last = level.families.clone();
     let (items, mut claims, mut lines) = (orders.list()?, Vec::new(), Vec::new());
     orders.need((1..=MAX_ORDERS).contains(&items.len()), "orders", "orders from 0 on are needed")?;
     let (mut exponent, mut least) = (None, Q::zero());
@@ -46,7 +55,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         dims.need(dims.indices(usize::MAX)? == found, "orders", format_args!("the dimensions are {}", list(&found)))?;
         let (low, high) = level.radius(&radius)?;
         lines.push(Claim::RadiusOfOrder(k, low.clone(), high.clone()).is(Verdict::Proved));
-        let (smooth, last) = match outcome.text()? {
+        let (smooth, ends_here) = match outcome.text()? {
             "curve" if k == 0 => (true, false),
             word @ ("holds" | "joint") if k > 0 => {
                 radius.need(
@@ -76,17 +85,22 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
             }
             _ => return outcome.reject("orders", "an outcome that this order cannot have"),
         };
-        orders.need(!last || k + 1 == items.len(), "orders", "there is nothing after this order")?;
+        orders.need(!ends_here || k + 1 == items.len(), "orders", "there is nothing after this order")?;
         let verdict = if smooth { Verdict::Proved } else { Verdict::Refuted };
         claims.push(Claim::Smooth { order: k }.is(verdict));
         least.clone_from(&low);
         if smooth {
             exponent = (!found.iter().all(|d| *d == 0)).then_some((k, low, high));
+            last.clone_from(&level.families);
         }
     }
-    let smoothest = match exponent {
-        None => Claim::Polynomial,
-        Some((order, low, high)) => Claim::Exponent { order, pieces: level.pieces, low, high },
+    let smoothest = match (exponent, exponents) {
+        (None, _) => Claim::Polynomial,
+        (Some((order, ..)), Some(bounds)) => {
+            level.families = last;
+            level.exponents(order, &bounds)?
+        }
+        (Some((order, low, high)), None) => Claim::Exponent { order, pieces: level.pieces, low, high },
     };
     claims.push(smoothest.is(Verdict::Proved));
     Ok(Accepted { case: case.name.clone(), verdict: Verdict::Proved, claims, points: lines })
@@ -128,6 +142,25 @@ fn read_shares(model: &Model<'_>, node: &Node<'_>) -> Checked<Vec<Vec<Q>>> {
         all[e] = shares;
     }
     Ok(all)
+}
+
+/// Most bits of the powers with which a factor is compared with a power of a share.
+const MAX_POWER_BITS: u64 = 1 << 23;
+
+/// `r` compared with `s^(-p/q)`: `r^q s^p` with 1.
+fn compared(factor: &Q, share: &Q, exponent: &Q) -> Checked<Ordering> {
+    need(factor.is_positive(), "orders", "a factor is not positive")?;
+    let (p, q) = (exponent.numer().to_u64(), exponent.denom().to_u64());
+    let (p, q) = (some(p, "orders", "a long exponent")?, some(q, "orders", "a long exponent")?);
+    let size = bits(factor).saturating_mul(q).saturating_add(bits(share).saturating_mul(p));
+    need(size <= MAX_POWER_BITS, "limit", "long powers of shares")?;
+    // Repeated squares, and two products at the end.
+    spend(2, size)?;
+    let power = |x: &Q, n: u64| {
+        (num_traits::pow(x.numer().clone(), n as usize), num_traits::pow(x.denom().clone(), n as usize))
+    };
+    let ((a, b), (c, d)) = (power(factor, q), power(share, p));
+    Ok((a * c).cmp(&(b * d)))
 }
 
 /// The states that can be reached from one, itself among them.
@@ -174,7 +207,59 @@ impl<'a> Level<'a> {
         Ok(Self { shape, spaces, pieces, shares, order: 0, families, chords })
     }
 
-    /// `N^k`.
+    /// The curve in the parameter of the case: with its shares where it gives some.
+    fn own(model: &'a Model<'a>) -> Checked<Self> {
+        let shape = model.shape;
+        if shape.pieces().all(|(_, p)| p.share.is_none()) {
+            return Self::uniform(model);
+        }
+        let mut all = vec![Vec::new(); shape.states.len()];
+        for &e in &shape.reachable {
+            let pieces = &shape.states[e].pieces;
+            let equal = whole(pieces.len() as i64).recip();
+            let share = |p: &Piece| match &p.share {
+                Some(share) => share.clone(),
+                None => equal.clone(),
+            };
+            all[e] = pieces.iter().map(share).collect();
+        }
+        Self::first(model, 1, Some(all))
+    }
+
+    /// Bounds of the supremum of the exponents by factors on the safe side of the powers of the shares.
+    fn exponents(&self, order: usize, node: &Node<'_>) -> Checked<Claim> {
+        let [below, above] = node.fields("below above")?;
+        let mut bounds = [whole(order as i64), whole(order as i64 + 1)];
+        for (side, node) in [below, above].iter().enumerate().filter(|(_, n)| !n.is_null()) {
+            let [at, factors, radius] = node.fields("at factors radius")?;
+            let exponent = number(&at)?;
+            let inside = bounds[0] < exponent && exponent < bounds[1];
+            at.need(inside, "orders", "the exponents lie between the order and the next one, in their order")?;
+            let mut all = vec![Vec::new(); self.shape.states.len()];
+            for (item, &e) in factors.exactly(self.shape.reachable.len(), "orders")?.iter().zip(&self.shape.reachable) {
+                all[e] = item.vector(self.shape.states[e].pieces.len())?;
+                for (letter, factor) in all[e].iter().enumerate() {
+                    let share = self.share(e, letter)?;
+                    let compared = compared(factor, share, &exponent)?;
+                    let safe = compared != if side == 0 { Ordering::Less } else { Ordering::Greater };
+                    item.need(safe, "orders", "a factor is not on the safe side of the power of the share")?;
+                }
+            }
+            let (low, high) = self.radius_with(&radius, |e, letter| Ok(all[e][letter].clone()))?;
+            let holds = if side == 0 { high < Q::one() } else { low >= Q::one() };
+            radius.need(holds, "orders", "the radius does not show the bound of the exponent")?;
+            bounds[side] = exponent;
+        }
+        let [low, high] = bounds;
+        Ok(Claim::ExponentBetween { low, high })
+    }
+
+    fn share(&self, e: usize, letter: usize) -> Checked<&Q> {
+        let shares = some(self.shares.as_ref(), "orders", "the case has no shares")?;
+        some(shares[e].get(letter), "orders", "a piece of another state")
+    }
+
+    /// `N^k`, or 1 with shares, by which the operators are divided.
     fn power(&self, k: usize) -> Q {
         num_traits::pow(whole(self.pieces as i64), k)
     }
@@ -183,8 +268,13 @@ impl<'a> Level<'a> {
     fn stretch(&self, e: usize, piece: &Piece) -> Checked<Q> {
         let pieces = &self.shape.states[e].pieces;
         let Some(shares) = &self.shares else { return Ok(num_traits::pow(whole(pieces.len() as i64), self.order)) };
-        let letter = some(pieces.iter().position(|p| std::ptr::eq(p, piece)), "graph", "a piece of another state")?;
+        let letter = self.letter(e, piece)?;
         Ok(num_traits::pow(shares[e][letter].recip(), self.order))
+    }
+
+    fn letter(&self, e: usize, piece: &Piece) -> Checked<usize> {
+        let place = self.shape.states[e].pieces.iter().position(|p| std::ptr::eq(p, piece));
+        some(place, "orders", "a piece of another state")
     }
 
     /// `(ε N_e)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece of a state.
@@ -195,6 +285,15 @@ impl<'a> Level<'a> {
 
     /// Bounds of the joint spectral radius of the operators on the families; 0 where these are 0.
     fn radius(&self, node: &Node<'_>) -> Checked<(Q, Q)> {
+        // With shares it is the scaled operators whose radius is bounded.
+        self.radius_with(node, |e, letter| match &self.shares {
+            Some(_) => self.stretch(e, &self.shape.states[e].pieces[letter]),
+            None => Ok(Q::one()),
+        })
+    }
+
+    /// The same of the operators times factors by state and letter.
+    fn radius_with(&self, node: &Node<'_>, factor: impl Fn(usize, usize) -> Checked<Q>) -> Checked<(Q, Q)> {
         let reachable = &self.shape.reachable;
         if node.is_null() {
             let zero = reachable.iter().all(|&e| self.families[e].rows == 0);
@@ -209,8 +308,7 @@ impl<'a> Level<'a> {
             let matrix = images.columns(&pivots);
             let closed = matrix.times(&self.families[e])? == images;
             need(closed, "orders", "an operator does not act on the differences")?;
-            // With shares it is the scaled operators whose radius is bounded.
-            let stretch = if self.shares.is_some() { self.stretch(e, piece)? } else { Q::one() };
+            let stretch = factor(e, self.letter(e, piece)?)?;
             arrows.push((place(e)?, place(piece.target)?, matrix.transpose().scaled(&stretch)));
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();

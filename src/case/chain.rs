@@ -158,7 +158,7 @@ pub(super) fn pieces(drafts: &[Draft<'_>], index: usize) -> Vec<Piece> {
     match &drafts[index].built {
         Built::No => Vec::new(),
         Built::Scheme(curve) => {
-            let piece = |op: &Matrix| Piece { target: index, op: op.clone(), reversed: false };
+            let piece = |op: &Matrix| Piece { target: index, op: op.clone(), reversed: false, share: None };
             curve.operators.iter().map(piece).collect()
         }
         Built::Chain(places, dim) => {
@@ -168,6 +168,7 @@ pub(super) fn pieces(drafts: &[Draft<'_>], index: usize) -> Vec<Piece> {
                 target: *state,
                 op: select(drafts[*state].dim, *first),
                 reversed: false,
+                share: None,
             };
             places.iter().map(piece).collect()
         }

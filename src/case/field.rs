@@ -127,7 +127,12 @@ fn over(field: &NumberField, samples: &[(&Rational, &Shape)]) -> Option<Shape<Re
         matrices.iter().map(|m| m.map(|_| Real::new(&small, moved.next().expect("as many as before")))).collect();
     let mut states = Vec::new();
     for (state, (pieces, left, right)) in first.states.iter().zip(indices) {
-        let piece = |(p, k): (&Piece, usize)| Piece { target: p.target, op: matrices[k].clone(), reversed: p.reversed };
+        let piece = |(p, k): (&Piece, usize)| Piece {
+            target: p.target,
+            op: matrices[k].clone(),
+            reversed: p.reversed,
+            share: p.share.clone(),
+        };
         let boundary = |old: &Option<Boundary>, k: Option<Option<usize>>| match (old, k) {
             (Some(b), Some(k)) => Some(Some(Boundary { vertex: b.vertex, op: matrices[k?].clone() })),
             _ => Some(None),

@@ -11,7 +11,7 @@ pub const MAX_AFFINE: usize = 16;
 
 /// Reads the `[[map]]` tables: affine maps `x -> linear x + shift` of one space of dimension 1 to [`MAX_AFFINE`].
 pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<Model, Problem> {
-    for key in ["pieces", "reversed", "state", "start", "control"] {
+    for key in ["pieces", "reversed", "shares", "state", "start", "control"] {
         if let Some(span) = case.key_span(key) {
             let message = format!("`{key}` and `[[map]]` exclude each other");
             return Err(case
@@ -48,7 +48,7 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<
         if reversed && kind == CellKind::Set {
             return Err(super::states::reversed_set(&map.need("reversed", "true")?));
         }
-        shape.states[0].pieces.push(Piece { target: 0, op, reversed });
+        shape.states[0].pieces.push(Piece { target: 0, op, reversed, share: share(map)? });
         place.pieces.push(map.need("linear", "[[\"1/2\"]]")?.span());
     }
     shape.frame = Frame::Affine;
@@ -57,8 +57,13 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<
     Ok(Model { complex: Complex::of_curves(shape), places, unknown: Vec::new(), scheme: None })
 }
 
+/// What a piece takes of the parameter, where its table says so.
+pub(super) fn share(piece: &Table<'_>) -> Result<Option<Rational>, Problem> {
+    piece.get("share").map(|node| node.number()).transpose()
+}
+
 fn affine_map(map: &Table<'_>) -> Result<(Matrix, Vec<Rational>), Problem> {
-    map.only(&["linear", "shift", "reversed"])?;
+    map.only(&["linear", "shift", "reversed", "share"])?;
     let mut node = map.need("linear", "[[\"1/2\", 0], [0, \"1/2\"]]")?;
     node.what = format!("`linear` of {}", map.what);
     let linear = Written::read(&node)?;

@@ -10,6 +10,7 @@ mod curve_family;
 mod expect;
 mod faces;
 mod field;
+mod interpolate;
 mod lattice;
 mod maps;
 mod matrix;
@@ -38,7 +39,7 @@ pub use vertex::{Valences, VertexCase};
 
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
-use crate::scheme::{Heading, Mask, MeshRule, complex_text};
+use crate::scheme::{Heading, Interpolation, Mask, MeshRule, complex_text};
 use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -123,8 +124,8 @@ pub enum Origin {
     Polygon(Option<Mask>),
     /// The tensor product of two curves.
     Tensor,
-    /// Fractal interpolation through given points.
-    Interpolation,
+    /// Data that are interpolated.
+    Interpolation(Box<Interpolation>),
     /// An automaton, some of whose states name a scheme or are chains.
     States,
     /// A mask in two variables.
@@ -263,14 +264,16 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, points to interpolate, or states that name schemes or are
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, data to interpolate, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
         let built = matches!(
             self.scheme,
-            Some(Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::Interpolation | Origin::States)
+            Some(
+                Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::Interpolation(_) | Origin::States
+            )
         );
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })

@@ -126,6 +126,11 @@ impl<'a> Node<'a> {
         }
     }
 
+    /// Whether it is a list.
+    pub fn is_list(&self) -> bool {
+        matches!(self.value.get_ref(), DeValue::Array(_))
+    }
+
     /// Whether this is the word `"?"`, for a whole operator that is unknown.
     pub fn is_question(&self) -> bool {
         self.value.get_ref().as_str() == Some("?")

@@ -2,15 +2,15 @@ use super::expect::Expect;
 use super::matrix::Written;
 use super::node::{File, Node, Table};
 use super::source::too_large;
-use super::{Case, Convention, MAX_ADDRESSES, MAX_BYTES, MAX_LETTERS, Model, maps, scheme, states};
+use super::{Case, Convention, MAX_ADDRESSES, MAX_BYTES, MAX_LETTERS, Model, interpolate, maps, scheme, states};
 use crate::diagnostic::{Problem, SourceText};
 use crate::linalg::Matrix;
-use crate::shape::{Address, CellKind, ComplexError, Failure, Identity, Shape};
+use crate::shape::{Address, CellKind, ComplexError, Failure, Identity, Shape, ShapeError};
 use std::io::Read;
 use std::path::Path;
 use toml::de::DeTable;
 
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 17] = [
     "name",
     "title",
     "source",
@@ -18,6 +18,8 @@ const KEYS: [&str; 15] = [
     "convention",
     "pieces",
     "reversed",
+    "shares",
+    "interpolate",
     "map",
     "scheme",
     "mask",
@@ -189,7 +191,12 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
     }
     if model.unknown.is_empty() {
         let checked = model.complex.shape.check();
-        checked.map_err(|error| case.problem("shape", error.to_string(), "in this file"))?;
+        checked.map_err(|error| match &error {
+            ShapeError::Shares { .. } => case.problem("shares", error.to_string(), "in this file").with_help(
+                "give all pieces of a curve their parts of the parameter, as in share = \"1/3\", or none of them for equal parts",
+            ),
+            _ => case.problem("shape", error.to_string(), "in this file"),
+        })?;
         check_identities(file, &model)?;
     }
     let shape = &model.complex.shape;
@@ -270,7 +277,7 @@ pub(super) fn name(case: &Table<'_>) -> Result<String, Problem> {
 
 fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
     let word = case.word("convention", &["columns", "rows"])?;
-    if ["map", "scheme", "mask"].into_iter().all(|form| case.get(form).is_none()) {
+    if ["map", "scheme", "mask", "interpolate"].into_iter().all(|form| case.get(form).is_none()) {
         case.need("convention", "\"columns\"").map_err(|p| {
             p.with_help(
                 "say how the matrices act: convention = \"columns\" (operators on columns of coordinates, \
@@ -292,6 +299,9 @@ fn convention(case: &Table<'_>) -> Result<Convention, Problem> {
 fn model(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<Model, Problem> {
     if let Some(node) = case.get("scheme") {
         return scheme::read(case, &node);
+    }
+    if let Some(node) = case.get("interpolate") {
+        return interpolate::read(case, &node);
     }
     if let Some(node) = case.get("mask") {
         return super::lattice::read(case, &node);
@@ -315,8 +325,8 @@ fn model(case: &Table<'_>, kind: CellKind, convention: Convention) -> Result<Mod
     }
     let node = case.need("pieces", "[ [[…]], [[…]] ]").map_err(|p| {
         p.with_help(
-            "a case is written with `pieces` (a list of matrices), with [[map]] tables, with [[state]] tables, or with \
-             [scheme]",
+            "a case is written with `pieces` (a list of matrices), with [[map]] tables, with [[state]] tables, with [scheme], \
+             or with [interpolate]",
         )
     })?;
     states::single(case, &node, kind, convention)

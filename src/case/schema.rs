@@ -78,6 +78,7 @@ fn root() -> Value {
         ("linear", reference("matrix")),
         ("shift", reference("point")),
         ("reversed", flag("the piece runs backwards")),
+        ("share", share()),
     ]);
     let examine = object(&[("address", reference("address"))]);
     let reversed = json!({"type": "array", "items": {"type": "integer", "minimum": 0}});
@@ -96,6 +97,8 @@ fn root() -> Value {
         ),
         ("pieces", list_of(&reference("operator"), MAX_PIECES)),
         ("reversed", reversed),
+        ("shares", reference("point")),
+        ("interpolate", interpolate()),
         ("map", list_of(&map, MAX_PIECES)),
         ("scheme", scheme_table()),
         ("mask", mask_table()),
@@ -117,11 +120,32 @@ fn root() -> Value {
     ])
 }
 
+fn share() -> Value {
+    json!({"$ref": "#/$defs/number", "description": "the part of the parameter that the piece takes"})
+}
+
+fn interpolate() -> Value {
+    object(&[
+        ("points", reference("matrix")),
+        ("vertical", list_of(&factor(), MAX_PIECES)),
+        ("polynomials", list_of(&polynomial(), MAX_PIECES)),
+    ])
+}
+
+fn factor() -> Value {
+    json!({"anyOf": [{"$ref": "#/$defs/number"}, {"$ref": "#/$defs/matrix"}]})
+}
+
+fn polynomial() -> Value {
+    json!({"anyOf": [{"$ref": "#/$defs/point"}, {"$ref": "#/$defs/matrix"}]})
+}
+
 fn state() -> Value {
     let piece = object(&[
         ("to", text("the state that the piece is an image of")),
         ("matrix", reference("operator")),
         ("reversed", flag("the piece runs backwards")),
+        ("share", share()),
         ("corners", json!({"type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 3}})),
     ]);
     let side = || reference("boundary");
@@ -159,7 +183,8 @@ fn scheme_table() -> Value {
         ("knots", numbers),
         ("tensor", json!({"type": "array", "items": {"type": "object"}, "minItems": 2, "maxItems": 2})),
         ("interpolate", reference("matrix")),
-        ("vertical", list_of(&reference("number"), MAX_PIECES)),
+        ("vertical", list_of(&factor(), MAX_PIECES)),
+        ("polynomials", list_of(&polynomial(), MAX_PIECES)),
         ("mesh", words(&meshes)),
         ("valence", json!({"type": "integer", "minimum": 3, "maximum": scheme::MAX_VALENCE})),
         ("cell", words(&["face", "disc"])),

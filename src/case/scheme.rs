@@ -1,7 +1,7 @@
 //! `[scheme]`: a case built from a name, a mask, a tensor product or a mesh rule.
 
 use super::node::{Node, Table, clipped, suggest};
-use super::{MAX_COORDINATES, MAX_PIECES, Model, Origin, Places, StatePlace};
+use super::{MAX_COORDINATES, Model, Origin, Places, StatePlace};
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
 use crate::scheme::{self, Ends, Laurent, Mask, Normalisation, SchemeError};
@@ -19,7 +19,8 @@ struct Built {
 
 /// Reads the table `[scheme]`, which stands instead of `pieces`, `[[map]]` and `[[state]]`.
 pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> {
-    alone(case, "scheme", &["pieces", "reversed", "map", "state", "start", "kind", "convention"])?;
+    let others = ["pieces", "reversed", "shares", "interpolate", "map", "state", "start", "kind", "convention"];
+    alone(case, "scheme", &others)?;
     let mut table = node.table().map_err(|problem| {
         problem.with_help(
             "a case has one [scheme]; `secant junction A B` joins two of them, and a [[state]] of an automaton may name one, as in  \
@@ -31,7 +32,16 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
     let (complex, origin) = match form(&table)? {
         "tensor" => (tensor(&table)?, Origin::Tensor),
         "mesh" => mesh(&table)?,
-        "interpolate" => (Complex::of_curves(interpolation(case, &table)?), Origin::Interpolation),
+        "interpolate" => {
+            if let Some(span) = case.key_span("control") {
+                return Err(case
+                    .file
+                    .problem("two-forms", "`control` and `interpolate` exclude each other", span, "given besides")
+                    .with_help("the curve goes through the points of `interpolate`"));
+            }
+            table.only(&["interpolate", "vertical", "polynomials"])?;
+            super::interpolate::built(&table, "interpolate")?
+        }
         form => {
             let built = curve(&table, form, table.flag("vertices")?)?;
             let built = polygon(case, &table, built)?;
@@ -302,52 +312,6 @@ fn mesh(table: &Table<'_>) -> Result<(Complex, Origin), Problem> {
         scheme::patch(&rule, valence).map_err(problem)?
     };
     Ok((complex, Origin::Mesh { rule, valence, disc }))
-}
-
-/// The fractal interpolation function through points of the plane.
-fn interpolation(case: &Table<'_>, table: &Table<'_>) -> Result<Shape, Problem> {
-    table.only(&["interpolate", "vertical"])?;
-    if let Some(span) = case.key_span("control") {
-        return Err(case
-            .file
-            .problem("two-forms", "`control` and `interpolate` exclude each other", span, "given besides")
-            .with_help("the curve goes through the points of `interpolate`"));
-    }
-    let node = table.need("interpolate", "[[0, 0], [1, 2], [3, 1]]")?;
-    let mut points = Vec::new();
-    for point in node.array(|k| format!("point {k} of `interpolate`"))? {
-        let entries = point.array(|k| format!("coordinate {k} of {}", point.what))?;
-        let [x, y] = entries.as_slice() else {
-            return Err(point
-                .problem("size", format!("{} has {} coordinates", point.what, entries.len()), "two are needed")
-                .with_help("a point is [x, y]"));
-        };
-        points.push([x.number()?, y.number()?]);
-    }
-    let factors = table.need("vertical", "[\"1/3\", \"-1/4\"]").map_err(|p| {
-        p.with_help(
-            "add a line such as  vertical = [\"1/3\", \"-1/4\"]  with one factor between −1 and 1 for each interval",
-        )
-    })?;
-    let vertical = factors
-        .array(|k| format!("factor {k} of `vertical`"))?
-        .iter()
-        .map(Node::number)
-        .collect::<Result<Vec<_>, _>>()?;
-    if points.len() > MAX_PIECES {
-        return Err(node
-            .problem("limit", format!("{} points are over the limit of {MAX_PIECES}", points.len()), "too many")
-            .with_help("divide the data"));
-    }
-    scheme::fractal_interpolation(&points, &vertical).map_err(|e| match &e {
-        SchemeError::Value { parameter, .. } if parameter == "alpha" => factors
-            .problem("scheme-parameter", e.to_string(), "these factors")
-            .with_help("the vertical factors of the intervals, from left to right, each between −1 and 1"),
-        SchemeError::Value { .. } => node.problem("scheme-parameter", e.to_string(), "these points").with_help(
-            "the points run from left to right, three at least; the curve is the graph of a function through them",
-        ),
-        _ => refused(table, &node, &e, &[]),
-    })
 }
 
 /// What the library refuses, shown at the value of the table that it concerns.

@@ -46,6 +46,18 @@ pub(super) fn single(
             shape.states[0].pieces[index.index(pieces.len() - 1)?].reversed = true;
         }
     }
+    if let Some(list) = case.get("shares") {
+        let shares = list.array(|k| format!("entry {k} of `shares`"))?;
+        if shares.len() != pieces.len() {
+            let message = format!("there are {} shares for {} pieces", shares.len(), pieces.len());
+            return Err(list
+                .problem("shares", message, format!("{} needed", pieces.len()))
+                .with_help("give every piece its part of the parameter, as in shares = [\"1/3\", \"2/3\"]"));
+        }
+        for (piece, share) in shape.states[0].pieces.iter_mut().zip(&shares) {
+            piece.share = Some(share.number()?);
+        }
+    }
     let places = Places { states: vec![place], control: None };
     Ok(Model { complex: Complex::of_curves(shape), places, unknown, scheme: None })
 }
@@ -98,7 +110,7 @@ pub(super) fn automaton(
     default_kind: CellKind,
     convention: Convention,
 ) -> Result<Model, Problem> {
-    for key in ["pieces", "reversed"] {
+    for key in ["pieces", "reversed", "shares"] {
         if let Some(span) = case.key_span(key) {
             return Err(case
                 .file
@@ -259,20 +271,21 @@ impl Automaton<'_> {
         piece.only(if kind == CellKind::Face {
             &["to", "matrix", "corners"]
         } else {
-            &["to", "matrix", "reversed"]
+            &["to", "matrix", "reversed", "share"]
         })?;
         let to = piece.need("to", &format!("{:?}", draft.name))?;
         let target = state_index(&to, &self.drafts)?;
         if kind != CellKind::Set && self.drafts[target].kind != kind {
             return Err(wrong_target(&to, piece, draft, &self.drafts[target]));
         }
+        let share = super::maps::share(piece)?;
         let reversed = kind != CellKind::Face && piece.flag("reversed")?;
         if reversed && kind != CellKind::Edge {
             return Err(reversed_set(&piece.need("reversed", "true")?));
         }
         let node = matrix_node(piece)?;
         let op = self.operator(&node, OpName::Piece { state: index, letter }, index, target)?;
-        Ok((Piece { target, op, reversed }, node.span()))
+        Ok((Piece { target, op, reversed, share }, node.span()))
     }
 
     fn boundary(&mut self, index: usize, key: &str, name: OpName) -> Result<Option<(Boundary, Range<usize>)>, Problem> {

@@ -101,7 +101,7 @@ fn same_claims(found: &Certified, certificate: &Certificate, accepted: &Accepted
     Ok(())
 }
 
-/// The claims about the uniform parameter that the checker proves or refutes, as they were found, from a certificate of the
+/// The claims about the parameter that the checker proves or refutes, as they were found, from a certificate of the
 /// orders of smoothness; none where that has no rule for the evidence.
 ///
 /// # Errors
@@ -124,9 +124,12 @@ pub fn confirm_orders(case: &Case, found: &Certified) -> Result<Vec<Assertion>, 
     for claim in found.claims.iter().filter(|c| c.what.is_of_parameter() && c.verdict() != Verdict::Undetermined) {
         let proved = accepted.claims.iter().any(|d| {
             let same = match (&claim.what, &d.claim) {
-                (Assertion::Smooth { order }, secant_check::Claim::Smooth { order: k }) => order == k,
-                (Assertion::Polynomial, secant_check::Claim::Polynomial) => true,
-                (Assertion::Exponent(_), secant_check::Claim::Exponent { order, .. }) => *order == orders.smoothness(),
+                (Assertion::Smooth { order, .. }, secant_check::Claim::Smooth { order: k }) => order == k,
+                (Assertion::Polynomial(_), secant_check::Claim::Polynomial) => true,
+                (Assertion::Exponent(..), secant_check::Claim::Exponent { order, .. }) => *order == orders.smoothness(),
+                (Assertion::Exponent(Some(found), _), secant_check::Claim::ExponentBetween { low, high }) => {
+                    found.lo.to_string() == low.to_string() && found.hi.to_string() == high.to_string()
+                }
                 _ => false,
             };
             same && same_verdict(claim.verdict(), d.verdict)

@@ -1,11 +1,13 @@
 //! Certificates of the orders of smoothness of a curve.
 
 use super::joint::{radius_proof, stated};
-use super::{Certificate, Unsupported, contraction, unsupported};
+use super::{Certificate, Unsupported, contraction, number, numbers, unsupported};
 use crate::algebraic::Root;
 use crate::case::Case;
 use crate::radius::{JointRadius, Lower, System};
 use crate::shape::{Balls, Contraction, Spaces};
+use crate::theorem::Measure;
+use crate::theorem::exponent::ExponentBound;
 use crate::theorem::smoothness::{CurveOrder, CurveRegularity, Outcome};
 use serde_json::{Value, json};
 
@@ -27,8 +29,22 @@ pub fn regularity_certificate(
     let states = contraction(shape, contracts, radii, None)?;
     let decided = found.orders.iter().take_while(|o| o.smooth().is_some());
     let orders = decided.map(order).collect::<Result<Vec<Value>, _>>()?;
-    let proof = json!({"contraction": states, "orders": orders});
+    let proof = match found.measure() {
+        Measure::Uniform => json!({"contraction": states, "orders": orders}),
+        Measure::Shares => {
+            let [below, above] = [&found.bounds.below, &found.bounds.above].map(exponent);
+            json!({"contraction": states, "orders": orders, "exponent": {"below": below?, "above": above?}})
+        }
+    };
     Ok(Certificate::new("regularity", &case.name, "proved", proof))
+}
+
+/// On which side of an exponent the supremum lies, and why.
+fn exponent(bound: &Option<ExponentBound>) -> Result<Value, Unsupported> {
+    let Some(bound) = bound else { return Ok(Value::Null) };
+    let factors: Vec<Value> = bound.factors.iter().map(|own| numbers(own)).collect();
+    let radius = radius(Some(&bound.system), Some(&bound.radius), "exponent")?;
+    Ok(json!({"at": number(&bound.at), "factors": factors, "radius": radius}))
 }
 
 /// The bounds of the radius of a system; `null` where all spaces are 0.

@@ -156,7 +156,7 @@ fn distinct(mut words: Vec<String>) -> Vec<String> {
 
 /// What is known of every point, and of the parameter.
 fn smoothness(found: &Certified) -> String {
-    let claims = found.claims.iter().filter(|c| !c.what.is_of_tangents() && !matches!(c.what, Assertion::Exponent(_)));
+    let claims = found.claims.iter().filter(|c| !c.what.is_of_tangents() && !matches!(c.what, Assertion::Exponent(..)));
     claims.map(|c| format!("; {} {}", escaped(&claims::label(&c.what)), c.verdict().word())).collect()
 }
 

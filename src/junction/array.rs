@@ -186,12 +186,13 @@ impl Junction {
             name: "W".to_owned(),
             kind: CellKind::Edge,
             dim: size,
-            pieces: joined.into_iter().map(|(target, op)| Piece { target, op, reversed: false }).collect(),
+            pieces: joined.into_iter().map(|(target, op)| Piece { target, op, reversed: false, share: None }).collect(),
             left: None,
             right: None,
         };
         let targets = (0..self.pattern.left).map(|_| 2).chain([1]).chain((0..self.pattern.right).map(|_| 3));
-        let pieces = targets.zip(self.operators(array)).map(|(target, op)| Piece { target, op, reversed: false });
+        let pieces =
+            targets.zip(self.operators(array)).map(|(target, op)| Piece { target, op, reversed: false, share: None });
         let between = State {
             name: "I".to_owned(),
             kind: CellKind::Edge,
@@ -218,7 +219,7 @@ fn curve(name: &str, side: &Side, index: usize, vertex: usize) -> State {
         name: name.to_owned(),
         kind: CellKind::Edge,
         dim: n,
-        pieces: pieces.map(|(op, r)| Piece { target: index, op: op.clone(), reversed: *r }).collect(),
+        pieces: pieces.map(|(op, r)| Piece { target: index, op: op.clone(), reversed: *r, share: None }).collect(),
         left: Some(Boundary { vertex, op: inclusion(n, 0, side.shared) }),
         right: Some(Boundary { vertex, op: inclusion(n, n - side.shared, side.shared) }),
     }
@@ -226,6 +227,6 @@ fn curve(name: &str, side: &Side, index: usize, vertex: usize) -> State {
 
 fn vertex(name: &str, side: &Side, index: usize) -> State {
     let op = side.vertex().transpose();
-    let pieces = vec![Piece { target: index, op, reversed: false }];
+    let pieces = vec![Piece { target: index, op, reversed: false, share: None }];
     State { name: name.to_owned(), kind: CellKind::Vertex, dim: side.shared, pieces, left: None, right: None }
 }

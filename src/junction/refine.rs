@@ -141,7 +141,7 @@ fn glued(complex: &Complex, cells: &[Cell], places: &[Vec<usize>], embedding: &M
     let pieces: Vec<Piece> = cells
         .iter()
         .zip(places)
-        .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed })
+        .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed, share: None })
         .collect();
     let (start, old) = (complex.shape.start, &complex.shape.states[complex.shape.start]);
     let again =

@@ -71,7 +71,7 @@ pub fn image(law: Law, shape: &Shape, seed: u64) -> Option<Image> {
             }
             for state in &mut set.states {
                 state.kind = CellKind::Set;
-                state.pieces.iter_mut().for_each(|p| p.reversed = false);
+                state.pieces.iter_mut().for_each(|p| (p.reversed, p.share) = (false, None));
             }
             Some(same(set, seen))
         }
@@ -240,13 +240,19 @@ const MAX_PIECES: usize = 36;
 
 fn words(shape: &Shape) -> Option<Shape> {
     let mut new = shape.clone();
+    let divided = shape.has_shares();
     for (e, state) in shape.states.iter().enumerate() {
         let mut pieces = Vec::new();
-        for piece in &state.pieces {
+        for (first, piece) in state.pieces.iter().enumerate() {
             let mut inner: Vec<Piece> = shape.states[piece.target]
                 .pieces
                 .iter()
-                .map(|p| Piece { target: p.target, op: &piece.op * &p.op, reversed: piece.reversed != p.reversed })
+                .enumerate()
+                .map(|(second, p)| {
+                    let share = shape.states[e].share(first) * shape.states[piece.target].share(second);
+                    let (op, reversed) = (&piece.op * &p.op, piece.reversed != p.reversed);
+                    Piece { target: p.target, op, reversed, share: divided.then_some(share) }
+                })
                 .collect();
             if piece.reversed {
                 inner.reverse();
@@ -264,7 +270,7 @@ fn words(shape: &Shape) -> Option<Shape> {
 fn wrapped(shape: &Shape) -> Shape {
     let mut new = shape.clone();
     let start = &shape.states[shape.start];
-    let piece = Piece { target: shape.start, op: Matrix::identity(start.dim), reversed: false };
+    let piece = Piece { target: shape.start, op: Matrix::identity(start.dim), reversed: false, share: None };
     let name = "in-front".to_owned();
     new.states.push(State { name, kind: start.kind, dim: start.dim, pieces: vec![piece], left: None, right: None });
     new.start = new.states.len() - 1;

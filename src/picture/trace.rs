@@ -98,7 +98,7 @@ impl<'a> Tracer<'a> {
         cells.iter().flat_map(points).collect()
     }
 
-    /// The graph of a functional over the uniform parameter of an edge state.
+    /// The graph of a functional over the parameter of an edge state.
     pub fn profile(&self, state: usize, row: &DMatrix<f64>) -> Vec<[f64; 2]> {
         let most = self.shape.states.iter().map(|s| s.pieces.len()).max().unwrap_or(1).max(2);
         let depth = (1..=12).take_while(|d| most.pow(*d) <= 400).count().max(1);
@@ -115,11 +115,12 @@ impl<'a> Tracer<'a> {
             out.extend([[t.0, ends[(0, a)]], [t.1, ends[(0, b)]]]);
             return;
         }
-        let step = (t.1 - t.0) / pieces.len() as f64;
+        let mut from = t.0;
         for k in 0..pieces.len() {
             let letter = if back { pieces.len() - 1 - k } else { k };
             let piece = &pieces[letter];
-            let part = (t.0 + step * k as f64, t.0 + step * (k as f64 + 1.0));
+            let part = (from, from + (t.1 - t.0) * to_f64(&self.shape.states[e].share(letter)));
+            from = part.1;
             self.graph(piece.target, &(row * &self.ops[e][letter]), part, depth - 1, back != piece.reversed, out);
         }
     }

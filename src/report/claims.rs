@@ -7,7 +7,8 @@ use crate::case::Case;
 use crate::shape::word_text;
 use crate::theorem::surface::{Surface, SurfacePoint};
 use crate::theorem::{
-    About, AboutPlane, Assertion, Certified, Claim, Limit, Parameter, PointReport, Reason, Role, Seen, Topic, Verdict,
+    About, AboutPlane, Assertion, Certified, Claim, Limit, Measure, Parameter, PointReport, Reason, Role, Seen, Topic,
+    Verdict,
 };
 use crate::vertex::AtValence;
 
@@ -43,15 +44,15 @@ pub fn assertion(what: &Assertion) -> String {
         }
         Assertion::SomePoint => "some point of the shape has a tangent line",
         Assertion::G1 => "the curve is G¹: it has a tangent at every point, which turns continuously",
-        Assertion::Smooth { order } => return format!("the curve is C^{order} in the uniform parameter"),
-        Assertion::Polynomial => "the curve is a polynomial in the uniform parameter, C^k for all k",
-        Assertion::Exponent(bounds) => {
+        Assertion::Smooth { order, over } => return format!("the curve is C^{order} in {}", parameter(*over)),
+        Assertion::Polynomial(over) => {
+            return format!("the curve is a polynomial in {}, C^k for all k", parameter(*over));
+        }
+        Assertion::Exponent(bounds, over) => {
+            let exponents = format!("the Hölder exponents of the curve in {} have", parameter(*over));
             return match bounds {
-                Some(b) => format!(
-                    "the Hölder exponents of the curve in the uniform parameter have the supremum {}",
-                    super::radius::interval(b)
-                ),
-                None => "the Hölder exponents of the curve in the uniform parameter have a bound".to_owned(),
+                Some(b) => format!("{exponents} the supremum {}", super::radius::interval(b)),
+                None => format!("{exponents} a bound"),
             };
         }
         Assertion::PlaneAtVertices => {
@@ -107,11 +108,20 @@ pub fn assertion(what: &Assertion) -> String {
     text.to_owned()
 }
 
+/// The parameter, in words.
+#[must_use]
+pub fn parameter(over: Measure) -> &'static str {
+    match over {
+        Measure::Uniform => "the uniform parameter",
+        Measure::Shares => "the parameter with the given shares",
+    }
+}
+
 /// What a claim is about, in the first column of a table: `ends`, `every point (G¹)`, `C²`.
 #[must_use]
 pub fn label(what: &Assertion) -> String {
     match (what, what.topic()) {
-        (Assertion::Polynomial, _) => "C^k for all k".to_owned(),
+        (Assertion::Polynomial(_), _) => "C^k for all k".to_owned(),
         (Assertion::PlaneAtVertices, _) => "vertices".to_owned(),
         (Assertion::SomePoint, _) => "some point".to_owned(),
         (Assertion::DenseJoints | Assertion::SeenJoints, _) => "joints (dense)".to_owned(),

@@ -8,7 +8,9 @@ use super::words::{count, listed, mark, point_name};
 use crate::case::Case;
 use crate::shape::word_text;
 use crate::theorem::cone::{CommonCone, ConeObstacle};
-use crate::theorem::{Certified, Component, Components, Everywhere, Hodograph, Kind, PointReport, Turn, Verdict};
+use crate::theorem::{
+    Certified, Component, Components, Everywhere, Hodograph, Kind, Measure, PointReport, Turn, Verdict,
+};
 use serde_json::{Value, json};
 
 /// Places of an exponent.
@@ -55,8 +57,9 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
     }
     if let (Some(exponent), Some(rate)) = (&every.exponent, every.cone.as_ref().and_then(|c| c.rate.as_ref())) {
         let text = format!(
-            "the tangent is Hölder-continuous in the uniform parameter with an exponent of at least {} (products of {} \
+            "the tangent is Hölder-continuous in {} with an exponent of at least {} (products of {} \
              shrink the Hilbert diameter of the cones to at most {} of its size)",
+            super::claims::parameter(if case.shape.has_shares() { Measure::Shares } else { Measure::Uniform }),
             decimal(exponent, false, PLACES),
             count(rate.length, "letter"),
             decimal(&rate.shrink().hi, true, PLACES)

@@ -134,12 +134,12 @@ pub fn cones(case: &Case, found: &Certified) -> Option<Block> {
 fn parameters(shape: &Shape, state: usize, word: &[usize]) -> (f64, f64) {
     let (mut from, mut width, mut back, mut at) = (0.0, 1.0, false, state);
     for &letter in word {
-        let pieces = &shape.states[at].pieces;
-        let place = if back { pieces.len() - 1 - letter } else { letter };
-        width /= pieces.len() as f64;
-        from += width * place as f64;
-        back ^= pieces[letter].reversed;
-        at = pieces[letter].target;
+        let state = &shape.states[at];
+        let (before, share) = (to_f64(&state.before(letter)), to_f64(&state.share(letter)));
+        from += width * if back { 1.0 - before - share } else { before };
+        width *= share;
+        back ^= state.pieces[letter].reversed;
+        at = state.pieces[letter].target;
     }
     (from, from + width)
 }

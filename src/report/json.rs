@@ -11,6 +11,7 @@ use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::jordan::Spectral;
 use crate::shape::{Contraction, word_text};
+use crate::theorem::local::LocalSide;
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
     BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Required, Role, Side,
@@ -43,7 +44,11 @@ pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requ
         "parameter": E::parameter_value(case, found),
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
-            None => found.points.iter().map(|p| point(case, p)).collect(),
+            None => {
+                let local = E::local_sides(case, found);
+                let of = |k: usize| local.get(k).map_or(&[][..], Vec::as_slice);
+                found.points.iter().enumerate().map(|(k, p)| point(case, p, of(k))).collect()
+            }
         },
     });
     if let Some(field) = E::field_text(&case.shape) {
@@ -213,9 +218,10 @@ fn contraction(c: &Contraction) -> Value {
     }
 }
 
-fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>) -> Value {
+fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>, local: &[LocalSide]) -> Value {
     let lead = p.branches.iter().find(|b| matches!(b.outcome, Outcome::AtLeast { .. } | Outcome::Open { .. }));
     let lead = lead.or_else(|| p.branches.first());
+    let sides: Vec<Value> = local.iter().map(super::local::value).collect();
     let mut out = json!({
         "address": p.branches.first().map(|b| b.address.to_string()),
         "addresses": p.branches.iter().map(|b| b.address.to_string()).collect::<Vec<_>>(),
@@ -231,6 +237,7 @@ fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>) -> Value {
             "right": p.right.iter().map(direction).collect::<Vec<_>>(),
         },
         "tangent": p.tangent.as_ref().map(direction),
+        "local": sides,
     });
     if let (Value::Object(map), Some(branch)) = (&mut out, lead) {
         for (key, value) in branch_fields(branch) {

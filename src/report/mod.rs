@@ -12,6 +12,7 @@ pub mod html;
 pub mod json;
 pub mod latex;
 pub mod lattice;
+mod local;
 pub mod markdown;
 pub mod math;
 pub mod mathml;

@@ -6,10 +6,11 @@ use crate::arith::{Integer, Interval, Rational};
 use crate::radius::JointRadius;
 use crate::scheme::Normalisation;
 use crate::shape::{Shape, word_text};
+use crate::theorem::Measure;
 use crate::theorem::enclosed::Enclosed;
 use crate::theorem::filter::{Near, Remark};
 use crate::theorem::regularity::{Attained, Regularity};
-use crate::theorem::smoothness::{CurveOrder, CurveRegularity, Outcome};
+use crate::theorem::smoothness::{CurveOrder, CurveRegularity, Outcome, Shares};
 use malachite_base::num::arithmetic::traits::Ceiling;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -160,7 +161,7 @@ fn smooth_between(e: &Enclosed) -> (Integer, Integer) {
 }
 
 /// A pair of bounds as decimals, rounded outwards.
-fn bounds(x: &Interval) -> Value {
+pub(super) fn bounds(x: &Interval) -> Value {
     json!([decimal(&x.lo, false, 15), decimal(&x.hi, true, 15)])
 }
 
@@ -251,26 +252,40 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
         })
     };
     json!({
-        "kind": "curve", "pieces": r.pieces, "orders": r.orders.iter().map(order).collect::<Value>(),
+        "kind": "curve", "pieces": r.pieces, "shares": r.orders.iter().find_map(|o| o.shares.as_ref()).map(shares), "orders": r.orders.iter().map(order).collect::<Value>(),
         "smoothness": r.smoothness(), "polynomial": r.polynomial,
         "exponent": r.exponent.as_ref().map(bounds), "attained": r.attained,
     })
+}
+
+/// By reachable state and letter.
+fn shares(all: &Shares) -> Value {
+    all.iter().map(|own| texts(own)).collect()
 }
 
 /// The table of `secant regularity` for a curve that is given by its operators.
 #[must_use]
 pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
     let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "curve of {} pieces in every state that comes back to itself, in the uniform parameter",
-        r.pieces
-    );
+    let bound = match r.measure() {
+        Measure::Uniform => {
+            let n = r.pieces;
+            let _ =
+                writeln!(out, "curve of {n} pieces in every state that comes back to itself, in the uniform parameter");
+            format!("(JSR < {n}^-k)")
+        }
+        Measure::Shares => {
+            let _ = writeln!(
+                out,
+                "curve in the parameter with the given shares s, which operators of k-th derivatives are divided by"
+            );
+            "(JSR of the s^-k T < 1)".to_owned()
+        }
+    };
     let _ = writeln!(
         out,
         "condition   C^k if and only if C^(k-1), products of k-th derivatives tend to 0 on their differences\n            \
-         (JSR < {}^-k), and the two values agree at every joint",
-        r.pieces
+         {bound}, and the two values agree at every joint"
     );
     out.push_str("k   dims      JSR on differences of derivatives  bound    joints  C^k    word\n");
     let mut notes = String::new();

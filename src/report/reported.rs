@@ -9,7 +9,8 @@ use crate::case::Case;
 use crate::linalg::{Entry, Matrix};
 use crate::shape::Shape;
 use crate::theorem::cone::{Cone, ConeMap};
-use crate::theorem::{Certified, Parameter, Provable, Statement, field};
+use crate::theorem::local::{LocalContext, LocalSide};
+use crate::theorem::{Certified, Parameter, PointReport, Provable, Statement, field};
 use serde_json::{Value, json};
 
 /// Entries of shapes on which there are reports.
@@ -35,6 +36,10 @@ pub trait Reported: Provable {
     /// What is known of the uniform parameter, as data.
     fn parameter_value(_: &Case<Self>, _: &Certified<Self>) -> Value {
         Value::Null
+    }
+    /// Critical orders and local derivatives, by point.
+    fn local_sides(_: &Case<Self>, _: &Certified<Self>) -> Vec<Vec<LocalSide>> {
+        Vec::new()
     }
     /// The table of results where there is none of points.
     fn results(_: &Case<Self>, _: &Certified<Self>) -> Option<Block> {
@@ -70,6 +75,12 @@ impl Reported for Rational {
             Some(Parameter::Orders(orders)) => regularity::curve_data(&case.shape, orders),
             _ => Value::Null,
         }
+    }
+
+    fn local_sides(case: &Case, found: &Certified) -> Vec<Vec<LocalSide>> {
+        let Some(context) = LocalContext::new(&case.shape, &found.contraction) else { return Vec::new() };
+        let of = |p: &PointReport| p.branches.iter().flat_map(|b| context.sides(b)).collect();
+        found.points.iter().map(of).collect()
     }
 
     fn results(case: &Case, found: &Certified) -> Option<Block> {

@@ -13,6 +13,7 @@ use super::words::{
 };
 use crate::case::{Case, Origin};
 use crate::shape::{CellKind, Frame};
+use crate::theorem::local::LocalSide;
 use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict};
 
 /// Points in the table at the top; all of them follow one by one.
@@ -41,8 +42,10 @@ pub fn summary<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Req
         blocks.push(Block::heading(2, "Every point"));
         blocks.push(Block::Facts(every));
     }
-    for point in &found.points {
-        blocks.extend(point_blocks(case, point, verbose));
+    let local = if verbose { E::local_sides(case, found) } else { Vec::new() };
+    for (k, point) in found.points.iter().enumerate() {
+        let sides = local.get(k).map_or(&[][..], Vec::as_slice);
+        blocks.extend(point_blocks(case, point, verbose, sides));
     }
     if let Some(surface) = &found.surface {
         blocks.push(Block::heading(2, "Every point"));
@@ -225,7 +228,7 @@ fn shape_facts<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Vec<(String
     facts
 }
 
-fn point_blocks<E: Reported>(case: &Case<E>, point: &PointReport<E>, verbose: bool) -> Vec<Block> {
+fn point_blocks<E: Reported>(case: &Case<E>, point: &PointReport<E>, verbose: bool, local: &[LocalSide]) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -246,6 +249,9 @@ fn point_blocks<E: Reported>(case: &Case<E>, point: &PointReport<E>, verbose: bo
     let branches = shown_branches(point);
     for branch in &branches {
         facts.extend(branch_facts(branches.len() > 1, branch, verbose, point.role != Role::SetPoint));
+    }
+    for side in local {
+        facts.push((super::local::name(side), super::local::fact(side)));
     }
     vec![Block::Heading(3, head), Block::Facts(facts)]
 }

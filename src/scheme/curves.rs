@@ -49,7 +49,7 @@ pub fn bezier(degree: usize, split: &Rational) -> Result<Shape, SchemeError> {
 
 /// A vertex state with one coordinate and index `index`.
 pub(super) fn point_vertex(index: usize) -> State {
-    let pieces = vec![Piece { target: index, op: Matrix::identity(1), reversed: false }];
+    let pieces = vec![Piece { target: index, op: Matrix::identity(1), reversed: false, share: None }];
     State { name: "v".to_owned(), kind: CellKind::Vertex, dim: 1, pieces, left: None, right: None }
 }
 
@@ -295,39 +295,4 @@ pub fn fern() -> Result<Shape, SchemeError> {
         map([[a, b], [c, d]], [e, f])
     });
     plane_shape(CellKind::Set, &maps)
-}
-
-/// The fractal interpolation function through `points`, with vertical factors `alpha`, one for each interval: `L_j` affine,
-/// `F_j(x, y) = α_j y + c_j x + f_j` (Barnsley, *Fractal functions and interpolation*, Constr. Approx. 2, 1986).
-///
-/// # Errors
-/// [`SchemeError::Value`] where there are fewer than 3 points, abscissas do not increase, the numbers do not match, or a
-/// factor is not smaller than 1 in modulus.
-pub fn fractal_interpolation(points: &[[Rational; 2]], alpha: &[Rational]) -> Result<Shape, SchemeError> {
-    if points.len() < 3 || points.windows(2).any(|w| w[0][0] >= w[1][0]) {
-        return Err(SchemeError::value(
-            "points",
-            &points.len(),
-            "at least 3 points with increasing abscissas are needed",
-        ));
-    }
-    if alpha.len() + 1 != points.len() {
-        return Err(SchemeError::value("alpha", &alpha.len(), "one factor for each interval is needed"));
-    }
-    if let Some(bad) = alpha.iter().find(|a| **a <= -1 || **a >= 1) {
-        return Err(SchemeError::value("alpha", bad, "the factors lie between −1 and 1"));
-    }
-    let (first, last) = (&points[0], &points[points.len() - 1]);
-    let width = &last[0] - &first[0];
-    let maps: Vec<PlaneMap> = points
-        .windows(2)
-        .zip(alpha)
-        .map(|(w, d)| {
-            let a = (&w[1][0] - &w[0][0]) / &width;
-            let c = (&w[1][1] - &w[0][1] - d * (&last[1] - &first[1])) / &width;
-            let shift = [&w[0][0] - &a * &first[0], &w[0][1] - &c * &first[0] - d * &first[1]];
-            map([[a, Rational::from(0)], [c, d.clone()]], shift)
-        })
-        .collect();
-    plane_shape(CellKind::Edge, &maps)
 }

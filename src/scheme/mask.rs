@@ -186,7 +186,7 @@ impl Mask {
             name: "v".to_owned(),
             kind: CellKind::Vertex,
             dim: n - 1,
-            pieces: vec![Piece { target: 1, op: vertex_operator, reversed: false }],
+            pieces: vec![Piece { target: 1, op: vertex_operator, reversed: false, share: None }],
             left: None,
             right: None,
         });

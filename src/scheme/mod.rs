@@ -4,6 +4,7 @@ mod border;
 mod curves;
 mod error;
 mod fractint;
+mod interpolation;
 mod irrational;
 mod json;
 mod lattice;
@@ -27,11 +28,12 @@ mod wavelets;
 
 pub use border::{BorderError, BorderScheme, BorderSide, MAX_COLUMN, NamedSide, averaged_border};
 pub use curves::{
-    PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, fractal_interpolation, hilbert, koch, lebesgue, levy,
-    minkowski_sausage, okamoto, peano, plane_shape, sierpinski, takagi, terdragon,
+    PlaneMap, arrowhead, bezier, corner_cutting, dragon, fern, hilbert, koch, lebesgue, levy, minkowski_sausage,
+    okamoto, peano, plane_shape, sierpinski, takagi, terdragon,
 };
 pub use error::SchemeError;
 pub use fractint::{FractintEntry, parse_fractint};
+pub use interpolation::{Interpolation, MAX_INTERPOLATION, Matching};
 pub use irrational::{FieldLocalMatrix, FieldMask, daubechies, field_local_matrix};
 pub use json::parse_json;
 pub use lattice::{

@@ -83,13 +83,13 @@ pub fn disc_complex(rule: &MeshRule, valence: usize) -> Result<Complex, SchemeEr
     let sectors = builder.sectors().ok_or_else(|| builder.small())?;
     let ring = builder.mesh.walk(builder.centre, 2).ok_or_else(|| builder.small())?.points;
     let step = super::local_matrix(rule, valence, 2)?.matrix.transpose();
-    let mut pieces = vec![Piece { target: 0, op: step, reversed: false }];
+    let mut pieces = vec![Piece { target: 0, op: step, reversed: false, share: None }];
     for centre in sectors {
         let points = builder.points(&builder.mesh, centre, Cell::Face, CENTRE)?;
         let sector = builder.inclusion(&ring, &points)?;
         for piece in shape.states[0].pieces.iter().skip(1) {
             // Indices of states move up by one.
-            pieces.push(Piece { target: piece.target + 1, op: &sector * &piece.op, reversed: false });
+            pieces.push(Piece { target: piece.target + 1, op: &sector * &piece.op, reversed: false, share: None });
         }
     }
     for state in &mut shape.states {
@@ -270,7 +270,12 @@ impl<'a> Builder<'a> {
         for (cell, at) in self.parts(site.cell, (2 * place.0, 2 * place.1)) {
             let new = self.points(&self.refined.mesh, self.refined.centre, cell, at)?;
             let rows: Vec<&Row> = new.iter().map(|v| &self.refined.rows[*v]).collect();
-            pieces.push(Piece { target: self.kind(cell, at), op: self.operator(&points, &rows)?, reversed: false });
+            pieces.push(Piece {
+                target: self.kind(cell, at),
+                op: self.operator(&points, &rows)?,
+                reversed: false,
+                share: None,
+            });
         }
         let kind = match site.cell {
             Cell::Vertex => CellKind::Vertex,

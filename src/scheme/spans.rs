@@ -36,7 +36,7 @@ pub fn of_spans(mut shape: Shape, spans: Vec<Matrix>) -> Result<Shape, SchemeErr
         return Err(SchemeError::Large { what: "number of spans", size: spans.len(), limit: MAX_SPANS });
     }
     let (dim, target) = (first.rows(), shape.start);
-    let pieces = spans.into_iter().map(|op| Piece { target, op, reversed: false }).collect();
+    let pieces = spans.into_iter().map(|op| Piece { target, op, reversed: false, share: None }).collect();
     shape.start = shape.states.len();
     shape.states.push(State { name: "polygon".to_owned(), kind: CellKind::Edge, dim, pieces, left: None, right: None });
     super::mask::verify(&shape)?;

@@ -73,7 +73,12 @@ impl Product {
         for q in &y.pieces {
             for p in &x.pieces {
                 let op = kronecker(&p.op, &q.op);
-                pieces.push(Piece { target: self.index(p.target, q.target), op, reversed: p.reversed || q.reversed });
+                pieces.push(Piece {
+                    target: self.index(p.target, q.target),
+                    op,
+                    reversed: p.reversed || q.reversed,
+                    share: None,
+                });
             }
         }
         let kind = match (x.kind, y.kind) {

@@ -90,6 +90,9 @@ fn maps(out: &mut String, state: &State) {
         if piece.reversed {
             out.push_str("reversed = true\n");
         }
+        if let Some(share) = &piece.share {
+            let _ = writeln!(out, "share = {}", entry(share));
+        }
     }
 }
 
@@ -99,6 +102,10 @@ fn pieces(out: &mut String, state: &State) {
         let _ = writeln!(out, "    {},", matrix(&piece.op, "     "));
     }
     out.push_str("]\n");
+    if state.pieces.iter().any(|p| p.share.is_some()) {
+        let shares: Vec<String> = (0..state.pieces.len()).map(|i| entry(&state.share(i))).collect();
+        let _ = writeln!(out, "shares = [{}]", shares.join(", "));
+    }
     let reversed: Vec<String> =
         state.pieces.iter().enumerate().filter(|(_, p)| p.reversed).map(|(k, _)| k.to_string()).collect();
     if !reversed.is_empty() {
@@ -141,6 +148,9 @@ fn table(out: &mut String, complex: &Complex, index: usize) {
         if piece.reversed {
             out.push_str("reversed = true\n");
         }
+        if let Some(share) = &piece.share {
+            let _ = writeln!(out, "share = {}", entry(share));
+        }
         if let Some(corners) = face.and_then(|f| f.placement.get(letter)) {
             let corners: Vec<String> = corners.iter().map(ToString::to_string).collect();
             let _ = writeln!(out, "corners = [{}]", corners.join(", "));
@@ -161,9 +171,12 @@ fn part(op: &Matrix) -> String {
     }
 }
 
+fn entry(x: &Rational) -> String {
+    if *x.denominator_ref() == 1 { x.to_string() } else { format!("\"{x}\"") }
+}
+
 /// The rows on lines of their own behind `indent`, or on one line where there is none.
 fn matrix(m: &Matrix, indent: &str) -> String {
-    let entry = |x: &Rational| if *x.denominator_ref() == 1 { x.to_string() } else { format!("\"{x}\"") };
     let row = |i: usize| format!("[{}]", m.row(i).iter().map(entry).collect::<Vec<_>>().join(", "));
     let separator = if indent.is_empty() { ", ".to_owned() } else { format!(",\n{indent}") };
     format!("[{}]", (0..m.rows()).map(row).collect::<Vec<_>>().join(&separator))

@@ -116,8 +116,7 @@ impl<E: Entry> Shape<E> {
         }
     }
 
-    /// The address of a parameter of the curve of a state, in which the pieces of every cell take equal parts; `None` where the
-    /// parameter is not between 0 and 1, or a state on the way is no curve.
+    /// The address of a parameter of the curve of a state, of which the pieces take their shares; `None` where the parameter is not between 0 and 1, or a state on the way is no curve.
     #[must_use]
     pub fn address_of(&self, state: usize, parameter: &Rational) -> Option<Address> {
         if *parameter < 0 || *parameter > 1 {
@@ -131,9 +130,8 @@ impl<E: Entry> Shape<E> {
             }
             seen.push((at, t.clone()));
             let state = self.states.get(at).filter(|s| s.kind == CellKind::Edge)?;
-            let scaled = &t * Rational::from(state.pieces.len());
-            let letter = (0..state.pieces.len()).rev().find(|k| scaled >= *k)?;
-            t = scaled - Rational::from(letter);
+            let letter = (0..state.pieces.len()).rev().find(|k| t >= state.before(*k))?;
+            t = (t - state.before(letter)) / state.share(letter);
             if state.pieces[letter].reversed {
                 t = Rational::from(1) - t;
             }
@@ -141,6 +139,22 @@ impl<E: Entry> Shape<E> {
             at = state.pieces[letter].target;
         }
         None
+    }
+
+    /// The map `t ↦ slope t + offset` of parameters that belongs to a word, whose pieces take their shares; `None` where a state on
+    /// the way is no curve, or has no such piece.
+    #[must_use]
+    pub fn parameter_map(&self, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
+        let (mut slope, mut offset, mut at) = (Rational::from(1), Rational::from(0), start);
+        for letter in word {
+            let state = self.states.get(at).filter(|s| s.kind == CellKind::Edge)?;
+            let piece = state.pieces.get(*letter)?;
+            let part = state.share(*letter);
+            offset += &slope * state.before(letter + usize::from(piece.reversed));
+            slope *= if piece.reversed { -part } else { part };
+            at = piece.target;
+        }
+        Some((slope, offset))
     }
 
     /// An end point of the curve of a state.

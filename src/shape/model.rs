@@ -33,6 +33,8 @@ pub struct Piece<E = Rational> {
     pub op: Matrix<E>,
     /// Whether the piece runs against the parameter of `e` (edges only).
     pub reversed: bool,
+    /// What the piece takes of the parameter of `e`; `None`: an equal part. Either all pieces of an edge have one, or none has.
+    pub share: Option<Rational>,
 }
 
 /// A boundary operator `∂ : X_vertex -> X_edge`.
@@ -59,6 +61,34 @@ pub struct State<E = Rational> {
     pub left: Option<Boundary<E>>,
     /// `∂_1`, where the case gives it.
     pub right: Option<Boundary<E>>,
+}
+
+impl<E> State<E> {
+    /// What a piece takes of the parameter: its own share, or an equal part.
+    ///
+    /// # Panics
+    /// Where there is no such piece.
+    #[must_use]
+    pub fn share(&self, letter: usize) -> Rational {
+        match &self.pieces[letter].share {
+            Some(share) => share.clone(),
+            None => Rational::from(1) / Rational::from(self.pieces.len()),
+        }
+    }
+
+    /// What the pieces before one take of the parameter.
+    #[must_use]
+    pub fn before(&self, letter: usize) -> Rational {
+        (0..letter).fold(Rational::from(0), |sum, i| sum + self.share(i))
+    }
+
+    /// Whether shares, where there are any, are those of all pieces of a curve, positive and of sum 1.
+    fn divides_parameter(&self) -> bool {
+        let shares: Vec<&Rational> = self.pieces.iter().filter_map(|p| p.share.as_ref()).collect();
+        let whole = || shares.iter().fold(Rational::from(0), |sum, s| sum + *s) == 1;
+        let own = self.kind == CellKind::Edge && shares.len() == self.pieces.len();
+        shares.is_empty() || own && shares.iter().all(|s| **s > 0) && whole()
+    }
 }
 
 /// A self-similar shape: the attractors of an automaton of operators (theory §1), with entries in the rationals or in a real
@@ -127,6 +157,14 @@ pub enum ShapeError {
         /// Number of coordinates.
         expected: usize,
     },
+    /// Shares of the parameter that are no division of it.
+    #[error("the shares of the pieces of state `{state}` must be positive and sum to 1, one for each piece of a curve")]
+    Shares {
+        /// The state.
+        state: String,
+        /// Its index.
+        index: usize,
+    },
     /// A boundary of the wrong size or with a column sum other than 1.
     #[error(
         "the {side} boundary of state `{state}` must be a {expected:?} matrix with column sums 1 from a vertex state"
@@ -147,9 +185,12 @@ impl<E: Entry> Shape<E> {
     /// # Errors
     /// The first [`ShapeError`] found, in the order of the states.
     pub fn check(&self) -> Result<(), ShapeError> {
-        for state in &self.states {
+        for (index, state) in self.states.iter().enumerate() {
             if state.pieces.is_empty() {
                 return Err(ShapeError::NoPiece { state: state.name.clone() });
+            }
+            if !state.divides_parameter() {
+                return Err(ShapeError::Shares { state: state.name.clone(), index });
             }
             for (letter, piece) in state.pieces.iter().enumerate() {
                 self.check_operator(state, letter, piece)?;
@@ -197,7 +238,7 @@ impl<E: Entry> Shape<E> {
     #[must_use]
     pub fn single(kind: CellKind, operators: Vec<Matrix<E>>) -> Self {
         let dim = operators.first().map_or(0, Matrix::rows);
-        let pieces = operators.into_iter().map(|op| Piece { target: 0, op, reversed: false }).collect();
+        let pieces = operators.into_iter().map(|op| Piece { target: 0, op, reversed: false, share: None }).collect();
         let state = State { name: "A".to_owned(), kind, dim, pieces, left: None, right: None };
         Self { states: vec![state], start: 0, control: None, frame: Frame::Barycentric }
     }
@@ -228,6 +269,12 @@ impl<E: Entry> Shape<E> {
     #[must_use]
     pub fn affine_control(d: usize) -> Matrix<E> {
         Matrix::from_fn(d, d + 1, |i, j| E::integer(i64::from(i + 1 == j)))
+    }
+
+    /// Whether some piece that can be reached has a share of the parameter of its own.
+    #[must_use]
+    pub fn has_shares(&self) -> bool {
+        self.reachable().iter().any(|&e| self.states[e].pieces.iter().any(|p| p.share.is_some()))
     }
 
     /// States that can be reached from the start, in breadth-first order.

@@ -42,7 +42,7 @@ impl OwnPoints {
             let mut pieces = Vec::new();
             for piece in state.pieces.iter().filter(|_| reachable.contains(&e)) {
                 let op = self.0[e].solve(&(&piece.op * &self.0[piece.target]))?;
-                pieces.push(Piece { target: piece.target, op, reversed: piece.reversed });
+                pieces.push(Piece { target: piece.target, op, reversed: piece.reversed, share: piece.share.clone() });
             }
             let (name, kind, dim) = (state.name.clone(), state.kind, self.0[e].cols());
             states.push(State { name, kind, dim, pieces, left: None, right: None });

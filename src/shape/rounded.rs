@@ -29,7 +29,7 @@ impl Shape<Real> {
             pieces: s
                 .pieces
                 .iter()
-                .map(|p| Piece { target: p.target, op: operator(&p.op), reversed: p.reversed })
+                .map(|p| Piece { target: p.target, op: operator(&p.op), reversed: p.reversed, share: p.share.clone() })
                 .collect(),
             left: boundary(&s.left),
             right: boundary(&s.right),

@@ -1,6 +1,6 @@
 //! Exact points of an attractor to a given depth, and at random addresses.
 
-use super::{Address, CellKind, Complex, End, Face, Layout, Shape};
+use super::{Address, CellKind, Complex, End, Face, Layout, Shape, State};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 use std::collections::BTreeMap;
@@ -97,9 +97,8 @@ pub fn random_sample(
         }
         let (mut point, mut parameter) = (bases[&at].clone(), Rational::from(0));
         for (state, letter) in path.into_iter().skip(1).rev() {
-            let pieces = &shape.states[state].pieces;
-            point = pieces[letter].op.apply(&point);
-            parameter = placed(&parameter, letter, pieces.len(), pieces[letter].reversed);
+            point = shape.states[state].pieces[letter].op.apply(&point);
+            parameter = placed(&parameter, letter, &shape.states[state]);
         }
         found.points.push(shape.control.as_ref().map_or_else(|| point.clone(), |c| c.apply(&point)));
         found.parameters.push(parameter);
@@ -113,9 +112,9 @@ pub(super) fn base(shape: &Shape, state: usize) -> Option<Vec<Rational>> {
 }
 
 /// The address behind one more letter in front.
-fn placed(parameter: &Rational, letter: usize, count: usize, reversed: bool) -> Rational {
-    let inside = if reversed { Rational::from(1) - parameter } else { parameter.clone() };
-    (inside + Rational::from(letter as u64)) / Rational::from(count as u64)
+fn placed(parameter: &Rational, letter: usize, state: &State) -> Rational {
+    let inside = if state.pieces[letter].reversed { Rational::from(1) - parameter } else { parameter.clone() };
+    state.before(letter) + inside * state.share(letter)
 }
 
 struct Sampler<'a> {
@@ -174,7 +173,7 @@ impl Sampler<'_> {
             }
             let first = whole.points.len();
             let mut images = image(&piece.op, &inner.points);
-            let place = |t: &Rational| placed(t, letter, pieces.len(), piece.reversed);
+            let place = |t: &Rational| placed(t, letter, &complex.shape.states[state]);
             let mut parameters: Vec<Rational> = inner.parameters.iter().map(place).collect();
             if is_curve {
                 if piece.reversed {

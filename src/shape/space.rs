@@ -158,7 +158,7 @@ mod tests {
     #[test]
     fn states_without_fixed_points_span_the_segment() {
         let op = |shift: i64| Shape::affine_operator(&Matrix::from_fn(1, 1, |_, _| ratio(1, 2)), &[ratio(shift, 2)]);
-        let piece = |target, shift| Piece { target, op: op(shift), reversed: false };
+        let piece = |target, shift| Piece { target, op: op(shift), reversed: false, share: None };
         let states = vec![state("a", 2, vec![piece(1, 0), piece(1, 1)]), state("b", 2, vec![piece(0, 0), piece(0, 1)])];
         let shape = Shape { states, start: 0, control: None, frame: Frame::Barycentric };
         let spaces = Spaces::new(&shape).unwrap();

@@ -89,7 +89,7 @@ fn build(options: &AutomatonOptions, genes: &mut Genes) -> Shape {
                     let (from, to) = if reversed { (&side[1], &side[0]) } else { (&side[0], &side[1]) };
                     let flat = options.singular && genes.pick(5) == 4;
                     let op = operator(from, to, dims[target], flat, genes);
-                    Piece { target, op, reversed }
+                    Piece { target, op, reversed, share: None }
                 })
                 .collect();
             let name = format!("s{e}");

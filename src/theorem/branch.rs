@@ -497,8 +497,8 @@ impl<E: Provable> Analysis<'_, E> {
     fn holder(&self, top: &Top) -> Holder {
         let shape = self.cx.shape;
         let states = shape.path(self.branch.state, &self.branch.address.cycle);
-        let turns = states[..self.branch.address.cycle.len()].iter();
-        let scale = turns.fold(Rational::from(1), |s, &e| s / Rational::from(shape.states[e].pieces.len()));
+        let turns = self.branch.address.cycle.iter().zip(&states);
+        let scale = turns.fold(Rational::from(1), |s, (&letter, &e)| s * shape.states[e].share(letter));
         Holder { eigenvalue: top.root.clone(), scale, power: top.block - 1 }
     }
 }

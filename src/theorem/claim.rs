@@ -70,6 +70,24 @@ impl Claim {
     }
 }
 
+/// The parameter of a curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Measure {
+    /// Pieces take equal parts.
+    #[default]
+    Uniform,
+    /// Pieces take the shares that are given.
+    Shares,
+}
+
+impl Measure {
+    /// The parameter of a shape.
+    #[must_use]
+    pub fn of<E: crate::linalg::Entry>(shape: &crate::shape::Shape<E>) -> Self {
+        if shape.has_shares() { Self::Shares } else { Self::Uniform }
+    }
+}
+
 /// What a claim says. Every list of points that an index points into is named with it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
@@ -103,16 +121,18 @@ pub enum Assertion {
     SomePoint,
     /// The curve has a tangent at every point, and the tangent turns continuously.
     G1,
-    /// The curve is `C^k` in the uniform parameter.
+    /// The curve is `C^k` in its parameter.
     Smooth {
         /// The order `k`.
         order: usize,
+        /// The parameter.
+        over: Measure,
     },
-    /// The curve is a polynomial in the uniform parameter.
-    Polynomial,
-    /// The supremum of the Hölder exponents `k + α` of the curve in the uniform parameter lies in an interval; `None` where no
-    /// bound is known.
-    Exponent(Option<Interval>),
+    /// The curve is a polynomial in its parameter.
+    Polynomial(Measure),
+    /// The supremum of the Hölder exponents `k + α` of the curve in its parameter lies in an interval; `None` where no bound is
+    /// known.
+    Exponent(Option<Interval>, Measure),
     /// The surface has a tangent plane at every vertex of its first subdivision.
     PlaneAtVertices,
     /// The surface has a tangent plane at a dense set of points (Theorem 5″).
@@ -172,8 +192,8 @@ impl Assertion {
             Self::SomePoint => "some-point",
             Self::G1 => "g1",
             Self::Smooth { .. } => "smooth",
-            Self::Polynomial => "polynomial",
-            Self::Exponent(_) => "exponent",
+            Self::Polynomial(_) => "polynomial",
+            Self::Exponent(..) => "exponent",
             Self::PlaneAtVertices => "plane-at-vertices",
             Self::DensePlanes { .. } => "dense-planes",
             Self::PlaneEverywhere => "plane-everywhere",

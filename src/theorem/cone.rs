@@ -9,7 +9,7 @@ use crate::jordan::leading_roots;
 use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 use crate::statement::Statement;
-use malachite_base::num::arithmetic::traits::Floor;
+use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
 
 /// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -436,10 +436,16 @@ const MAX_RATE_WORK: usize = 30_000;
 /// Longer words improve the bound slowly and cost much, here and in the checker.
 const MAX_RATE_LENGTH: u32 = 3;
 
-/// The largest number of pieces of a state.
+/// The largest number of pieces of a state; where pieces have shares of their own, a number whose reciprocal none is below.
 #[must_use]
 pub fn most_pieces(shape: &Shape) -> usize {
-    shape.reachable().iter().map(|e| shape.states[*e].pieces.len()).fold(1, usize::max)
+    let states = shape.reachable().into_iter().map(|e| &shape.states[e]);
+    let parts = states.flat_map(|s| (0..s.pieces.len()).map(|i| (Rational::from(1) / s.share(i)).ceiling()));
+    let number = |n: Integer| match usize::try_from(&n) {
+        Ok(n) => n,
+        Err(_) => usize::MAX,
+    };
+    parts.map(number).fold(1, usize::max)
 }
 
 /// A short number not below one that is at least 1.
@@ -458,8 +464,8 @@ impl ConeRate {
         Interval::new(&top.lo / &bottom.hi, &top.hi / &bottom.lo)
     }
 
-    /// A lower bound of the Hölder exponent of the tangent in the uniform parameter of a curve whose states have at most
-    /// `pieces` pieces: two points closer than `pieces^-k` lie in one cell of level `k` or in two that meet, and the tangents in
+    /// A lower bound of the Hölder exponent of the tangent in the parameter of a curve whose pieces take at least `1/pieces` of
+    /// it: two points closer than `pieces^-k` lie in one cell of level `k` or in two that meet, and the tangents in
     /// a cell differ by at most a constant times `shrink^(k/length)`. `None` where the cones are rays (a straight line) or `pieces < 2`.
     #[must_use]
     pub fn exponent(&self, pieces: usize) -> Option<Rational> {

@@ -1,14 +1,15 @@
 //! Curves that are graphs over a parameter of their own (theory §11, Theorem 12): equal shares for all pieces, or the shares that
 //! positions give which every piece keeps in order.
 
-use super::smoothness::{Curve, CurveOrder, Outcome, Shares};
+use super::derived::Curve;
+use super::smoothness::{CurveOrder, Outcome, Shares};
 use crate::arith::Rational;
 use crate::jordan::modulus_classes;
 use crate::linalg::{Matrix, dot};
 use crate::radius::Options;
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 
-/// The order 1 of a curve that is a graph over its uniform parameter, as it is seen (Theorem 12); `None` where its hypotheses are
+/// The order 1 of a curve that is a graph over its parameter, as it is seen (Theorem 12); `None` where its hypotheses are
 /// not all proved.
 ///
 /// # Cost
@@ -24,7 +25,7 @@ pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -
 /// Linear systems and spectra of single pieces, then as above.
 #[must_use]
 pub fn graph_over_shares(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
-    let shares = shares(shape, spaces).filter(|shares| !are_equal(shares))?;
+    let shares = shares(shape, spaces).filter(|shares| shape.has_shares() || !are_equal(shares))?;
     graph(&Curve::of(shape, spaces, 1, Some(shares)).ok()?, shape, spaces, options)
 }
 

@@ -139,15 +139,15 @@ fn arcs(cx: &Context, reachable: &[usize]) -> Vec<Arc> {
     }
 }
 
-/// `γ_e((i + t)/N) = T_i γ_δ(t)`, with `1 − t` for a piece that runs backwards.
+/// `γ_e(b_i + s_i t) = T_i γ_δ(t)`, with `1 − t` for a piece that runs backwards.
 fn reproduces(cx: &Context, e: usize, found: &[Arc]) -> bool {
     let Some(own) = &found[e] else { return false };
     let pieces = &cx.shape.states[e].pieces;
-    let share = Rational::from(1) / Rational::from(pieces.len());
     pieces.iter().enumerate().all(|(i, piece)| {
         let Some(inner) = &found[piece.target] else { return false };
-        let start = Rational::from(i + usize::from(piece.reversed)) * &share;
-        let slope = if piece.reversed { -share.clone() } else { share.clone() };
+        let share = cx.shape.states[e].share(i);
+        let start = cx.shape.states[e].before(i + usize::from(piece.reversed));
+        let slope = if piece.reversed { -share } else { share };
         own.iter().enumerate().all(|(row, p)| substituted(p, &start, &slope) == combined(piece.op.row(row), inner))
     })
 }

@@ -9,15 +9,18 @@ pub mod cone;
 mod cone_over;
 mod cone_search;
 mod dense;
+mod derived;
 mod direction;
 pub mod enclosed;
 mod everywhere;
+pub mod exponent;
 pub mod filter;
 mod frames;
 pub mod gap;
 pub mod graph;
 mod hodograph;
 pub mod lattice;
+pub mod local;
 pub mod parameter;
 mod point;
 mod provable;
@@ -36,7 +39,7 @@ pub mod wavelet;
 
 pub use crate::statement::Statement;
 pub use branch::{Context, krylov, restrict};
-pub use claim::{AboutPlane, Assertion, Claim, Limit, Reason, Seen};
+pub use claim::{AboutPlane, Assertion, Claim, Limit, Measure, Reason, Seen};
 pub use components::{Component, Components};
 pub use cone_over::ConesOver;
 pub use direction::{Direction, primitive};
@@ -113,6 +116,7 @@ impl ModelError {
             Self::Shape(ShapeError::Size { .. }) => "secant::case::size",
             Self::Shape(ShapeError::Sum { .. }) => "secant::case::sum",
             Self::Shape(ShapeError::Control { .. }) => "secant::case::control",
+            Self::Shape(ShapeError::Shares { .. }) => "secant::case::shares",
             Self::Shape(ShapeError::Boundary { .. }) => "secant::case::boundary",
             Self::Curve(CurveError::Apart { .. }) => "secant::shape::adjacency",
             Self::Curve(CurveError::NoEnd { .. }) => "secant::shape::contraction",

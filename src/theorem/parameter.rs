@@ -1,7 +1,7 @@
-//! What `certify` says of a curve in its uniform parameter: Theorem E within a small budget of its own, and the claims from it.
+//! What `certify` says of a curve in its parameter: Theorem E within a small budget of its own, and the claims from it.
 
 use super::branch::Context;
-use super::claim::{Assertion, Claim, Reason};
+use super::claim::{Assertion, Claim, Measure, Reason};
 use super::everywhere::Everywhere;
 use super::smoothness::{CurveRegularity, CurveRegularityError, Outcome, curve_regularity};
 use super::verdict::{Certified, Role, Verdict};
@@ -10,7 +10,7 @@ use crate::statement::Statement;
 /// Largest number of coordinates of all visible quotients together for which this is tried.
 const MAX_DIMENSIONS: usize = 24;
 
-/// What is known of a curve in its uniform parameter.
+/// What is known of a curve in its parameter.
 #[derive(Debug, Clone)]
 pub enum Parameter {
     /// The orders of smoothness, as far as the budget goes.
@@ -47,25 +47,26 @@ impl Parameter {
     pub(super) fn claims(&self) -> Vec<Claim> {
         let by = Some(Statement::Smoothness);
         let Self::Orders(found) = self else {
-            return vec![Claim::open(Assertion::Smooth { order: 1 }, Reason::NoOrder)];
+            return vec![Claim::open(Assertion::Smooth { order: 1, over: Measure::Uniform }, Reason::NoOrder)];
         };
+        let over = found.measure();
         if found.polynomial {
-            return vec![Claim::proved(Assertion::Polynomial, by)];
+            return vec![Claim::proved(Assertion::Polynomial(over), by)];
         }
         let largest = found.smoothness();
         let mut claims = Vec::new();
         if largest > 0 {
-            claims.push(Claim::proved(Assertion::Smooth { order: largest }, by));
+            claims.push(Claim::proved(Assertion::Smooth { order: largest, over }, by));
         }
         let order = largest + 1;
-        let (what, reason) = (Assertion::Smooth { order }, Reason::Order(order));
+        let (what, reason) = (Assertion::Smooth { order, over }, Reason::Order(order));
         claims.push(match found.is_smooth(order) {
             Some(false) => Claim::refuted(what, by, reason),
             _ => Claim::open(what, reason),
         });
         claims.push(match &found.exponent {
-            Some(bounds) => Claim::proved(Assertion::Exponent(Some(bounds.clone())), by),
-            None => Claim::open(Assertion::Exponent(None), Reason::Order(largest)),
+            Some(bounds) => Claim::proved(Assertion::Exponent(Some(bounds.clone()), over), by),
+            None => Claim::open(Assertion::Exponent(None, over), Reason::Order(largest)),
         });
         claims
     }
@@ -97,11 +98,11 @@ fn breaks_inside(found: &Certified, every: &Everywhere) -> bool {
 /// The order 1 that was proved with a larger budget takes the place of one that is open.
 pub(super) fn adopt_derivative(found: &mut Certified) {
     let proved = found.everywhere.as_ref().filter(|e| e.verdict == Verdict::Proved);
-    let uniform = proved.and_then(|e| e.derivative.as_deref()).filter(|order| order.shares.is_none());
-    let Some(order) = uniform else { return };
+    let Some(order) = proved.and_then(|e| e.derivative.as_deref()) else { return };
     if let Some(Parameter::Orders(orders)) = &mut found.parameter
         && let [_, first] = orders.orders.as_mut_slice()
         && first.outcome == Outcome::Open
+        && first.shares == order.shares
     {
         *first = order.clone();
         orders.exponent = order.exponent(orders.pieces);

@@ -1,7 +1,7 @@
 //! What is done over the rationals only, and what takes its place over a real number field.
 
 use super::branch::Context;
-use super::claim::{Assertion, Claim, Reason};
+use super::claim::{Assertion, Claim, Measure, Reason};
 use super::cone_over::cones_over;
 use super::dense::DenseClaim;
 use super::verdict::Certified;
@@ -93,7 +93,9 @@ impl Provable for Real {
                 (None, Some(_)) => Claim::proved(Assertion::G1, Some(Statement::Theorem6)),
                 (None, None) => Claim::open(Assertion::G1, Reason::NoCone),
             });
-            found.claims.push(Claim::open(Assertion::Smooth { order: 1 }, Reason::Irrational));
+            found
+                .claims
+                .push(Claim::open(Assertion::Smooth { order: 1, over: Measure::of(cx.shape) }, Reason::Irrational));
         }
         found.claims.sort_by_key(|c| c.what.topic());
     }

@@ -19,7 +19,7 @@ pub enum Topic {
     Inside,
     /// Every point of a curve or a surface: G¹.
     G1,
-    /// `C^k` in the uniform parameter.
+    /// `C^k` in the parameter.
     C(usize),
     /// The Hölder exponent, about which nothing can be required.
     Exponent,
@@ -80,24 +80,27 @@ impl Assertion {
             | Self::UnkilledJoints
             | Self::DensePlanes { .. } => Topic::Dense,
             Self::G1 | Self::PlaneEverywhere => Topic::G1,
-            Self::Smooth { order } => Topic::C(*order),
+            Self::Smooth { order, .. } => Topic::C(*order),
             // Every order is smaller than this one.
-            Self::Polynomial => Topic::C(usize::MAX),
+            Self::Polynomial(_) => Topic::C(usize::MAX),
             Self::TangentAt { .. } | Self::PlaneAt { .. } | Self::SomePoint => Topic::Points,
-            Self::Exponent(_) => Topic::Exponent,
+            Self::Exponent(..) => Topic::Exponent,
         })
     }
 
     /// Whether it is one of the tangents that were examined: neither about every point nor about the parameter.
     #[must_use]
     pub fn is_of_tangents(&self) -> bool {
-        !matches!(self, Self::G1 | Self::PlaneEverywhere | Self::Smooth { .. } | Self::Polynomial | Self::Exponent(_))
+        !matches!(
+            self,
+            Self::G1 | Self::PlaneEverywhere | Self::Smooth { .. } | Self::Polynomial(_) | Self::Exponent(..)
+        )
     }
 
-    /// Whether it is about the curve in its uniform parameter.
+    /// Whether it is about the curve in its parameter.
     #[must_use]
     pub fn is_of_parameter(&self) -> bool {
-        matches!(self, Self::Smooth { .. } | Self::Polynomial | Self::Exponent(_))
+        matches!(self, Self::Smooth { .. } | Self::Polynomial(_) | Self::Exponent(..))
     }
 }
 
@@ -227,8 +230,8 @@ fn of_order(claims: &[Claim], order: usize) -> Option<Verdict> {
     let mut known = None;
     for claim in claims {
         let at = match claim.what {
-            Assertion::Smooth { order } => order,
-            Assertion::Polynomial => usize::MAX,
+            Assertion::Smooth { order, .. } => order,
+            Assertion::Polynomial(_) => usize::MAX,
             _ => continue,
         };
         known = known.or(Some(Verdict::Undetermined));
@@ -253,10 +256,11 @@ impl fmt::Display for Required {
 
 #[cfg(test)]
 mod tests {
+    use super::super::claim::Measure;
     use super::*;
 
     fn claims() -> Vec<Claim> {
-        let order = |order| Assertion::Smooth { order };
+        let order = |order| Assertion::Smooth { order, over: Measure::Uniform };
         vec![
             Claim::proved(Assertion::TangentAtEnds, None),
             Claim::proved(Assertion::DenseJoints, None),
@@ -290,11 +294,11 @@ mod tests {
         }
         // An order between one that holds and one that is open.
         let open = [
-            Claim::proved(Assertion::Smooth { order: 1 }, None),
-            Claim::open(Assertion::Smooth { order: 2 }, Reason::Order(2)),
+            Claim::proved(Assertion::Smooth { order: 1, over: Measure::Uniform }, None),
+            Claim::open(Assertion::Smooth { order: 2, over: Measure::Uniform }, Reason::Order(2)),
         ];
         assert_eq!((verdict("c2", &open), verdict("c3", &open)), (Undetermined, Undetermined));
-        assert_eq!(verdict("c9", &[Claim::proved(Assertion::Polynomial, None)]), Proved);
+        assert_eq!(verdict("c9", &[Claim::proved(Assertion::Polynomial(Measure::Uniform), None)]), Proved);
     }
 
     #[test]

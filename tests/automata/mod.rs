@@ -56,7 +56,7 @@ pub fn automaton(plan: &Plan) -> Shape {
             let mut columns = vec![first];
             columns.extend((2..plan.dims[target]).map(|_| column(dim)));
             columns.push(last);
-            Piece { target, op: Matrix::from_columns(dim, &columns), reversed }
+            Piece { target, op: Matrix::from_columns(dim, &columns), reversed, share: None }
         };
         let pieces = pieces.iter().enumerate().map(make).collect();
         states.push(State { name: format!("s{e}"), kind: CellKind::Edge, dim, pieces, left: None, right: None });

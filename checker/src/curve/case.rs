@@ -4,7 +4,7 @@ use super::{Address, End, Kind, Op, Piece, Shape, State, scheme};
 use crate::base::{
     Checked, Json, MAX_COORDINATES, MAX_PIECES, Matrix, Node, Q, file, flag, index, items, matrix, need, number, word,
 };
-use num_traits::{One, Zero};
+use num_traits::{One, Signed, Zero};
 use std::cell::RefCell;
 
 /// Most states of a case.
@@ -37,7 +37,8 @@ pub struct Hole {
 }
 
 /// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
-const CASE: &str = "name title source kind convention pieces reversed map scheme start state control examine expect";
+const CASE: &str =
+    "name title source kind convention pieces reversed shares map scheme start state control examine expect";
 const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
 
 /// What must be known of all states before their pieces are read.
@@ -101,7 +102,7 @@ impl Reader {
 
     /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
     fn affine(&self, map: &Node<'_>) -> Checked<Matrix> {
-        map.known("linear shift reversed")?;
+        map.known("linear shift reversed share")?;
         let linear = matrix(&map.field("linear")?)?;
         let shift = map.field("shift")?.each(|x| number(x))?;
         let d = shift.len();
@@ -123,7 +124,7 @@ impl Reader {
                 Form::Maps => (0, self.affine(piece)?, flag(piece, "reversed")?),
                 Form::Pieces => (0, self.operator(piece, (*dim, *dim), Op::Piece(e, k))?, false),
                 Form::States => {
-                    piece.known("to matrix reversed corners")?;
+                    piece.known("to matrix reversed corners share")?;
                     let (target, reversed) = (state_named(&piece.field("to")?, heads)?, flag(piece, "reversed")?);
                     let size = (*dim, heads[target].dim);
                     (target, self.operator(&piece.field("matrix")?, size, Op::Piece(e, k))?, reversed)
@@ -132,7 +133,8 @@ impl Reader {
             let same_kind = *kind == Kind::Set || heads[target].kind == *kind;
             let fits = same_kind && op.rows == *dim && (!reversed || *kind == Kind::Edge);
             piece.need(fits, "case", "the piece is of another kind or size, or runs backwards in no curve")?;
-            read.push(Piece { target, op, reversed });
+            let share = if form == Form::Pieces { None } else { piece.get("share").map(|n| number(&n)).transpose()? };
+            read.push(Piece { target, op, reversed, share });
         }
         let most = if *kind == Kind::Vertex { 1 } else { MAX_PIECES };
         let count = (1..=most).contains(&read.len()) && (1..=MAX_COORDINATES).contains(dim);
@@ -221,9 +223,9 @@ impl Reader {
             Some(_) => return case.reject("format", "unknown kind"),
         };
         let (form, list, without) = match (case.get("map"), case.get("pieces"), case.get("state")) {
-            (Some(maps), None, None) => (Form::Maps, maps.list()?, "start reversed control"),
+            (Some(maps), None, None) => (Form::Maps, maps.list()?, "start reversed shares control"),
             (None, Some(pieces), None) => (Form::Pieces, pieces.list()?, "start"),
-            (None, None, Some(tables)) => (Form::States, tables.list()?, "reversed"),
+            (None, None, Some(tables)) => (Form::States, tables.list()?, "reversed shares"),
             _ => return case.reject("format", "one of `pieces`, `map` and `state` is needed"),
         };
         let fits = without.split(' ').all(|key| case.get(key).is_none());
@@ -253,6 +255,16 @@ impl Reader {
             states[0].pieces[index(&n, list.len())?].reversed = true;
             n.need(kind == Kind::Edge, "case", "only pieces of curves run backwards")?;
         }
+        if let Some(shares) = case.get("shares") {
+            for (piece, n) in states[0].pieces.iter_mut().zip(shares.exactly(list.len(), "case")?) {
+                piece.share = Some(number(&n)?);
+            }
+        }
+        case.need(
+            states.iter().all(divides),
+            "case",
+            "the shares of a curve are positive, one for each piece, of sum 1",
+        )?;
         let start = case.get("start").map(|node| state_named(&node, &heads)).transpose()?;
         let start = case.some(start.or((states.len() == 1).then_some(0)), "case", "the key `start` is missing")?;
         let dim = states[start].dim;
@@ -264,6 +276,14 @@ impl Reader {
         case.need(view.cols == dim, "case", "a wrong number of control points")?;
         Ok(Shape::new(states, start, view))
     }
+}
+
+/// Whether shares, where there are any, are those of all pieces of a curve, positive and of sum 1.
+fn divides(state: &State) -> bool {
+    let shares: Vec<&Q> = state.pieces.iter().flat_map(|p| &p.share).collect();
+    let own = state.kind == Kind::Edge && shares.len() == state.pieces.len();
+    let whole = || shares.iter().fold(Q::zero(), |sum, s| sum + *s) == Q::one();
+    shares.is_empty() || own && shares.iter().all(|s| s.is_positive()) && whole()
 }
 
 /// The three forms of a case.
@@ -284,7 +304,8 @@ fn opened<T>(source: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checke
     file(source, CASE, |case| {
         let Some(table) = case.get("scheme") else { return read(case) };
         let Json::Object(keys) = case.value else { return case.reject("format", "a table is needed here") };
-        let others = "pieces reversed map state start kind convention".split(' ').all(|key| case.get(key).is_none());
+        let others =
+            "pieces reversed shares map state start kind convention".split(' ').all(|key| case.get(key).is_none());
         case.need(others, "format", "`scheme` stands in place of the operators")?;
         // Control points of the case are those of the curve that is built.
         let built = scheme::expanded(&table)?.into_iter().filter(|(key, _)| case.get(key).is_none());

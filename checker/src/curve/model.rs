@@ -269,7 +269,7 @@ mod tests {
     /// A segment with middle `(1/2, 1/2)`: one piece, half as long.
     fn segment() -> Shape {
         let op = row(&[3, 1]).stack(&row(&[1, 3])).scaled(&(whole(1) / whole(4)));
-        let pieces = vec![Piece { target: 0, op, reversed: false }];
+        let pieces = vec![Piece { target: 0, op, reversed: false, share: None }];
         let states = vec![State { kind: Kind::Set, dim: 2, pieces, ends: [None, None] }];
         Shape::new(states, 0, Matrix::identity(2))
     }

@@ -1,6 +1,6 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
-use crate::base::{Checked, MAX_LETTERS, Matrix, charge, need, some, spend};
+use crate::base::{Checked, MAX_LETTERS, Matrix, Q, charge, need, some, spend};
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub struct Piece {
     pub op: Matrix,
     /// Whether it runs against the parameter.
     pub reversed: bool,
+    /// What it takes of the parameter, where the case says so.
+    pub share: Option<Q>,
 }
 
 /// A state of the automaton.

@@ -70,7 +70,7 @@ fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option
         if columns.min(rows) < 2 || (places.len() == 4 && opposite(0) != opposite(1)) {
             return Ok(None);
         }
-        maps.push(Piece { target: piece.target, op: affine(&places, columns, rows), reversed: false });
+        maps.push(Piece { target: piece.target, op: affine(&places, columns, rows), reversed: false, share: None });
     }
     Ok(Some(maps))
 }

@@ -11,7 +11,7 @@ pub fn curve(node: &Node<'_>) -> Checked<Shape> {
     for item in operators.list()? {
         let op = item.matrix(item.list()?.len())?;
         item.need(op.is_affine() && op.rows > 0, "product", "a matrix whose columns sum to 1 is needed")?;
-        pieces.push(Piece { target: 0, op, reversed: false });
+        pieces.push(Piece { target: 0, op, reversed: false, share: None });
     }
     operators.need(!pieces.is_empty(), "product", "a curve has pieces")?;
     let dim = pieces[0].op.rows;

@@ -1,4 +1,4 @@
-//! The section on orders of smoothness in the uniform parameter.
+//! The section on orders of smoothness in the parameter of a curve.
 
 use super::super::document::{Block, Line, Table, formula, line, words};
 use super::super::math::Math;
@@ -8,10 +8,12 @@ use super::super::words::mark;
 use super::Quoted;
 use super::evidence::Evidence;
 use crate::answer::Verdict;
-use crate::case::Case;
+use crate::arith::Rational;
+use crate::case::{Case, Origin};
+use crate::scheme::Matching;
 use crate::statement::Statement;
 use crate::theorem::smoothness::{CurveOrder, CurveRegularity};
-use crate::theorem::{Certified, Parameter};
+use crate::theorem::{Certified, Measure, Parameter};
 
 pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
     let orders = match &found.parameter {
@@ -29,16 +31,57 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     if !notes.is_empty() {
         blocks.push(Block::List(notes));
     }
+    blocks.extend(matching(case, orders, seen));
     blocks
 }
 
+/// What Theorem 10 says of data that are interpolated, by its own numbers.
+fn matching(case: &Case, orders: &CurveRegularity, seen: &mut Quoted) -> Vec<Block> {
+    let Some(Origin::Interpolation(data)) = &case.scheme else { return Vec::new() };
+    let rows: Vec<(usize, Matching)> = (1..orders.orders.len()).filter_map(|k| Some((k, data.matching(k)?))).collect();
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let proof = Evidence::of(Statement::Theorem10)
+        .holds("intervals", "the abscissas of the data increase.", [])
+        .holds("factors", "the factors are numbers below 1 in modulus, and the $q_j$ polynomials.", [])
+        .holds("order-0", "the pieces meet at the points of the data.", []);
+    let row = |(k, m): &(usize, Matching)| {
+        let numbers = |list: &[Rational]| line("$@$", [Math::vector(list)]);
+        let pair = |[a, b]: &[Rational; 2]| [a.clone(), b.clone()];
+        let joints: Vec<Rational> = m.joints.iter().flat_map(pair).collect();
+        vec![
+            formula(Math::count(*k)),
+            numbers(&m.ratios),
+            m.ends.as_ref().map_or_else(|| words("–"), |ends| numbers(ends)),
+            if joints.is_empty() { words("–") } else { numbers(&joints) },
+        ]
+    };
+    let header = vec![
+        line("$k$", []),
+        line("$|α_j|/a_j^k$", []),
+        line("$y_{0,k}$, $y_{N,k}$", []),
+        line("both sides of the equations at the inner points", []),
+    ];
+    let table = Table { caption: Line::new(), header, rows: rows.iter().map(row).collect() };
+    vec![seen.once(Statement::Theorem10), proof.block(), Block::Table(table)]
+}
+
 fn evidence(orders: &CurveRegularity) -> Evidence {
-    let pieces =
+    let uniform =
         "every state that leads back to itself has $N=@$ pieces; they meet, and the system contracts, as shown above.";
-    Evidence::of(Statement::Smoothness)
-        .holds("pieces", pieces, [Math::count(orders.pieces)])
-        .holds("seen", "the visible quotient of the start is not 0.", [])
-        .holds("differences", "the dimensions of the $F^k_e$, state by state, stand in the table.", [])
+    let shares =
+        "the pieces take the given shares of the parameter; they meet, and the system contracts, as shown above.";
+    let proof = Evidence::of(Statement::Smoothness);
+    let proof = match orders.measure() {
+        Measure::Uniform => proof.holds("pieces", uniform, [Math::count(orders.pieces)]),
+        Measure::Shares => proof.holds("pieces", shares, []),
+    };
+    proof.holds("seen", "the visible quotient of the start is not 0.", []).holds(
+        "differences",
+        "the dimensions of the $F^k_e$, state by state, stand in the table.",
+        [],
+    )
 }
 
 fn table(orders: &CurveRegularity) -> Block {
@@ -57,12 +100,10 @@ fn table(orders: &CurveRegularity) -> Block {
             vec![mark(verdict)],
         ]
     };
-    let header = vec![
-        line("$k$", []),
-        line("$\\dim F^k$", []),
-        line("joint spectral radius on $F^k$", []),
-        line("bound $N^{-k}$", []),
-        line("$C^k$", []),
-    ];
+    let (radius, bound) = match orders.measure() {
+        Measure::Uniform => ("joint spectral radius on $F^k$", "bound $N^{-k}$"),
+        Measure::Shares => ("joint spectral radius of the $s_i^{-k}T_i$ on $F^k$", "bound"),
+    };
+    let header = vec![line("$k$", []), line("$\\dim F^k$", []), line(radius, []), line(bound, []), line("$C^k$", [])];
     Block::Table(Table { caption: Line::new(), header, rows: orders.orders.iter().map(row).collect() })
 }

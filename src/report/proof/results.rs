@@ -7,7 +7,7 @@ use super::super::words::{addresses, count, direction, mark, point_name};
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Entry;
-use crate::shape::{Address, CellKind, Shape};
+use crate::shape::{Address, Shape};
 use crate::theorem::surface::{Subspace, Surface, SurfacePoint};
 use crate::theorem::{Certified, PointReport};
 
@@ -77,30 +77,15 @@ fn short(space: &Subspace) -> Line {
     }
 }
 
-/// The parameter of an address in the uniform parameter, in which the pieces of a cell take equal parts of its interval;
+/// The parameter of an address, where the pieces of a cell take their shares of its interval;
 /// `None` where a state on the way is no curve.
 #[must_use]
 pub fn parameter<E: Entry>(shape: &Shape<E>, address: &Address) -> Option<Rational> {
     let after = shape.path(shape.start, &address.prefix);
-    let (slope, offset) = affine(shape, *after.last()?, &address.cycle)?;
+    let (slope, offset) = shape.parameter_map(*after.last()?, &address.cycle)?;
     let fixed = offset / (Rational::from(1) - slope);
-    let (slope, offset) = affine(shape, shape.start, &address.prefix)?;
+    let (slope, offset) = shape.parameter_map(shape.start, &address.prefix)?;
     Some(slope * fixed + offset)
-}
-
-/// The map of parameters that belongs to a word: slope and offset.
-fn affine<E: Entry>(shape: &Shape<E>, start: usize, word: &[usize]) -> Option<(Rational, Rational)> {
-    let (mut slope, mut offset) = (Rational::from(1), Rational::from(0));
-    for (letter, state) in word.iter().zip(shape.path(start, word)) {
-        let state = shape.states.get(state).filter(|s| s.kind == CellKind::Edge)?;
-        let piece = state.pieces.get(*letter)?;
-        let part = Rational::from(1) / Rational::from(state.pieces.len());
-        let from = Rational::from(letter + usize::from(piece.reversed)) * &part;
-        let own = if piece.reversed { -part } else { part };
-        offset += &slope * from;
-        slope *= own;
-    }
-    Some((slope, offset))
 }
 
 #[cfg(test)]
@@ -108,6 +93,7 @@ mod tests {
     use super::*;
     use crate::arith::ratio;
     use crate::linalg::Matrix;
+    use crate::shape::CellKind;
 
     #[test]
     fn parameters_are_those_of_equal_parts() {

@@ -164,7 +164,7 @@ fn rate_blocks(case: &Case, branch: &BranchReport, block: usize, seen: &mut Quot
         blocks.extend(seen.once_id(Statement::Holder));
         let scale = Math::number(&exponent.scale);
         let evidence = Evidence::of(Statement::Holder)
-            .holds("curve", "one turn of the cycle shrinks the uniform parameter by $s=@$.", [scale])
+            .holds("curve", "one turn of the cycle shrinks the parameter by $s=@$.", [scale])
             .holds("ring", "it is the ring condition above.", []);
         blocks.push(evidence.block());
         let mut text = words("The local Hölder exponent is ");

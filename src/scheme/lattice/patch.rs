@@ -47,7 +47,10 @@ pub fn lattice_patch(mask: &LatticeMask) -> Result<(Complex, Vec<Vec<i64>>), Lat
         name: name.to_owned(),
         kind,
         dim: points.len(),
-        pieces: digits.iter().map(|d| Piece { target, op: operator(mask, points, d), reversed: false }).collect(),
+        pieces: digits
+            .iter()
+            .map(|d| Piece { target, op: operator(mask, points, d), reversed: false, share: None })
+            .collect(),
         left: None,
         right: None,
     };

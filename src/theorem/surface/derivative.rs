@@ -8,7 +8,7 @@ use crate::linalg::{Matrix, closures};
 use crate::radius::{Arrow, JointRadius, System};
 use crate::scheme::kronecker;
 use crate::shape::Piece;
-use crate::theorem::smoothness::radius_of;
+use crate::theorem::derived::radius_of;
 use crate::theorem::{Context, EverySurfaceGap};
 
 /// Most coordinates of all visible quotients together for which this is tried.

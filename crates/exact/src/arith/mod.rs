@@ -1,9 +1,11 @@
 //! Exact numbers: integers and rationals (malachite), and rational intervals.
 
+mod elementary;
 mod interval;
 pub mod modular;
 mod parse;
 
+pub use elementary::{exp, ln};
 pub use interval::Interval;
 pub use malachite_nz::integer::Integer;
 pub use malachite_nz::natural::Natural;
