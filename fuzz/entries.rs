@@ -2,7 +2,7 @@
 
 #[path = "readers.rs"]
 #[allow(dead_code)]
-mod readers;
+pub mod readers;
 
 use secant::arith::parse_rational;
 use secant::case::{Case, matrix_file};

@@ -86,8 +86,9 @@ pub fn differ(text: &str) -> Option<String> {
         (Ok(_), Err(why)) => {
             let room = ["limit", "meshes are not built here", "rows and columns", "pieces or coordinates"];
             let vertex = text.contains("[vertex]");
-            // Of states that name schemes or are chains the checker reads the expanded form.
-            let built = why.contains("unknown key") && (text.contains("\nchain = ") || text.contains("\nscheme = "));
+            // Of states that name schemes or are chains, and of data to interpolate, the checker reads the expanded form.
+            let expands = ["\nchain = ", "\nscheme = ", "\n[interpolate]"];
+            let built = why.contains("unknown key") && expands.iter().any(|key| text.contains(key));
             (!vertex && !built && !room.iter().any(|r| why.contains(r))).then(|| format!("the checker refuses: {why}"))
         }
         // What is no curve has no certificate.

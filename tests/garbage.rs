@@ -1,7 +1,6 @@
 //! Garbage never crashes a parser: mutated files of the repository and random text, for every entry of `fuzz/entries.rs`.
 
-#[path = "../fuzz/entries.rs"]
-mod entries;
+use crate::entries;
 
 use proptest::prelude::*;
 

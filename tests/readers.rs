@@ -1,9 +1,6 @@
 //! The two readers of cases, secant's and its checker's, which share no code: the same text is the same system to both, or none.
 
-#[path = "../fuzz/readers.rs"]
-mod readers;
-
-use readers::{checkers, differ, secants};
+use crate::entries::readers::{checkers, differ, secants};
 use secant::case::{Valences, VertexCase};
 use secant::scheme;
 use secant_check::reader;

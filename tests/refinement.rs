@@ -57,6 +57,17 @@ fn the_embedding_is_exact() {
 }
 
 #[test]
+fn the_parameter_is_kept() {
+    let text = "name = \"parabola\"\nconvention = \"columns\"\nshares = [\"1/3\", \"2/3\"]\ncontrol = [[0, 0], [1, 2], [3, 0]]\n\
+                pieces = [[[1, \"2/3\", \"4/9\"], [0, \"1/3\", \"4/9\"], [0, 0, \"1/9\"]],\n\
+                [[\"4/9\", 0, 0], [\"4/9\", \"2/3\", 0], [\"1/9\", \"1/3\", 1]]]\n";
+    let once = embedded(&Case::parse("parabola.toml", text).unwrap().complex());
+    let start = &once.shape.states[once.shape.start];
+    let shares: Vec<Rational> = (0..4).map(|i| start.share(i)).collect();
+    assert_eq!(shares, [ratio(1, 9), ratio(2, 9), ratio(2, 9), ratio(4, 9)]);
+}
+
+#[test]
 fn verdicts_are_kept() {
     for name in ["junction/quadratic-cubic.toml", "control/two-spans.toml"] {
         let case = read(name);

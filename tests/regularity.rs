@@ -590,6 +590,22 @@ fn local_derivatives_in_a_parameter_with_shares() {
     assert_eq!(seen, expected.map(|(side, (p, q))| (side, Some(1), ratio(p, q))));
 }
 
+/// A vertex state is no part of the curve, and orders are integers beyond 8 as well.
+#[test]
+fn local_derivatives_beside_vertices_and_of_high_order() {
+    let shape = |text: &str| secant::case::Case::parse("case.toml", text).unwrap().shape;
+    let spline = "name = \"spline\"\n[scheme]\nname = \"bspline\"\ndegree = 2\n";
+    let (plain, with) = (sides(&shape(spline), &[]), sides(&shape(&format!("{spline}vertices = true\n")), &[]));
+    assert_eq!((plain.len(), with.len()), (3, 3));
+    for (a, b) in plain.iter().zip(&with) {
+        assert_eq!(values(a), values(b));
+        assert!(!a.is_empty());
+    }
+    let control = format!("control = [{}[1, 2]]", "[0, 0], ".repeat(9));
+    let power = shape(&format!("name = \"power\"\n{control}\n[scheme]\nname = \"bezier\"\ndegree = 9\n"));
+    assert_eq!(values(&sides(&power, &[])[0]), [(Side::Right, Some(9), numbers(&[(1, 1), (2, 1)]))]);
+}
+
 /// A curve that is C¹ in a parameter of other shares is not claimed to be C¹ in the uniform one.
 #[test]
 fn orders_in_other_shares_are_not_adopted() {

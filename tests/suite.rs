@@ -3,6 +3,8 @@
 mod automata;
 mod chains;
 mod corpus;
+#[path = "../fuzz/entries.rs"]
+mod entries;
 
 #[path = "architecture.rs"]
 mod architecture;

@@ -48,7 +48,8 @@ impl Case<Real> {
         let shape = if plain && !faces { over(&field, &shapes) } else { None };
         let Some(shape) = shape else {
             let message = "irrational entries are read in curves and sets, and in masks of one span";
-            let help = "surfaces, and schemes that are more than a mask, need rational numbers";
+            let help =
+                "surfaces, shares of the parameter, and schemes that are more than a mask, need rational numbers";
             return Err(first.problem_at_state(first.shape.start, "secant::case::irrational-entry", message, help));
         };
         let (_, case) = samples.swap_remove(0);
@@ -125,6 +126,15 @@ fn over(field: &NumberField, samples: &[(&Rational, &Shape)]) -> Option<Shape<Re
     let mut moved = moved.into_iter();
     let matrices: Vec<Matrix<Real>> =
         matrices.iter().map(|m| m.map(|_| Real::new(&small, moved.next().expect("as many as before")))).collect();
+    // Parts of the parameter are rational.
+    for (s, state) in first.states.iter().enumerate() {
+        for (p, piece) in state.pieces.iter().enumerate() {
+            let other = |x: &Shape| x.states.get(s).and_then(|y| y.pieces.get(p)).map(|y| y.share.clone());
+            if samples.iter().any(|(_, x)| other(x) != Some(piece.share.clone())) {
+                return None;
+            }
+        }
+    }
     let mut states = Vec::new();
     for (state, (pieces, left, right)) in first.states.iter().zip(indices) {
         let piece = |(p, k): (&Piece, usize)| Piece {
@@ -218,6 +228,15 @@ pieces = [
         assert_eq!(op[(1, 1)].field().unwrap().label(), Some("sqrt(5)"));
         assert_eq!(op[(1, 1)].elem(), Elem(Poly::new(vec![ratio(1, 1), ratio(-1, 8)])));
         assert_eq!(op[(1, 0)].rational(), Some(ratio(0, 1)));
+    }
+
+    #[test]
+    fn irrational_shares_are_refused() {
+        let maps = "name = \"shares\"\n[[map]]\nlinear = [[\"sqrt(2)/2\", 0], [\"1/2\", \"1/3\"]]\nshift = [0, 0]\nshare = \"A\"\n\
+                    [[map]]\nlinear = [[\"1-sqrt(2)/2\", 0], [\"-1/2\", \"1/3\"]]\nshift = [\"sqrt(2)/2\", \"1/2\"]\nshare = \"B\"\n";
+        let read = |a: &str, b: &str| Case::over_field("shares.toml", &maps.replace('A', a).replace('B', b));
+        assert!(read("1/3", "2/3").is_ok());
+        assert!(read("sqrt(2)/5", "1-sqrt(2)/5").is_err());
     }
 
     #[test]

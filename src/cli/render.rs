@@ -6,7 +6,7 @@ use super::output::{self, say, settle, to_stdout, write_file};
 use super::progress::Progress;
 use super::question::joined;
 use crate::arith::{parse_rational, to_f64};
-use crate::case::{Case, Question};
+use crate::case::{Case, Question, asked};
 use crate::diagnostic::Problem;
 use crate::linalg::char_poly;
 use crate::picture::{PLOT_PIXELS, Plot, View, resized};
@@ -180,9 +180,10 @@ fn write(plot: &Plot, title: &str, args: &RenderArgs) -> Result<(), Problem> {
 
 /// The case, and whether its entries are irrational and rounded to be drawn.
 fn drawn(text: &str) -> Result<(Case, bool), Problem> {
-    match Question::ask(text) {
+    let source = asked(text)?;
+    match Question::parse(&source.name, &source.text) {
         Ok(Question::OverField { case, .. }) => Ok((case.rounded(ROUNDED_BITS), true)),
-        _ => Ok((Case::ask(text)?, false)),
+        _ => Ok((Case::parse(&source.name, &source.text)?, false)),
     }
 }
 

@@ -19,6 +19,8 @@ struct Cell {
     target: usize,
     op: Matrix,
     reversed: bool,
+    /// What it takes of the parameter.
+    share: Rational,
 }
 
 /// Refines the start state of a curve once. With `E` the embedding, `E T'_{ij} = T_i T_j` for all cells `ij`, so that control points
@@ -75,11 +77,13 @@ pub fn refine(complex: &Complex) -> Result<Refined, JunctionError> {
 fn cells(complex: &Complex) -> Vec<Cell> {
     let states = &complex.shape.states;
     let mut cells = Vec::new();
-    for outer in &states[complex.shape.start].pieces {
-        let inner = states[outer.target].pieces.iter().map(|p| Cell {
+    let start = &states[complex.shape.start];
+    for (i, outer) in start.pieces.iter().enumerate() {
+        let inner = states[outer.target].pieces.iter().enumerate().map(|(j, p)| Cell {
             target: p.target,
             op: &outer.op * &p.op,
             reversed: p.reversed != outer.reversed,
+            share: start.share(i) * states[outer.target].share(j),
         });
         if outer.reversed { cells.extend(inner.rev()) } else { cells.extend(inner) }
     }
@@ -138,10 +142,13 @@ fn glued(complex: &Complex, cells: &[Cell], places: &[Vec<usize>], embedding: &M
     let mut out = complex.clone();
     let size = embedding.cols();
     let select = |own: &[usize]| Matrix::from_fn(size, own.len(), |i, j| Rational::from(u8::from(own[j] == i)));
+    // The parameter stays that of the curve before.
+    let equal = cells.iter().all(|c| c.share == cells[0].share);
+    let share = |c: &Cell| (!equal).then(|| c.share.clone());
     let pieces: Vec<Piece> = cells
         .iter()
         .zip(places)
-        .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed, share: None })
+        .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed, share: share(c) })
         .collect();
     let (start, old) = (complex.shape.start, &complex.shape.states[complex.shape.start]);
     let again =

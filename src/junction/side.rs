@@ -39,6 +39,11 @@ impl Side {
             return Err(JunctionError::NotOneCurve(name.to_owned()));
         }
         let wrong = |why: String| JunctionError::NoCurve { name: name.to_owned(), why };
+        if shape.has_shares() {
+            return Err(wrong(
+                "its pieces have their own shares of the parameter, which a junction does not keep".to_owned(),
+            ));
+        }
         let contracts = contraction_of(shape).map_err(|e| wrong(e.to_string()))?;
         if !contracts.is_proved() {
             return Err(wrong("it was not proved that the scheme contracts".to_owned()));

@@ -45,7 +45,7 @@ pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requ
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => {
-                let local = E::local_sides(case, found);
+                let local = E::local_sides(case, found, false);
                 let of = |k: usize| local.get(k).map_or(&[][..], Vec::as_slice);
                 found.points.iter().enumerate().map(|(k, p)| point(case, p, of(k))).collect()
             }

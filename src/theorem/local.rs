@@ -3,12 +3,13 @@
 use super::ring::Position;
 use super::verdict::{BranchReport, Outcome, Side};
 use crate::algebraic::Elem;
-use crate::arith::{Interval, Rational, abs, exp, ln};
+use crate::arith::{Integer, Interval, Rational, abs, exp, ln};
 use crate::linalg::{Matrix, closures, dot};
 use crate::shape::{Balls, CellKind, Contraction, End, Shape, Spaces};
+use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
 
 /// Largest order that is compared with an integer.
-const MAX_INTEGER: usize = 8;
+const MAX_INTEGER: i64 = 24;
 /// Most cells on which the quotient is enclosed, on each side.
 const MAX_CELLS: usize = 160;
 
@@ -132,13 +133,20 @@ fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -
         let one = |integer, limit| LocalSide { side, order: order.clone(), integer, limit };
         let Some(((value, row), seen)) = rational.clone().filter(|_| *block == 1) else {
             let limit = if *block > 1 { LocalLimit::Diverges(block - 1) } else { LocalLimit::None };
-            found.push(one(root.rational().and_then(|x| integer(&abs(&x), &holder.scale)), limit));
+            let whole = root.rational().and_then(|x| integer(&abs(&x), &holder.scale, &order));
+            found.push(one(whole.flatten(), limit));
             continue;
         };
         let germ = Germ { shape, spaces, balls, branch, factor: abs(&value), scale: holder.scale.clone() };
         let cells = germ.cells(place, &germ.scaled(&row, &value, &seen)?)?;
-        let whole = integer(&germ.factor, &germ.scale);
-        let limit = match whole.and_then(|h| germ.constant(&cells, h)) {
+        // Where it is not known whether the function is constant, nothing is said.
+        let Some(whole) = integer(&germ.factor, &germ.scale, &order) else { continue };
+        let constant = match whole {
+            Some(h) => germ.constant(&cells, h),
+            None => Some(None),
+        };
+        let Some(constant) = constant else { continue };
+        let limit = match constant {
             Some(c) => LocalLimit::Value(seen.iter().map(|x| x * &c).collect()),
             None => {
                 let (least, most) = germ.band(cells, &order)?;
@@ -156,16 +164,17 @@ fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -
     Some(found)
 }
 
-/// `h` with `factor = scale^h`, if it is a small integer.
-fn integer(factor: &Rational, scale: &Rational) -> Option<usize> {
-    let mut power = scale.clone();
-    for h in 1..=MAX_INTEGER {
-        if power == *factor {
-            return Some(h);
-        }
-        power *= scale;
+/// The integer `h` with `factor = scale^h`, or that there is none; `None` where it is not looked for. `order` encloses `h`.
+fn integer(factor: &Rational, scale: &Rational, order: &Interval) -> Option<Option<usize>> {
+    let (least, most): (Integer, Integer) = ((&order.lo).ceiling(), (&order.hi).floor());
+    if least > most {
+        return Some(None);
     }
-    None
+    if least != most || most > MAX_INTEGER {
+        return None;
+    }
+    let h = usize::try_from(&most).ok()?;
+    Some((power(scale, h) == *factor).then_some(h))
 }
 
 impl Germ<'_> {
@@ -225,8 +234,9 @@ impl Germ<'_> {
         Some((dot(&cell.row, &self.shape.end_point(cell.state, end)?), at))
     }
 
-    /// `C`, if the functional is `C t^h` on all cells: the rows with polynomials, closed under the pieces, vanish at all starts.
-    fn constant(&self, cells: &[Cell], h: usize) -> Option<Rational> {
+    /// `C`, if the functional is `C t^h` on all cells: the rows with polynomials, closed under the pieces, vanish at all starts;
+    /// `None` where that cannot be computed.
+    fn constant(&self, cells: &[Cell], h: usize) -> Option<Option<Rational>> {
         let shape = self.shape;
         let (value, at) = self.end(cells.first()?, End::Start)?;
         let c = value / power(&at, h);
@@ -238,7 +248,8 @@ impl Germ<'_> {
             families[cell.state] = families[cell.state].stack(&Matrix::from_rows(row.len(), vec![row]));
         }
         let mut arrows = Vec::new();
-        for (e, state) in shape.states.iter().enumerate() {
+        let edges = shape.states.iter().enumerate().filter(|(_, s)| s.kind == CellKind::Edge);
+        for (e, state) in edges {
             for (letter, piece) in state.pieces.iter().enumerate() {
                 let (slope, offset) = shape.parameter_map(e, &[letter])?;
                 let moved = substitution(&offset, &slope, h);
@@ -257,10 +268,10 @@ impl Germ<'_> {
             // The powers 1, t, t², … at t = 0.
             start.extend((0..=h).map(|m| Rational::from(u8::from(m == 0))));
             if rows.apply(&start).iter().any(|x| *x != 0) {
-                return None;
+                return Some(None);
             }
         }
-        Some(c)
+        Some(Some(c))
     }
 
     /// Encloses the infimum and the supremum of the functional divided by `t^h`: values at ends of cells from inside, cells from
@@ -321,7 +332,8 @@ impl Germ<'_> {
 
 /// `t^(−h)` for the positive `t` and the `h` of two intervals.
 fn inverse_power(t: &Interval, order: &Interval) -> Option<Interval> {
-    let logarithm = Interval { lo: ln(&t.lo)?.lo, hi: ln(&t.hi)?.hi };
+    let low = ln(&t.lo)?;
+    let logarithm = if t.lo == t.hi { low } else { Interval { lo: low.lo, hi: ln(&t.hi)?.hi } };
     Some(exp(&-&(&logarithm * order)))
 }
 

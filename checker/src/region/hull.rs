@@ -75,10 +75,11 @@ pub fn check(letters: &[Vec<Vec<Poly>>], node: &Node<'_>) -> Checked<Hull> {
     Ok(Hull { from: start, to: at, words })
 }
 
-/// By labels alone: the image closes the word of its seed, is a vertex, or has to lie inside.
+/// By labels alone: the image closes the word of its seed, which is a vertex itself, is a vertex, or has to lie inside.
 fn kind(seeds: &[Seed], labels: &[(usize, Vec<usize>)], (seed, word): &(usize, Vec<usize>), letter: usize) -> Image {
     let next = (*seed, [&[letter], word.as_slice()].concat());
-    if seeds[*seed].word == next.1 || labels.contains(&next) { Image::Known } else { Image::Inside }
+    let closes = seeds[*seed].word == next.1 && labels.contains(&(*seed, Vec::new()));
+    if closes || labels.contains(&next) { Image::Known } else { Image::Inside }
 }
 
 /// The matrices on a piece.

@@ -169,7 +169,12 @@ impl Hull {
         let fits = |v: &Vertex, letter: usize, image: &Image| match image {
             Image::Inside => true,
             Image::Vertex(k) => self.vertices.get(*k) == Some(&of(v, letter)),
-            Image::Closing => matches!(&self.seeds[v.seed], Seed::Eigen { word, .. } if *word == of(v, letter).word),
+            // The eigenvector must be a vertex itself.
+            Image::Closing => {
+                let seed = Vertex { seed: v.seed, word: Vec::new() };
+                let closes = matches!(&self.seeds[v.seed], Seed::Eigen { word, .. } if *word == of(v, letter).word);
+                closes && self.vertices.contains(&seed)
+            }
         };
         let known = self.vertices.iter().all(|v| v.seed < self.seeds.len());
         let images = self.vertices.iter().zip(&self.images);
