@@ -87,7 +87,7 @@ impl CurveFamilyCase {
     /// shift = ["1/2", "1/2"]
     /// "#;
     /// let case = CurveFamilyCase::parse("a.toml", text, &[])?;
-    /// assert_eq!(case.operators[1][(2, 2)].display("r"), "r");
+    /// assert_eq!(case.operators[1][(2, 2)].display("r"), "r + 1/2");
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn parse(name: &str, text: &str, set: &[(String, Setting)]) -> Result<Self, Problem> {
