@@ -142,7 +142,7 @@ class Direction(Sequence[Number]):
     def _numbers(self) -> tuple[Number, ...]:
         root = self._data["lambda"]
         if root is None:
-            return tuple(Fraction(x) for x in self._data["exact"])
+            return tuple(_number(x) for x in self._data["exact"])
         return tuple(value(root["coefficients"], root["index"], e) for e in self._data["coordinates"])
 
     def __len__(self) -> int:
@@ -154,7 +154,9 @@ class Direction(Sequence[Number]):
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         import numpy as np
 
-        return np.array([float(x) for x in self._numbers], dtype=dtype or float)
+        texts = any(isinstance(x, str) for x in self._numbers)
+        numbers = self._data["decimal"] if texts else self._numbers
+        return np.array([float(x) for x in numbers], dtype=dtype or float)
 
     def sympy(self) -> Any:
         """The direction as a column of SymPy."""
@@ -188,8 +190,16 @@ def _direction(data: dict[str, Any] | None) -> Direction | None:
     return None if data is None else Direction(data)
 
 
-def _vector(data: list[str] | None) -> tuple[Fraction, ...] | None:
-    return None if data is None else tuple(Fraction(x) for x in data)
+def _number(text: str) -> Any:
+    """A rational number; of a case over a number field the text of the element, such as ``1/2-1/2*sqrt(3)``."""
+    try:
+        return Fraction(text)
+    except ValueError:
+        return text
+
+
+def _vector(data: list[str] | None) -> tuple[Any, ...] | None:
+    return None if data is None else tuple(_number(x) for x in data)
 
 
 @dataclass(frozen=True)

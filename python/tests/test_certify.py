@@ -96,6 +96,15 @@ def test_irrational_directions_are_exact(cases):
     assert found > 0
 
 
+def test_a_case_over_a_number_field(cases):
+    result = secant.certify(cases / "fields" / "koch-sqrt3.toml")
+    assert result.verdict == "refuted"
+    with pytest.raises(secant.CertificateError):
+        _ = result.certificate
+    texts = [x for point in result.points for x in point.position if isinstance(x, str)]
+    assert texts and all("sqrt(3)" in x for x in texts)
+
+
 def test_results_travel(cases):
     result = secant.certify(cases / "thesis" / "half-tangent.toml")
     again = pickle.loads(pickle.dumps(result))
