@@ -215,7 +215,7 @@ class Point:
     kind : str
         ``"regular"``, ``"cusp"``, ``"corner"``, ``"half-tangent"``, … (docs/json.md).
     position : tuple of Fraction
-        Barycentric coordinates.
+        Barycentric coordinates; where they are irrational, in a case over a number field, texts such as ``1/2-1/2*sqrt(3)``.
     image : tuple of Fraction or None
         The point under the control points.
     tangent : Direction or None
@@ -236,8 +236,8 @@ class Point:
     addresses: tuple[str, ...]
     verdict: Verdict
     kind: str
-    position: tuple[Fraction, ...]
-    image: tuple[Fraction, ...] | None
+    position: tuple[Any, ...]
+    image: tuple[Any, ...] | None
     tangent: Direction | None
     left: tuple[Direction, ...]
     right: tuple[Direction, ...]
