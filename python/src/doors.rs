@@ -154,7 +154,7 @@ pub fn certify(py: Python<'_>, asked: Asked) -> PyResult<(Findings, String, Stri
         let question = asked.question()?;
         let answered = ask::answered(&question, asked.check, &asked.budget()?, &|| {})?;
         let required = asked.required()?;
-        let (json, certificate) = (answered.json(&required).to_string(), certificate(&answered, asked.check));
+        let (json, certificate) = (answered.json(&required, false).to_string(), certificate(&answered, asked.check));
         let text = question.text().text.to_string();
         Ok((Findings { answered: Arc::new(answered), required }, json, text, certificate))
     })

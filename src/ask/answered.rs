@@ -183,9 +183,9 @@ impl Answered {
         }
     }
 
-    /// The JSON report, with what the checker said.
-    pub fn json(&self, required: &Required) -> Value {
-        let mut report = findings::json(&self.findings, required);
+    /// The JSON report, with what the checker said; `verbose` adds critical orders and local derivatives.
+    pub fn json(&self, required: &Required, verbose: bool) -> Value {
+        let mut report = findings::json(&self.findings, required, verbose);
         let why = match &self.evidence {
             None => Some(NOT_ASKED.to_owned()),
             Some(Err(unsupported)) => Some(unsupported.to_string()),

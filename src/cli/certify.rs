@@ -259,7 +259,7 @@ fn replay(findings: &Findings) -> Result<String, Problem> {
 
 fn printed(answered: &Answered, args: &CertifyArgs) -> String {
     if args.json || args.jsonl {
-        let mut data = answered.json(&args.require);
+        let mut data = answered.json(&args.require, args.verbose);
         data["path"] = args.cases.first().map(|p| p.display().to_string()).into();
         return json_text(&data, args.json);
     }

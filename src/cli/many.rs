@@ -128,7 +128,7 @@ fn case(path: &Path, args: &CertifyArgs, store: Option<&Store>) -> Outcome {
         verdict: answered.findings.verdict_on(&args.require),
         kinds: answered.kinds().join(", "),
         checked: answered.checked(),
-        json: answered.json(&args.require),
+        json: answered.json(&args.require, args.verbose),
         kept: false,
     };
     if let Some(store) = store {

@@ -40,7 +40,7 @@ impl Store {
         let program = std::env::current_exe().and_then(std::fs::read).ok().map(sha256);
         let maker = program.map(|digest| {
             let version = env!("CARGO_PKG_VERSION");
-            json!({"secant": version, "program": digest, "address": args.address, "unchecked": args.no_check, "effort": args.effort.word(), "cells": args.cells, "words": args.words, "require": args.require.to_string()})
+            json!({"secant": version, "program": digest, "address": args.address, "unchecked": args.no_check, "effort": args.effort.word(), "cells": args.cells, "words": args.words, "require": args.require.to_string(), "verbose": args.verbose})
                 .to_string()
         });
         Ok(Self { dir: dir.to_owned(), maker })

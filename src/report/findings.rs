@@ -45,12 +45,12 @@ pub fn brief(findings: &Findings, required: &Required) -> Document {
     }
 }
 
-/// The JSON report (docs/json.md).
+/// The JSON report (docs/json.md); `verbose` adds critical orders and local derivatives.
 #[must_use]
-pub fn json(findings: &Findings, required: &Required) -> Value {
+pub fn json(findings: &Findings, required: &Required, verbose: bool) -> Value {
     match findings {
-        Findings::Tangents { case, found } => json::report(case, found, required),
-        Findings::OverField { case, found } => json::report(case, found, required),
+        Findings::Tangents { case, found } => json::report(case, found, required, verbose),
+        Findings::OverField { case, found } => json::report(case, found, required, verbose),
         Findings::Vertices { case, found, every } => vertex::json(case, found, every.as_ref(), &findings.claims()),
     }
 }

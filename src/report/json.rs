@@ -11,7 +11,6 @@ use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::jordan::Spectral;
 use crate::shape::{Contraction, word_text};
-use crate::theorem::local::LocalSide;
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
     BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Required, Role, Side,
@@ -24,7 +23,7 @@ pub const VERSION: u32 = 1;
 
 /// Everything that was found, as data.
 #[must_use]
-pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required) -> Value {
+pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required, verbose: bool) -> Value {
     let mut out = json!({
         "version": VERSION,
         "case": case.name,
@@ -45,9 +44,13 @@ pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requ
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => {
-                let local = E::local_sides(case, found, false);
-                let of = |k: usize| local.get(k).map_or(&[][..], Vec::as_slice);
-                found.points.iter().enumerate().map(|(k, p)| point(case, p, of(k))).collect()
+                let mut points: Vec<Value> = found.points.iter().map(|p| point(case, p)).collect();
+                // Enclosures on many cells: only where they are asked for.
+                let local = if verbose { E::local_sides(case, found) } else { Vec::new() };
+                for (point, sides) in points.iter_mut().zip(&local) {
+                    point["local"] = sides.iter().map(super::local::value).collect();
+                }
+                points
             }
         },
     });
@@ -218,10 +221,9 @@ fn contraction(c: &Contraction) -> Value {
     }
 }
 
-fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>, local: &[LocalSide]) -> Value {
+fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>) -> Value {
     let lead = p.branches.iter().find(|b| matches!(b.outcome, Outcome::AtLeast { .. } | Outcome::Open { .. }));
     let lead = lead.or_else(|| p.branches.first());
-    let sides: Vec<Value> = local.iter().map(super::local::value).collect();
     let mut out = json!({
         "address": p.branches.first().map(|b| b.address.to_string()),
         "addresses": p.branches.iter().map(|b| b.address.to_string()).collect::<Vec<_>>(),
@@ -237,7 +239,6 @@ fn point<E: Reported>(case: &Case<E>, p: &PointReport<E>, local: &[LocalSide]) -
             "right": p.right.iter().map(direction).collect::<Vec<_>>(),
         },
         "tangent": p.tangent.as_ref().map(direction),
-        "local": sides,
     });
     if let (Value::Object(map), Some(branch)) = (&mut out, lead) {
         for (key, value) in branch_fields(branch) {

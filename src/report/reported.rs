@@ -10,7 +10,7 @@ use crate::linalg::{Entry, Matrix};
 use crate::shape::Shape;
 use crate::theorem::cone::{Cone, ConeMap};
 use crate::theorem::local::{LocalContext, LocalSide};
-use crate::theorem::{Certified, Parameter, PointReport, Provable, Role, Statement, field};
+use crate::theorem::{Certified, Parameter, PointReport, Provable, Statement, field};
 use serde_json::{Value, json};
 
 /// Entries of shapes on which there are reports.
@@ -37,8 +37,8 @@ pub trait Reported: Provable {
     fn parameter_value(_: &Case<Self>, _: &Certified<Self>) -> Value {
         Value::Null
     }
-    /// Critical orders and local derivatives, by point; with `deep` also of joints of deeper levels.
-    fn local_sides(_: &Case<Self>, _: &Certified<Self>, _deep: bool) -> Vec<Vec<LocalSide>> {
+    /// Critical orders and local derivatives, by point.
+    fn local_sides(_: &Case<Self>, _: &Certified<Self>) -> Vec<Vec<LocalSide>> {
         Vec::new()
     }
     /// The table of results where there is none of points.
@@ -77,11 +77,10 @@ impl Reported for Rational {
         }
     }
 
-    fn local_sides(case: &Case, found: &Certified, deep: bool) -> Vec<Vec<LocalSide>> {
+    fn local_sides(case: &Case, found: &Certified) -> Vec<Vec<LocalSide>> {
         let Some(context) = LocalContext::new(&case.shape, &found.contraction) else { return Vec::new() };
-        let left_out = |p: &PointReport| !deep && matches!(&p.role, Role::Joint { path, .. } if !path.is_empty());
         let of = |p: &PointReport| p.branches.iter().flat_map(|b| context.sides(b)).collect();
-        found.points.iter().map(|p| if left_out(p) { Vec::new() } else { of(p) }).collect()
+        found.points.iter().map(of).collect()
     }
 
     fn results(case: &Case, found: &Certified) -> Option<Block> {

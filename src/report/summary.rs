@@ -42,7 +42,7 @@ pub fn summary<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Req
         blocks.push(Block::heading(2, "Every point"));
         blocks.push(Block::Facts(every));
     }
-    let local = if verbose { E::local_sides(case, found, true) } else { Vec::new() };
+    let local = if verbose { E::local_sides(case, found) } else { Vec::new() };
     for (k, point) in found.points.iter().enumerate() {
         let sides = local.get(k).map_or(&[][..], Vec::as_slice);
         blocks.extend(point_blocks(case, point, verbose, sides));

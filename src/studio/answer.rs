@@ -176,7 +176,7 @@ impl Kept {
     fn data(&self) -> Value {
         match (&self.asked, &self.found) {
             (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => mesh_report::json(model, scheme.name(), found),
-            (_, What::Case(answered)) => answered.json(&Required::default()),
+            (_, What::Case(answered)) => answered.json(&Required::default(), false),
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         }
     }
@@ -235,7 +235,7 @@ fn checked(answered: &Answered, value: &mut Value) {
 
 fn tangents(case: &Case, found: &Certified, answered: &Answered) -> Value {
     let required = Required::default();
-    let data = findings::json(&answered.findings, &required);
+    let data = findings::json(&answered.findings, &required, false);
     let points: Vec<Value> = match &found.surface {
         Some(surface) => surface.points.iter().map(|p| on_surface(case, p)).collect(),
         None => {

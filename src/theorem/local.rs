@@ -282,9 +282,11 @@ impl Germ<'_> {
         loop {
             let mut outer = Vec::new();
             for cell in &cells {
+                let mut weights = Vec::new();
                 for end in [End::Start, End::Finish] {
                     let (value, at) = self.end(cell, end)?;
-                    let b = &Interval::point(value) * &inverse_power(&Interval::point(at), order)?;
+                    let weight = inverse_power(&at, order)?;
+                    let b = &Interval::point(value) * &weight;
                     inner = Some(match inner {
                         None => (b.clone(), b),
                         // The infimum is at most every upper bound, the supremum at least every lower one.
@@ -292,10 +294,13 @@ impl Germ<'_> {
                             (if b.hi < least.hi { b.clone() } else { least }, if b.lo > most.lo { b } else { most })
                         }
                     });
+                    weights.push(weight);
                 }
-                let reach = Interval::new(cell.from.clone(), &cell.from + &cell.slope);
+                // The power falls with the parameter, so that its values at the ends of the cell are the extreme ones.
+                let lowest = weights.iter().map(|w| &w.lo).min()?.clone();
+                let highest = weights.iter().map(|w| &w.hi).max()?.clone();
                 let values = self.balls.enclose(self.spaces, cell.state, &cell.row, 64);
-                outer.push(&values * &inverse_power(&reach, order)?);
+                outer.push(&values * &Interval::new(lowest, highest));
             }
             spent += cells.len();
             let (least, most) = inner.clone()?;
@@ -330,11 +335,9 @@ impl Germ<'_> {
     }
 }
 
-/// `t^(−h)` for the positive `t` and the `h` of two intervals.
-fn inverse_power(t: &Interval, order: &Interval) -> Option<Interval> {
-    let low = ln(&t.lo)?;
-    let logarithm = if t.lo == t.hi { low } else { Interval { lo: low.lo, hi: ln(&t.hi)?.hi } };
-    Some(exp(&-&(&logarithm * order)))
+/// `t^(−h)` for a positive `t` and the `h` of an interval.
+fn inverse_power(t: &Rational, order: &Interval) -> Option<Interval> {
+    Some(exp(&-&(&ln(t)? * order)))
 }
 
 fn power(x: &Rational, h: usize) -> Rational {

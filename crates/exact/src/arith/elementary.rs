@@ -1,28 +1,14 @@
-//! Logarithms and exponentials of rational numbers, enclosed.
+//! Logarithms and exponentials of rational numbers, enclosed: integers over a power of two, rounded towards the side that is wanted.
 
-use super::{Interval, Rational, abs};
+use super::{Integer, Interval, Natural, Rational};
+use malachite_base::num::arithmetic::traits::UnsignedAbs;
+use malachite_base::num::basic::traits::Zero;
+use malachite_base::num::conversion::traits::RoundingFrom;
+use malachite_base::num::logic::traits::SignificantBits;
+use malachite_base::rounding_modes::RoundingMode;
 
-/// Binary places of the enclosures, and a few more inside.
-const PLACES: u64 = 72;
-
-fn rounded(x: &Interval) -> Interval {
-    x.outward(PLACES)
-}
-
-/// `2 artanh z` for `|z| <= 1/3`: the terms `z^(2k+1)/(2k+1)`, and a geometric bound for the rest.
-fn twice_artanh(z: &Rational) -> Interval {
-    let z = rounded(&Interval::point(z.clone()));
-    let square = rounded(&z.square());
-    let (mut power, mut sum) = (z.clone(), Interval::point(Rational::from(0)));
-    const TERMS: u64 = 26;
-    for k in 0..TERMS {
-        sum = &sum + &(&power * &(Rational::from(1) / Rational::from(2 * k + 1)));
-        power = rounded(&(&power * &square));
-    }
-    // |z|^(2n+1) (1 + 1/9 + …) / (2n+1)
-    let rest = Interval::symmetric(power.magnitude() * Rational::from(9) / Rational::from(8 * (2 * TERMS + 1)));
-    rounded(&(&(&sum + &rest) * &Rational::from(2)))
-}
+/// Binary places of logarithms.
+const PLACES: u64 = 96;
 
 /// An enclosure of the natural logarithm of a positive number, of width about `2^-60` for numbers of moderate size; `None` for
 /// others.
@@ -39,19 +25,39 @@ pub fn ln(x: &Rational) -> Option<Interval> {
     if *x <= 0 {
         return None;
     }
-    let (one, two) = (Rational::from(1), Rational::from(2));
-    let (mut m, mut exponent) = (x.clone(), 0i64);
-    while m >= two {
-        m /= &two;
-        exponent += 1;
+    if *x == 1 {
+        return Some(Interval::point(Rational::from(0)));
     }
-    while m < one {
-        m *= &two;
-        exponent -= 1;
-    }
-    let part = twice_artanh(&((&m - &one) / (&m + &one)));
-    let whole = &twice_artanh(&(one / Rational::from(3))) * &Rational::from(exponent);
-    Some(&part + &whole)
+    // x = 2^exponent p/q with p/q from 1 to 4: 2 artanh z with z = (p - q)/(p + q), at most 3/5.
+    let (p, q) = (x.numerator_ref(), x.denominator_ref());
+    let exponent = i64::try_from(p.significant_bits()).ok()? - i64::try_from(q.significant_bits()).ok()? - 1;
+    let (p, q) = if exponent > 0 { (p.clone(), q << exponent) } else { (p << -exponent, q.clone()) };
+    let z = (&p - &q) << PLACES;
+    let part = artanh(&(z / (p + q)));
+    let third = artanh(&((Natural::from(1u32) << PLACES) / Natural::from(3u32)));
+    let enclosed = |[lo, hi]: [Natural; 2]| Interval::new(dyadic(lo.into(), PLACES - 1), dyadic(hi.into(), PLACES - 1));
+    Some(&enclosed(part) + &(&enclosed(third) * &Rational::from(exponent)))
+}
+
+/// Bounds of `artanh z` for all numbers from `z` to `z + 1` units, at most about 3/5: the terms `z^(2k+1)/(2k+1)`, and a geometric
+/// bound for the rest.
+fn artanh(z: &Natural) -> [Natural; 2] {
+    [0u32, 1].map(|up| {
+        let up = Natural::from(up);
+        let product = |a: &Natural, b: &Natural| (a * b >> PLACES) + &up;
+        let mut power = z + &up;
+        let square = product(&power, &power);
+        let mut sum = Natural::ZERO;
+        for odd in (1u32..).step_by(2) {
+            sum += &power / Natural::from(odd) + &up;
+            power = product(&power, &square);
+            // All that follows is at most power (1 + square + square² + …), and square at most 2/5.
+            if power <= 4u32 {
+                return sum + power * up * Natural::from(2u32);
+            }
+        }
+        sum
+    })
 }
 
 /// An enclosure of the exponentials of the members of an interval.
@@ -64,31 +70,36 @@ pub fn ln(x: &Rational) -> Option<Interval> {
 /// ```
 #[must_use]
 pub fn exp(x: &Interval) -> Interval {
-    Interval { lo: exp_of(&x.lo).lo, hi: exp_of(&x.hi).hi }
+    Interval { lo: exp_bound(&x.lo, false), hi: exp_bound(&x.hi, true) }
 }
 
-/// `e^x = (e^(x/2^k))^(2^k)` with `|x/2^k| <= 1/2`.
-fn exp_of(x: &Rational) -> Interval {
-    let (mut small, mut doublings) = (x.clone(), 0u32);
-    while abs(&small) * Rational::from(2) > 1 {
-        small /= Rational::from(2);
-        doublings += 1;
+/// A bound of `e^x = (e^(x/2^k))^(2^k)`, `|x/2^k| < 1/2`, from above or from below.
+fn exp_bound(x: &Rational, up: bool) -> Rational {
+    if *x == 0 {
+        return Rational::from(1);
     }
-    let fine = |y: &Interval| y.outward(PLACES + 32);
-    let small = fine(&Interval::point(small));
-    const TERMS: u64 = 24;
-    let (mut term, mut sum) = (Interval::point(Rational::from(1)), Interval::point(Rational::from(0)));
+    let size = x.numerator_ref().significant_bits() + 2;
+    let doublings = size.saturating_sub(x.denominator_ref().significant_bits());
+    let places = 128 + doublings;
+    let mode = if up { RoundingMode::Ceiling } else { RoundingMode::Floor };
+    let small = Integer::rounding_from(x << (places - doublings), mode).0;
+    const TERMS: u32 = 32;
+    let (mut term, mut sum) = (Integer::from(1) << places, Integer::ZERO);
     for k in 1..=TERMS {
-        sum = &sum + &term;
-        term = fine(&(&(&term * &small) * &(Rational::from(1) / Rational::from(k))));
+        sum += &term;
+        term = (term * &small >> places) / Integer::from(k);
     }
-    // The rest is at most twice the first term left out.
-    sum = fine(&(&sum + &Interval::symmetric(term.magnitude() * Rational::from(2))));
+    // Every term is off by less than 3 units, and the rest at most twice the first term left out.
+    let error = Integer::from(term.unsigned_abs() * Natural::from(2u32)) + Integer::from(3 * TERMS + 8);
+    let mut value = if up { sum + error } else { sum - error };
     for _ in 0..doublings {
-        sum = sum.square();
-        sum = fine(&sum);
+        value = (&value * &value >> places) + Integer::from(u8::from(up));
     }
-    Interval { lo: sum.lo.max(Rational::from(0)), hi: sum.hi }
+    dyadic(value, places)
+}
+
+fn dyadic(numerator: Integer, places: u64) -> Rational {
+    Rational::from(numerator) >> places
 }
 
 #[cfg(test)]
@@ -108,7 +119,8 @@ mod tests {
             assert!(back.lo <= x && x <= back.hi, "{x}");
             assert!(to_f64(&(back.width() / &x)) < 1e-9, "{x}");
         }
-        assert_eq!(ln(&ratio(1, 1)).unwrap().mid(), ratio(0, 1));
+        assert_eq!(ln(&ratio(1, 1)).unwrap(), Interval::point(ratio(0, 1)));
+        assert_eq!(exp(&Interval::point(ratio(0, 1))), Interval::point(ratio(1, 1)));
         for y in [ratio(-20, 1), ratio(-1, 3), ratio(0, 1), ratio(5, 2)] {
             let (own, float) = (exp(&Interval::point(y.clone())), to_f64(&y).exp());
             assert!(to_f64(&own.lo) <= float * (1.0 + 1e-12) && float <= to_f64(&own.hi) * (1.0 + 1e-12), "{y}");
