@@ -44,7 +44,7 @@ pub fn ln(x: &Rational) -> Option<Interval> {
 fn artanh(z: &Natural) -> [Natural; 2] {
     [0u32, 1].map(|up| {
         let up = Natural::from(up);
-        let product = |a: &Natural, b: &Natural| (a * b >> PLACES) + &up;
+        let product = |a: &Natural, b: &Natural| ((a * b) >> PLACES) + &up;
         let mut power = z + &up;
         let square = product(&power, &power);
         let mut sum = Natural::ZERO;
@@ -87,13 +87,13 @@ fn exp_bound(x: &Rational, up: bool) -> Rational {
     let (mut term, mut sum) = (Integer::from(1) << places, Integer::ZERO);
     for k in 1..=TERMS {
         sum += &term;
-        term = (term * &small >> places) / Integer::from(k);
+        term = ((term * &small) >> places) / Integer::from(k);
     }
     // Every term is off by less than 3 units, and the rest at most twice the first term left out.
     let error = Integer::from(term.unsigned_abs() * Natural::from(2u32)) + Integer::from(3 * TERMS + 8);
     let mut value = if up { sum + error } else { sum - error };
     for _ in 0..doublings {
-        value = (&value * &value >> places) + Integer::from(u8::from(up));
+        value = ((&value * &value) >> places) + Integer::from(u8::from(up));
     }
     dyadic(value, places)
 }
