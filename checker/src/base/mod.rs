@@ -2,6 +2,7 @@
 
 mod answer;
 mod file;
+mod graph;
 mod json;
 mod matrix;
 pub mod number;
@@ -9,6 +10,7 @@ mod poly;
 
 pub use answer::{Accepted, Checked, Rejected, Verdict, list, need, reject, some, together, unreadable};
 pub use file::{MAX_COORDINATES, file, flag, index, items, matrix, number, word};
+pub use graph::disjoint_cycles;
 pub use json::{Json, Node};
 pub use matrix::{Matrix, primitive};
 pub use number::{Q, bits, charge, longest, spend, total, whole};

@@ -3,7 +3,7 @@
 
 use super::rate::Bounds;
 use super::{End, Kind, Leading, Line, Model, Place, Point, complete};
-use crate::base::{Checked, Matrix, Node, Q, Verdict, list, need, whole};
+use crate::base::{Checked, Matrix, Node, Q, Verdict, disjoint_cycles, list, need, some, whole};
 use crate::claim::{Claim, Decided};
 use num_traits::Signed;
 
@@ -202,40 +202,14 @@ impl<'a> Cones<'a> {
     /// The cycles of the graph of overlapping words, which must not meet; each from its first word on.
     fn idle_cycles(&self, words: &[(usize, Vec<usize>)]) -> Checked<Vec<(usize, Vec<usize>)>> {
         let shape = self.model.shape;
-        let n = words.len();
         let follows = |(e, a): &(usize, Vec<usize>), (f, b): &(usize, Vec<usize>)| {
             shape.states[*e].pieces[a[0]].target == *f && a[1..] == b[..b.len() - 1]
         };
-        let next: Vec<Vec<usize>> = words.iter().map(|a| (0..n).filter(|&k| follows(a, &words[k])).collect()).collect();
-        let reached = |k: usize| {
-            let (mut row, mut open) = (vec![false; n], next[k].clone());
-            while let Some(j) = open.pop() {
-                if !std::mem::replace(&mut row[j], true) {
-                    open.extend(&next[j]);
-                }
-            }
-            row
-        };
-        let reach: Vec<Vec<bool>> = (0..n).map(reached).collect();
-        // The successor of each word on its cycle.
-        let mut step: Vec<Option<usize>> = Vec::new();
-        for k in 0..n {
-            let mut back = next[k].iter().copied().filter(|&j| j == k || reach[j][k]);
-            step.push(back.next());
-            need(back.next().is_none(), "slow", "two cycles without positive products meet")?;
-        }
-        let mut cycles = Vec::new();
-        for k in 0..n {
-            let (mut at, mut word) = (k, Vec::new());
-            while let Some(next) = step[at].take() {
-                word.push(words[at].1[0]);
-                at = next;
-            }
-            if !word.is_empty() {
-                cycles.push((words[k].0, word));
-            }
-        }
-        Ok(cycles)
+        let next = |a| (0..words.len()).filter(|&k| follows(a, &words[k])).collect();
+        let next: Vec<Vec<usize>> = words.iter().map(next).collect();
+        let cycles = some(disjoint_cycles(&next), "slow", "two cycles without positive products meet")?;
+        let word = |cycle: &Vec<usize>| cycle.iter().map(|k| words[*k].1[0]).collect();
+        Ok(cycles.iter().map(|cycle| (words[cycle[0]].0, word(cycle))).collect())
     }
 
     /// The cycle has one positive leading eigenvalue with one longest chain; each ray has a positive leading coefficient, or

@@ -5,7 +5,7 @@ use super::polynomial::{End, Poly, is_free, minus, trimmed, value};
 use super::symbolic::{
     Rows, adjugate, apply, at, characteristic, column, determinant, dot, identity, plus, product, scaled, times,
 };
-use crate::base::{Checked, Node, Q, need, reject, some, whole};
+use crate::base::{Checked, Node, Q, disjoint_cycles, need, reject, some, whole};
 use num_traits::{One, Signed};
 
 /// Longest window of factors, and most words in it.
@@ -410,35 +410,9 @@ fn idle_words(patterns: &[Vec<Vec<bool>>], length: usize) -> Checked<Vec<Vec<usi
 
 /// The cycles of the graph of overlapping words, which must not meet; each from its first word on.
 fn idle_cycles(words: &[Vec<usize>]) -> Checked<Vec<Vec<usize>>> {
-    let n = words.len();
     let follows = |a: &Vec<usize>, b: &Vec<usize>| a[1..] == b[..b.len() - 1];
-    let next: Vec<Vec<usize>> = words.iter().map(|a| (0..n).filter(|&k| follows(a, &words[k])).collect()).collect();
-    let reached = |k: usize| {
-        let (mut row, mut open) = (vec![false; n], next[k].clone());
-        while let Some(j) = open.pop() {
-            if !std::mem::replace(&mut row[j], true) {
-                open.extend(&next[j]);
-            }
-        }
-        row
-    };
-    let reach: Vec<Vec<bool>> = (0..n).map(reached).collect();
-    let mut step: Vec<Option<usize>> = Vec::new();
-    for k in 0..n {
-        let mut back = next[k].iter().copied().filter(|&j| j == k && reach[k][k] || j != k && reach[j][k]);
-        step.push(back.next());
-        need(back.next().is_none(), "cycles", "two cycles without positive products meet")?;
-    }
-    let mut cycles = Vec::new();
-    for k in 0..n {
-        let (mut at, mut word) = (k, Vec::new());
-        while let Some(next) = step[at].take() {
-            word.push(words[at][0]);
-            at = next;
-        }
-        if !word.is_empty() {
-            cycles.push(word);
-        }
-    }
-    Ok(cycles)
+    let next = |a| (0..words.len()).filter(|&k| follows(a, &words[k])).collect();
+    let next: Vec<Vec<usize>> = words.iter().map(next).collect();
+    let cycles = some(disjoint_cycles(&next), "cycles", "two cycles without positive products meet")?;
+    Ok(cycles.iter().map(|cycle| cycle.iter().map(|k| words[*k][0]).collect()).collect())
 }
