@@ -52,48 +52,14 @@ impl Case<Real> {
                 "surfaces, shares of the parameter, and schemes that are more than a mask, need rational numbers";
             return Err(first.problem_at_state(first.shape.start, "secant::case::irrational-entry", message, help));
         };
-        let (_, case) = samples.swap_remove(0);
-        let Case { name, title, source, convention, faces, reversals, unknown, examine, expect, text, places, .. } =
-            case;
         // What a scheme was built from was read with a rational number in the place of the generator.
-        let scheme = None;
-        Ok(Self {
-            name,
-            title,
-            source,
-            convention,
-            shape,
-            faces,
-            reversals,
-            scheme,
-            unknown,
-            examine,
-            expect,
-            text,
-            places,
-        })
+        Ok(first.with_shape(shape))
     }
-}
 
-impl Case<Real> {
     /// The case with its entries rounded to so many binary digits, for pictures: nothing is proved of it.
     #[must_use]
     pub fn rounded(&self, bits: u64) -> Case {
-        Case {
-            name: self.name.clone(),
-            title: self.title.clone(),
-            source: self.source.clone(),
-            convention: self.convention,
-            shape: self.shape.rounded(bits),
-            faces: self.faces.clone(),
-            reversals: self.reversals.clone(),
-            scheme: None,
-            unknown: Vec::new(),
-            examine: self.examine.clone(),
-            expect: None,
-            text: self.text.clone(),
-            places: self.places.clone(),
-        }
+        self.with_shape(self.shape.rounded(bits))
     }
 }
 

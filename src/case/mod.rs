@@ -113,6 +113,27 @@ pub struct Case<E = Rational> {
     places: Places,
 }
 
+impl<E> Case<E> {
+    /// The same case about a shape with other entries; what a scheme was built from is not kept.
+    fn with_shape<F>(&self, shape: Shape<F>) -> Case<F> {
+        Case {
+            name: self.name.clone(),
+            title: self.title.clone(),
+            source: self.source.clone(),
+            convention: self.convention,
+            shape,
+            faces: self.faces.clone(),
+            reversals: self.reversals.clone(),
+            scheme: None,
+            unknown: self.unknown.clone(),
+            examine: self.examine.clone(),
+            expect: self.expect.clone(),
+            text: self.text.clone(),
+            places: self.places.clone(),
+        }
+    }
+}
+
 /// What a case with `[scheme]` was built from.
 #[derive(Debug, Clone)]
 pub enum Origin {
