@@ -16,7 +16,7 @@ from typing import Any
 from . import _secant
 from ._errors import CertificateError, InputError
 from ._numbers import Exact, number
-from ._results import Certificate, Claim, Verdict, write_report
+from ._results import Certificate, Claim, Judged, Verdict, write_report
 
 _ENDINGS = (".obj", ".off")
 _LONGEST = 10_000
@@ -72,7 +72,7 @@ class MeshVertex:
         return f"<{self.at} {self.number} (line {self.line}), valence {self.valence}: {self.verdict}>"
 
 
-class CertifiedMesh:
+class CertifiedMesh(Judged):
     """What was found about a mesh. It can be pickled, as :class:`Certified`."""
 
     every_point = None
@@ -82,9 +82,6 @@ class CertifiedMesh:
         self, data: dict[str, Any], asked: dict[str, Any], findings: _secant.MeshFindings | None = None
     ) -> None:
         self._data, self._asked, self._findings = data, asked, findings
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_data": self._data, "_asked": self._asked, "_findings": None}
 
     @property
     def name(self) -> str:
@@ -105,14 +102,6 @@ class CertifiedMesh:
     def smooth(self) -> Verdict:
         """Whether it is C¹ at every vertex, for these points."""
         return Verdict(self._data["smooth"])
-
-    @property
-    def proved(self) -> bool:
-        """Whether the surface is proved to be regular."""
-        return self.verdict is Verdict.PROVED
-
-    def __bool__(self) -> bool:
-        raise TypeError("a result is no truth value: look at .verdict, or at .proved")
 
     @property
     def claims(self) -> tuple[Claim, ...]:
@@ -186,17 +175,6 @@ class CertifiedMesh:
         """Writes the mesh as PLY, its vertices coloured by verdict."""
         Path(path).write_text(self._native().ply(), encoding="utf-8")
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draws :attr:`svg` into Matplotlib axes."""
-        from ._plot import draw
-
-        return draw(self.svg, f"{self.name}: {self.verdict}", ax)
-
-    def to_dict(self) -> dict[str, Any]:
-        """What ``secant certify --json`` prints of a mesh."""
-        copy: dict[str, Any] = json.loads(json.dumps(self._data))
-        return copy
-
     def __str__(self) -> str:
         return self._native().summary()
 
@@ -204,18 +182,9 @@ class CertifiedMesh:
         return f"<secant: {self.name} by {self.scheme} {self.verdict}, {len(self.vertices)} vertices, {len(self.bad)} not proved>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td><b>{c.verdict}</b></td><td style='text-align:left'>{html.escape(c.text)}"
-            + (f" — {html.escape(c.reason)}" if c.reason else "")
-            + "</td></tr>"
-            for c in self.claims
-        )
         bad = "".join(f"<li>{html.escape(repr(v)[1:-1])}: {html.escape(v.reason)}</li>" for v in self.bad[:20])
-        try:
-            picture = f"<div style='max-width:32em'>{self.svg}</div>"
-        except InputError:
-            picture = ""
-        return f"<p><b>{html.escape(self.name)}</b> by {self.scheme}</p><table>{rows}</table><ul>{bad}</ul>{picture}"
+        claims = f"<table>{self._rows()}</table>"
+        return f"<p><b>{html.escape(self.name)}</b> by {self.scheme}</p>{claims}<ul>{bad}</ul>{self._picture(32)}"
 
 
 def is_mesh(x: Any) -> bool:

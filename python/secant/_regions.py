@@ -17,7 +17,7 @@ from ._answers import Effort, text_of
 from ._cases import source
 from ._errors import InputError
 from ._numbers import Algebraic, Exact, number, value, written
-from ._results import Certificate, Number, Verdict, write_report
+from ._results import Certificate, Found, Number, Verdict, write_report
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ class RegionOrder:
         return self._where(Verdict.REFUTED)
 
 
-class Regions:
+class Regions(Found):
     """For which values of a parameter a scheme converges and is C^k: a sequence of :class:`RegionOrder`.
 
     It can be pickled, as :class:`Certified`.
@@ -153,9 +153,6 @@ class Regions:
         self, data: dict[str, Any], verdict: str, asked: tuple[Any, ...], findings: _secant.RegionFindings | None = None
     ) -> None:
         self._data, self._verdict, self._asked, self._findings = data, verdict, asked, findings
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_data": self._data, "_verdict": self._verdict, "_asked": self._asked, "_findings": None}
 
     @property
     def name(self) -> str:
@@ -229,11 +226,6 @@ class Regions:
         """The tables with their statements as text (see :meth:`Certified.report`)."""
         return write_report(self._native().report, path, format)
 
-    def to_dict(self) -> dict[str, Any]:
-        """What ``secant region --json`` prints."""
-        copy: dict[str, Any] = json.loads(json.dumps(self._data))
-        return copy
-
     def __str__(self) -> str:
         return self._native().summary()
 
@@ -249,11 +241,8 @@ class Regions:
             for o in self
             for p in o.parts
         )
-        try:
-            picture = f"<div style='max-width:40em'>{self.svg}</div>"
-        except InputError:
-            picture = ""
-        return f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.parameter)}</p>{picture}<table>{rows}</table>"
+        head = f"<p><b>{html.escape(self.name)}</b>, {html.escape(self.parameter)}</p>"
+        return f"{head}{self._picture(40)}<table>{rows}</table>"
 
 
 def _setting(name: str, x: Any, exact: Exact | None) -> str:

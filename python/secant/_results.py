@@ -292,7 +292,86 @@ def write_report(make: Callable[[str], str], path: str | os.PathLike[str] | None
     return text
 
 
-class Certified:
+class Found:
+    """What all results share: data that travels, and findings that are made again from it."""
+
+    _data: dict[str, Any]
+    _findings: Any
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: kept for key, kept in vars(self).items() if key.startswith("_")} | {"_findings": None}
+
+    def to_dict(self) -> dict[str, Any]:
+        """What the program prints with ``--json`` (docs/json.md)."""
+        copy: dict[str, Any] = json.loads(json.dumps(self._data))
+        return copy
+
+    @property
+    def svg(self) -> str:
+        """The picture."""
+        raise NotImplementedError
+
+    def _picture(self, width: int) -> str:
+        """The picture for a notebook; empty where there is none."""
+        try:
+            return f"<div style='max-width:{width}em'>{self.svg}</div>"
+        except InputError:
+            return ""
+
+
+class Judged(Found):
+    """Results with one verdict, of some claims."""
+
+    @property
+    def name(self) -> str:
+        """The name."""
+        raise NotImplementedError
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on all claims together."""
+        raise NotImplementedError
+
+    @property
+    def claims(self) -> tuple[Claim, ...]:
+        """Everything that is claimed."""
+        raise NotImplementedError
+
+    @property
+    def proved(self) -> bool:
+        """Whether every claim is proved."""
+        return self.verdict is Verdict.PROVED
+
+    def __bool__(self) -> bool:
+        raise TypeError("a result is no truth value: look at .verdict, or at .proved")
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the picture of :attr:`svg` into Matplotlib axes, in the coordinates of the picture.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            The axes; those of a new figure where none are given.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+        """
+        from ._plot import draw
+
+        return draw(self.svg, f"{self.name}: {self.verdict}", ax)
+
+    def _rows(self) -> str:
+        """The claims as rows of a table for a notebook."""
+        return "".join(
+            f"<tr><td><b>{c.verdict}</b></td><td style='text-align:left'>{html.escape(c.text)}"
+            + (f" — {html.escape(c.reason)}" if c.reason else "")
+            + "</td></tr>"
+            for c in self.claims
+        )
+
+
+class Certified(Judged):
     """What was found about a case: the verdict, the claims, the points, and their evidence.
 
     It can be pickled: what travels is the data and the text of the case, from which reports and pictures are made again.
@@ -306,9 +385,6 @@ class Certified:
         findings: _secant.Findings | None = None,
     ) -> None:
         self._data, self._asked, self._certificate, self._findings = data, asked, certificate, findings
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"_data": self._data, "_asked": self._asked, "_certificate": self._certificate, "_findings": None}
 
     @property
     def name(self) -> str:
@@ -324,14 +400,6 @@ class Certified:
     def verdict(self) -> Verdict:
         """The verdict on all claims together."""
         return Verdict(self._data["verdict"])
-
-    @property
-    def proved(self) -> bool:
-        """Whether every claim is proved."""
-        return self.verdict is Verdict.PROVED
-
-    def __bool__(self) -> bool:
-        raise TypeError("a result is no truth value: look at .verdict, or at .proved")
 
     @cached_property
     def claims(self) -> tuple[Claim, ...]:
@@ -414,27 +482,6 @@ class Certified:
         """The picture of the cones of Theorem 6 along a curve."""
         return self._native().svg(True)
 
-    def plot(self, ax: Any = None) -> Any:
-        """Draws the picture of :attr:`svg` into Matplotlib axes, in the coordinates of the picture.
-
-        Parameters
-        ----------
-        ax : matplotlib.axes.Axes, optional
-            The axes; those of a new figure where none are given.
-
-        Returns
-        -------
-        matplotlib.axes.Axes
-        """
-        from ._plot import draw
-
-        return draw(self.svg, f"{self.name}: {self.verdict}", ax)
-
-    def to_dict(self) -> dict[str, Any]:
-        """The JSON report (docs/json.md)."""
-        copy: dict[str, Any] = json.loads(json.dumps(self._data))
-        return copy
-
     def __str__(self) -> str:
         return self._native().summary(False)
 
@@ -443,17 +490,7 @@ class Certified:
         return f"<secant: {self.name} {self.verdict}{checked}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td><b>{c.verdict}</b></td><td style='text-align:left'>{html.escape(c.text)}"
-            + (f" — {html.escape(c.reason)}" if c.reason else "")
-            + "</td></tr>"
-            for c in self.claims
-        )
-        try:
-            picture = f"<div style='max-width:32em'>{self.svg}</div>"
-        except InputError:
-            picture = ""
-        return f"<p><b>{html.escape(self.name)}</b>: {self.verdict}</p><table>{rows}</table>{picture}"
+        return f"<p><b>{html.escape(self.name)}</b>: {self.verdict}</p><table>{self._rows()}</table>{self._picture(32)}"
 
 
 __all__ = [
@@ -462,6 +499,8 @@ __all__ = [
     "Checked",
     "Claim",
     "Direction",
+    "Found",
+    "Judged",
     "Number",
     "Point",
     "Verdict",
