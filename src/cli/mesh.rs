@@ -1,9 +1,9 @@
 //! `secant certify` of a mesh.
 
-use super::{CertifyArgs, Drawn};
 use super::certify::{exit_code, extension, json_text};
 use super::output::{self, say, to_stdout, write_file};
 use super::progress::Progress;
+use super::{CertifyArgs, Drawn};
 use crate::diagnostic::Problem;
 use crate::mesh::{Boundary, Found, Model, Scheme, certify};
 use crate::picture::mesh::{ply, svg};

@@ -14,7 +14,8 @@ pub fn question(path: &Path, args: &CertifyArgs) -> Result<Question, Problem> {
     let question = match args.valence.as_deref() {
         None => Question::ask(&path.to_string_lossy())?,
         Some(_) if !path.exists() && Question::ask(&path.to_string_lossy()).is_ok() => {
-            let message = format!("--valence is for the vertices of a mesh rule, and {} is no file of one", path.display());
+            let message =
+                format!("--valence is for the vertices of a mesh rule, and {} is no file of one", path.display());
             return Err(Problem::new("secant::usage::valence", message)
                 .with_help("a rule on meshes is a case file with [vertex] (docs/case-format.md)"));
         }

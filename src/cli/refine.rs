@@ -63,7 +63,11 @@ fn refined(args: &RefineArgs) -> Result<String, Problem> {
     } else {
         "`control` makes it the old curve, in the coordinates of its points; without it, it is one of more points, a larger family."
     };
-    let left = if case.examine.is_empty() { "" } else { "\n# The points to examine were left out: they have other addresses." };
+    let left = if case.examine.is_empty() {
+        ""
+    } else {
+        "\n# The points to examine were left out: they have other addresses."
+    };
     Ok(format!(
         "# Refined by {}, from {} to {} points. {points}{left}\n# E T' = T E was verified for every cell; the new points by the old ones:\n{}\n{}",
         count(args.steps, "step"),

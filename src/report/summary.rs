@@ -112,8 +112,7 @@ fn points_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Blo
     }
     let row = |point: &PointReport<E>| {
         // Where the curve pauses the branches of a point have different parameters.
-        let mut parameters: Vec<_> =
-            point.branches.iter().filter_map(|b| parameter(&case.shape, &b.address)).collect();
+        let mut parameters: Vec<_> = point.branches.iter().filter_map(|b| parameter(&case.shape, &b.address)).collect();
         parameters.sort();
         parameters.dedup();
         let shown: Vec<String> = parameters.iter().map(ToString::to_string).collect();
@@ -151,8 +150,7 @@ pub fn overall_line<E: Reported>(found: &Certified<E>, required: &Required) -> L
         (!labels.is_empty()).then(|| listed(&labels))
     };
     let verdict = required.verdict(&found.claims);
-    let deciding: Vec<String> =
-        required.deciding(&found.claims).into_iter().map(|c| claims::label(&c.what)).collect();
+    let deciding: Vec<String> = required.deciding(&found.claims).into_iter().map(|c| claims::label(&c.what)).collect();
     let mut out = vec![mark(verdict)];
     out.extend(words(match (verdict, deciding.as_slice()) {
         (_, []) => ", as what is required is not claimed of this shape.".to_owned(),
