@@ -32,6 +32,10 @@ impl Segment {
     }
 }
 
+/// Binary places of a value at which two moduli meet, and the part of a window beside it at which they are compared.
+const NEAR: u64 = 120;
+const FAR: i64 = 1 << 30;
+
 /// What a window gives.
 enum Outcome {
     Found(Vec<Segment>),
@@ -138,6 +142,9 @@ impl Covering<'_> {
         let inside = roots_within(&f, &(window.lo.clone(), window.hi.clone()));
         if inside.is_empty() {
             let first = self.larger(one, Some(other), &window.lo)?;
+            if self.larger(one, Some(other), &window.hi)? != first {
+                return None;
+            }
             let leader = if first { one } else { other };
             return Some(vec![whole(window, self.judge.finding(leader, window)?)]);
         }
@@ -159,10 +166,11 @@ impl Covering<'_> {
         // One polynomial, which vanishes at one value only: the difference has no other zero.
         let f = tie(self.model, one, against).filter(|f| !f.is_zero())?;
         let inside = roots_within(&f, &(window.lo.clone(), window.hi.clone()));
-        match inside.as_slice() {
-            [at] if before != after => Some((at.clone(), after)),
-            _ => None,
-        }
+        let [at] = inside.as_slice() else { return None };
+        // The enclosures say so, too, of values close by.
+        let (near, far) = (at.enclosure(NEAR).0, window.width() * ratio(1, FAR));
+        let close = [near.lo - &far, near.hi + far].map(|p| self.larger(one, other, &p));
+        (before != after && close == up).then(|| (at.clone(), after))
     }
 
     /// Whether a modulus is certainly larger than another, or 1, at a value; `None` where it is not certainly smaller either.

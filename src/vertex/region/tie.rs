@@ -25,6 +25,7 @@ pub(super) enum Against<'a> {
 struct Cosines {
     field: NumberField,
     divisor: usize,
+    cosine: Elem,
 }
 
 impl Cosines {
@@ -32,15 +33,17 @@ impl Cosines {
         let n = model.vertex.valence;
         let turning = pieces.iter().filter(|p| p.turns());
         let divisor = turning.fold(n, |g, p| gcd(g, model.blocks[p.block].angle));
-        Some(Self { field: NumberField::generated(&twice_cosine(divisor, n))?, divisor })
+        let root = twice_cosine(divisor, n);
+        // A rational cosine is no generator.
+        Some(Self { field: NumberField::generated(&root)?, divisor, cosine: Elem::generator(root.minpoly()) })
     }
 
     /// `2 cos` of the angle of a block: `V_m(c)` with `V_0 = 2`, `V_1 = c`, `V_{m+1} = c V_m − V_{m−1}`.
     fn of(&self, angle: usize) -> Elem {
-        let c = Elem::generator(self.field.poly());
+        let c = &self.cosine;
         let (mut before, mut now) = (self.field.rational(&Rational::from(2)), c.clone());
         for _ in 0..angle / self.divisor {
-            let next = self.field.sub(&Ring::mul(&self.field, &c, &now), &before);
+            let next = self.field.sub(&Ring::mul(&self.field, c, &now), &before);
             (before, now) = (now, next);
         }
         before
