@@ -94,10 +94,16 @@ fn catmull_and_clark_along_a_line() {
     }
     assert!(compare(&along_alpha, 4) > 24);
     // On the side of β a pair of block 0 that is not real reaches λ: |1 − 2β| < 16 λ².
-    let along_beta = found("catmull-clark-line.toml", &["s=1/4", "beta=-3..3"], "4,5");
+    let along_beta = found("catmull-clark-line.toml", &["s=1/5", "beta=-3..3"], "4,5");
     let (from, to) = proved(&along_beta.found[0]);
-    assert_eq!((from.rational(), to.rational()), (Some(ratio(-3, 2)), Some(ratio(5, 2))));
+    assert_eq!((from.rational(), to.rational()), (Some(ratio(-3, 2)), Some(ratio(23, 10))));
+    assert_eq!(along_beta.found[0].at(&Root::from_rational(&ratio(-2, 1))), Some(Finding::Sectors));
     assert!(compare(&along_beta, 4) > 8);
+    // Where α = 1/4 the eigenvalues ±μ of block 0 meet λ: nothing is said of a short part there, nor beyond.
+    let both = found("catmull-clark-line.toml", &["s=1/4", "beta=2..3"], "4");
+    let open = |p| matches!(both.found[0].at(&Root::from_rational(&p)), Some(Finding::Open(Gap::Narrow | Gap::Same)));
+    assert!(open(ratio(5, 2)) && open(ratio(11, 4)), "{:?}", both.found[0].parts);
+    assert_eq!(says(&both.found[0], &ratio(2499, 1000)), Verdict::Proved);
 }
 
 /// A scheme without Bézier patches, two steps at once.

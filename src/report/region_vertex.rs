@@ -27,7 +27,9 @@ fn because(finding: Finding) -> String {
             "one eigenvector of block 0 leads, and its function has no zero on a closed path around the vertex"
                 .to_owned()
         }
-        Finding::Sectors => "the leading eigenvectors are the same in every second sector".to_owned(),
+        Finding::Sectors => {
+            "the two leading eigenvectors are the same in every sector, or in every second one".to_owned()
+        }
         Finding::Span => "the leading eigenvectors span three dimensions or more".to_owned(),
         Finding::NoLimit => "besides 1 an eigenvalue has modulus 1 or more: the rings do not shrink".to_owned(),
         Finding::Open(gap) => open(gap).to_owned(),
@@ -38,7 +40,9 @@ fn open(gap: Gap) -> &'static str {
     match gap {
         Gap::Narrow => "eigenvalues or signs did not separate; a smaller --width divides the gap further",
         Gap::Same => "two leading eigenvalues have one modulus for every value; secant certify answers single values",
-        Gap::Pair => "a pair of eigenvalues that is not real leads in a block without a characteristic map",
+        Gap::Ring => {
+            "one eigenvector leads, and its function on the ring is not examined for rules without Bézier patches"
+        }
         Gap::Meeting => "leading eigenvalues meet here, and no statement covers it",
         Gap::Work => "the work set aside is spent; --effort hard, or --time 600, divides the range further",
         Gap::Clock => "the time is over; a larger --time divides the range further",

@@ -33,7 +33,8 @@ impl<'a> Judge<'a> {
         match (&leader.kind, between) {
             // With their conjugates in the block n − k four dimensions.
             (Kind::Pair, true) => return Some(Finding::Span),
-            (Kind::Pair, false) => return Some(Finding::Open(Gap::Pair)),
+            // The function of the pair is the same in every sector, or in every second one.
+            (Kind::Pair, false) => return Some(Finding::Sectors),
             (Kind::Real { .. }, true) if block.frequency > 1 => return Some(Finding::Winding(block.frequency)),
             _ => {}
         }
@@ -52,7 +53,7 @@ impl<'a> Judge<'a> {
     fn by_signs(&self, leader: &Leader, window: &Window) -> Option<Finding> {
         let (field, values, value) = self.values(leader, window)?;
         let k = self.model.blocks[self.model.pieces[leader.piece].block].frequency;
-        if k == 1 { self.of_map(&field, &values, &value) } else { self.of_function(k, &field, &values, &value) }
+        if k == 1 { self.of_map(&field, &values, &value) } else { self.of_function(k, &field, &values) }
     }
 
     /// The eigenvector for all values of the window.
@@ -88,16 +89,15 @@ impl<'a> Judge<'a> {
         }
     }
 
-    fn of_function(&self, k: usize, field: &Enclosures, values: &Values<Fixed>, value: &Fixed) -> Option<Finding> {
+    fn of_function(&self, k: usize, field: &Enclosures, values: &Values<Fixed>) -> Option<Finding> {
+        if self.model.vertex.rule.info().spline.is_none() {
+            return Some(Finding::Open(Gap::Ring));
+        }
         // In block 0 a closed path is enough.
         let path = k == 0;
-        let signs: Signs = if self.model.vertex.rule.info().spline.is_some() {
-            let nets = signs::function(&self.model.vertex, field, values, k)?;
-            let nets = if path { boundary(&self.model.vertex.rule, &nets)? } else { nets };
-            signs::signs_of(field, nets, self.halvings())
-        } else {
-            signs::function_on_ring(&self.ring(field, values, value)?, k, path)
-        };
+        let nets = signs::function(&self.model.vertex, field, values, k)?;
+        let nets = if path { boundary(&self.model.vertex.rule, &nets)? } else { nets };
+        let signs: Signs = signs::signs_of(field, nets, self.halvings());
         signs.strict().map(|_| if path { Finding::Path } else { Finding::Line })
     }
 

@@ -18,6 +18,7 @@ use crate::arith::Rational;
 use crate::budget::Budget;
 use crate::scheme::SchemeError;
 use crate::statement::Statement;
+use crate::vertex::regular::Regular;
 use model::Model;
 use std::time::Duration;
 use thiserror::Error;
@@ -43,6 +44,9 @@ pub enum RegionError {
     /// The weights are no polynomials in the parameter of the degree of the expressions.
     #[error("the entries of the subdivision matrix are no polynomials in the parameter")]
     Polynomial,
+    /// No bounds of the rule away from the centre.
+    #[error("no bounds of the rule away from the centre were found (Lemma 4)")]
+    Regular,
     /// 1 is no eigenvalue.
     #[error("the weights of a new point do not add up to 1 for every value of the parameter")]
     One,
@@ -72,7 +76,8 @@ pub enum Finding {
     Line,
     /// Theorem 8 (e): one of block 0 leads, and its function has no zero on a closed path.
     Path,
-    /// Theorem 8 (b): the leading eigenvectors are the same in every second sector.
+    /// Theorem 8 (b): the leading eigenvectors are the same in every second sector, or a pair that is not real leads in block 0
+    /// or n/2.
     Sectors,
     /// Theorem 8 (d): they span three dimensions or more.
     Span,
@@ -89,8 +94,8 @@ pub enum Gap {
     Narrow,
     /// The leading eigenvalues have one modulus for every value.
     Same,
-    /// A pair that is not real leads in a block without a characteristic map.
-    Pair,
+    /// One eigenvector of block 0 or n/2 leads for a rule without Bézier patches; its function on the ring is not examined.
+    Ring,
     /// A single value at which leading eigenvalues meet that no statement covers.
     Meeting,
     /// As many intervals were examined as the limits allow.
@@ -199,5 +204,8 @@ pub fn region(
         return Err(RegionError::Range);
     }
     let model = Model::new(family, valence)?;
+    if model.vertex.rule.info().spline.is_none() && Regular::of(&model.vertex.rule).is_none() {
+        return Err(RegionError::Regular);
+    }
     Ok(cover::cover(&model, family, limits, budget))
 }
