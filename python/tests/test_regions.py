@@ -28,7 +28,7 @@ def test_the_answers_of_the_paper(three_point):
 def test_every_value_is_in_one_part(three_point):
     for order in three_point:
         for k in range(61):
-            assert sum(F(k, 360) in part for part in order.parts) == 1, (order.order, k)
+            assert sum(F(k, 360) in part for part in order.parts) == 1, (order.label, k)
 
 
 def test_members_agree(three_point):
