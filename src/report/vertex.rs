@@ -99,10 +99,10 @@ fn shown(found: &AtValence) -> Line {
 
 /// What an irrational eigenvalue is exactly: the root of an equation, whose coefficients may be in Q(c).
 fn exact(found: &AtValence) -> Option<String> {
-    found.top.as_ref().filter(|top| top.rational.is_none())?;
+    let top = found.top.as_ref().filter(|top| top.rational.is_none())?;
     let text = equation(found)?;
-    let angle = found.frequency.map_or_else(|| "2kπ/n".to_owned(), |k| format!("{}π/n", 2 * k));
-    let with_cosine = found.top.as_ref()?.poly.iter().any(|p| p.degree().is_some_and(|d| d > 0));
+    let angle = format!("{}π/n", 2 * top.angle);
+    let with_cosine = top.poly.iter().any(|p| p.degree().is_some_and(|d| d > 0));
     Some(if with_cosine { format!("{text} = 0, c = cos({angle})") } else { format!("{text} = 0") })
 }
 

@@ -226,7 +226,7 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
 pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
     found.polynomial = rule.info().spline.is_some();
-    let vertex = Vertex::new(rule, valence, ring::RINGS)?;
+    let vertex = Vertex::examined(rule, valence)?;
     let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
         Ok(blocks) => blocks,
         Err(error @ (SchemeError::Mesh { .. } | SchemeError::Asymmetric { .. })) => {
@@ -486,9 +486,7 @@ fn minimal(vertex: &Vertex, top: &Top) -> Option<Poly> {
     if let Some(q) = &top.rational {
         return Some(Poly::linear(q));
     }
-    let frequency = top.members.first()?.frequency;
-    let angle = if frequency == 0 { 1 } else { frequency };
-    let modulus = minimal_polynomial(vertex.valence / gcd(angle, vertex.valence));
+    let modulus = minimal_polynomial(vertex.valence / gcd(top.angle, vertex.valence));
     let degree = modulus.degree()?;
     if top.poly.iter().any(|c| c.degree().is_some_and(|d| d > 1)) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
         return None;

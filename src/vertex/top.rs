@@ -34,8 +34,11 @@ pub struct Top {
     pub rational: Option<Rational>,
     /// An enclosure.
     pub enclosure: Interval,
-    /// The polynomial that has it as a root: coefficients from the constant one up, in `t = 2cos(2πk/n)`.
+    /// The polynomial that has it as a root: coefficients from the constant one up, in `t = 2cos(2πk/n)`, `k` being
+    /// [`Top::angle`].
     pub poly: Vec<Poly>,
+    /// The `k` of the angle in the polynomial.
+    pub angle: usize,
     /// The blocks with this eigenvalue or its negative.
     pub members: Vec<Member>,
     /// A bound that all other eigenvalues but 1 stay strictly below.
@@ -242,7 +245,7 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     let place = (own.block, Some(own.part));
     let modulus = minimal_polynomial(vertex.valence / gcd(block.angle, vertex.valence));
     let poly = own.poly.iter().map(|c| c.div_rem(&modulus).1).collect();
-    Some(Top { rational, enclosure, poly, members, others, place })
+    Some(Top { rational, enclosure, poly, angle: block.angle, members, others, place })
 }
 
 /// The root near a float, enclosed by Newton's method on intervals: where the step maps an interval into itself it holds
@@ -373,7 +376,7 @@ fn tied(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], guesses: &[Guess], 
     let Some(place) = place else { return Err(open()) };
     let enclosure = Interval::point(value.clone());
     let poly = vec![Poly::constant(-&value), Poly::constant(ratio(1, 1))];
-    Ok(Top { rational: Some(value), enclosure, poly, members, others, place })
+    Ok(Top { rational: Some(value), enclosure, poly, angle: 1, members, others, place })
 }
 
 fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
@@ -418,13 +421,37 @@ pub fn leading_values(
 ) -> Option<Values<Fixed>> {
     let block = blocks.iter().find(|b| b.frequency == frequency)?;
     let enclosures = field_of(vertex, block, bits);
-    if let (_, Some(part)) = top.place {
+    let found = if let (_, Some(part)) = top.place {
         let value = leading_value(vertex, blocks, top, frequency, bits)?;
-        return eigenvector(&enclosures, block, part, &value);
+        eigenvector(&enclosures, block, part, &value)?
+    } else {
+        let field = number_field(vertex, block);
+        let exact = leading_vector(&field, block, top.rational.as_ref()?)?;
+        convert(&field, &enclosures, &exact)
+    };
+    if frequency == 0 || block.angle == frequency {
+        return Some(found);
     }
-    let field = number_field(vertex, block);
-    let exact = leading_vector(&field, block, top.rational.as_ref()?)?;
-    Some(convert(&field, &enclosures, &exact))
+    turned(vertex, &found, frequency, bits)
+}
+
+/// Numbers `x + y ω` with `ω = e^(2πi/n)` in the same form with `e^(2πik/n)`; of the frequency `n/2` they are real.
+fn turned(vertex: &Vertex, values: &Values<Fixed>, k: usize, bits: u64) -> Option<Values<Fixed>> {
+    if 2 * k == vertex.valence {
+        return Some(values.clone());
+    }
+    let one = Enclosures::of_angle(1, vertex.valence, bits);
+    let (t, turned) = (one.twice_cosine(), Enclosures::of_angle(k, vertex.valence, bits).twice_cosine());
+    // sin(kθ)/sin(θ) by U_0 = 1, U_1 = t, U_(j+1) = t U_j − U_(j−1).
+    let (mut before, mut now) = (one.zero(), one.one());
+    for _ in 1..k {
+        (before, now) = (now.clone(), one.sub(&one.mul(&t, &now), &before));
+    }
+    // ω = a + b ω^k.
+    let b = one.inv(&now)?;
+    let a = one.scale(&one.sub(&t, &one.mul(&b, &turned)), &ratio(1, 2));
+    let convert = |v: &Turning<Fixed>| Turning { x: one.add(&v.x, &one.mul(&a, &v.y)), y: one.mul(&b, &v.y) };
+    Some(Values { centre: convert(&values.centre), orbits: values.orbits.iter().map(convert).collect() })
 }
 
 /// Exact values as enclosures.
