@@ -413,3 +413,69 @@ fn large_valences_are_proved() {
         assert_eq!(found.smooth, Verdict::Proved, "{name}");
     }
 }
+
+/// The table of sizes of the curvature: `ρ/λ²`, the exponent, the blocks of `ρ` up to `n/2`, and whether it is C².
+#[test]
+fn the_published_curvatures() {
+    use secant::vertex::{Second, Size};
+    let at = |name: &str, n: usize| at_valence(&mesh_rule(name, &[].into()).unwrap(), n).unwrap().curvature;
+    for (name, n, size, quotient, exponent, blocks) in [
+        ("catmull-clark", 3, Size::Vanishing, None, None, None),
+        ("catmull-clark", 4, Size::Bounded, Some(1.0), None, Some(vec![0, 2])),
+        ("catmull-clark", 5, Size::Unbounded, Some(1.12437), Some(10.200), Some(vec![2])),
+        ("catmull-clark", 6, Size::Unbounded, Some(1.2204), Some(5.475), Some(vec![2])),
+        ("catmull-clark", 7, Size::Unbounded, Some(1.2894), Some(4.040), Some(vec![2])),
+        ("catmull-clark", 8, Size::Unbounded, Some(1.3388), Some(3.376), Some(vec![2])),
+        ("catmull-clark", 12, Size::Unbounded, Some(1.43854), Some(2.500), Some(vec![2])),
+        ("loop", 3, Size::Unbounded, Some(2.0), Some(4.0), None),
+        ("loop", 4, Size::Bounded, Some(1.0), None, Some(vec![0])),
+        ("loop", 5, Size::Bounded, Some(1.0), None, Some(vec![0])),
+        ("loop", 6, Size::Bounded, Some(1.0), None, Some(vec![0, 2])),
+        ("loop", 7, Size::Unbounded, Some(1.1332), Some(10.127), Some(vec![2])),
+        ("loop", 12, Size::Unbounded, Some(1.4291), Some(2.941), Some(vec![2])),
+        ("loop-warren", 4, Size::Unbounded, Some(16.0 / 9.0), None, Some(vec![0])),
+        ("loop-warren", 5, Size::Unbounded, Some(1.22229), None, Some(vec![0])),
+        ("doo-sabin", 3, Size::Bounded, Some(1.0), None, Some(vec![0, 1])),
+        ("doo-sabin", 4, Size::Bounded, Some(1.0), None, Some(vec![0, 1, 2])),
+        ("doo-sabin", 5, Size::Unbounded, Some(1.0), None, Some(vec![2])),
+        ("doo-sabin", 6, Size::Unbounded, Some(1.0), None, Some(vec![2])),
+        ("doo-sabin-catmull-clark", 5, Size::Vanishing, None, None, None),
+        ("doo-sabin-catmull-clark", 7, Size::Unbounded, Some(1.0330), None, Some(vec![2])),
+    ] {
+        let found = at(name, n).unwrap_or_else(|| panic!("{name} {n}"));
+        assert_eq!(found.size, size, "{name} {n}");
+        if let Some(quotient) = quotient {
+            assert!((to_f64(&found.ratio.mid()) - quotient).abs() < 6e-5, "{name} {n}: {:?}", found.ratio);
+        }
+        if let Some(exponent) = exponent {
+            assert!((found.exponent.unwrap() - exponent).abs() < 6e-3, "{name} {n}: {:?}", found.exponent);
+        }
+        if blocks.is_some() {
+            assert_eq!(found.blocks, blocks, "{name} {n}");
+        }
+        assert_eq!(found.power, usize::from(name == "doo-sabin" && n >= 5), "{name} {n}");
+    }
+    let second = |name: &str, n: usize| at(name, n).unwrap().second;
+    assert_eq!([3, 4, 5].map(|n| second("catmull-clark", n)), [Second::Flat, Second::Regular, Second::No]);
+    assert_eq!([4, 5, 6].map(|n| second("loop", n)), [Second::No, Second::No, Second::Regular]);
+    assert!(at("catmull-clark", 5).unwrap().excludes_convex() && at("loop", 4).unwrap().excludes_saddles());
+    // The ring of Doo and Sabin is not C².
+    assert_eq!(second("doo-sabin", 4), Second::Open);
+    assert!(at("midedge", 5).is_none() && at("sqrt3", 5).is_none());
+}
+
+/// Weights tuned for bounded curvature, by stencils of one's own: `H/z²` is no constant, so it is not C².
+#[test]
+fn tuned_weights_bound_the_curvature() {
+    use secant::vertex::{Second, Size};
+    for (name, valences) in [("own-loop-bounded", [5, 7]), ("own-catmull-clark-bounded", [5, 6])] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/surfaces").join(name).with_extension("toml");
+        let case = VertexCase::read(&path).unwrap();
+        for n in valences {
+            let found = at_valence(&case.rule, n).unwrap().curvature.unwrap_or_else(|| panic!("{name} {n}"));
+            assert_eq!((found.size, found.second), (Size::Bounded, Second::No), "{name} {n}");
+            assert_eq!(found.blocks, Some(vec![0, 2]), "{name} {n}");
+            assert!(!found.excludes_convex() && !found.excludes_saddles(), "{name} {n}");
+        }
+    }
+}

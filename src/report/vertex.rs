@@ -167,6 +167,7 @@ pub(super) fn summary_by_valence(case: &VertexCase, found: &[AtValence], every: 
     if !found.is_empty() {
         blocks.push(Block::Table(table(case, found)));
     }
+    blocks.extend(super::curvature::table(found).map(Block::Table));
     let equations = equations(found);
     if !equations.is_empty() {
         blocks.push(Block::List(equations));
@@ -423,6 +424,7 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
             "negative": place(&s.negative),
             "zero": place(&s.zero),
         })),
+        "curvature": f.curvature.as_ref().map(super::curvature::data),
         "checked": f.again == Again::Proved,
     })
 }

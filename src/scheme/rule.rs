@@ -433,6 +433,15 @@ impl MeshRule {
         }
     }
 
+    /// Whether all is regular at a centre of a valence.
+    pub(crate) fn regular_at(&self, n: usize) -> bool {
+        let own = match &self.own {
+            Some(own) => own.has_centre(n),
+            None => self.own_weights(),
+        };
+        n == self.regular_valence() && !own
+    }
+
     /// The weights of the new point at a vertex of `n` faces; `None` where a row has none.
     pub(crate) fn star(&self, n: usize, central: bool) -> Option<Star> {
         let Points::Kept { star, centre, .. } = self.info.points else { return None };

@@ -2,6 +2,7 @@
 
 use super::block::{Block, Vertex};
 use super::cosine::{gcd, minimal_polynomial};
+use super::curvature::{Curvature, curvature};
 use super::field::{Enclosures, Field, Fixed};
 use super::limit::{self, Ring};
 use super::net::{Net, Signs};
@@ -95,6 +96,8 @@ pub struct AtValence {
     pub ground: Option<Ground>,
     /// That eigenvector.
     pub eigenvector: Option<Eigenvector>,
+    /// The curvature for almost all control points, where the surface is C¹ for them and the ring has Bézier patches.
+    pub curvature: Option<Curvature>,
     /// What the independent checker says of the verdicts.
     pub again: Again,
     /// The patches of sector 0 as floats `x, y`, for pictures: nets of points in the true plane.
@@ -118,6 +121,7 @@ impl AtValence {
             reason: VertexReason::Unexamined,
             ground: None,
             eigenvector: None,
+            curvature: None,
             again: Again::NotAsked,
             outline: Vec::new(),
         }
@@ -159,6 +163,7 @@ impl AtValence {
         if !self.polynomial && (self.jacobian.is_some() || self.half_plane.is_some() || self.ground.is_some()) {
             out.push(Statement::Lemma4);
         }
+        out.extend(self.curvature.as_ref().map(|_| Statement::CurvatureSize));
         out.sort_unstable();
         out.dedup();
         out
@@ -245,6 +250,9 @@ pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Re
     };
     found.minimal = minimal(&vertex, &top);
     Judge { vertex: &vertex, blocks: &blocks, top: &top, found: &mut found, budget }.judge();
+    if found.smooth == Verdict::Proved && found.ground == Some(Ground::Regular) {
+        found.curvature = curvature(&vertex, &blocks, &top);
+    }
     found.top = Some(top);
     Ok(found)
 }

@@ -63,18 +63,18 @@ impl From<SchemeError> for TopError {
 }
 
 /// A factor of the characteristic polynomials, without the eigenvalue 1.
-struct Piece {
-    block: usize,
-    part: usize,
-    poly: Vec<Poly>,
+pub(super) struct Piece {
+    pub block: usize,
+    pub part: usize,
+    pub poly: Vec<Poly>,
 }
 
 /// An eigenvalue in floating point.
-struct Guess {
-    piece: usize,
-    re: f64,
-    im: f64,
-    modulus: f64,
+pub(super) struct Guess {
+    pub piece: usize,
+    pub re: f64,
+    pub im: f64,
+    pub modulus: f64,
 }
 
 impl Top {
@@ -115,7 +115,7 @@ pub fn top(vertex: &Vertex, blocks: &[Block], bits: u64) -> Result<Top, TopError
 }
 
 /// The parts of all blocks; the eigenvalue 1 of the block 0 is divided out once.
-fn pieces(blocks: &[Block]) -> Vec<Piece> {
+pub(super) fn pieces(blocks: &[Block]) -> Vec<Piece> {
     let mut all = Vec::new();
     let mut divided = false;
     for (b, block) in blocks.iter().enumerate() {
@@ -151,7 +151,7 @@ fn deflate_one(poly: &[Poly]) -> Vec<Poly> {
     clippy::cast_precision_loss,
     reason = "proposes eigenvalues; each is proved afterwards"
 )]
-fn guess(vertex: &Vertex, blocks: &[Block], pieces: &[Piece]) -> Vec<Guess> {
+pub(super) fn guess(vertex: &Vertex, blocks: &[Block], pieces: &[Piece]) -> Vec<Guess> {
     let mut all = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let angle = std::f64::consts::TAU * blocks[piece.block].angle as f64 / vertex.valence as f64;
@@ -204,15 +204,15 @@ fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
     z
 }
 
-fn from_float(x: f64) -> Rational {
+pub(super) fn from_float(x: f64) -> Rational {
     Rational::try_from(x).unwrap_or_else(|_| Rational::from(0))
 }
 
-fn field_of(vertex: &Vertex, block: &Block, bits: u64) -> Enclosures {
+pub(super) fn field_of(vertex: &Vertex, block: &Block, bits: u64) -> Enclosures {
     Enclosures::of_angle(block.angle, vertex.valence, bits)
 }
 
-fn coefficients(field: &Enclosures, poly: &[Poly]) -> Vec<Fixed> {
+pub(super) fn coefficients(field: &Enclosures, poly: &[Poly]) -> Vec<Fixed> {
     poly.iter().map(|c| field.eval(c, &field.twice_cosine())).collect()
 }
 
@@ -250,7 +250,7 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
 
 /// The root near a float, enclosed by Newton's method on intervals: where the step maps an interval into itself it holds
 /// exactly one root.
-fn newton(field: &Enclosures, poly: &[Fixed], near: &Rational) -> Option<Fixed> {
+pub(super) fn newton(field: &Enclosures, poly: &[Fixed], near: &Rational) -> Option<Fixed> {
     let derivative: Vec<Fixed> =
         poly.iter().enumerate().skip(1).map(|(k, c)| field.scale(c, &Rational::from(k as u64))).collect();
     let at = |p: &[Fixed], x: &Fixed| p.iter().rev().fold(field.zero(), |v, c| field.add(&field.mul(&v, x), c));
@@ -275,7 +275,7 @@ fn newton(field: &Enclosures, poly: &[Fixed], near: &Rational) -> Option<Fixed> 
 }
 
 /// The quotient by `x − value`, for a root.
-fn deflate<F: Field>(field: &F, poly: &[F::E], value: &F::E) -> Vec<F::E> {
+pub(super) fn deflate<F: Field>(field: &F, poly: &[F::E], value: &F::E) -> Vec<F::E> {
     let mut quotient = Vec::new();
     let mut carry = field.zero();
     for c in poly.iter().skip(1).rev() {
@@ -287,7 +287,7 @@ fn deflate<F: Field>(field: &F, poly: &[F::E], value: &F::E) -> Vec<F::E> {
 }
 
 /// Whether all roots are certainly smaller than `bound` in modulus (Schur and Cohn).
-fn all_below(field: &Enclosures, poly: &[Fixed], bound: &Rational) -> bool {
+pub(super) fn all_below(field: &Enclosures, poly: &[Fixed], bound: &Rational) -> bool {
     let mut power = Rational::from(1);
     let mut a: Vec<Fixed> = Vec::new();
     for c in poly {
@@ -379,7 +379,7 @@ fn tied(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], guesses: &[Guess], 
     Ok(Top { rational: Some(value), enclosure, poly, angle: 1, members, others, place })
 }
 
-fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
+pub(super) fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
     poly.iter().rev().fold(field.zero(), |v, c| field.add(&field.mul(&v, x), c))
 }
 
@@ -436,7 +436,7 @@ pub fn leading_values(
 }
 
 /// Numbers `x + y ω` with `ω = e^(2πi/n)` in the same form with `e^(2πik/n)`; of the frequency `n/2` they are real.
-fn turned(vertex: &Vertex, values: &Values<Fixed>, k: usize, bits: u64) -> Option<Values<Fixed>> {
+pub(super) fn turned(vertex: &Vertex, values: &Values<Fixed>, k: usize, bits: u64) -> Option<Values<Fixed>> {
     if 2 * k == vertex.valence {
         return Some(values.clone());
     }
@@ -455,7 +455,7 @@ fn turned(vertex: &Vertex, values: &Values<Fixed>, k: usize, bits: u64) -> Optio
 }
 
 /// Exact values as enclosures.
-fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
+pub(super) fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
     let one = |v: &Turning<Elem>| Turning { x: enclose(field, enclosures, &v.x), y: enclose(field, enclosures, &v.y) };
     Values { centre: one(&exact.centre), orbits: exact.orbits.iter().map(one).collect() }
 }

@@ -267,6 +267,11 @@ impl OwnRule {
         })
     }
 
+    /// Whether the centre has stencils at a valence.
+    pub(super) fn has_centre(&self, n: usize) -> bool {
+        self.centre(n).is_some()
+    }
+
     /// Whether points on edges or in faces have stencils of their own at the centre.
     pub(super) fn widened(&self) -> bool {
         self.centres.iter().any(|c| c.stencils.keys().any(|e| *e != Element::Vertex))
