@@ -86,10 +86,13 @@ impl Vertex {
         if rule.own().is_none() {
             return Self::new(rule, valence, least);
         }
-        let wider = (least + 1..=least + MORE_RINGS).map(|rings| Self::new(rule, valence, rings));
-        let first = Self::new(rule, valence, least);
-        let too_few = |e: &SchemeError| matches!(e, SchemeError::Rings { .. });
-        wider.fold(first, |found, next| if found.as_ref().is_err_and(too_few) { next } else { found })
+        for rings in least..least + MORE_RINGS {
+            match Self::new(rule, valence, rings) {
+                Err(SchemeError::Rings { .. }) => {}
+                found => return found,
+            }
+        }
+        Self::new(rule, valence, least + MORE_RINGS)
     }
 
     /// The weights of the new points of an orbit and that of the centre in them, where they are rational.
@@ -150,27 +153,42 @@ impl Vertex {
     /// [`SchemeError`] of the stencils; [`SchemeError::Asymmetric`] where a characteristic polynomial is not real (a scheme
     /// without mirror symmetry).
     pub fn block(&self, frequency: usize) -> Result<Block, SchemeError> {
-        let modulus = self.is_irrational().then(|| minimal_polynomial(self.valence));
-        let (entries, before, angle) = match (&self.irrational, frequency) {
-            (Some(s), 0) => still_over(s),
-            (Some(s), k) => (self.turning_over(s, k), 0, 1),
-            (None, 0) => self.still()?,
-            (None, k) => (self.turning(k), 0, k),
+        let (entries, before, angle) = self.entries(frequency)?;
+        let part = |indices: Vec<usize>| {
+            let poly = self.characteristic(&entries, &indices, angle)?;
+            Ok(Part { indices, poly })
         };
-        let size = entries.len();
-        let angle_polynomial = minimal_polynomial(self.valence / gcd(angle, self.valence));
-        let pattern = Matrix::from_fn(size, size, |i, j| ratio(i64::from(!entries[i][j].is_zero()), 1));
-        let mut parts = Vec::new();
-        for indices in strong_components(&pattern) {
-            let inner: Vec<Vec<Symbol>> =
-                indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
-            let coefficients = characteristic(&inner, modulus.as_ref());
-            if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
-                return Err(SchemeError::Asymmetric { rule: self.rule.name() });
-            }
-            parts.push(Part { indices, poly: coefficients.into_iter().map(|c| c.x).collect() });
-        }
+        let parts = strong_parts(entries.len(), |i, j| !entries[i][j].is_zero());
+        let parts = parts.into_iter().map(part).collect::<Result<_, SchemeError>>()?;
         Ok(Block { frequency, angle, entries, before, parts })
+    }
+
+    /// The entries of a block, how many indices stand before the orbits, and the angle of `t` in the entries.
+    pub(super) fn entries(&self, frequency: usize) -> Result<(Vec<Vec<Symbol>>, usize, usize), SchemeError> {
+        match (&self.irrational, frequency) {
+            (Some(s), 0) => Ok(still_over(s)),
+            (Some(s), k) => Ok((self.turning_over(s, k), 0, 1)),
+            (None, 0) => self.still(),
+            (None, k) => Ok((self.turning(k), 0, k)),
+        }
+    }
+
+    /// The characteristic polynomial of the entries among some indices.
+    pub(super) fn characteristic(
+        &self,
+        entries: &[Vec<Symbol>],
+        indices: &[usize],
+        angle: usize,
+    ) -> Result<Vec<Poly>, SchemeError> {
+        let inner: Vec<Vec<Symbol>> =
+            indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
+        let modulus = self.is_irrational().then(|| minimal_polynomial(self.valence));
+        let coefficients = characteristic(&inner, modulus.as_ref());
+        let angle_polynomial = minimal_polynomial(self.valence / gcd(angle, self.valence));
+        if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
+            return Err(SchemeError::Asymmetric { rule: self.rule.name() });
+        }
+        Ok(coefficients.into_iter().map(|c| c.x).collect())
     }
 
     /// A block of a frequency other than 0 over `Q(2cos(2π/n))`.
@@ -359,6 +377,11 @@ fn interpolate(values: &[&Rational]) -> Poly {
 
 fn compose(outer: &Poly, inner: &Poly) -> Poly {
     outer.coeffs().iter().rev().fold(Poly::zero(), |v, c| &(&v * inner) + &Poly::constant(c.clone()))
+}
+
+/// The strongly connected parts of a matrix with these entries other than 0, each after those that it depends on.
+pub(super) fn strong_parts(size: usize, entry: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    strong_components(&Matrix::from_fn(size, size, |i, j| ratio(i64::from(entry(i, j)), 1)))
 }
 
 /// The characteristic polynomial, from the constant coefficient up (Faddeev and LeVerrier); with coordinates modulo a polynomial,

@@ -7,7 +7,7 @@ use super::net::Net;
 use super::ring::patches;
 use super::solve::{leading_vector, longest_blocks};
 use super::top::{
-    Guess, Piece, Top, all_below, coefficients, convert, deflate, evaluate, field_of, from_float, guess, leading_value,
+    Guess, Piece, Top, all_below, around, coefficients, convert, deflate, evaluate, field_of, from_float, guess, leading_value,
     leading_values, newton, number_field, pieces,
 };
 use super::turning::{Rotation, Turning};
@@ -185,7 +185,7 @@ impl<'a> Rest<'a> {
     fn unbounded(&self) -> Option<Curvature> {
         let first = self.guesses.first().filter(|g| g.im.abs() < NEAR)?;
         let (field, poly) = self.poly(first.piece);
-        let value = newton(&field, &poly, &from_float(first.re))?;
+        let value = newton(&field, &poly, &around(&from_float(first.re)))?;
         let value = field.to_interval(&value);
         let (low, high) = (abs(&value.lo).min(abs(&value.hi)), abs(&value.lo).max(abs(&value.hi)));
         if value.contains_zero() || low <= self.square.hi {
@@ -198,7 +198,7 @@ impl<'a> Rest<'a> {
         // Alone in its modulus: all others are below a bound, where this one is divided out.
         let alone = lower < low && self.below(&lower, &[first.piece]) && {
             let (field, poly) = self.poly(first.piece);
-            let exact = newton(&field, &poly, &from_float(first.re))?;
+            let exact = newton(&field, &poly, &around(&from_float(first.re)))?;
             all_below(&field, &deflate(&field, &poly, &exact), &lower)
         };
         let blocks = alone.then(|| vec![self.blocks[self.pieces[first.piece].block].frequency]);
@@ -301,7 +301,7 @@ impl<'a> Rest<'a> {
             return None;
         }
         let (enclosures, poly) = self.poly(only.piece);
-        let value = newton(&enclosures, &poly, &from_float(only.re))?;
+        let value = newton(&enclosures, &poly, &around(&from_float(only.re)))?;
         let next = self.guesses.iter().find(|g| g.modulus < only.modulus * (1.0 - 1e-6)).map_or(0.0, |g| g.modulus);
         let bound = from_float(f64::midpoint(only.modulus, next));
         let apart = bound < self.square.lo

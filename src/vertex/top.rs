@@ -171,7 +171,7 @@ pub(super) fn guess(vertex: &Vertex, blocks: &[Block], pieces: &[Piece]) -> Vec<
     clippy::cast_precision_loss,
     reason = "proposes eigenvalues; each is proved afterwards"
 )]
-fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
+pub(super) fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
     let degree = c.len() - 1;
     let radius = 1.0 + c.iter().take(degree).fold(0.0_f64, |m, x| m.max(x.abs()));
     let mut z: Vec<(f64, f64)> = (0..degree)
@@ -221,7 +221,7 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     let own = &pieces[first.piece];
     let block = &blocks[own.block];
     let field = field_of(vertex, block, bits);
-    let value = newton(&field, &coefficients(&field, &own.poly), &from_float(first.re))?;
+    let value = newton(&field, &coefficients(&field, &own.poly), &around(&from_float(first.re)))?;
     let enclosure = field.to_interval(&value);
     let size = abs(&enclosure.lo).min(abs(&enclosure.hi));
     #[allow(clippy::float_arithmetic, reason = "proposes a bound between the eigenvalues")]
@@ -248,13 +248,18 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     Some(Top { rational, enclosure, poly, angle: block.angle, members, others, place })
 }
 
-/// The root near a float, enclosed by Newton's method on intervals: where the step maps an interval into itself it holds
-/// exactly one root.
-pub(super) fn newton(field: &Enclosures, poly: &[Fixed], near: &Rational) -> Option<Fixed> {
+/// A short interval around a number.
+pub(super) fn around(near: &Rational) -> Interval {
+    Interval::new(near - ratio(1, 1 << 24), near + ratio(1, 1 << 24))
+}
+
+/// The root in an interval, enclosed by Newton's method on intervals: where the step maps it into itself it holds exactly one
+/// root, of every polynomial with coefficients in the enclosures.
+pub(super) fn newton(field: &Enclosures, poly: &[Fixed], start: &Interval) -> Option<Fixed> {
     let derivative: Vec<Fixed> =
         poly.iter().enumerate().skip(1).map(|(k, c)| field.scale(c, &Rational::from(k as u64))).collect();
     let at = |p: &[Fixed], x: &Fixed| p.iter().rev().fold(field.zero(), |v, c| field.add(&field.mul(&v, x), c));
-    let mut x = field.interval(&Interval::new(near - ratio(1, 1 << 24), near + ratio(1, 1 << 24)));
+    let mut x = field.interval(start);
     let mut proved = false;
     for _ in 0..16 {
         let middle: crate::arith::Integer = (&x.lo + &x.hi) >> 1_u32;
@@ -405,7 +410,7 @@ pub fn leading_value(vertex: &Vertex, blocks: &[Block], top: &Top, frequency: us
     }
     match &top.rational {
         Some(q) => Some(enclosures.rational(q)),
-        None => newton(&enclosures, &coefficients(&enclosures, &top.poly), &top.enclosure.mid()),
+        None => newton(&enclosures, &coefficients(&enclosures, &top.poly), &around(&top.enclosure.mid())),
     }
 }
 
