@@ -7,8 +7,8 @@ use super::net::Net;
 use super::ring::patches;
 use super::solve::{leading_vector, longest_blocks};
 use super::top::{
-    Guess, Piece, Top, all_below, around, coefficients, convert, deflate, evaluate, field_of, from_float, guess, leading_value,
-    leading_values, newton, number_field, pieces,
+    Guess, Piece, Top, all_below, around, coefficients, convert, deflate, evaluate, field_of, from_float, guess,
+    leading_value, leading_values, newton, number_field, pieces,
 };
 use super::turning::{Rotation, Turning};
 use crate::arith::{Interval, Rational, abs, ratio, to_f64};

@@ -55,7 +55,7 @@ fn distance(triangles: bool, (i, j): Place) -> i64 {
 pub(super) fn radius(triangles: bool, factor: i64, points: &[Place]) -> i64 {
     let apart = |cell: &Cell| points.iter().all(|p| distance(triangles, place(cell, *p)) >= 1);
     let most = points.iter().map(|p| distance(triangles, *p)).fold(RADIUS, i64::max) + 1;
-    (RADIUS..most).find(|r| cells_between(triangles, *r, factor * r).iter().all(apart)).unwrap_or(most)
+    (RADIUS..most).find(|r| cells_between(triangles, *r, factor * r).iter().all(apart)).map_or(most, |r| r)
 }
 
 /// The cells of the ring of a sector.

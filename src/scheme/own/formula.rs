@@ -311,6 +311,7 @@ mod tests {
     use crate::arith::{ratio, to_f64};
 
     #[test]
+    #[allow(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "decimals")]
     fn values_are_those_of_floats() {
         let texts: [(&str, fn(f64, f64) -> f64); 4] = [
             ("(1/4 + cos(2*pi*k/n) + cos(4*pi*k/n)/2)/n", |n, k| {
