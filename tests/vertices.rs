@@ -216,7 +216,7 @@ fn turning_schemes_have_their_published_eigenvalues() {
 fn the_butterfly_scheme_has_its_cubic() {
     // 64x³ + (64h⁴ − 96h² − 16)x² + (23h² − 12h⁴ + 1)x − h² with h = cos(πk/n), so h² = (1 + cos(2πk/n))/2.
     let rule = scheme("butterfly", &[("w", ratio(1, 16))]);
-    assert!(matches!(local_matrix(&rule, 6, 1), Err(SchemeError::Mesh { .. })));
+    assert!(matches!(local_matrix(&rule, 6, 1), Err(SchemeError::Rings { .. })));
     for (n, h2) in [(3, ratio(1, 4)), (4, ratio(1, 2)), (6, ratio(3, 4))] {
         let h4 = &h2 * &h2;
         let p = [
