@@ -24,7 +24,7 @@ Variable case : system.
 Notation A := (automaton_of case).
 Notation N := (ambient case).
 Notation mt e i := (snd (piece case e i)).
-Variables (centres : list qvec) (radii : list Q) (k : cones).
+Variables (centres : list qvec) (radii : list Q) (spaces : list qmat) (k : cones).
 
 Definition ray_list e := nth e (rays_of k) [].
 Definition ray_at e j := nth j (ray_list e) [].
@@ -63,7 +63,7 @@ Definition check_cones (P : qmat) (s : nat) : bool :=
   forallb check_state (seq 0 (states A)) &&
   forallb (fun j => Qlt_bool 0 (qdot N (seen_by k) (qact N P (ray_at s j)))) (seq 0 (length (ray_list s))).
 
-Theorem cones_ok P s : controlled case centres radii -> check_cones P s = true -> tangent_at_every_address A (qm P) s.
+Theorem cones_ok P s : controlled case centres radii spaces -> check_cones P s = true -> tangent_at_every_address A (qm P) s.
 Proof.
   intros (Hf & Hsys & _) H. unfold check_cones in H. rewrite !andb_true_iff in H.
   destruct H as [[[[[H1 H2] H3] H4] H5] H6]. apply Nat.ltb_lt in H1. apply Nat.leb_le in H2.

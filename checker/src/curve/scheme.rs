@@ -2,6 +2,7 @@
 //! itself (docs/schemes.md says what they stand for).
 
 mod curves;
+mod interpolate;
 mod masks;
 mod symbol;
 
@@ -10,7 +11,7 @@ use crate::base::{Checked, Json, Matrix, Node, flag, some};
 use curves::Curve;
 
 /// The keys that say what is built; each table has exactly one.
-const FORMS: [&str; 6] = ["name", "mask", "symbol", "filter", "tensor", "mesh"];
+const FORMS: [&str; 7] = ["name", "mask", "symbol", "filter", "tensor", "mesh", "interpolate"];
 
 /// A key with its value.
 type Field = (String, Json);
@@ -33,6 +34,7 @@ fn rows(m: &Matrix) -> Json {
 pub fn expanded(node: &Node<'_>) -> Checked<Vec<Field>> {
     match form(node)? {
         "tensor" => tensor(node),
+        "interpolate" => interpolate::expanded(node, "interpolate"),
         "mesh" => node.reject(
             "scheme",
             "meshes are not built here: check the expanded case, which `secant certify --certificate FILE` writes beside \
@@ -42,11 +44,16 @@ pub fn expanded(node: &Node<'_>) -> Checked<Vec<Field>> {
     }
 }
 
+/// What the table `[interpolate]` stands for.
+pub fn interpolated(node: &Node<'_>) -> Checked<Vec<Field>> {
+    interpolate::expanded(node, "points")
+}
+
 fn form(node: &Node<'_>) -> Checked<&'static str> {
     let given: Vec<&'static str> = FORMS.into_iter().filter(|key| node.get(key).is_some()).collect();
     match given.as_slice() {
         [form] => Ok(form),
-        _ => node.reject("format", "a scheme has exactly one of the keys name, mask, symbol, filter, tensor, mesh"),
+        _ => node.reject("format", format_args!("a scheme has exactly one of the keys {}", FORMS.join(", "))),
     }
 }
 
@@ -68,7 +75,7 @@ fn tensor(node: &Node<'_>) -> Checked<Vec<Field>> {
     let factors = node.field("tensor")?.exactly(2, "format")?;
     let factor = |node: &Node<'_>| {
         let form = form(node)?;
-        node.need(!matches!(form, "tensor" | "mesh"), "format", "the factors of a tensor product are curves")?;
+        node.need(!matches!(form, "tensor" | "mesh" | "interpolate"), "format", "the factors of a tensor product are curves")?;
         let curve = curve(node, form, true)?;
         node.need(curve.vertex.is_some(), "format", "a factor of a tensor product is a curve, no set")?;
         Ok(curve)
