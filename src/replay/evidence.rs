@@ -111,8 +111,7 @@ pub(super) fn in_its_state(
     if sign(&sample) < 0 {
         top.turn();
     }
-    let (direction, scale) =
-        reduced(&chart.seen.apply(&top.vector)).ok_or("an eigenvector that an operator kills")?;
+    let (direction, scale) = reduced(&chart.seen.apply(&top.vector)).ok_or("an eigenvector that an operator kills")?;
     if sign(&top.value) < 0 {
         return Err("a negative eigenvalue".to_owned());
     }
@@ -150,8 +149,7 @@ fn finished(
     let exit = exit(given.shape, branch).ok_or("a cycle that nothing leaves")?;
     let (power, rate) = gap(&chart.turn, &top)?;
     let functional = chart.coordinates.apply_left(&top.row);
-    let (low, depth) =
-        ring(given, branch, &functional, mode).ok_or("a ring condition that takes too many cells")?;
+    let (low, depth) = ring(given, branch, &functional, mode).ok_or("a ring condition that takes too many cells")?;
     Ok(Evidence { point: branch.fixed.clone(), chart, top, power, rate, low, depth, exit, scale })
 }
 

@@ -119,7 +119,10 @@ fn definitions(out: &mut String, model: &Model<'_>) {
     let space = |e: &usize| &model.spaces.of(*e).basis * &model.spaces.of(*e).coordinates;
     let spaces = list(&model.states, |e| matrix(&space(e)));
     let _ = writeln!(out, "Definition centres : list qvec := {centres}.\nDefinition radii : list Q := {radii}.");
-    let _ = writeln!(out, "(* Spaces of the differences of the attractors: the vectors that these matrices do not change. *)");
+    let _ = writeln!(
+        out,
+        "(* Spaces of the differences of the attractors: the vectors that these matrices do not change. *)"
+    );
     let _ = writeln!(out, "Definition spaces : list qmat := {spaces}.");
     let _ = writeln!(out, "Lemma contracts : controlled case centres radii spaces.");
     let _ = writeln!(

@@ -37,8 +37,7 @@ pub struct Hole {
 }
 
 /// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
-const CASE: &str =
-    "name title source kind convention pieces reversed shares map scheme interpolate start state control examine expect";
+const CASE: &str = "name title source kind convention pieces reversed shares map scheme interpolate start state control examine expect";
 const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
 
 /// What must be known of all states before their pieces are read.
@@ -144,8 +143,8 @@ impl Reader {
 
     fn head<'a>(&self, table: &Node<'a>, default: Kind) -> Checked<Head<'a>> {
         let built = ["chain", "scheme"].iter().find(|key| table.get(key).is_some());
-        let elsewhere = "a state that is a chain or names a scheme is not built here: check the expanded case, which `secant certify --certificate FILE` writes beside the certificate, and `secant expand` prints";
-        table.need(built.is_none(), "scheme", elsewhere)?;
+        let what = "a state that is a chain or names a scheme is not built here";
+        table.need(built.is_none(), "scheme", format_args!("{what}: {}", scheme::ELSEWHERE))?;
         table.known(STATE)?;
         let pieces = table.field("piece")?.list()?;
         let kind = match word(table, "kind")? {
@@ -276,7 +275,10 @@ impl Reader {
             None if form == Form::Maps => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
-        case.need(view.cols == dim, "case", "a wrong number of control points")?;
+        let (given, elsewhere) = (view.cols, scheme::ELSEWHERE);
+        let why =
+            format_args!("{given} control points for {dim} coordinates (a polygon of several spans: {elsewhere})");
+        case.need(given == dim, "case", why)?;
         Ok(Shape::new(states, start, view))
     }
 }

@@ -50,7 +50,11 @@ impl Data {
         })?;
         let sized = factors.len() + 1 == count && factors.iter().all(|a| (a.rows, a.cols) == (dim, dim));
         let small = dim > 1 || factors.iter().all(|a| a.at(0, 0).abs() < Q::one());
-        node.need(sized && small, "case", "one factor of the size of the values for each interval, below 1, is needed")?;
+        node.need(
+            sized && small,
+            "case",
+            "one factor of the size of the values for each interval, below 1, is needed",
+        )?;
         let abscissas = points.iter().map(|p| p[0].clone()).collect();
         let values = points.iter().map(|p| p[1..].to_vec()).collect();
         let mut data = Self { abscissas, values, factors, polynomials: Vec::new() };
