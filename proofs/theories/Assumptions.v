@@ -1,5 +1,5 @@
 (** The axioms behind the main theorems. *)
-From Secant Require Import Directions Replay Dense Refute Spiral Everywhere.
+From Secant Require Import Directions Replay Dense Refute Spiral Quadratic Everywhere.
 Print Assumptions contraction.
 Print Assumptions attractor_equation.
 Print Assumptions base_points.
@@ -14,6 +14,7 @@ Print Assumptions before_turns.
 Print Assumptions spaces_ok.
 Print Assumptions check_far_ok.
 Print Assumptions chart_ok.
+Print Assumptions branch_core.
 Print Assumptions branch_ok.
 Print Assumptions half_tangent_ok.
 Print Assumptions passes_ok.
@@ -34,3 +35,9 @@ Print Assumptions spiral_ok.
 Print Assumptions regular_levels.
 Print Assumptions cusp_levels.
 Print Assumptions cones_ok.
+Print Assumptions quadratic_ray_ok.
+Print Assumptions quadratic_passes_ok.
+Print Assumptions quadratic_line_ok.
+Print Assumptions quadratic_regular_ok.
+Print Assumptions quadratic_cusp_ok.
+Print Assumptions quadratic_corner_ok.

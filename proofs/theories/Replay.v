@@ -194,76 +194,93 @@ Proof.
   intros (k & H1 & H2 & H3). exists k. rewrite per_nth by auto. split; auto. intros j Hj. rewrite per_nth, H2 by lia. reflexivity.
 Qed.
 
-(** Theorems 2 and 3. *)
-Theorem branch_ok m P s b c d : controlled -> check_branch m P s b c d = true ->
-  m = Apart \/ Qlt_bool 0 (top_value (lead c)) && Qlt_bool 0 (scale c) = true ->
-  directed_by (factor m (cycle b)) A (qm P) s b (qv d).
+(** Theorems 2 and 3 for a functional [g] and a vector [v] to which the turns lead, with the factors [sc]. *)
+Lemma branch_core m P s b q view exit (g v d : vec) (sc : nat -> R) (a low : R) : controlled ->
+  let e := stw A s (prefix b) in
+  check_cycle s b q = true ->
+  check_chart (space_of spaces e) P (qword case s (prefix b)) (qword case e (cycle b)) view = true ->
+  leads N (short case) (act N (qm (turn view))) (fun x => scl (dot N g x) v) sc -> 0 < low ->
+  (forall t, adm A e t -> far m (Some (cycle b)) t (dot N g (act N (qm (coordinates view)) (sub (phi A e t) (qv q)))) low) ->
+  check_letters case e exit && (length exit =? length (cycle b)) && negb (same_word exit (cycle b)) = true ->
+  act N (qm (seen view)) v = scl a d -> a <> 0 -> 0 < nrm N d ->
+  m = Apart \/ ((forall k, (1 <= k)%nat -> 0 < sc k) /\ 0 < a) ->
+  directed_by (factor m (cycle b)) A (qm P) s b d.
 Proof.
-  intros (Hf & Hsys & Hball & Hbase & Hspan) H Hpos. unfold check_branch in H. rewrite !andb_true_iff in H.
-  destruct H as [[[[[[[[[[[H1 H2] H3] H4] H5] H6] H7] H8] H9] H10] H11] H12].
-  assert (Hcb : forall e, (e < states A)%nat -> bary N (dim A e) (qv (centre centres e))) by (intros; apply qbary_ok; auto).
+  intros (Hf & Hsys & Hball & Hbase & Hspan) e H1 H2 Hlead Hlow Hring H6 Hdir Ha Hd0 Hpos.
+  rewrite !andb_true_iff in H6. destruct H6 as [[H6 H7] H8].
   pose proof (check_cycle_ok _ _ _ Hf H1) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hs & Hu & Hw & Hne & Hcl & Hq & Hfix).
-  set (e := stw A s (prefix b)) in *.
+  fold e in Hw, Hcl, Hq, Hfix.
   pose proof (stw_ok A Hsys _ s Hs Hu) as He. fold e in He. pose proof (dim_ok A (wf A Hsys) _ He) as Hd. specialize (Hfix He (proj2 Hd)).
-  apply Q2R_lt in H4, H11. rewrite Q2R_0 in H4, H11. rewrite qnrm_ok in H11. apply Nat.leb_le in H9. apply Nat.eqb_eq in H7.
-  apply check_letters_ok in H6. apply nonzero in H10.
-  pose proof (check_top_ok case _ _ _ _ H3) as Hlead.
-  set (g := top_row (lead c)) in *. set (h := qrow N g (coordinates (view c))) in *. set (C := qm (coordinates (view c))) in *.
-  set (x := fun t => sub (phi A e t) (qv (value c))).
-  assert (Hlen : (length (coordinates (view c)) <= N)%nat /\ (length (seen (view c)) <= N)%nat).
+  apply Nat.eqb_eq in H7. apply check_letters_ok in H6. set (C := qm (coordinates view)) in *.
+  set (x := fun t => sub (phi A e t) (qv q)).
+  assert (Hlen : (length (coordinates view) <= N)%nat /\ (length (seen view) <= N)%nat).
   { unfold check_chart in H2. rewrite !andb_true_iff, !Nat.leb_le in H2. tauto. }
   assert (Hin : forall t, adm A e t -> fixed_by (space_of spaces e) (x t)).
-  { intros t Ht. unfold x. rewrite <- (phi_per A Hsys s b (qv (value c)) Hs Hu Hw Hne Hcl Hq Hfix).
+  { intros t Ht. unfold x. rewrite <- (phi_per A Hsys s b (qv q) Hs Hu Hw Hne Hcl Hq Hfix).
     apply (differences case centres spaces Hf Hsys Hbase Hspan); auto.
-    apply (adm_per A Hsys s b (qv (value c))); auto. }
-  assert (Hg : forall t, dot N (qv g) (act N C (x t)) = dot N (qv h) (phi A e t) - Q2R (qdot N h (value c))).
-  { intros t. unfold h, C. rewrite <- qrow_ok. unfold x. rewrite dot_sub, qdot_ok. reflexivity. }
-  assert (Hring : forall t, adm A e t -> ~ begins (cycle b) t -> far m (Some (cycle b)) t (dot N (qv g) (act N C (x t))) (Q2R (low c))).
-  { intros t Ht Hb. rewrite Hg. apply (check_far_ok case centres radii (depth c) Hsys Hball Hcb m _ e); auto. }
+    apply (adm_per A Hsys s b (qv q)); auto. }
   assert (Hfar : forall t, adm A e t -> ~ begins (cycle b) t -> match m with
-    | Above => Q2R (low c) <= dot N (qv g) (act N C (x t)) | Below => dot N (qv g) (act N C (x t)) <= - Q2R (low c)
-    | Apart => Q2R (low c) <= Rabs (dot N (qv g) (act N C (x t)))
-    | Sides => (before (per (cycle b)) t /\ Q2R (low c) <= dot N (qv g) (act N C (x t))) \/
-        (before t (per (cycle b)) /\ dot N (qv g) (act N C (x t)) <= - Q2R (low c)) end).
-  { intros t Ht Hb. destruct (Hring t Ht Hb) as [(r & Hr & Hbr)|Hr]; [injection Hr as <-; contradiction|].
+    | Above => low <= dot N g (act N C (x t)) | Below => dot N g (act N C (x t)) <= - low
+    | Apart => low <= Rabs (dot N g (act N C (x t)))
+    | Sides => (before (per (cycle b)) t /\ low <= dot N g (act N C (x t))) \/
+        (before t (per (cycle b)) /\ dot N g (act N C (x t)) <= - low) end).
+  { intros t Ht Hb. destruct (Hring t Ht) as [(r & Hr & Hbr)|Hr]; [injection Hr as <-; contradiction|].
     destruct m; auto. destruct Hr as (r & Hr & Hor). injection Hr as <-.
     destruct Hor as [[Ho1 Ho2]|[Ho1 Ho2]]; [left|right]; split; auto; [apply follows_before|apply precedes_before]; auto. }
-  assert (Hdir : act N (qm (seen (view c))) (qv (top_vector (lead c))) = scl (Q2R (scale c)) (qv d)).
-  { apply qeqv_ok in H12. rewrite qact_ok in H12 by apply Hlen. rewrite qscl_ok in H12 by auto. exact H12. }
   pose (sg := fun t k => m = Apart \/ factor m (cycle b) t k).
-  apply (directed_scale sg _ _ _ _ _ (Q2R (scale c))).
-  { intros t k [->|Hk]; [exact I|]. destruct Hpos as [->|Hpos]; [exact I|]. rewrite andb_true_iff in Hpos.
-    destruct Hpos as [_ Hsc]. apply Q2R_lt in Hsc. rewrite Q2R_0 in Hsc. destruct m; simpl in *; auto.
+  apply (directed_scale sg _ _ _ _ _ a).
+  { intros t k [->|Hk]; [exact I|]. destruct Hpos as [->|[_ Hsc]]; [exact I|]. destruct m; simpl in *; auto.
     - apply Rmult_lt_0_compat; auto.
     - nra.
     - destruct Hk as [K1 K2]. split; intros Hbf; [apply Rmult_lt_0_compat; auto|]. specialize (K2 Hbf). nra. }
   rewrite <- Hdir.
-  apply (directed_intro A Hsys s b (qv (value c)) Hs Hu Hw Hne Hcl Hq Hfix (qm P) C (qm (seen (view c)))
-    (act N (qm (turn (view c)))) (short case) (fun _ => True))
-    with (g := qv g) (scale := top_scale (lead c)) (delta := Q2R (low c)); auto.
+  apply (directed_intro A Hsys s b (qv q) Hs Hu Hw Hne Hcl Hq Hfix (qm P) C (qm (seen view))
+    (act N (qm (turn view))) (short case) (fun _ => True)) with (g := g) (scale := sc) (delta := low); auto.
   - intros t Ht _. apply short_act. apply Hlen.
-  - intros k t Ht _. apply (chart_ok (space_of spaces e) P s (prefix b) (cycle b) (view c)); auto; [|apply Hin; auto].
+  - intros k t Ht _. apply (chart_ok (space_of spaces e) P s (prefix b) (cycle b) view); auto; [|apply Hin; auto].
     intros y Hy. apply (space_word case centres spaces Hf Hsys Hbase Hspan); auto.
     fold e. rewrite Hcl. exact Hy.
   - intros t Ht Hb. fold e. fold (x t). pose proof (Hfar t Ht Hb) as Hx.
-    pose proof (Rle_abs (dot N (qv g) (act N C (x t)))). pose proof (Rle_abs (- dot N (qv g) (act N C (x t)))) as Ha.
-    rewrite Rabs_Ropp in Ha. change (Q2R (low c) <= Rabs (dot N (qv g) (act N C (x t)))).
-    clear - Hx H Ha. destruct m; [lra|lra|exact Hx|destruct Hx as [[_ Hx]|[_ Hx]]; lra].
-  - exists (app (exit c) (fun _ => O)). split.
+    pose proof (Rle_abs (dot N g (act N C (x t)))). pose proof (Rle_abs (- dot N g (act N C (x t)))) as Ha'.
+    rewrite Rabs_Ropp in Ha'. change (low <= Rabs (dot N g (act N C (x t)))).
+    clear - Hx H Ha'. destruct m; [lra|lra|exact Hx|destruct Hx as [[_ Hx]|[_ Hx]]; lra].
+  - exists (app exit (fun _ => O)). split.
     + apply adm_app. split; auto. apply zeros_adm; auto. apply (stw_ok A Hsys); auto.
     + intros Hb. apply begins_same in Hb; auto. rewrite Hb, same_word_refl in H8. discriminate.
-  - change (0 < nrm N (act N (qm (seen (view c))) (qv (top_vector (lead c))))). rewrite Hdir, nrm_scl.
+  - change (0 < nrm N (act N (qm (seen view)) v)). rewrite Hdir, nrm_scl.
     apply Rmult_lt_0_compat; auto. apply Rabs_pos_lt; auto.
-  - exists 1%nat. intros k t Hk Ht Hb. destruct Hpos as [->|Hpos]; [left; auto|right]. rewrite andb_true_iff in Hpos.
-    destruct Hpos as [Hl _]. apply Q2R_lt in Hl. rewrite Q2R_0 in Hl. pose proof (top_scale_pos (lead c) k Hl Hk) as Hp.
-    fold e. fold (x t). pose proof (Hfar t Ht Hb) as Hx. set (z := dot N (qv g) (act N C (x t))) in *.
-    change (dot (Automaton.N A) (qv g) (act (Automaton.N A) C (x t))) with z.
+  - exists 1%nat. intros k t Hk Ht Hb. destruct Hpos as [->|[Hl _]]; [left; auto|right].
+    pose proof (Hl k Hk) as Hp.
+    fold e. fold (x t). pose proof (Hfar t Ht Hb) as Hx. set (z := dot N g (act N C (x t))) in *.
+    change (dot (Automaton.N A) g (act (Automaton.N A) C (x t))) with z.
     destruct m; simpl in *; auto.
     + apply Rmult_lt_0_compat; lra.
     + nra.
     + destruct Hx as [[Hb1 Hx]|[Hb1 Hx]]; split; intros Hb2; try (exfalso; apply (before_irrefl _ _ Hb1 Hb2)); [apply Rmult_lt_0_compat; lra|nra].
   - intros n t k [->|Hk]; [left; auto|right]. destruct m; simpl in *; auto.
     pose proof (before_turns [] (cycle b) n t Hne) as [B1 B2]. simpl in B1, B2. rewrite B1, B2. exact Hk.
+Qed.
+
+Theorem branch_ok m P s b c d : controlled -> check_branch m P s b c d = true ->
+  m = Apart \/ Qlt_bool 0 (top_value (lead c)) && Qlt_bool 0 (scale c) = true ->
+  directed_by (factor m (cycle b)) A (qm P) s b (qv d).
+Proof.
+  intros Hcon H Hpos. pose proof Hcon as (Hf & Hsys & Hball & Hbase & Hspan). unfold check_branch in H. rewrite !andb_true_iff in H.
+  destruct H as [[[[[[[[[[[H1 H2] H3] H4] H5] H6] H7] H8] H9] H10] H11] H12].
+  assert (Hcb : forall e, (e < states A)%nat -> bary N (dim A e) (qv (centre centres e))) by (intros; apply qbary_ok; auto).
+  pose proof (check_cycle_ok _ _ _ Hf H1) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hs & Hu & _).
+  pose proof (stw_ok A Hsys _ s Hs Hu) as He.
+  apply Q2R_lt in H4, H11. rewrite Q2R_0 in H4, H11. rewrite qnrm_ok in H11. apply Nat.leb_le in H9. apply nonzero in H10.
+  apply (branch_core m P s b (value c) (view c) (exit c) (qv (top_row (lead c))) (qv (top_vector (lead c))) (qv d)
+    (top_scale (lead c)) (Q2R (scale c)) (Q2R (low c)) Hcon H1 H2 (check_top_ok case _ _ _ _ H3) H4); auto.
+  - intros t Ht. rewrite <- qrow_ok, dot_sub, <- (qdot_ok N _ (value c)).
+    apply (check_far_ok case centres radii (depth c) Hsys Hball Hcb m _ (stw A s (prefix b))); auto.
+  - rewrite !andb_true_iff. auto.
+  - apply qeqv_ok in H12. assert (Hl : (length (seen (view c)) <= N)%nat).
+    { unfold check_chart in H2. rewrite !andb_true_iff, !Nat.leb_le in H2. tauto. }
+    rewrite qact_ok, qscl_ok in H12 by auto. exact H12.
+  - destruct Hpos as [Hm|Hpos]; [left; exact Hm|right]. rewrite andb_true_iff in Hpos. destruct Hpos as [Hl Hsc].
+    apply Q2R_lt in Hl, Hsc. rewrite Q2R_0 in Hl, Hsc. split; auto. intros k Hk. apply top_scale_pos; auto.
 Qed.
 
 (** The ray of a positive eigenvalue. *)

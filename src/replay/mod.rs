@@ -5,6 +5,7 @@
 
 mod curve;
 mod evidence;
+mod quadratic;
 mod refuted;
 mod write;
 
@@ -14,6 +15,7 @@ use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Contraction, Shape, Spaces, word_text};
 use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict, primitive};
 use evidence::{Balls, Evidence, Given, Mode, independent};
+use quadratic::{Quadratic, Root, opposed};
 use refuted::Refuted;
 use thiserror::Error;
 
@@ -41,8 +43,27 @@ enum Statement {
     Line { branch: Replayed },
     /// Rays on both sides: opposite, equal, or on two lines with a minor that is not 0.
     Joint { kind: Kind, before: Replayed, after: Replayed, minor: (usize, usize) },
-    /// No tangent line, by two limit directions of one branch.
+    /// The same with eigenvalues of degree 2: of the branches in their order, with a minor of a corner.
+    Quadratic { about: About, sides: Vec<Irrational>, minor: (usize, usize) },
+    /// No tangent line, by two limit directions of one branch or by a spiral.
     NoTangent { address: Address, point: Vec<Rational>, refuted: Refuted },
+}
+
+/// What is stated of branches with eigenvalues of degree 2.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum About {
+    Ray,
+    Passes,
+    Line,
+    Regular,
+    Cusp,
+    Corner,
+}
+
+/// A branch with such an eigenvalue.
+struct Irrational {
+    address: Address,
+    evidence: Quadratic,
 }
 
 /// A branch with its evidence.
@@ -183,6 +204,10 @@ fn place(point: &PointReport) -> String {
 fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated, NoTheorem> {
     let place = place(point);
     let image = point.image.clone().unwrap_or_else(|| point.position.clone());
+    if let Some(root) = quadratic::common(&point.branches) {
+        let statement = irrational(model, point, &root, &place)?;
+        return Ok(Stated { name, place, statement, image });
+    }
     let ray = |rays: &[Direction]| -> Result<Vec<Rational>, NoTheorem> {
         match rays {
             [one] => match one.rational() {
@@ -243,6 +268,53 @@ fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated
         }
     };
     Ok(Stated { name, place, statement, image })
+}
+
+/// What is stated of a point some of whose eigenvalues have degree 2.
+fn irrational(model: &Model<'_>, point: &PointReport, root: &Root, place: &str) -> Result<Statement, NoTheorem> {
+    let side = |branch: &BranchReport, mode, along: Option<&Irrational>| -> Result<Irrational, NoTheorem> {
+        let evidence = quadratic::of(model.given(), branch, root, mode, along.map(|other| &other.evidence.direction));
+        let evidence =
+            evidence.map_err(|what| NoTheorem { what, place: format!("{place}, branch {}", branch.address) })?;
+        Ok(Irrational { address: branch.address.clone(), evidence })
+    };
+    let (about, sides) = match (point.kind, &point.branches[..]) {
+        (Kind::SmoothEnd | Kind::HalfTangent | Kind::Cusp, [branch]) => {
+            (About::Ray, vec![side(branch, Mode::Above, None)?])
+        }
+        (Kind::Regular, [branch]) if model.forward() => (About::Passes, vec![side(branch, Mode::Sides, None)?]),
+        (Kind::Regular | Kind::Oscillating | Kind::Line, [branch]) => {
+            (About::Line, vec![side(branch, Mode::Apart, None)?])
+        }
+        (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
+            let after = side(after, Mode::Above, None)?;
+            let before = side(before, Mode::Above, Some(&after))?;
+            let (d1, d2) = (&before.evidence.direction, &after.evidence.direction);
+            let about = match root.independent(d1, d2) {
+                Some(_) => About::Corner,
+                None if opposed(d1, d2) => About::Regular,
+                None => About::Cusp,
+            };
+            let wanted = match point.kind {
+                Kind::Corner => About::Corner,
+                Kind::Regular => About::Regular,
+                _ => About::Cusp,
+            };
+            if about != wanted {
+                return none("rays that do not fit their kind", place);
+            }
+            (about, vec![before, after])
+        }
+        (kind, branches) => {
+            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), place);
+        }
+    };
+    let corner = match &sides[..] {
+        [a, b] if about == About::Corner => root.independent(&a.evidence.direction, &b.evidence.direction),
+        _ => Some((0, 0)),
+    };
+    let Some(minor) = corner else { return none("rays that do not fit their kind", place) };
+    Ok(Statement::Quadratic { about, sides, minor })
 }
 
 fn replayed(
