@@ -204,50 +204,57 @@ fn place(point: &PointReport) -> String {
 fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated, NoTheorem> {
     let place = place(point);
     let image = point.image.clone().unwrap_or_else(|| point.position.clone());
-    if let Some(root) = quadratic::common(&point.branches) {
-        let statement = irrational(model, point, &root, &place)?;
-        return Ok(Stated { name, place, statement, image });
-    }
+    // One branch without a tangent line is enough, whatever the others are.
+    let root = quadratic::common(&point.branches).filter(|_| point.kind != Kind::NoTangent);
+    let statement = match root {
+        Some(root) => irrational(model, point, &root, &place),
+        None => rational(model, point, &place),
+    }?;
+    Ok(Stated { name, place, statement, image })
+}
+
+/// What is stated of a point with rational eigenvalues.
+fn rational(model: &Model<'_>, point: &PointReport, place: &str) -> Result<Statement, NoTheorem> {
     let ray = |rays: &[Direction]| -> Result<Vec<Rational>, NoTheorem> {
         match rays {
             [one] => match one.rational() {
                 Some(coords) => Ok(primitive(&coords)),
-                None => none("a direction with irrational coordinates", &*place),
+                None => none("a direction with irrational coordinates", place),
             },
-            _ => none("a side with several rays", &*place),
+            _ => none("a side with several rays", place),
         }
     };
     let line = || -> Result<Vec<Rational>, NoTheorem> {
         match point.tangent.as_ref().and_then(Direction::rational) {
             Some(coords) => Ok(primitive(&coords)),
-            None => none("a direction with irrational coordinates", &*place),
+            None => none("a direction with irrational coordinates", place),
         }
     };
-    let statement = match (point.kind, &point.branches[..]) {
+    Ok(match (point.kind, &point.branches[..]) {
         (Kind::SmoothEnd | Kind::HalfTangent, [branch]) => {
             let rays = if point.left.is_empty() { &point.right } else { &point.left };
-            Statement::Ray { branch: replayed(model, branch, ray(rays)?, Mode::Above, &place)? }
+            Statement::Ray { branch: replayed(model, branch, ray(rays)?, Mode::Above, place)? }
         }
         (Kind::Cusp, [branch]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
             if left != right {
-                return none("rays that do not fit their kind", &*place);
+                return none("rays that do not fit their kind", place);
             }
-            Statement::Ray { branch: replayed(model, branch, right, Mode::Above, &place)? }
+            Statement::Ray { branch: replayed(model, branch, right, Mode::Above, place)? }
         }
         (Kind::Regular, [branch]) if model.forward() => {
-            Statement::Passes { branch: replayed(model, branch, ray(&point.right)?, Mode::Sides, &place)? }
+            Statement::Passes { branch: replayed(model, branch, ray(&point.right)?, Mode::Sides, place)? }
         }
         (Kind::Regular | Kind::Oscillating | Kind::Line, [branch]) => {
-            Statement::Line { branch: replayed(model, branch, line()?, Mode::Apart, &place)? }
+            Statement::Line { branch: replayed(model, branch, line()?, Mode::Apart, place)? }
         }
         (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
             let minor = independent(&left, &right);
-            let before = replayed(model, before, left, Mode::Above, &place)?;
-            let after = replayed(model, after, right, Mode::Above, &place)?;
+            let before = replayed(model, before, left, Mode::Above, place)?;
+            let after = replayed(model, after, right, Mode::Above, place)?;
             if (point.kind == Kind::Corner) != minor.is_some() {
-                return none("rays that do not fit their kind", &*place);
+                return none("rays that do not fit their kind", place);
             }
             Statement::Joint { kind: point.kind, before, after, minor: minor.unwrap_or((0, 0)) }
         }
@@ -260,14 +267,13 @@ fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated
                     None
                 }
             });
-            let Some((branch, refuted)) = several else { return none(reason, &*place) };
+            let Some((branch, refuted)) = several else { return none(reason, place) };
             Statement::NoTangent { address: branch.address.clone(), point: branch.fixed.clone(), refuted }
         }
         (kind, branches) => {
-            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), &*place);
+            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), place);
         }
-    };
-    Ok(Stated { name, place, statement, image })
+    })
 }
 
 /// What is stated of a point some of whose eigenvalues have degree 2.
