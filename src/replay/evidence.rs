@@ -177,7 +177,7 @@ fn scaled(v: &[Rational], factor: &Rational) -> Vec<Rational> {
     v.iter().map(|x| x * factor).collect()
 }
 
-pub(super) fn simple(operator: &Matrix, value: Rational) -> Result<Top, String> {
+fn simple(operator: &Matrix, value: Rational) -> Result<Top, String> {
     let l = shifted(operator, &value);
     let (right, left) = (l.kernel(), l.transpose().kernel());
     let several = || "an eigenvalue that is not simple".to_owned();
@@ -247,7 +247,7 @@ pub(super) fn column(m: &Matrix) -> Rational {
 }
 
 /// A word as long as the cycle that leaves it.
-pub(super) fn exit(shape: &Shape, branch: &BranchReport) -> Option<Vec<usize>> {
+fn exit(shape: &Shape, branch: &BranchReport) -> Option<Vec<usize>> {
     let mut state = branch.state;
     let mut word = Vec::new();
     for letter in &branch.address.cycle {
@@ -262,12 +262,7 @@ pub(super) fn exit(shape: &Shape, branch: &BranchReport) -> Option<Vec<usize>> {
 
 /// A positive bound, a power of 1/2, of the functional on the ring against its value at the point, and the length of the
 /// longest word that shows it.
-pub(super) fn ring(
-    given: Given<'_>,
-    branch: &BranchReport,
-    functional: &[Rational],
-    mode: Mode,
-) -> Option<(Rational, usize)> {
+fn ring(given: Given<'_>, branch: &BranchReport, functional: &[Rational], mode: Mode) -> Option<(Rational, usize)> {
     /// The side of a cell that has left the cycle of a point with two sides: after it or before it.
     type Side = Option<bool>;
     let Given { shape, balls, .. } = given;

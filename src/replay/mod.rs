@@ -5,7 +5,6 @@
 
 mod curve;
 mod evidence;
-mod quadratic;
 mod refuted;
 mod write;
 
@@ -15,7 +14,6 @@ use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Contraction, Shape, Spaces, word_text};
 use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict, primitive};
 use evidence::{Balls, Evidence, Given, Mode, independent};
-use quadratic::{Quadratic, Root, opposed};
 use refuted::Refuted;
 use thiserror::Error;
 
@@ -43,27 +41,8 @@ enum Statement {
     Line { branch: Replayed },
     /// Rays on both sides: opposite, equal, or on two lines with a minor that is not 0.
     Joint { kind: Kind, before: Replayed, after: Replayed, minor: (usize, usize) },
-    /// The same with eigenvalues of degree 2: of the branches in their order, with a minor of a corner.
-    Quadratic { about: About, sides: Vec<Irrational>, minor: (usize, usize) },
-    /// No tangent line, by two limit directions of one branch or by a spiral.
+    /// No tangent line, by two limit directions of one branch.
     NoTangent { address: Address, point: Vec<Rational>, refuted: Refuted },
-}
-
-/// What is stated of branches with eigenvalues of degree 2.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum About {
-    Ray,
-    Passes,
-    Line,
-    Regular,
-    Cusp,
-    Corner,
-}
-
-/// A branch with such an eigenvalue.
-struct Irrational {
-    address: Address,
-    evidence: Quadratic,
 }
 
 /// A branch with its evidence.
@@ -204,57 +183,46 @@ fn place(point: &PointReport) -> String {
 fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated, NoTheorem> {
     let place = place(point);
     let image = point.image.clone().unwrap_or_else(|| point.position.clone());
-    // One branch without a tangent line is enough, whatever the others are.
-    let root = quadratic::common(&point.branches).filter(|_| point.kind != Kind::NoTangent);
-    let statement = match root {
-        Some(root) => irrational(model, point, &root, &place),
-        None => rational(model, point, &place),
-    }?;
-    Ok(Stated { name, place, statement, image })
-}
-
-/// What is stated of a point with rational eigenvalues.
-fn rational(model: &Model<'_>, point: &PointReport, place: &str) -> Result<Statement, NoTheorem> {
     let ray = |rays: &[Direction]| -> Result<Vec<Rational>, NoTheorem> {
         match rays {
             [one] => match one.rational() {
                 Some(coords) => Ok(primitive(&coords)),
-                None => none("a direction with irrational coordinates", place),
+                None => none("a direction with irrational coordinates", &*place),
             },
-            _ => none("a side with several rays", place),
+            _ => none("a side with several rays", &*place),
         }
     };
     let line = || -> Result<Vec<Rational>, NoTheorem> {
         match point.tangent.as_ref().and_then(Direction::rational) {
             Some(coords) => Ok(primitive(&coords)),
-            None => none("a direction with irrational coordinates", place),
+            None => none("a direction with irrational coordinates", &*place),
         }
     };
-    Ok(match (point.kind, &point.branches[..]) {
+    let statement = match (point.kind, &point.branches[..]) {
         (Kind::SmoothEnd | Kind::HalfTangent, [branch]) => {
             let rays = if point.left.is_empty() { &point.right } else { &point.left };
-            Statement::Ray { branch: replayed(model, branch, ray(rays)?, Mode::Above, place)? }
+            Statement::Ray { branch: replayed(model, branch, ray(rays)?, Mode::Above, &place)? }
         }
         (Kind::Cusp, [branch]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
             if left != right {
-                return none("rays that do not fit their kind", place);
+                return none("rays that do not fit their kind", &*place);
             }
-            Statement::Ray { branch: replayed(model, branch, right, Mode::Above, place)? }
+            Statement::Ray { branch: replayed(model, branch, right, Mode::Above, &place)? }
         }
         (Kind::Regular, [branch]) if model.forward() => {
-            Statement::Passes { branch: replayed(model, branch, ray(&point.right)?, Mode::Sides, place)? }
+            Statement::Passes { branch: replayed(model, branch, ray(&point.right)?, Mode::Sides, &place)? }
         }
         (Kind::Regular | Kind::Oscillating | Kind::Line, [branch]) => {
-            Statement::Line { branch: replayed(model, branch, line()?, Mode::Apart, place)? }
+            Statement::Line { branch: replayed(model, branch, line()?, Mode::Apart, &place)? }
         }
         (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
             let minor = independent(&left, &right);
-            let before = replayed(model, before, left, Mode::Above, place)?;
-            let after = replayed(model, after, right, Mode::Above, place)?;
+            let before = replayed(model, before, left, Mode::Above, &place)?;
+            let after = replayed(model, after, right, Mode::Above, &place)?;
             if (point.kind == Kind::Corner) != minor.is_some() {
-                return none("rays that do not fit their kind", place);
+                return none("rays that do not fit their kind", &*place);
             }
             Statement::Joint { kind: point.kind, before, after, minor: minor.unwrap_or((0, 0)) }
         }
@@ -267,60 +235,14 @@ fn rational(model: &Model<'_>, point: &PointReport, place: &str) -> Result<State
                     None
                 }
             });
-            let Some((branch, refuted)) = several else { return none(reason, place) };
+            let Some((branch, refuted)) = several else { return none(reason, &*place) };
             Statement::NoTangent { address: branch.address.clone(), point: branch.fixed.clone(), refuted }
         }
         (kind, branches) => {
-            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), place);
-        }
-    })
-}
-
-/// What is stated of a point some of whose eigenvalues have degree 2.
-fn irrational(model: &Model<'_>, point: &PointReport, root: &Root, place: &str) -> Result<Statement, NoTheorem> {
-    let side = |branch: &BranchReport, mode, along: Option<&Irrational>| -> Result<Irrational, NoTheorem> {
-        let evidence = quadratic::of(model.given(), branch, root, mode, along.map(|other| &other.evidence.direction));
-        let evidence =
-            evidence.map_err(|what| NoTheorem { what, place: format!("{place}, branch {}", branch.address) })?;
-        Ok(Irrational { address: branch.address.clone(), evidence })
-    };
-    let (about, sides) = match (point.kind, &point.branches[..]) {
-        (Kind::SmoothEnd | Kind::HalfTangent | Kind::Cusp, [branch]) => {
-            (About::Ray, vec![side(branch, Mode::Above, None)?])
-        }
-        (Kind::Regular, [branch]) if model.forward() => (About::Passes, vec![side(branch, Mode::Sides, None)?]),
-        (Kind::Regular | Kind::Oscillating | Kind::Line, [branch]) => {
-            (About::Line, vec![side(branch, Mode::Apart, None)?])
-        }
-        (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
-            let after = side(after, Mode::Above, None)?;
-            let before = side(before, Mode::Above, Some(&after))?;
-            let (d1, d2) = (&before.evidence.direction, &after.evidence.direction);
-            let about = match root.independent(d1, d2) {
-                Some(_) => About::Corner,
-                None if opposed(d1, d2) => About::Regular,
-                None => About::Cusp,
-            };
-            let wanted = match point.kind {
-                Kind::Corner => About::Corner,
-                Kind::Regular => About::Regular,
-                _ => About::Cusp,
-            };
-            if about != wanted {
-                return none("rays that do not fit their kind", place);
-            }
-            (about, vec![before, after])
-        }
-        (kind, branches) => {
-            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), place);
+            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), &*place);
         }
     };
-    let corner = match &sides[..] {
-        [a, b] if about == About::Corner => root.independent(&a.evidence.direction, &b.evidence.direction),
-        _ => Some((0, 0)),
-    };
-    let Some(minor) = corner else { return none("rays that do not fit their kind", place) };
-    Ok(Statement::Quadratic { about, sides, minor })
+    Ok(Stated { name, place, statement, image })
 }
 
 fn replayed(

@@ -2,9 +2,8 @@
 
 use super::curve::{Cones, Levels, Own, OwnJoint};
 use super::evidence::{Chart, Evidence, Top};
-use super::quadratic::{Pair, Quadratic, Vectors};
 use super::refuted::{Limit, Refuted, Spiral};
-use super::{About, Irrational, Model, Replayed, Stated, Statement, Whole};
+use super::{Model, Replayed, Stated, Statement, Whole};
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
@@ -94,7 +93,7 @@ fn heading(out: &mut String, case: &Case, found: &Certified, whole: &Whole) {
         plain(&cones),
     );
     out.push_str(
-        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Quadratic Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
+        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
     );
 }
 
@@ -227,7 +226,6 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
                 ),
             )
         }
-        Statement::Quadratic { about, sides, minor } => irrational(out, name, *about, sides, (*minor, &image), &at),
         Statement::NoTangent { address, point, refuted } => no_tangent(out, name, address, point, refuted, &at),
     }
 }
@@ -237,81 +235,6 @@ type At<'a> = dyn Fn(&str, &str) -> (String, String) + 'a;
 fn single(out: &mut String, name: &str, b: &Replayed, at: &At<'_>) -> (String, String) {
     evidence(out, &format!("{name}_evidence"), &b.evidence);
     at(&branch(&b.prefix, &b.cycle), &format!("(value {name}_evidence)"))
-}
-
-fn pair(x: &Pair) -> String {
-    format!("({}, {})", number(&x.0), number(&x.1))
-}
-
-fn vectors(v: &Vectors) -> String {
-    format!("({}, {})", vector(&v.0), vector(&v.1))
-}
-
-fn quadratic(out: &mut String, name: &str, q: &Quadratic) {
-    let _ = writeln!(
-        out,
-        "Definition {name}_root : root := {{| radicand := {}; below := {}; above := {} |}}.",
-        number(&q.root.radicand),
-        number(&q.root.below),
-        number(&q.root.above),
-    );
-    let _ = writeln!(
-        out,
-        "Definition {name} : quadratic := {{| q_value := {}; q_view := {}; q_root := {name}_root; q_lead := {}; q_row := {}; q_vector := {}; q_power := {}; q_rate := {}; q_low := {}; q_depth := {}; q_exit := {}; q_scale := {} |}}.",
-        vector(&q.point),
-        chart(&q.chart),
-        pair(&q.value),
-        vectors(&q.row),
-        vectors(&q.vector),
-        q.power,
-        number(&q.rate),
-        number(&q.low),
-        q.depth,
-        word(&q.exit),
-        pair(&q.scale),
-    );
-}
-
-/// The claims with eigenvalues of degree 2: directions are `x + y r` with the root `r` of the evidence.
-fn irrational(
-    out: &mut String,
-    name: &str,
-    about: About,
-    sides: &[Irrational],
-    ((i, j), image): ((usize, usize), &str),
-    at: &At<'_>,
-) -> (String, String) {
-    let named = |k: usize| if sides.len() == 1 { format!("{name}_evidence") } else { format!("{name}_{k}") };
-    for (k, side) in sides.iter().enumerate() {
-        quadratic(out, &named(k), &side.evidence);
-    }
-    let last = sides.len() - 1;
-    let of = |k: usize| branch(&sides[k].address.prefix, &sides[k].address.cycle);
-    let along = |k: usize| vectors(&sides[k].evidence.direction);
-    let seen = |k: usize| format!("(vval {}_root {})", named(last), along(k));
-    let (claim, proof) = at(&of(last), &format!("(q_value {})", named(last)));
-    let (word, lemma) = match about {
-        About::Ray => ("half_tangent", "quadratic_ray_ok"),
-        About::Passes => ("passes", "quadratic_passes_ok"),
-        About::Line => ("tangent_line", "quadratic_line_ok"),
-        About::Regular => ("regular", "quadratic_regular_ok"),
-        About::Cusp => ("cusp", "quadratic_cusp_ok"),
-        About::Corner => ("corner", "quadratic_corner_ok"),
-    };
-    if sides.len() == 1 {
-        let (claim, applied) = (
-            format!("{claim}{word} {ABOUT} {} {}", of(0), seen(0)),
-            format!("{lemma} {GIVEN} _ {} {}", named(0), along(0)),
-        );
-        return (claim, format!("{proof}apply ({applied}); {BY_COMPUTATION}."));
-    }
-    let (seen, given) = match about {
-        About::Corner => (format!("{} {}", seen(0), seen(1)), format!("{} {} {i} {j}", along(0), along(1))),
-        _ => (seen(1), along(1)),
-    };
-    let claim = format!("{claim}{word} {ABOUT}\n    {}\n    {} {seen}", of(0), of(1));
-    let applied = format!("{lemma} {GIVEN} _ _ {} {} {image} {given}", named(0), named(1));
-    (claim, format!("{proof}apply ({applied}); {BY_COMPUTATION}."))
 }
 
 fn no_tangent(
