@@ -6,7 +6,7 @@ import html
 import itertools
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -334,6 +334,7 @@ def region(
     parameters: Mapping[str, Any] | None = None,
     *,
     order: int | None = None,
+    valences: str | Iterable[int] | None = None,
     width: Any = None,
     hulls: int | None = None,
     effort: Effort = "normal",
@@ -357,6 +358,8 @@ def region(
         A range with its ends for the parameter that is left free, values for the others: ``{"w": ("-1/2", "1/2")}``.
     order : int, optional
         The highest order of smoothness of masks that is asked about; without it all that the sum rules allow.
+    valences : str or sequence of int, optional
+        The valences at vertices of a mesh, such as ``"3..12"``, in the place of those of the case.
     width : number, optional
         Gaps that are narrower are left; ``"1e-6"`` without it.
     hulls : int, optional
@@ -391,19 +394,20 @@ def region(
     if seconds is not None and not 0 < seconds < float("inf"):
         raise InputError(f"seconds={seconds} is no positive number", code="secant::region", help="as in seconds=60")
     set = [_setting(key, v, exact) for key, v in (parameters or {}).items()]
+    at = valences if valences is None or isinstance(valences, str) else ",".join(str(int(n)) for n in valences)
     if width is not None:
         width = written(number(width, exact, "the width"))
     if isinstance(x, str) and "\n" not in x and not os.path.isfile(x):
         scheme, *ranges = x.split() or [x]
-        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, width, hulls, effort, seconds)
+        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, at, width, hulls, effort, seconds)
     elif isinstance(x, (str, os.PathLike, Mapping)):
         given = source(x, exact=exact, name=name)
-        asked = (given.name, text_of(given), set, order, width, hulls, effort, seconds)
+        asked = (given.name, text_of(given), set, order, at, width, hulls, effort, seconds)
     else:
         mask = [_coefficient(c, exact, f"coefficient {k} of the mask") for k, c in enumerate(x)]
         limits = dict(text.split("=", 1) for text in set)
         case = {"name": name, "parameters": limits, "scheme": {"mask": mask, "arity": arity}}
-        asked = (name, text_of(source(case)), [], order, width, hulls, effort, seconds)
+        asked = (name, text_of(source(case)), [], order, at, width, hulls, effort, seconds)
     findings, data, verdict = _secant.region(*asked)
     return Regions(json.loads(data), verdict, asked, findings)
 

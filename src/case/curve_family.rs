@@ -40,21 +40,18 @@ pub enum FamilyForm {
 }
 
 impl FamilyForm {
-    /// The form of a file; what is no case at all is left to the reader of masks to complain about.
-    ///
-    /// # Errors
-    /// A [`Problem`] where the file cannot be read.
-    pub fn of(path: &Path) -> Result<Self, Problem> {
-        let source = SourceText::read(path)?;
-        let Ok(table) = DeTable::parse(&source.text) else { return Ok(Self::Mask) };
+    /// The form of the text of a case; what is no case at all is left to the reader of masks to complain about.
+    #[must_use]
+    pub fn of(text: &str) -> Self {
+        let Ok(table) = DeTable::parse(text) else { return Self::Mask };
         let has = |key: &str| table.get_ref().keys().any(|k| *k.get_ref() == key);
-        Ok(if has("vertex") {
+        if has("vertex") {
             Self::Vertex
         } else if ["map", "pieces", "state"].into_iter().any(has) {
             Self::Curve
         } else {
             Self::Mask
-        })
+        }
     }
 }
 
@@ -169,7 +166,7 @@ pub(super) fn at_value(
     let mut set = set.to_vec();
     set.retain(|(n, _)| n != parameter);
     set.push((parameter.to_owned(), Setting::Value(p.clone())));
-    Ok(member_text(&source.name, &source.text, &set)?.map_or_else(|| source.text.to_string(), |own| own))
+    Ok(member_text(&source.name, &source.text, &set)?.unwrap_or_else(|| source.text.to_string()))
 }
 
 /// Operators whose entries have at most this degree, and the control points, from members; `None` where they are no such family.
