@@ -77,7 +77,10 @@ fn the_python_scripts_agree() {
     let mut asked = 0;
     for (kind, wanted) in [("pass", 0), ("fail", 1)] {
         for path in certs(kind) {
-            // No script knows the tangent planes of patches, or masks on lattices.
+            // No script knows number fields, the tangent planes of patches, or masks on lattices.
+            if std::fs::read_to_string(&path).unwrap().contains("\"field\": {") {
+                continue;
+            }
             let script = match name(&path).split('-').next() {
                 Some("surface" | "scheme" | "lattice") => continue,
                 Some("jsr" | "regularity") => "check_radii.py",
