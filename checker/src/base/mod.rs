@@ -1,8 +1,10 @@
 //! What all rules use: answers, exact numbers and matrices, polynomials at roots, and the strict readers of the two files.
 
 mod answer;
+mod cosine;
 mod expression;
 mod file;
+mod generator;
 mod graph;
 mod json;
 mod matrix;
