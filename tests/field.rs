@@ -343,7 +343,8 @@ fn verdicts_over_fields_are_proved_again() {
     let (read, _) = proved_again("cosine.toml", &corner_cutting("cos(3*pi/7)", "cos(3*pi/7)^2*2"));
     assert!(read.contains("cos(3*pi/7)"));
     let (_, certificate) = proved_again("cubic.toml", &corner_cutting("root(3*x^3+x-1, 0, 1)/2", "1/4"));
-    let field = &serde_json::from_str::<Value>(&certificate).unwrap()["proof"]["field"];
+    let written: Value = serde_json::from_str(&certificate).unwrap();
+    let field = &written["proof"]["field"];
     assert!(field["polynomial"].as_array().unwrap().iter().all(|c| !c.as_str().unwrap().contains('/')), "{field}");
 }
 
@@ -359,7 +360,8 @@ fn certificates_are_about_one_embedding() {
         // The conjugate generator, in which the root of 2 is the opposite.
         let mut forged: Value = serde_json::from_str(certificate).unwrap();
         let field = &mut forged["proof"]["field"];
-        let turned: Vec<String> = (0..2).map(|k| format!("-{}", field["interval"][1 - k].as_str().unwrap())).collect();
+        let turned: Vec<String> =
+            (0..2usize).map(|k| format!("-{}", field["interval"][1 - k].as_str().unwrap())).collect();
         field["interval"] = turned.into();
         field["numbers"] = serde_json::json!([["0", "-1"]]);
         let rejected = secant_check::check(case, &forged.to_string()).unwrap_err();
