@@ -16,6 +16,7 @@ mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod own;
 mod parameters;
 mod question;
 mod read;
