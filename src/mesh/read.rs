@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
     fn lines(&self) -> impl Iterator<Item = (Range<usize>, Vec<Word<'a>>)> + use<'a> {
         let text: &'a str = &self.source.text;
         // A byte order mark begins the first word.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = text.trim_start_matches('\u{feff}');
         let mut at = self.source.text.len() - text.len();
         text.split_inclusive('\n').filter_map(move |line| {
             let start = at;

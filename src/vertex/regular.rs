@@ -423,7 +423,7 @@ impl<'a> Bounds<'a> {
                 None
             };
             match coarse {
-                Some(coarse) if Integer::from(coarse) <= worst => Some(worst),
+                Some(coarse) if coarse <= worst => Some(worst),
                 _ => Some(worst.max(self.norm(&row)?)),
             }
         })

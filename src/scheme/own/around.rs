@@ -123,7 +123,7 @@ impl Around {
             let left = outer.iter().filter(|p| cross(middle, **p) > 0);
             let around = |p: &&Offset| outer.iter().any(|q| cross(middle, *q) < 0 && cross(*q, **p) < 0);
             if middle == (0, 0) && !outer.is_empty()
-                || outer.iter().any(|p| opposite(p))
+                || outer.iter().any(opposite)
                 || left.into_iter().any(|p| around(&p))
             {
                 return Err(());

@@ -39,7 +39,8 @@ impl Data {
     fn read(node: &Node<'_>, key: &str) -> Checked<Self> {
         let points = node.field(key)?.each(|p| p.each(|x| number(x)))?;
         let count = points.len();
-        let dim = points.first().map_or(0, Vec::len).saturating_sub(1);
+        node.need(count > 0, "case", "3 points (x, y) or more are needed, all of as many coordinates")?;
+        let dim = points[0].len().saturating_sub(1);
         let fits = (3..=MAX_PIECES + 1).contains(&count) && dim > 0 && points.iter().all(|p| p.len() == dim + 1);
         node.need(fits, "case", "3 points (x, y) or more are needed, all of as many coordinates")?;
         let ascend = points.windows(2).all(|w| w[0][0] < w[1][0]);
@@ -114,8 +115,8 @@ impl Data {
 
     /// The largest degree, at least 1.
     fn degree(&self) -> usize {
-        let degree = |q: &Vec<Q>| q.iter().rposition(|c| !c.is_zero());
-        self.polynomials.iter().flatten().filter_map(degree).fold(1, usize::max)
+        let size = |q: &Vec<Q>| (1..q.len()).rev().find(|m| !q[*m].is_zero());
+        self.polynomials.iter().flatten().flat_map(size).fold(1, usize::max)
     }
 
     /// Operators on the simplex for the coordinates `x, y`, and where its corners are seen.
@@ -124,7 +125,7 @@ impl Data {
         let of = |(j, share): (usize, &Q)| {
             // The images of 0 and of the unit vectors.
             let image = |k: Option<usize>| {
-                let at = |i: usize, m: usize| self.polynomials[j][i].get(m).cloned().unwrap_or_else(Q::zero);
+                let at = |i: usize, m: usize| coefficient(&self.polynomials[j][i], m);
                 let mut v = vec![&self.abscissas[j] - share * &self.abscissas[0]];
                 v.extend((0..dim).map(|i| at(i, 0)));
                 match k {
@@ -154,10 +155,9 @@ impl Data {
             let own = self.polynomials[j].iter().map(|q| substituted(q, from, &width));
             let coordinates: Vec<Vec<Q>> = powers.chain(own).collect();
             let image = |c: usize| -> Vec<Q> {
-                let at = |p: &Vec<Q>, m: usize| p.get(m).cloned().unwrap_or_else(Q::zero);
-                let mut v: Vec<Q> = coordinates.iter().map(|p| at(p, 0)).collect();
+                let mut v: Vec<Q> = coordinates.iter().map(|p| coefficient(p, 0)).collect();
                 if (1..=degree).contains(&c) {
-                    v.iter_mut().zip(&coordinates).for_each(|(x, p)| *x += at(p, c));
+                    v.iter_mut().zip(&coordinates).for_each(|(x, p)| *x += coefficient(p, c));
                 } else if c > degree {
                     (0..dim).for_each(|i| v[degree + i] += self.factors[j].at(i, c - degree - 1));
                 }
@@ -174,6 +174,14 @@ impl Data {
         let places = (0..=dim).flat_map(|i| (0..=degree + dim).map(move |k| (i, k)));
         let entries: Vec<Q> = places.map(|(i, k)| seen(i, k)).collect();
         (operators, Matrix::new(dim + 1, degree + dim + 1, &entries))
+    }
+}
+
+/// The coefficient of `x^m`, which is 0 beyond the degree.
+fn coefficient(p: &[Q], m: usize) -> Q {
+    match p.get(m) {
+        Some(c) => c.clone(),
+        None => Q::zero(),
     }
 }
 
