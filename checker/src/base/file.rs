@@ -5,7 +5,7 @@ use super::{Checked, Json, Matrix, Node, Q, Rejected, bits, spend};
 use toml::de::{DeTable, DeValue};
 
 /// Most coordinates of a state.
-pub const MAX_COORDINATES: usize = 64;
+pub const MAX_COORDINATES: usize = 96;
 
 /// A value of a TOML file: numbers keep the text in which they are written.
 fn tree(value: &DeValue<'_>) -> Json {
@@ -78,7 +78,7 @@ pub fn number(node: &Node<'_>) -> Checked<Q> {
     Ok(number)
 }
 
-/// Reads a matrix of 1 to 64 rows and columns.
+/// Reads a matrix of 1 to 96 rows and columns.
 pub fn matrix(node: &Node<'_>) -> Checked<Matrix> {
     let rows = node.each(|row| row.each(|x| number(x)))?;
     node.need(!rows.is_empty(), "case", "a matrix without rows")?;

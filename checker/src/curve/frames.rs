@@ -43,19 +43,6 @@ pub fn check(model: &Model<'_>, node: &Node<'_>, every: bool) -> Checked<bool> {
     Ok(constant)
 }
 
-/// What can be reached from a state by at least one piece.
-fn below(model: &Model<'_>, from: usize) -> Vec<usize> {
-    let targets = |e: usize| model.shape.states[e].pieces.iter().map(|p| p.target).collect::<Vec<_>>();
-    let (mut found, mut open) = (Vec::new(), targets(from));
-    while let Some(e) = open.pop() {
-        if !found.contains(&e) {
-            found.push(e);
-            open.extend(targets(e));
-        }
-    }
-    found
-}
-
 /// The states in an order that does not depend on the frame: breadth first from the start.
 fn ordered(model: &Model<'_>, states: &[usize]) -> Vec<usize> {
     model.shape.reachable.iter().copied().filter(|e| states.contains(e)).collect()
@@ -136,10 +123,10 @@ impl Frame {
         let shape = model.shape;
         let same = state.index(shape.states.len())? == self.state;
         state.need(same, "frames", format_args!("the frame of state {} is expected here", self.state))?;
-        let ahead = below(model, self.state);
+        let ahead = model.shape.below(self.state);
         let mut own = Vec::new();
         for &e in &ahead {
-            if below(model, e).contains(&self.state) {
+            if model.shape.below(e).contains(&self.state) {
                 own.push(e);
             }
         }
