@@ -36,6 +36,9 @@ pub struct JunctionArgs {
     /// A free row of your own, as in "0,1/4,3/16,1/2,1/16"; give as many as are free (needs --pattern).
     #[arg(long, value_name = "ROW", allow_hyphen_values = true)]
     row: Vec<String>,
+    /// Put the intermediate curve on the points of its pieces, so many times, which leaves more free rows to change.
+    #[arg(long, value_name = "STEPS", default_value_t = 0, conflicts_with = "surface")]
+    inside: usize,
     /// Control points of the joined shape for the case that is written, as in "0,0; 1,2; 3,3".
     #[arg(long, value_name = "POINTS", allow_hyphen_values = true)]
     pub(super) control: Option<String>,
@@ -99,7 +102,10 @@ fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
         ));
     };
     let sides = [side(a)?, side(b)?];
-    let found = search(&sides[0], &sides[1], &wish(args)?).map_err(|e| refused(&e))?;
+    let mut found = search(&sides[0], &sides[1], &wish(args)?).map_err(|e| refused(&e))?;
+    for _ in 0..args.inside {
+        found.member = found.member.map(|m| m.refined_inside()).transpose().map_err(|e| refused(&e))?;
+    }
     if let Some(member) = &found.member {
         let case = case(member, &names, args)?;
         if let Some(path) = &args.report {

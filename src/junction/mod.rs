@@ -8,6 +8,7 @@
 
 mod array;
 mod gaps;
+mod inside;
 mod member;
 mod place;
 mod refine;

@@ -92,11 +92,5 @@ pub(super) fn refined(side: &Side, vertex: bool) -> Matrix {
     if vertex {
         return side.vertex();
     }
-    let step = side.points() - side.shared;
-    let total = side.arity() * step + side.shared;
-    let row = |y: usize| {
-        let piece = (y / step).min(side.arity() - 1);
-        side.operators[piece].column(y - piece * step)
-    };
-    Matrix::from_rows(side.points(), (0..total).map(row).collect())
+    side.refined_points()
 }
