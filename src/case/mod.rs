@@ -16,6 +16,7 @@ mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod own;
 mod parameters;
 mod question;
 mod read;
@@ -297,7 +298,8 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, data to interpolate or products of such, symmetries, or states that name schemes or are
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
+    /// symmetries among its maps, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
@@ -308,7 +310,6 @@ impl Case {
                 Origin::Mesh { .. }
                     | Origin::Lattice
                     | Origin::Polygon(_)
-                    | Origin::Interpolation(_)
                     | Origin::Graphs
                     | Origin::Symmetric { .. }
                     | Origin::States
