@@ -139,6 +139,7 @@ statements! {
     VertexEveryPoint = "vertex-every-point",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",
+    SurfaceJunction = "surface-junction",
     Refinement = "refinement",
     FamilyWords = "family-words",
     FamilyHulls = "family-hulls",

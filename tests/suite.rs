@@ -36,6 +36,8 @@ mod identities;
 mod inputs;
 #[path = "junction.rs"]
 mod junction;
+#[path = "junction_surface.rs"]
+mod junction_surface;
 #[path = "latex.rs"]
 mod latex;
 #[path = "lattice.rs"]

@@ -109,11 +109,13 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         found_at.push(Claim::PlaneOfCells(place.clone()).is(verdict));
     }
     dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
+    let every = every.map(|every| surface.every(&root, chart.as_ref(), &found_at, &every)).transpose()?;
+    let planes = every == Some(Verdict::Proved);
     let mut found: Vec<Decided> = Vec::new();
     for (item, question) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
         let decided = match (question, &chart) {
             (Question::Points(claim, numbers), _) => claim.is(together(numbers.iter().map(|&k| found_at[k].verdict))),
-            (Question::Dense, Some(chart)) => surface.dense_set(chart, &dense)?,
+            (Question::Dense, Some(chart)) => surface.dense_set(chart, &dense, planes)?,
             (Question::Dense, None) => {
                 return item.reject("dense", "a shape without parameters has no vertices inside");
             }
@@ -122,9 +124,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         found.push(decided);
     }
     let verdict = together(found.iter().map(|d| d.verdict));
-    if let Some(every) = every {
-        found.push(Claim::PlaneTurns.is(surface.every(&root, chart.as_ref(), &found_at, &every)?));
-    }
+    found.extend(every.map(|verdict| Claim::PlaneTurns.is(verdict)));
     Ok(Accepted { case: case.name, verdict, claims: found, points: found_at })
 }
 
@@ -196,11 +196,13 @@ impl Surface<'_> {
         Ok(found)
     }
 
-    /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
-    fn dense_set(&self, chart: &Chart, node: &Node<'_>) -> Checked<Decided> {
+    /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face. Planes at every point are planes at a
+    /// dense set.
+    fn dense_set(&self, chart: &Chart, node: &Node<'_>, planes: bool) -> Checked<Decided> {
         let model = self.model;
         if node.is_null() {
-            return Ok(Claim::PlaneDense { projected: false }.is(Verdict::Undetermined));
+            let verdict = if planes { Verdict::Proved } else { Verdict::Undetermined };
+            return Ok(Claim::PlaneDense { projected: false }.is(verdict));
         }
         for (e, item) in model.for_states(node, "dense")? {
             let space = model.spaces.of(e)?;

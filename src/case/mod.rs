@@ -24,6 +24,7 @@ mod schema;
 mod scheme;
 mod source;
 mod states;
+mod symmetry;
 mod vertex;
 mod vertex_family;
 
@@ -56,7 +57,7 @@ pub const MAX_STATES: usize = 64;
 /// Largest number of pieces of a state.
 pub const MAX_PIECES: usize = 64;
 /// Largest number of barycentric coordinates of a state, and of coordinates of a control point.
-pub const MAX_COORDINATES: usize = 64;
+pub const MAX_COORDINATES: usize = 96;
 /// Largest number of addresses to examine.
 pub const MAX_ADDRESSES: usize = 256;
 /// Longest address to examine, in letters.
@@ -159,6 +160,15 @@ pub enum Origin {
     Tensor,
     /// Data that are interpolated.
     Interpolation(Box<Interpolation>),
+    /// The product of two functions that interpolate data.
+    Graphs,
+    /// A set some of whose maps are symmetries, written out with the others.
+    Symmetric {
+        /// Which of the maps are symmetries.
+        maps: Vec<usize>,
+        /// The number of elements of their group.
+        group: usize,
+    },
     /// An automaton, some of whose states name a scheme or are chains.
     States,
     /// A mask in two variables.
@@ -291,13 +301,23 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
+    /// symmetries among its maps, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        let built =
-            matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::States));
+        let built = matches!(
+            self.scheme,
+            Some(
+                Origin::Mesh { .. }
+                    | Origin::Lattice
+                    | Origin::Polygon(_)
+                    | Origin::Graphs
+                    | Origin::Symmetric { .. }
+                    | Origin::States
+            )
+        );
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }

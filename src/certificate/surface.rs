@@ -69,6 +69,9 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
                 continue;
             }
             asked.push(address);
+        } else if claim.statement() == Some(Statement::PatchDerivative) {
+            // Planes at every point are planes at a dense set.
+            every_point(surface, &mut product)?;
         } else if matches!(claim.what, Assertion::DensePlanes { .. }) && claim.verdict() == Verdict::Proved {
             let vertices = surface.dense.iter().flat_map(|d| &d.vertices);
             dense = vertices.map(|(_, p)| point(shape, p, &mut product)).collect::<Result<_, _>>()?;

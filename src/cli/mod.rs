@@ -13,6 +13,7 @@ mod init;
 mod irrational;
 mod jsr;
 mod junction;
+mod junction_surface;
 mod manual;
 mod many;
 mod mesh;

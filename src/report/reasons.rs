@@ -195,7 +195,9 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
             format!("it is not decided whether {} curve of the product is G¹", ordinal(curve))
         }
         EverySurfaceGap::Large => "there are too many coordinates for the derivative in the parameters".to_owned(),
-        EverySurfaceGap::Unequal => "not all faces are divided into the same number of parts along every side".to_owned(),
+        EverySurfaceGap::Unequal => {
+            "in the parameters, not all pieces that lead back to their face have one size along both sides".to_owned()
+        }
         EverySurfaceGap::Radius => {
             "the joint spectral radius on the differences of the derivative is not seen to be below the size of the pieces"
                 .to_owned()

@@ -77,8 +77,16 @@ pub fn brief<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requi
     Document { title: case.name.clone(), blocks }
 }
 
-/// The mask that was understood.
+/// The mask that was understood, or the symmetries.
 pub(super) fn mask_line<E>(case: &Case<E>) -> Option<Line> {
+    if let Some(Origin::Symmetric { maps, group }) = &case.scheme {
+        let listed = super::words::listed(&maps.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let pieces = count(case.shape.states[case.shape.start].pieces.len(), "map");
+        return Some(words(format!(
+            "symmetries: some power of map {listed} is the identity; the set is that of the {pieces} g f, g one of the {group} products \
+             of these, f another map"
+        )));
+    }
     let mask = case.mask()?;
     let arity = if mask.arity() == 2 { String::new() } else { format!(" of arity {}", mask.arity()) };
     let mut out = line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]);

@@ -34,7 +34,7 @@ pub use curves::{
 };
 pub use error::SchemeError;
 pub use fractint::{FractintEntry, parse_fractint};
-pub use interpolation::{Interpolation, MAX_INTERPOLATION, Matching};
+pub use interpolation::{Interpolation, MAX_INTERPOLATION, Matching, product_surface};
 pub use irrational::{FieldLocalMatrix, FieldMask, daubechies, field_local_matrix};
 pub use json::parse_json;
 pub use lattice::{

@@ -105,7 +105,8 @@ pub enum EverySurfaceGap {
     Curve(usize),
     /// There are too many coordinates for the derivative in the parameters.
     Large,
-    /// Not all faces are divided into the same number of parts along every side.
+    /// Not all pieces that lead back to their face are of one size in the parameters, or two faces are divided differently along an
+    /// edge that they share.
     Unequal,
     /// The joint spectral radius on the differences of the derivative is not seen to be below that size.
     Radius,
@@ -179,6 +180,11 @@ pub enum NoChart {
     },
     /// The cells of a face do not shrink in both directions.
     Shrinking {
+        /// Its state.
+        state: usize,
+    },
+    /// Opposite sides of a face are divided by different shares, or it has turned pieces beside sides that are divided by shares.
+    Shares {
         /// Its state.
         state: usize,
     },

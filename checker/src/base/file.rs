@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 pub const NUMBERS: &str = "numbers";
 
 /// Most coordinates of a state.
-pub const MAX_COORDINATES: usize = 64;
+pub const MAX_COORDINATES: usize = 96;
 
 /// A value of a TOML file: numbers keep the text in which they are written.
 fn tree(value: &DeValue<'_>) -> Json {
@@ -83,7 +83,7 @@ pub fn number(node: &Node<'_>) -> Checked<Q> {
     Ok(number)
 }
 
-/// Reads a matrix of 1 to 64 rows and columns.
+/// Reads a matrix of 1 to 96 rows and columns.
 pub fn matrix<T: Whole>(node: &Node<'_>, ground: &T::Ground) -> Checked<Matrix<T>> {
     let rows = node.each(|row| row.each(|x| T::given(x, ground)))?;
     node.need(!rows.is_empty(), "case", "a matrix without rows")?;

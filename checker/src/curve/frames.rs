@@ -49,19 +49,6 @@ pub fn check<T: Whole>(model: &Model<'_, T>, node: &Node<'_>, every: bool) -> Ch
     Ok(constant)
 }
 
-/// What can be reached from a state by at least one piece.
-fn below<T: Whole>(model: &Model<'_, T>, from: usize) -> Vec<usize> {
-    let targets = |e: usize| model.shape.states[e].pieces.iter().map(|p| p.target).collect::<Vec<_>>();
-    let (mut found, mut open) = (Vec::new(), targets(from));
-    while let Some(e) = open.pop() {
-        if !found.contains(&e) {
-            found.push(e);
-            open.extend(targets(e));
-        }
-    }
-    found
-}
-
 /// The states in an order that does not depend on the frame: breadth first from the start.
 fn ordered<T: Whole>(model: &Model<'_, T>, states: &[usize]) -> Vec<usize> {
     model.shape.reachable.iter().copied().filter(|e| states.contains(e)).collect()
@@ -142,10 +129,10 @@ impl<T: Whole> Frame<T> {
         let shape = model.shape;
         let same = state.index(shape.states.len())? == self.state;
         state.need(same, "frames", format_args!("the frame of state {} is expected here", self.state))?;
-        let ahead = below(model, self.state);
+        let ahead = model.shape.below(self.state);
         let mut own = Vec::new();
         for &e in &ahead {
-            if below(model, e).contains(&self.state) {
+            if model.shape.below(e).contains(&self.state) {
                 own.push(e);
             }
         }

@@ -168,6 +168,19 @@ impl<T: Whole> Shape<T> {
         Self { states, start, view, reachable }
     }
 
+    /// What can be reached from a state by at least one piece.
+    pub fn below(&self, from: usize) -> Vec<usize> {
+        let targets = |e: usize| self.states[e].pieces.iter().map(|p| p.target).collect::<Vec<_>>();
+        let (mut found, mut open) = (Vec::new(), targets(from));
+        while let Some(e) = open.pop() {
+            if !found.contains(&e) {
+                found.push(e);
+                open.extend(targets(e));
+            }
+        }
+        found
+    }
+
     /// The pieces of all reachable states, with the state.
     pub fn pieces(&self) -> impl Iterator<Item = (usize, &Piece<T>)> {
         self.reachable.iter().flat_map(|&e| self.states[e].pieces.iter().map(move |p| (e, p)))

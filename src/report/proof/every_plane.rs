@@ -65,7 +65,8 @@ fn derivative(found: &PatchDerivative) -> Evidence {
     Evidence::of(Statement::PatchDerivative)
         .holds(
             "patch",
-            "all faces are divided evenly; the pieces have the size $1/N=@$ in the parameters.",
+            "all faces are divided evenly, or in the shares of their sides; the pieces that lead back to their face have the size $1/N=@$ \
+             in the parameters.",
             [Math::number(&found.share)],
         )
         .holds("radius", &radius, [Math::number(&found.share)])

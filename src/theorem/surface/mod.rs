@@ -23,8 +23,8 @@ pub use verdict::{
 };
 
 use super::{
-    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Statement, Verdict,
-    Viewpoint, rational_contraction, state_report, without_contraction,
+    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Seen, Statement,
+    Verdict, Viewpoint, rational_contraction, state_report, without_contraction,
 };
 use crate::answer::Answer;
 use crate::budget::Budget;
@@ -107,6 +107,13 @@ pub fn certify_complex_within(
     }
     let (every, claim) = every::claim(&setting, chart, product.as_ref(), &surface);
     surface.every = every;
+    if let Answer::Proved(EverySurfaceProof::Derivative(_)) = &surface.every {
+        // Planes at every point are planes at a dense set.
+        let open = |c: &&mut Claim| matches!(c.what, Assertion::DensePlanes { .. }) && c.verdict() != Verdict::Proved;
+        found.claims.iter_mut().filter(open).for_each(|c| {
+            *c = Claim::proved(Assertion::DensePlanes { seen: Seen::Injective }, Some(Statement::PatchDerivative));
+        });
+    }
     found.claims.push(claim);
     found.claims.sort_by_key(|c| c.what.topic());
     found.polygons = setting.cx.polygons();
