@@ -134,9 +134,11 @@ pub(super) fn solved(m: Dense, right: &[f64]) -> Option<Vec<f64>> {
     Some(x)
 }
 
-/// `L^-t` for a lower triangular matrix `L`.
-pub(super) fn inverse_transposed(l: &Dense) -> Dense {
+/// The inverse of a positive definite matrix.
+pub(super) fn inverse(m: Dense) -> Option<Dense> {
+    let l = factored(m)?;
     let n = l.rows;
+    // The rows of the inverse of the factor, transposed.
     let mut k = Dense::zero(n, n);
     for j in 0..n {
         for i in j..n {
@@ -145,13 +147,6 @@ pub(super) fn inverse_transposed(l: &Dense) -> Dense {
             k[(j, i)] = (unit - known) / l[(i, i)];
         }
     }
-    k
-}
-
-/// The inverse of a positive definite matrix.
-pub(super) fn inverse(m: Dense) -> Option<Dense> {
-    let k = inverse_transposed(&factored(m)?);
-    let n = k.rows;
     let entry = |i: usize, j: usize| dot(&k.row(i)[i.max(j)..], &k.row(j)[i.max(j)..]);
     let data = (0..n * n).map(|p| entry(p / n, p % n)).collect();
     Some(Dense::new(n, n, data))

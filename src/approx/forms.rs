@@ -4,7 +4,7 @@
 //! small and dense, and a form that is merely feasible is enough.
 #![allow(clippy::float_arithmetic, reason = "proposes forms, exact arithmetic checks them")]
 
-use super::dense::{Dense, factored, inverse, inverse_transposed, solved};
+use super::dense::{Dense, factored, inverse, solved};
 use nalgebra::{DMatrix, Schur};
 
 /// An operator `T` from the space of `to` to that of `from`, row after row.
@@ -25,8 +25,6 @@ pub struct FormProblem {
     pub arrows: Vec<FormArrow>,
     /// By space: vectors on which the form is to be positive.
     pub secants: Vec<Vec<Vec<f64>>>,
-    /// By space: a positive definite form, row after row, in whose orthonormal coordinates the search is made.
-    pub metrics: Vec<Vec<f64>>,
 }
 
 /// Forms, row after row, and the `κ` of all arrows.
@@ -39,7 +37,7 @@ pub struct ProposedForms {
 }
 
 /// Most vectors that are taken of each space.
-const SECANTS: usize = 150;
+const SECANTS: usize = 300;
 /// Arrows keep this part of the room that is kept on the vectors.
 const ARROWS: f64 = 0.002;
 /// Steps of the method.
@@ -48,44 +46,9 @@ const STEPS: usize = 120;
 const SHARP: [f64; 3] = [100.0, 10.0, 10_000.0];
 
 impl FormProblem {
-    /// Forms for some choices of `κ` in the window between the third and the second growth, the likeliest first, with entries up to
-    /// 1.
+    /// Forms for some choices of `κ` in the window between the third and the second growth, the likeliest first.
     pub fn proposals(&self) -> impl Iterator<Item = ProposedForms> {
-        let inner = self.orthonormal();
-        [0.5, 0.75, 0.25].into_iter().filter_map(move |part| {
-            let (problem, frames) = inner.as_ref()?;
-            let mut found = problem.proposal(part)?;
-            for (form, frame) in found.forms.iter_mut().zip(frames) {
-                let q = Dense::new(frame.rows, frame.rows, std::mem::take(form));
-                *form = frame.transposed().times(&q).times(frame).data;
-            }
-            let largest = found.forms.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
-            found.forms.iter_mut().flatten().for_each(|x| *x /= largest);
-            Some(found)
-        })
-    }
-
-    /// The same in orthonormal coordinates, and the matrices that lead to them.
-    fn orthonormal(&self) -> Option<(Self, Vec<Dense>)> {
-        let square = |(m, &d): (&Vec<f64>, &usize)| factored((m.len() == d * d).then(|| Dense::new(d, d, m.clone()))?);
-        let roots: Vec<Dense> = self.metrics.iter().zip(&self.dims).map(square).collect::<Option<_>>()?;
-        // With the metric L Lᵗ on vectors v the coordinates are Lᵗ v.
-        let frames: Vec<Dense> = roots.iter().map(Dense::transposed).collect();
-        let back: Vec<Dense> = roots.iter().map(inverse_transposed).collect();
-        let arrows = self.arrows.iter().map(|a| {
-            let map = Dense::new(self.dims[a.from], self.dims[a.to], a.map.clone());
-            FormArrow { map: frames[a.from].times(&map).times(&back[a.to]).data, ..*a }
-        });
-        let moved = |(all, frame): (&Vec<Vec<f64>>, &Dense)| {
-            all.iter().map(|v| frame.times(&Dense::new(v.len(), 1, v.clone())).data).collect()
-        };
-        let problem = Self {
-            dims: self.dims.clone(),
-            arrows: arrows.collect(),
-            secants: self.secants.iter().zip(&frames).map(moved).collect(),
-            metrics: self.metrics.clone(),
-        };
-        Some((problem, frames))
+        [0.5, 0.75, 0.25].into_iter().filter_map(|part| self.proposal(part))
     }
 
     fn proposal(&self, part: f64) -> Option<ProposedForms> {

@@ -14,13 +14,13 @@ use crate::theorem::{Context, EverySurfaceGap};
 use malachite_base::num::arithmetic::traits::Floor;
 
 /// Most dimensions of what is seen of a star.
-const MAX_DIMENSIONS: usize = 32;
+const MAX_DIMENSIONS: usize = 16;
 /// Most points of a star between which secants are tried.
 const MAX_SAMPLES: usize = 100;
 /// Most words of stars through which control points are looked at, and the longest of them.
 const MAX_VIEWS: (usize, usize) = (2_000, 5);
 /// Binary digits of the entries of the forms, tried one after the other.
-const DIGITS: [i64; 4] = [16, 24, 32, 40];
+const DIGITS: [i64; 3] = [16, 22, 28];
 
 /// The hypotheses of Theorem 16, as found.
 #[derive(Debug, Clone)]
@@ -83,18 +83,8 @@ fn problem(cx: &Context, stars: &Stars, spaces: &StarSpaces) -> FormProblem {
             arrows.push(FormArrow { from: s - 1, to: child.star - 1, map: floats(map) });
         }
     }
-    let all = 1..stars.list.len();
-    // The shortest preimage of a vector on the coordinates of all cells has this length.
-    let metric = |s: usize| {
-        let chart = &spaces.charts[s];
-        (chart * &chart.transpose()).inverse().map_or_else(Vec::new, |m| floats(&m))
-    };
-    FormProblem {
-        dims: all.clone().map(|s| spaces.dim(s)).collect(),
-        arrows,
-        secants: all.clone().map(|s| secants(cx, stars, spaces, s)).collect(),
-        metrics: all.map(metric).collect(),
-    }
+    let secants = (1..stars.list.len()).map(|s| secants(cx, stars, spaces, s)).collect();
+    FormProblem { dims: (1..stars.list.len()).map(|s| spaces.dim(s)).collect(), arrows, secants }
 }
 
 /// Differences of points of a star, as floats.
