@@ -98,9 +98,9 @@ fn a_patch_that_is_no_product_and_not_smooth_in_its_parameters_has_cones_around_
 
 #[test]
 fn control_points_are_looked_at_through_words_of_stars() {
-    let bump = bent("3/10", "1/4", &control(|i, j| [4 * i, 4 * j, i * j + 2 * i64::from((i, j) == (1, 1))]));
+    let bump = bent("3/10", "1/4", &control(|i, j| [4 * i + 3 * i64::from((i, j) == (1, 1)), 4 * j, 6 * i * j]));
     let smooth = found(&bump);
-    assert!(cones(&smooth).expect("a proof by cones").views > 1);
+    assert_eq!(cones(&smooth).expect("a proof by cones").views, 9);
     assert_eq!(says(&forged(&bump, &smooth, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved));
     // The normals of neighbours come together; the cones shrink by 2/3 or so with each level.
     let angles = [4, 6].map(|level| turning(&bump, level));
@@ -118,7 +118,7 @@ fn corners_and_creases_have_no_forms() {
     let seen = bent("2/5", "1/4", &points);
     assert!(cones(&found(&seen)).is_none());
     let angles = [4, 6].map(|level| turning(&seen, level));
-    assert!(angles[1] > 0.8 * angles[0], "{angles:?}");
+    assert!(angles[1] > 0.75 * angles[0], "{angles:?}");
     // Two triangles in each square: a crease everywhere along the diagonal, with every growth equal.
     let text = "name = \"a\"\nsource = \"test\"\n[mask]\nsymbol = \"(1+x)*(1+y)*(1+x*y)/2\"\n";
     assert!(cones(&found(&Case::parse("a.toml", text).unwrap())).is_none());
