@@ -126,13 +126,12 @@ impl Cells<'_> {
         spend(m * n * self.form.len() / 4 + m * m * n * n / 32, 0)?;
         let mixed: Vec<Vec<i128>> = a.images.iter().map(|x| b.points.iter().map(|y| product(x, y)).collect()).collect();
         let error = 8 * self.sum * (2 * self.limit + 1);
-        for i in 0..m {
-            for k in i..m {
-                let rows: Vec<i128> = mixed[i].iter().zip(&mixed[k]).map(|(x, y)| x + y).collect();
+        for (i, row) in mixed.iter().enumerate() {
+            for (k, other) in mixed.iter().enumerate().skip(i) {
+                let both: Vec<i128> = row.iter().zip(other).map(|(x, y)| x + y).collect();
                 let first = 2 * a.own[i][k] - error;
-                for j in 0..n {
-                    let here = first - rows[j];
-                    if (j..n).any(|l| here + 2 * b.own[j][l] - rows[l] <= 0) {
+                for (own, here) in b.own.iter().zip(&both) {
+                    if own.iter().zip(&both).any(|(x, y)| first - here + 2 * x - y <= 0) {
                         return Ok(false);
                     }
                 }

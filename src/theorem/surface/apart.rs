@@ -175,10 +175,9 @@ impl<'a> Cells<'a> {
                 for (j, x) in line.iter_mut().enumerate() {
                     *x = mixed[i * n + j] + mixed[k * n + j];
                 }
-                for j in 0..n {
-                    let rest = first - line[j];
+                for (j, here) in line.iter().enumerate() {
                     let own = &b.own[j * n..=j * n + j];
-                    if own.iter().zip(&line).any(|(x, y)| rest + 2 * x - y <= 0) {
+                    if own.iter().zip(&line).any(|(x, y)| first - here + 2 * x - y <= 0) {
                         return false;
                     }
                 }
