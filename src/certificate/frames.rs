@@ -1,7 +1,7 @@
 //! The evidence for Theorems 11, 11′ and 11″: one entry for each frame, in the order in which they are found.
 
 use super::branch::point;
-use super::everywhere::matrix;
+use super::written::matrix;
 use super::{Unsupported, numbers, unsupported};
 use crate::shape::Shape;
 use crate::theorem::{FrameCones, FrameReport, Frames, PointReport, Role};

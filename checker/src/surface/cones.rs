@@ -332,7 +332,7 @@ mod tests {
         for (hull, far) in [("\"simplex\"", 3), ("null", 60)] {
             let text = format!(r#"[{{"state": 0, "radius": "6", "code": [".", ".", ".", "."], "hull": {hull}}}]"#);
             let json: Json = serde_json::from_str(&text).unwrap();
-            let model = Model::read(&shape, &Node { value: &json, place: String::new() }).unwrap();
+            let model = Model::read(&shape, &(), &Node { value: &json, place: String::new() }).unwrap();
             let across: &[i64] = &[0, 0, 1, 1];
             let places = [matrix(&[&[0, 1, 1, 0], across]), matrix(&[&[far, far + 1, far + 1, far], across])];
             let part = |cell: usize, letter: usize| Part {
