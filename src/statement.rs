@@ -136,6 +136,7 @@ statements! {
     Smoothness = "smoothness",
     TensorEveryPoint = "tensor-every-point",
     PatchDerivative = "patch-derivative",
+    SurfaceCones = "surface-cones",
     VertexEveryPoint = "vertex-every-point",
     Theorem10 = "theorem-10",
     JunctionFamily = "junction",

@@ -74,6 +74,8 @@ mod solve;
 mod spectrum;
 #[path = "studio.rs"]
 mod studio;
+#[path = "surface_cones.rs"]
+mod surface_cones;
 #[path = "surfaces.rs"]
 mod surfaces;
 #[path = "theory.rs"]

@@ -1,7 +1,9 @@
 //! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 8.1).
 
+mod apart;
 mod branch;
 mod chart;
+mod cones;
 mod derivative;
 mod product;
 
@@ -174,6 +176,11 @@ impl Surface<'_> {
                 derivative::check(self.model, chart, node)?;
                 Verdict::Proved
             }
+            "cones" => {
+                node.need(self.cover, "contraction", "without contraction only a product has an answer")?;
+                cones::check(self.model, chart, node)?;
+                Verdict::Proved
+            }
             "point" => {
                 let [_, _, point] = node.fields("by verdict point")?;
                 let broken = points[point.index(points.len())?].verdict == Verdict::Refuted;
@@ -188,7 +195,7 @@ impl Surface<'_> {
                 curves.need(seen, "every", "the view must be injective")?;
                 product.every(&curves)?
             }
-            _ => return node.reject("every", "a point, a product or a derivative is needed"),
+            _ => return node.reject("every", "a point, a product, a derivative or cones are needed"),
         };
         let decided = found != Verdict::Undetermined;
         node.need(decided, "every", "this decides nothing")?;

@@ -9,8 +9,8 @@ use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
 use crate::theorem::surface::{
-    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint,
-    SurfaceWitness,
+    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfaceForms,
+    SurfacePoint, SurfaceWitness,
 };
 use crate::theorem::{Assertion, Certified, Direction, Functional, PointReport, RingProof, Statement, Verdict};
 use serde_json::{Value, json};
@@ -128,6 +128,10 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
             };
             json!({"by": "derivative", "verdict": "proved", "radius": radius, "length": length, "cells": cells})
         }
+        Answer::Proved(EverySurfaceProof::Forms(_)) if product.always => {
+            return unsupported("cones around planes where only a product contracts", "every point");
+        }
+        Answer::Proved(EverySurfaceProof::Forms(found)) => cones(found),
         Answer::Proved(EverySurfaceProof::Vertex { .. }) => {
             return unsupported("Theorem 7 beside a patch complex", "every point");
         }
@@ -136,6 +140,26 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
             json!({"by": "product", "verdict": "refuted", "curves": product.every([of(0), of(1)])?})
         }
     }))
+}
+
+/// Stars with their children, forms (upper triangles, row after row) and ratios.
+fn cones(found: &SurfaceForms) -> Value {
+    let star = |s: usize| {
+        let cells = found.stars.list[s].cells.iter();
+        let cells: Value = cells.map(|(face, corners)| json!({"face": face, "corners": corners})).collect();
+        let children = found.stars.children[s].iter().enumerate();
+        let children: Value = children
+            .map(|(k, child)| {
+                let ratio = found.ratios[s].get(k).map_or(Value::Null, number);
+                json!({"star": child.star, "cells": child.cells, "ratio": ratio})
+            })
+            .collect();
+        let q = &found.forms[s];
+        let form: Value = (0..q.rows()).map(|i| numbers(&q.row(i)[i..])).collect();
+        json!({"cells": cells, "form": form, "children": children})
+    };
+    let stars: Value = (0..found.stars.list.len()).map(star).collect();
+    json!({"by": "cones", "verdict": "proved", "stars": stars})
 }
 
 fn name(b: &SurfaceBranch) -> String {

@@ -208,6 +208,17 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
         EverySurfaceGap::Rank => {
             "the derivative in the parameters is continuous, but the control points are not seen to keep its rank".to_owned()
         }
+        EverySurfaceGap::LargeStars => "there are too many stars of cells, or coordinates, for cones around planes".to_owned(),
+        EverySurfaceGap::NoForms => {
+            "no quadratic forms of signature (2, ·) were found that all stars of cells expand from their children".to_owned()
+        }
+        EverySurfaceGap::Secants => {
+            "the quadratic forms that were found are not seen to be positive on all secants between cells that do not meet"
+                .to_owned()
+        }
+        EverySurfaceGap::Folds => {
+            "there are cones around planes at every point, but the control points are not seen to keep them".to_owned()
+        }
         EverySurfaceGap::Contradiction => {
             "the proof for every point and the tangent subspace of a point disagree: a mistake in secant"
                 .to_owned()

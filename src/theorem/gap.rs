@@ -119,6 +119,14 @@ pub enum EverySurfaceGap {
     },
     /// The derivative is not seen to keep its rank under the control points.
     Rank,
+    /// There are too many stars for cones around planes, or too many coordinates.
+    LargeStars,
+    /// No forms of signature (2, ·) were found that all stars expand from their children.
+    NoForms,
+    /// The forms that were found are not seen to be positive on all secants between parts that do not meet.
+    Secants,
+    /// The control points, or the coordinates of the face, are not seen to keep the cones apart from 0.
+    Folds,
     /// It is proved, and at a point there is no tangent plane.
     Contradiction,
 }

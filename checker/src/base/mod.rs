@@ -17,7 +17,7 @@ pub use answer::{Accepted, Checked, Rejected, Verdict, list, need, reject, some,
 pub use file::{MAX_COORDINATES, file, flag, index, items, matrix, number, word};
 pub use graph::disjoint_cycles;
 pub use json::{Json, Node};
-pub use matrix::Matrix;
+pub use matrix::{Matrix, primitive};
 pub use number::{Q, bits, charge, longest, spend, total, whole};
 pub use poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, products, roots_in_disc, values};
 pub use surd::{Ground, Surd};

@@ -106,6 +106,19 @@ impl<'a, T: Whole> Model<'a, T> {
         Ok(model)
     }
 
+    /// Points whose convex hull holds the attractor of a state, as columns: the vertices of its hull, or those of a simplex around its
+    /// ball.
+    pub fn hull(&self, state: usize) -> Checked<Matrix<T>> {
+        if self.hulls[state].cols > 0 {
+            return Ok(self.hulls[state].clone());
+        }
+        // Of coordinates of sum 0 and 1-norm r none is below −r/2.
+        let (n, half) = (self.shape.states[state].dim, &self.radius[state] / Q::from_integer(2.into()));
+        let corners = Matrix::identity(n).scaled(&(&half * Q::from_integer(n.into())));
+        let base = self.spaces.of(state)?.base.times(&Matrix::row_of_ones(n))?;
+        Ok(base.plus(&Q::one(), &corners).minus(&Matrix::ones(n, n, |_, _| true).scaled(&half)))
+    }
+
     /// The elements of a list with one for each reachable state, breadth first, with the state.
     pub fn for_states<'n>(&self, node: &Node<'n>, rule: &str) -> Checked<Vec<(usize, Node<'n>)>> {
         let items = node.list()?;

@@ -68,6 +68,15 @@ pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
     cells.at(patch.covered(&radii, &cells))
 }
 
+/// All faces are divided into the same number of parts along every side, and the points of parts that share an edge are the same
+/// there.
+pub fn continuous(model: &Model<'_>, chart: &Chart) -> Checked<()> {
+    let patch = Patch::read(model, chart)?;
+    let (pairs, steps, inner) = patch.pairs()?;
+    need(!inner.is_empty(), "every", "a face without inner edges")?;
+    patch.meets(&patch.points, &pairs, &steps, &inner, &|e, word| patch.point(e, word))
+}
+
 impl<'a> Patch<'a> {
     fn read(model: &'a Model<'a>, chart: &'a Chart) -> Checked<Self> {
         let shape = model.shape;

@@ -1,12 +1,16 @@
 //! Surfaces: tangent planes at the points of a patch complex (theory §5, §7, §9).
 
+mod apart;
 mod branch;
 mod dense;
 mod derivative;
 mod edges;
 mod every;
+mod forms;
 mod place;
 mod span;
+mod star_space;
+mod stars;
 mod tensor;
 mod verdict;
 mod winding;
@@ -14,8 +18,10 @@ mod winding;
 pub use branch::leading_functionals;
 pub use derivative::PatchDerivative;
 pub use every::{EverySurface, EverySurfaceBreak, EverySurfaceProof, around_vertex};
+pub use forms::SurfaceForms;
 pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
+pub use stars::{Child, Star, Stars};
 pub use tensor::{factors, product_point};
 pub use verdict::{
     Bivectors, ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint,
