@@ -62,7 +62,7 @@ pub(super) fn written_out(operators: &[Matrix]) -> Option<WrittenOut> {
             }
         }
     }
-    (all.len() <= MAX_PIECES).then(|| WrittenOut { operators: all, group: group.len(), symmetries })
+    (all.len() <= MAX_PIECES).then_some(WrittenOut { operators: all, group: group.len(), symmetries })
 }
 
 #[cfg(test)]
@@ -84,7 +84,7 @@ mod tests {
         // The mirror keeps the one map, so that four of eight products are different.
         assert_eq!((found.group, found.operators.len(), found.symmetries), (8, 4, vec![0, 2]));
         assert!(written_out(std::slice::from_ref(&small)).is_none());
-        assert!(written_out(&[turn.clone()]).is_none());
+        assert!(written_out(std::slice::from_ref(&turn)).is_none());
         // A shear has no finite order.
         assert!(written_out(&[small, op([[1, 1], [0, 1]], 1, [0, 0])]).is_none());
     }

@@ -65,10 +65,10 @@ fn cells(complex: &Complex, start: usize) -> Result<Cells, JunctionError> {
         up.push(layout(target(0, j))?.1);
     }
     let mut list = Vec::new();
-    for j in 0..high {
-        for row in 0..up[j] {
+    for (j, stripes) in up.iter().enumerate() {
+        for row in 0..*stripes {
             for (i, parts) in across.iter().enumerate() {
-                if layout(target(i, j))? != (*parts, up[j]) {
+                if layout(target(i, j))? != (*parts, *stripes) {
                     return Err(wrong("faces side by side are divided differently"));
                 }
                 let outer = &states[start].pieces[j * wide + i];

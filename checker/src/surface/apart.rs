@@ -5,7 +5,7 @@ use crate::base::{Checked, Matrix, need, some, spend};
 use crate::curve::Model;
 use num_bigint::BigInt;
 use num_integer::Integer;
-use num_traits::{Signed, ToPrimitive, Zero};
+use num_traits::{Signed, ToPrimitive};
 
 /// Most pairs of cells of a star, and how often its parts are divided at most.
 const MAX_PAIRS: (usize, usize) = (40_000, 8);
@@ -52,7 +52,7 @@ pub fn check(model: &Model<'_>, charts: &[Matrix], faces: &[usize], parts: &[Par
         let [cell, letter] = part.from;
         let map = charts[cell].times(&model.shape.states[faces[cell]].pieces[letter].op)?;
         let points = map.times(&model.hull(part.face)?)?;
-        let largest = points.data.iter().map(Signed::abs).max().map_or_else(BigInt::zero, |x| x / &points.den);
+        let largest = some(points.data.iter().map(Signed::abs).max(), "apart", "a face without points")? / &points.den;
         size = size.max(largest.bits() + 1);
         maps.push(map);
     }
