@@ -44,7 +44,7 @@ pub fn check(model: &Model<'_>, node: &Node<'_>, every: bool) -> Checked<bool> {
 }
 
 /// What can be reached from a state by at least one piece.
-fn below(model: &Model<'_>, from: usize) -> Vec<usize> {
+pub fn below(model: &Model<'_>, from: usize) -> Vec<usize> {
     let targets = |e: usize| model.shape.states[e].pieces.iter().map(|p| p.target).collect::<Vec<_>>();
     let (mut found, mut open) = (Vec::new(), targets(from));
     while let Some(e) = open.pop() {
@@ -57,7 +57,7 @@ fn below(model: &Model<'_>, from: usize) -> Vec<usize> {
 }
 
 /// The states in an order that does not depend on the frame: breadth first from the start.
-fn ordered(model: &Model<'_>, states: &[usize]) -> Vec<usize> {
+pub fn ordered(model: &Model<'_>, states: &[usize]) -> Vec<usize> {
     model.shape.reachable.iter().copied().filter(|e| states.contains(e)).collect()
 }
 
@@ -174,26 +174,8 @@ impl Frame {
     fn in_sight(&self, model: &Model<'_>, states: &[usize], node: &Node<'_>) -> Checked<()> {
         let [cones, maps, code, above] = node.fields("cones maps code above")?;
         let found = cones.at(Cones::read(model, states, &cones, &maps))?;
-        let mut words = Vec::new();
-        for item in code.list()? {
-            let [word, functional] = item.fields("word functional")?;
-            words.push((word.word()?, functional));
-        }
-        let (mut inner, mut open, mut leaves) = (Vec::new(), vec![Vec::new()], 0);
-        while let Some(word) = open.pop() {
-            let end = self.along(model, &word)?.state;
-            if let Some((_, functional)) = words.iter().find(|(w, _)| *w == word) {
-                functional.at(self.sees(model, &found, (&word, end), functional))?;
-                leaves += 1;
-                continue;
-            }
-            let longer = words.iter().any(|(w, _)| w.len() > word.len() && w.starts_with(&word));
-            code.need(longer, "frames", format_args!("no word of the code begins like {word:?}, or is its beginning"))?;
-            open.extend((0..model.shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
-            inner.push(word);
-        }
-        code.need(leaves == words.len(), "frames", "a word of the code goes on behind another one")?;
         let root = Root { state: self.state, view: self.rows.times(&model.spaces.of(self.state)?.reading)? };
+        let inner = sight(model, (self.state, &root.view), &found, &code)?;
         let mut listed = Vec::new();
         for item in above.list()? {
             let [point] = item.fields("point")?;
@@ -216,22 +198,39 @@ impl Frame {
         }
         Ok(())
     }
+}
 
-    /// The functional is positive on the cone behind a word as it is seen.
-    fn sees(
-        &self,
-        model: &Model<'_>,
-        cones: &Cones<'_>,
-        (word, end): (&[usize], usize),
-        row: &Node<'_>,
-    ) -> Checked<()> {
-        let (product, _) = model.shape.product(self.state, word)?;
-        let seen = self.rows.times(&model.spaces.of(self.state)?.reading)?.times(&product)?;
-        let images = seen.times(&cones.rays[end].transpose())?;
-        let values = Matrix::new(1, images.rows, &row.vector(images.rows)?).times(&images)?;
-        let positive = values.cols > 0 && all_positive(&values);
-        row.need(positive, "frames", format_args!("the functional is not positive on the cone of {word:?}"))
+/// A complete prefix code of words from a state, each with a functional that is positive on the cone of its state as it is seen
+/// through the view: the words that have longer ones in the code.
+pub fn sight(
+    model: &Model<'_>,
+    (from, view): (usize, &Matrix),
+    cones: &Cones<'_>,
+    node: &Node<'_>,
+) -> Checked<Vec<Vec<usize>>> {
+    let mut words = Vec::new();
+    for item in node.list()? {
+        let [word, functional] = item.fields("word functional")?;
+        words.push((word.word()?, functional));
     }
+    let (mut inner, mut open, mut leaves) = (Vec::new(), vec![Vec::new()], 0);
+    while let Some(word) = open.pop() {
+        let (product, end) = model.shape.product(from, &word)?;
+        if let Some((_, row)) = words.iter().find(|(w, _)| *w == word) {
+            let images = view.times(&product)?.times(&cones.rays[end].transpose())?;
+            let values = Matrix::new(1, images.rows, &row.vector(images.rows)?).times(&images)?;
+            let positive = values.cols > 0 && all_positive(&values);
+            row.need(positive, "frames", format_args!("the functional is not positive on the cone of {word:?}"))?;
+            leaves += 1;
+            continue;
+        }
+        let longer = words.iter().any(|(w, _)| w.len() > word.len() && w.starts_with(&word));
+        node.need(longer, "frames", format_args!("no word of the code begins like {word:?}, or is its beginning"))?;
+        open.extend((0..model.shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
+        inner.push(word);
+    }
+    node.need(leaves == words.len(), "frames", "a word of the code goes on behind another one")?;
+    Ok(inner)
 }
 
 /// Every first-level joint of each member is proved, once, in its own state seen through the rows: how many there are, and by
