@@ -180,8 +180,11 @@ fn every_file_of_tests_is_in_a_program() {
     let read = |file: &str| std::fs::read_to_string(root().join(file)).unwrap();
     let quoted = |line: &str, prefix: &str| Some(line.strip_prefix(prefix)?.split('"').next()?.to_owned());
     let suite = read("tests/suite.rs");
-    let mut found: BTreeSet<String> =
-        read("Cargo.toml").lines().filter_map(|l| quoted(l, "path = \"tests/")).filter(|f| f.ends_with(".rs")).collect();
+    let mut found: BTreeSet<String> = read("Cargo.toml")
+        .lines()
+        .filter_map(|l| quoted(l, "path = \"tests/"))
+        .filter(|f| f.ends_with(".rs"))
+        .collect();
     for (path, module) in suite.lines().zip(suite.lines().skip(1)) {
         if let Some(file) = quoted(path, "#[path = \"") {
             assert!(module.starts_with("mod ") && module.ends_with(';'), "{module}");

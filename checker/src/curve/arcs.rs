@@ -172,7 +172,8 @@ mod tests {
         // (1 − 2t)^k integrated, beside 0: a zero of order k at 1/2.
         let power = |k: usize| {
             let f = line(k + 2, &Q::one(), &whole(-2)).unwrap().row(k);
-            let rows: Vec<Q> = (0..k + 2).map(|j| if j == 0 { Q::zero() } else { f.at(0, j - 1) / whole(j as i64) }).collect();
+            let rows: Vec<Q> =
+                (0..k + 2).map(|j| if j == 0 { Q::zero() } else { f.at(0, j - 1) / whole(j as i64) }).collect();
             Matrix::from_rows(k + 2, &[rows, vec![Q::zero(); k + 2]])
         };
         let turned: Vec<bool> = (1..=6).map(|k| turns(&power(k)).unwrap()).collect();

@@ -34,7 +34,11 @@ pub fn check(model: &Model<'_>, parts: &Node<'_>, seen: &Node<'_>) -> Checked<()
     if seen.is_null() {
         let space = model.spaces.of(shape.start)?;
         let injective = shape.view.times(&space.basis)?.rank()? == space.basis.cols;
-        return seen.need(injective, "components", "the map into the space where the curve is looked at is not injective");
+        return seen.need(
+            injective,
+            "components",
+            "the map into the space where the curve is looked at is not injective",
+        );
     }
     let [cones, maps, code] = seen.fields("cones maps code")?;
     let cones = cones.at(Cones::read(model, &shape.reachable, &cones, &maps))?;
@@ -92,7 +96,11 @@ impl Parts<'_> {
         let (e, model) = (self.state(&state)?, self.model);
         let pieces = &model.shape.states[e].pieces;
         let back = letter.index(pieces.len())?;
-        letter.need(pieces[back].target == e && !pieces[back].reversed, "components", "the piece does not lead back")?;
+        letter.need(
+            pieces[back].target == e && !pieces[back].reversed,
+            "components",
+            "the piece does not lead back",
+        )?;
         state.need(pieces.len() > 1, "components", "there are no other pieces")?;
         let space = model.spaces.of(e)?;
         let linear = model.spaces.linear(&pieces[back].op, e, e)?;

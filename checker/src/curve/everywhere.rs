@@ -170,8 +170,7 @@ impl<'a> Cones<'a> {
     fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
         // With each word where it ends, and where the products of its ends are positive.
         let none = |&e: &usize| (e, e, Vec::new(), Vec::new());
-        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> =
-            self.states.iter().map(none).collect();
+        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> = self.states.iter().map(none).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (from, to, word, ends) in words {

@@ -73,7 +73,9 @@ pub(super) fn evidence(case: &Case, found: &Components) -> Evidence {
     evidence.push("injective", Tone::Good, words("the ranks are the dimensions of the relevant spaces."));
     let view = match &found.sight {
         None => "there are no control points.".to_owned(),
-        Some((_, code)) => format!("cones of all states, and a functional behind each of {}.", count(code.len(), "word")),
+        Some((_, code)) => {
+            format!("cones of all states, and a functional behind each of {}.", count(code.len(), "word"))
+        }
     };
     evidence.push("view", Tone::Good, words(view));
     evidence
