@@ -6,7 +6,7 @@ use secant::certificate::confirm;
 use secant::radius::Options;
 use secant::shape::Spaces;
 use secant::theorem::graph::graph_over_parameter;
-use secant::theorem::{Verdict, certify};
+use secant::theorem::{EveryJoint, Verdict, certify};
 use serde_json::{Value, json};
 
 fn scheme(name: &str, parameters: &str, control: &str) -> Case {
@@ -138,6 +138,22 @@ fn loops_turn_towards_their_fixed_points_with_a_certificate() {
     let found = certify(&smooth.shape, &[]).unwrap();
     assert_eq!(found.everywhere.as_ref().unwrap().verdict, Verdict::Proved);
     confirm(&smooth, &found).unwrap();
+}
+
+/// A joint that was examined where the curve is looked at counts where nothing is lost on the way; otherwise it is looked at in its
+/// own state.
+#[test]
+fn joints_are_examined_where_nothing_is_lost() {
+    for (control, listed) in
+        [("", true), ("control = [[0, 0], [1, 2], [2, 0]]\n", true), ("control = [[0], [1], [3]]\n", false)]
+    {
+        let case = scheme("bspline", "degree = 2", control);
+        let found = certify(&case.shape, &[]).unwrap();
+        let every = found.everywhere.as_ref().unwrap();
+        assert_eq!(every.verdict, Verdict::Proved, "{control}");
+        assert!(!every.joints.is_empty() && every.cone.is_some(), "{control}");
+        assert!(every.joints.iter().all(|j| matches!(j, EveryJoint::Listed(_)) == listed), "{control}");
+    }
 }
 
 /// A cubic arc in the plane as a curve of de Casteljau.

@@ -287,6 +287,21 @@ mod tests {
     use super::*;
     use crate::arith::ratio;
 
+    /// A word is missing, or there is one more behind another: no code.
+    #[test]
+    fn codes_that_are_not_complete_prove_nothing() {
+        let half = Matrix::identity(1).scale(&ratio(1, 2));
+        let system = System::plain(&[half.clone(), half]).unwrap();
+        let bound = |code: &[&[usize]]| {
+            let codes = vec![code.iter().map(|w| w.to_vec()).collect()];
+            Tree { codes, weights: vec![vec![ratio(1, 1)]] }.bound(&system)
+        };
+        assert_eq!(bound(&[&[0], &[1]]), Some(ratio(1, 2)));
+        for code in [&[][..], &[&[0][..]], &[&[0], &[0, 1]], &[&[0], &[1], &[0, 1]], &[&[], &[0], &[1]]] {
+            assert_eq!(bound(code), None, "{code:?}");
+        }
+    }
+
     /// The bound for matrices near the system's holds for the farthest of them, and is the plain one where none may differ.
     #[test]
     fn bounds_for_matrices_nearby() {

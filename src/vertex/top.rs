@@ -456,5 +456,9 @@ mod tests {
         assert!(all_below(&f, &p(&[6, -7, 0, 1]), &ratio(31, 10)));
         assert!(!all_below(&f, &p(&[6, -7, 0, 1]), &ratio(29, 10)));
         assert!(!all_below(&f, &p(&[6, -7, 0, 1]), &ratio(3, 2)));
+        // The last step decides about x − 2, alone and beside a root 0.
+        for x_minus_2 in [p(&[-2, 1]), p(&[0, -2, 1])] {
+            assert!(all_below(&f, &x_minus_2, &ratio(21, 10)) && !all_below(&f, &x_minus_2, &ratio(19, 10)));
+        }
     }
 }
