@@ -407,6 +407,21 @@ fn takagi_and_okamoto() {
     assert!(compare_members(&okamoto, 14) > 30);
 }
 
+/// Near 1 and −1 single members take long; the range is answered all the same, and what is left says why.
+#[test]
+fn ranges_that_end_where_nothing_contracts() {
+    let quick = Budget::of(Effort::Quick);
+    let set = [setting("r=-1..0").unwrap()];
+    let found = curve_regions(family("takagi-landsberg.toml").as_ref(), &set, &quick.regions, &quick).unwrap();
+    expect_claim(&found, CurveClaim::G1, &[(-1, 4, Verdict::Refuted), (-999, 1000, Verdict::Refuted)]);
+    assert_eq!(says(&found, Subject::Contraction, &Root::from_rational(&ratio(-1, 1))), Verdict::Refuted);
+    assert_eq!(says(&found, Subject::Contraction, &Root::from_rational(&ratio(-999, 1000))), Verdict::Proved);
+    let begun = std::time::Instant::now();
+    let search = Search::default().within(0.3);
+    let found = curve_regions(family("takagi-landsberg.toml").as_ref(), &set, &search, &Budget::default()).unwrap();
+    assert!(found.found.tables.len() == 4 && begun.elapsed().as_secs() < 30);
+}
+
 #[test]
 fn certificates_of_curves_are_accepted_and_forgeries_are_not() {
     for (name, set) in [("okamoto.toml", "a=1/5..3/5"), ("takagi-landsberg.toml", "r=-3/5..3/5")] {

@@ -1,13 +1,15 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
+use super::region_vertex::{RegionsAtVertices, vertex_regions};
 use crate::answer::Verdict;
 use crate::budget::Budget;
-use crate::case::{CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, named_family};
+use crate::case::{CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, Valences, named_family};
 use crate::diagnostic::Problem;
 use crate::radius::family::Search;
 use crate::report::document::Document;
 use crate::report::region as report;
 use crate::report::region_curve as curve_report;
+use crate::report::region_vertex as vertex_report;
 use crate::scheme;
 use crate::theorem::region::{CurveFamily, CurveRegions, MaskFamily, OrderRegion};
 use serde_json::Value;
@@ -170,25 +172,46 @@ pub enum Family {
     Mask(Box<Regions>),
     /// Of a curve.
     Curve(Box<RegionsOfCurve>),
+    /// At vertices of meshes.
+    Vertex(Box<RegionsAtVertices>),
+}
+
+/// What is asked of a family beside its range.
+#[derive(Debug, Clone, Default)]
+pub struct Asked {
+    /// The highest order of smoothness of masks.
+    pub order: Option<usize>,
+    /// The valences at vertices of meshes, in the place of those of the file.
+    pub valences: Option<Valences>,
 }
 
 impl Family {
-    /// The regions of what stands for a family, of masks up to an order.
+    /// The regions of what stands for a family.
     ///
     /// # Errors
     /// A [`Problem`] where it is none.
     pub fn ask(
         what: &str,
         set: &[(String, Setting)],
-        most: usize,
+        asked: &Asked,
         search: &Search,
         budget: &Budget,
     ) -> Result<Self, Problem> {
+        let path = Path::new(what);
         let named = scheme::list().iter().any(|s| s.name == what);
-        if !named && FamilyForm::of(Path::new(what))? == FamilyForm::Curve {
-            return Ok(Self::Curve(Box::new(curve_regions(Path::new(what), set, search, budget)?)));
+        let form = if named { FamilyForm::Mask } else { FamilyForm::of(path)? };
+        let valences = asked.valences.as_ref();
+        if form != FamilyForm::Vertex && valences.is_some() {
+            return Err(Problem::new("secant::region::valence", format!("{what} has no valences"))
+                .with_help("--valence is for cases with a [vertex] table"));
         }
-        Ok(Self::Mask(Box::new(regions(what, set, most, search)?)))
+        Ok(match form {
+            FamilyForm::Mask => {
+                Self::Mask(Box::new(regions(what, set, asked.order.map_or(usize::MAX, |k| k), search)?))
+            }
+            FamilyForm::Curve => Self::Curve(Box::new(curve_regions(path, set, search, budget)?)),
+            FamilyForm::Vertex => Self::Vertex(Box::new(vertex_regions(path, set, valences, search, budget)?)),
+        })
     }
 
     /// The whole as one verdict.
@@ -197,6 +220,7 @@ impl Family {
         match self {
             Self::Mask(r) => r.verdict(),
             Self::Curve(r) => r.verdict(),
+            Self::Vertex(r) => r.verdict(),
         }
     }
 
@@ -206,6 +230,7 @@ impl Family {
         match self {
             Self::Mask(r) => r.document(),
             Self::Curve(r) => curve_report::document(&r.case, &r.found),
+            Self::Vertex(r) => vertex_report::document(&r.case, &r.found),
         }
     }
 
@@ -215,6 +240,7 @@ impl Family {
         match self {
             Self::Mask(r) => r.report(),
             Self::Curve(r) => curve_report::report(&r.case, &r.found),
+            Self::Vertex(r) => vertex_report::report(&r.case, &r.found),
         }
     }
 
@@ -224,6 +250,7 @@ impl Family {
         match self {
             Self::Mask(r) => r.svg(),
             Self::Curve(r) => curve_report::picture(&r.case, &r.found).map(|p| p.0),
+            Self::Vertex(r) => vertex_report::picture(&r.case, &r.found).map(|p| p.0),
         }
     }
 
@@ -233,6 +260,7 @@ impl Family {
         match self {
             Self::Mask(r) => r.data(),
             Self::Curve(r) => curve_report::data(&r.case, &r.found),
+            Self::Vertex(r) => vertex_report::data(&r.case, &r.found),
         }
     }
 
@@ -244,6 +272,11 @@ impl Family {
         match self {
             Self::Mask(r) => r.certificate(),
             Self::Curve(r) => r.certificate(),
+            Self::Vertex(r) => Err(Problem::new(
+                "secant::region::certificate",
+                format!("{}: there is no certificate format for regions at vertices", r.case.name),
+            )
+            .with_help("single values have certificates: `secant certify CASE w=1/16 --certificate FILE`")),
         }
     }
 }

@@ -35,6 +35,8 @@ pub enum FamilyForm {
     Mask,
     /// With maps or operators.
     Curve,
+    /// With `[vertex]`.
+    Vertex,
 }
 
 impl FamilyForm {
@@ -44,11 +46,15 @@ impl FamilyForm {
     /// A [`Problem`] where the file cannot be read.
     pub fn of(path: &Path) -> Result<Self, Problem> {
         let source = SourceText::read(path)?;
-        let curve = DeTable::parse(&source.text).is_ok_and(|table| {
-            let has = |key: &str| table.get_ref().keys().any(|k| *k.get_ref() == key);
-            ["map", "pieces", "state"].into_iter().any(has)
-        });
-        Ok(if curve { Self::Curve } else { Self::Mask })
+        let Ok(table) = DeTable::parse(&source.text) else { return Ok(Self::Mask) };
+        let has = |key: &str| table.get_ref().keys().any(|k| *k.get_ref() == key);
+        Ok(if has("vertex") {
+            Self::Vertex
+        } else if ["map", "pieces", "state"].into_iter().any(has) {
+            Self::Curve
+        } else {
+            Self::Mask
+        })
     }
 }
 
@@ -111,15 +117,7 @@ impl CurveFamilyCase {
         let count = degree + 1 + FURTHER;
         let at: Vec<Rational> =
             (0..count).map(|k| lo + (hi - lo) * Rational::from(k as u64) / Rational::from(count as u64)).collect();
-        let member = |p: &Rational| {
-            let mut set = set.to_vec();
-            set.retain(|(n, _)| *n != free.parameter);
-            set.push((free.parameter.clone(), Setting::Value(p.clone())));
-            match member_text(&file.source.name, text, &set)? {
-                Some(own) => Case::parse(&file.source.name, &own),
-                None => Case::parse(&file.source.name, text),
-            }
-        };
+        let member = |p: &Rational| Case::parse(&file.source.name, &at_value(&file.source, set, &free.parameter, p)?);
         let members = at.iter().map(member).collect::<Result<Vec<_>, _>>()?;
         let shapes: Vec<&Shape> = members.iter().map(|m| &m.shape).collect();
         let Some((operators, control)) = family(&at, &shapes, degree) else {
@@ -159,6 +157,19 @@ impl CurveFamilyCase {
             self.operators.iter().map(piece).collect::<String>()
         )
     }
+}
+
+/// The text of a case with a value for the parameter that is left free.
+pub(super) fn at_value(
+    source: &SourceText,
+    set: &[(String, Setting)],
+    parameter: &str,
+    p: &Rational,
+) -> Result<String, Problem> {
+    let mut set = set.to_vec();
+    set.retain(|(n, _)| n != parameter);
+    set.push((parameter.to_owned(), Setting::Value(p.clone())));
+    Ok(member_text(&source.name, &source.text, &set)?.map_or_else(|| source.text.to_string(), |own| own))
 }
 
 /// Operators whose entries have at most this degree, and the control points, from members; `None` where they are no such family.

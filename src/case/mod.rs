@@ -24,6 +24,7 @@ mod scheme;
 mod source;
 mod states;
 mod vertex;
+mod vertex_family;
 
 pub use asked::{asked, is_case, nothing, unaliased, written};
 pub use border::BorderCase;
@@ -36,6 +37,7 @@ pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting
 pub use question::{Question, Subject};
 pub use schema::schema;
 pub use vertex::{Valences, VertexCase};
+pub use vertex_family::VertexFamilyCase;
 
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};

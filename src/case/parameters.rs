@@ -396,7 +396,7 @@ fn coefficients(table: &Table<'_>, names: &BTreeMap<String, Poly>) -> Result<(us
 
 impl Node<'_> {
     /// A number, or an expression in the names.
-    fn polynomial(&self, names: &BTreeMap<String, Poly>) -> Result<Poly, Problem> {
+    pub(super) fn polynomial(&self, names: &BTreeMap<String, Poly>) -> Result<Poly, Problem> {
         let text = match self.text() {
             Ok(text) if parse_rational(text).is_err() => text,
             _ => return Ok(Poly::constant(self.number()?)),

@@ -5,9 +5,9 @@ use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
-use crate::ask::Family;
+use crate::ask::{Asked, Family};
 use crate::budget::{Budget, Effort};
-use crate::case::setting;
+use crate::case::{Valences, setting};
 use crate::diagnostic::Problem;
 use crate::radius::family::Search;
 use crate::report::document::Document;
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct RegionArgs {
-    /// A case file with `[parameters]` and a mask, maps or operators, or the name of a scheme, with the range of its parameter behind it, as in
+    /// A case file with `[parameters]` and a mask, maps, operators or a `[vertex]` table, or the name of a scheme, with the range of its parameter behind it, as in
     /// `four-point w=-1/2..1/2`.
     #[arg(value_name = "CASE")]
     what: String,
@@ -30,6 +30,9 @@ pub struct RegionArgs {
     /// The highest order of smoothness of masks that is asked about; without it all that the sum rules allow.
     #[arg(long, value_name = "K")]
     order: Option<usize>,
+    /// The valences of a case about vertices, in the place of those of the file: 5, 3..12 or 3,5,8.
+    #[arg(long, value_name = "LIST", value_parser = Valences::parse)]
+    valence: Option<Valences>,
     /// Gaps that are narrower are left.
     #[arg(long, value_name = "WIDTH", value_parser = width, default_value = "1e-6")]
     width: Rational,
@@ -49,7 +52,7 @@ pub struct RegionArgs {
     /// Write the tables with the statements to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
-    /// Draw a bar for each order or claim, coloured by verdict.
+    /// Draw a bar for each order, claim or valence, coloured by verdict.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md), and the family beside it.
@@ -82,7 +85,8 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
         search = search.within(seconds);
     }
     search.hulls = args.hulls.unwrap_or(search.hulls);
-    let found = Family::ask(&args.what, &set, args.order.unwrap_or(usize::MAX), &search, &Budget::of(args.effort))?;
+    let asked = Asked { order: args.order, valences: args.valence.clone() };
+    let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort))?;
     files(args, &found, render)?;
     if args.json {
         print(&format!("{:#}\n", found.data()));

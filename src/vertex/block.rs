@@ -91,22 +91,36 @@ impl Vertex {
     /// [`SchemeError`] of the stencils; [`SchemeError::Asymmetric`] where a characteristic polynomial is not real (a scheme
     /// without mirror symmetry).
     pub fn block(&self, frequency: usize) -> Result<Block, SchemeError> {
-        let (entries, before, angle) =
-            if frequency == 0 { self.still()? } else { (self.turning(frequency), 0, frequency) };
-        let size = entries.len();
-        let angle_polynomial = minimal_polynomial(self.valence / gcd(angle, self.valence));
-        let pattern = Matrix::from_fn(size, size, |i, j| ratio(i64::from(!entries[i][j].is_zero()), 1));
-        let mut parts = Vec::new();
-        for indices in strong_components(&pattern) {
-            let inner: Vec<Vec<Symbol>> =
-                indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
-            let coefficients = characteristic(&inner);
-            if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
-                return Err(SchemeError::Asymmetric { rule: self.rule.name() });
-            }
-            parts.push(Part { indices, poly: coefficients.into_iter().map(|c| c.x).collect() });
-        }
+        let (entries, before, angle) = self.entries(frequency)?;
+        let part = |indices: Vec<usize>| {
+            let poly = self.characteristic(&entries, &indices, angle)?;
+            Ok(Part { indices, poly })
+        };
+        let parts = strong_parts(entries.len(), |i, j| !entries[i][j].is_zero());
+        let parts = parts.into_iter().map(part).collect::<Result<_, SchemeError>>()?;
         Ok(Block { frequency, angle, entries, before, parts })
+    }
+
+    /// The entries of a block, how many indices stand before the orbits, and the angle of `t` in the entries.
+    pub(super) fn entries(&self, frequency: usize) -> Result<(Vec<Vec<Symbol>>, usize, usize), SchemeError> {
+        if frequency == 0 { self.still() } else { Ok((self.turning(frequency), 0, frequency)) }
+    }
+
+    /// The characteristic polynomial of the entries among some indices.
+    pub(super) fn characteristic(
+        &self,
+        entries: &[Vec<Symbol>],
+        indices: &[usize],
+        angle: usize,
+    ) -> Result<Vec<Poly>, SchemeError> {
+        let inner: Vec<Vec<Symbol>> =
+            indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
+        let coefficients = characteristic(&inner);
+        let angle_polynomial = minimal_polynomial(self.valence / gcd(angle, self.valence));
+        if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
+            return Err(SchemeError::Asymmetric { rule: self.rule.name() });
+        }
+        Ok(coefficients.into_iter().map(|c| c.x).collect())
     }
 
     /// A block of a frequency other than 0.
@@ -234,6 +248,11 @@ fn interpolate(values: &[&Rational]) -> Poly {
 
 fn compose(outer: &Poly, inner: &Poly) -> Poly {
     outer.coeffs().iter().rev().fold(Poly::zero(), |v, c| &(&v * inner) + &Poly::constant(c.clone()))
+}
+
+/// The strongly connected parts of a matrix with these entries other than 0, each after those that it depends on.
+pub(super) fn strong_parts(size: usize, entry: impl Fn(usize, usize) -> bool) -> Vec<Vec<usize>> {
+    strong_components(&Matrix::from_fn(size, size, |i, j| ratio(i64::from(entry(i, j)), 1)))
 }
 
 /// The characteristic polynomial, from the constant coefficient up (Faddeev and LeVerrier).

@@ -7,14 +7,15 @@ use super::limit::{self, Ring};
 use super::net::{Net, Signs};
 use super::reason::{BorderGround, VertexReason};
 use super::regular::Regular;
-use super::ring::{self, Values, jacobian, patches};
+use super::ring::{self, Values, patches};
+use super::signs::{self, Map};
 use super::top::{Top, TopError, leading_value, leading_values, top};
-use super::turning::{Rotation, Turning};
+use super::turning::Turning;
 use crate::answer::Verdict;
 use crate::arith::{Interval, Rational, to_f64};
 use crate::budget::Budget;
 use crate::poly::{Poly, factor};
-use crate::ring::{Field as _, Ordered as _, Ring as _};
+use crate::ring::{Field as _, Ordered as _};
 use crate::scheme::{MeshRule, SchemeError};
 use crate::statement::Statement;
 
@@ -338,21 +339,13 @@ impl Judge<'_> {
     fn signs_of_function(&mut self, k: usize) -> Option<(Signs, Signs)> {
         if !self.found.polynomial {
             let ring = self.ring(k, self.budget.places[0])?;
-            let functional = (1, if k == 0 { 1 } else { -1 });
-            return Some((ring.functional(functional, false), ring.functional(functional, true)));
+            return Some((signs::function_on_ring(&ring, k, false), signs::function_on_ring(&ring, k, true)));
         }
         let (field, values) = self.values(k, self.budget.places[0])?;
         self.note(k, &field, &values);
-        // ω = 1 in block 0, where nothing turns, and −1 in block n/2.
-        let scalar = |p: &Turning<Fixed>| if k == 0 { field.add(&p.x, &p.y) } else { field.sub(&p.x, &p.y) };
-        let nets: Vec<Net<Fixed>> = patches(self.vertex, &field, &values)?.iter().map(|p| p.map(scalar)).collect();
-        let signs = |nets: Vec<Net<Fixed>>| {
-            let mut signs = Signs::default();
-            let halvings = self.budget.halvings;
-            nets.into_iter().enumerate().for_each(|(index, net)| signs.examine(&field, index, net, halvings));
-            signs
-        };
+        let nets = signs::function(self.vertex, &field, &values, k)?;
         let boundary = ring::boundary(&self.vertex.rule, &nets)?;
+        let signs = |nets| signs::signs_of(&field, nets, self.budget.halvings);
         Some((signs(nets), signs(boundary)))
     }
 
@@ -416,61 +409,26 @@ impl Judge<'_> {
         let Some((field, values)) = self.values(k, bits) else { return false };
         self.note(k, &field, &values);
         let Some(patches) = patches(self.vertex, &field, &values) else { return false };
-        let mut signs = Signs::default();
-        for (index, patch) in patches.iter().enumerate() {
-            signs.examine(&field, index, jacobian(&field, patch), self.budget.halvings);
-        }
-        let functional = half_plane(&field, &patches, self.budget.halvings);
-        self.found.winding = functional.is_some().then_some(k);
-        self.found.half_plane = functional;
+        let map = signs::map(&field, &patches, self.budget.halvings);
         let point = |p: &Turning<Fixed>| (field.to_f64(&p.x), field.to_f64(&p.y));
         self.found.outline = outline(&field, &patches.iter().map(|p| p.map(point)).collect::<Vec<_>>());
-        self.known(signs)
+        self.known(k, map)
     }
 
     /// The same for a scheme without Bézier patches, from enclosures.
     fn enclosed(&mut self, k: usize, bits: u64) -> bool {
         let Some(ring) = self.ring(k, bits) else { return false };
         let field = Enclosures::of_angle(k, self.vertex.valence, bits);
-        let (functional, unit) = ring.towards(field.to_f64(&field.twice_cosine()));
-        self.found.half_plane = (ring.functional(functional, false).strict() == Some(1)).then(|| {
-            (Rational::from(functional.0) / Rational::from(unit), Rational::from(functional.1) / Rational::from(unit))
-        });
-        self.found.winding = self.found.half_plane.is_some().then_some(k);
         self.found.outline = outline(&field, &ring.corners());
-        self.known(ring.jacobian())
+        self.known(k, signs::map_on_ring(&ring, &field))
     }
 
-    fn known(&mut self, signs: Signs) -> bool {
-        let decided = signs.strict().is_some() || signs.changes();
-        self.found.jacobian = Some(signs);
+    fn known(&mut self, k: usize, map: Map) -> bool {
+        let decided = map.jacobian.strict().is_some() || map.jacobian.changes();
+        self.found.winding = map.half_plane.is_some().then_some(k);
+        (self.found.jacobian, self.found.half_plane) = (Some(map.jacobian), map.half_plane);
         decided && self.found.winding.is_some()
     }
-}
-
-/// A functional that is positive on the whole ring of a sector, proved on its Bernstein coefficients.
-///
-/// The ring then avoids 0, and its outer boundary, which leads from a point `P` to `ω P`, turns by an angle between −π and π,
-/// which can only be that of `ω`: the whole boundary winds `k` times around 0.
-fn half_plane(field: &Enclosures, patches: &[Net<Turning<Fixed>>], halvings: usize) -> Option<(Rational, Rational)> {
-    let rotation = Rotation(field);
-    let mut sum = rotation.zero();
-    patches.iter().flat_map(|p| p.rows.iter().flatten()).for_each(|p| sum = rotation.add(&sum, p));
-    // The scalar product with the sum of all points, in the metric of the true plane; rounded to a short fraction.
-    let half = Rational::from_signeds(1, 2);
-    let mixed = |a: &Fixed, b: &Fixed| {
-        let value = field.add(a, &field.scale(&field.mul(&field.twice_cosine(), b), &half));
-        let scaled = field.to_interval(&value).mid() * Rational::from(1 << 12);
-        use malachite_base::num::arithmetic::traits::Floor;
-        Rational::from(scaled.floor()) / Rational::from(1 << 12)
-    };
-    let g = (mixed(&sum.x, &sum.y), mixed(&sum.y, &sum.x));
-    let mut signs = Signs::default();
-    for (index, patch) in patches.iter().enumerate() {
-        let values = patch.map(|p| field.add(&field.scale(&p.x, &g.0), &field.scale(&p.y, &g.1)));
-        signs.examine(field, index, values, halvings);
-    }
-    (signs.strict() == Some(1)).then_some(g)
 }
 
 /// Points `x + y ω` in the true plane.

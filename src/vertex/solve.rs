@@ -8,14 +8,20 @@ use crate::algebraic::Elem;
 use crate::arith::Rational;
 use crate::ring::{Field as _, Ring as _};
 
-type Rows<E> = Vec<Vec<Turning<E>>>;
+pub(super) type Rows<E> = Vec<Vec<Turning<E>>>;
 
-/// The entries of `block − value` among some indices.
-fn shifted<F: Field>(f: &F, block: &Block, rows: &[usize], columns: &[usize], value: &F::E) -> Rows<F::E> {
+/// The entries of a block in a field.
+fn whole<F: Field>(f: &F, block: &Block) -> Rows<F::E> {
+    let rotation = Rotation(f);
+    block.entries.iter().map(|row| row.iter().map(|e| rotation.of_symbol(e)).collect()).collect()
+}
+
+/// The entries of `entries − value` among some indices.
+fn shifted<F: Field>(f: &F, entries: &Rows<F::E>, rows: &[usize], columns: &[usize], value: &F::E) -> Rows<F::E> {
     let rotation = Rotation(f);
     let entry = |i: &usize, j: &usize| {
-        let own = rotation.of_symbol(&block.entries[*i][*j]);
-        if i == j { rotation.sub(&own, &rotation.plain(value.clone())) } else { own }
+        let own = &entries[*i][*j];
+        if i == j { rotation.sub(own, &rotation.plain(value.clone())) } else { own.clone() }
     };
     rows.iter().map(|i| columns.iter().map(|j| entry(i, j)).collect()).collect()
 }
@@ -58,17 +64,29 @@ fn solve<F: Field>(f: &F, mut a: Rows<F::E>, mut b: Vec<Turning<F::E>>) -> Optio
 /// Gaussian elimination in each part.
 #[must_use]
 pub fn eigenvector<F: Field>(f: &F, block: &Block, part: usize, value: &F::E) -> Option<Values<F::E>> {
+    let parts: Vec<&[usize]> = block.parts.iter().map(|p| p.indices.as_slice()).collect();
+    eigenvector_of(f, &whole(f, block), &parts, block.before, part, value)
+}
+
+/// The same of entries in the field, with the indices of the parts, and how many indices stand before the orbits.
+pub(super) fn eigenvector_of<F: Field>(
+    f: &F,
+    entries: &Rows<F::E>,
+    parts: &[&[usize]],
+    before: usize,
+    part: usize,
+    value: &F::E,
+) -> Option<Values<F::E>> {
     let rotation = Rotation(f);
-    let mut v = vec![rotation.zero(); block.entries.len()];
-    for (index, at) in block.parts.iter().enumerate().skip(part) {
-        let own = &at.indices;
+    let mut v = vec![rotation.zero(); entries.len()];
+    for (index, own) in parts.iter().copied().enumerate().skip(part) {
         if index == part {
             let found = own.iter().find_map(|fixed| {
                 let unknown: Vec<usize> = own.iter().copied().filter(|i| i != fixed).collect();
                 own.iter().find_map(|left_out| {
                     let rows: Vec<usize> = own.iter().copied().filter(|i| i != left_out).collect();
-                    let a = shifted(f, block, &rows, &unknown, value);
-                    let right = shifted(f, block, &rows, &[*fixed], value);
+                    let a = shifted(f, entries, &rows, &unknown, value);
+                    let right = shifted(f, entries, &rows, &[*fixed], value);
                     let b = right.into_iter().map(|r| rotation.sub(&rotation.zero(), &r[0])).collect();
                     Some((*fixed, unknown.clone(), solve(f, a, b)?))
                 })
@@ -80,21 +98,23 @@ pub fn eigenvector<F: Field>(f: &F, block: &Block, part: usize, value: &F::E) ->
             for i in own {
                 let mut sum = rotation.zero();
                 for (j, x) in v.iter().enumerate() {
-                    if !own.contains(&j) && !block.entries[*i][j].is_zero() {
-                        sum = rotation.sub(&sum, &rotation.mul(&rotation.of_symbol(&block.entries[*i][j]), x));
+                    let entry = &entries[*i][j];
+                    let zero = [&entry.x, &entry.y].into_iter().all(|e| f.is_zero(e) == Some(true));
+                    if !own.contains(&j) && !zero {
+                        sum = rotation.sub(&sum, &rotation.mul(entry, x));
                     }
                 }
                 b.push(sum);
             }
-            let solved = solve(f, shifted(f, block, own, own, value), b)?;
+            let solved = solve(f, shifted(f, entries, own, own, value), b)?;
             own.iter().zip(solved).for_each(|(i, x)| v[*i] = x);
         }
     }
-    Some(split(block, v, rotation.zero()))
+    Some(split(before, v, rotation.zero()))
 }
 
-fn split<E>(block: &Block, mut v: Vec<Turning<E>>, zero: Turning<E>) -> Values<E> {
-    let orbits = v.split_off(block.before);
+fn split<E>(before: usize, mut v: Vec<Turning<E>>, zero: Turning<E>) -> Values<E> {
+    let orbits = v.split_off(before);
     Values { centre: v.pop().map_or(zero, |x| x), orbits }
 }
 
@@ -148,7 +168,7 @@ fn kernel(f: &NumberField, mut a: Rows<Elem>) -> Vec<Vec<Turning<Elem>>> {
 /// The powers of `block − value` from the first on, until the dimension of the kernel stays: with the kernels.
 fn powers(f: &NumberField, block: &Block, value: &Rational) -> Vec<(Rows<Elem>, Vec<Vec<Turning<Elem>>>)> {
     let all: Vec<usize> = (0..block.entries.len()).collect();
-    let first = shifted(f, block, &all, &all, &f.rational(value));
+    let first = shifted(f, &whole(f, block), &all, &all, &f.rational(value));
     let mut list: Vec<(Rows<Elem>, Vec<Vec<Turning<Elem>>>)> = vec![(first.clone(), kernel(f, first.clone()))];
     loop {
         let next = product(f, &list[list.len() - 1].0, &first);
@@ -189,12 +209,12 @@ pub fn leading_vector(f: &NumberField, block: &Block, value: &Rational) -> Optio
     }
     let zero = Rotation(f).zero();
     if length == 1 {
-        return Some(split(block, kernel[0].clone(), zero));
+        return Some(split(block.before, kernel[0].clone(), zero));
     }
     kernel.iter().find_map(|v| {
         let column: Rows<Elem> = v.iter().map(|x| vec![x.clone()]).collect();
         let image: Vec<Turning<Elem>> =
             product(f, &list[length - 2].0, &column).into_iter().map(|mut r| r.swap_remove(0)).collect();
-        image.iter().any(|x| !(x.x.is_zero() && x.y.is_zero())).then(|| split(block, image, zero.clone()))
+        image.iter().any(|x| !(x.x.is_zero() && x.y.is_zero())).then(|| split(block.before, image, zero.clone()))
     })
 }

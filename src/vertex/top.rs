@@ -168,7 +168,7 @@ fn guess(vertex: &Vertex, blocks: &[Block], pieces: &[Piece]) -> Vec<Guess> {
     clippy::cast_precision_loss,
     reason = "proposes eigenvalues; each is proved afterwards"
 )]
-fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
+pub(super) fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
     let degree = c.len() - 1;
     let radius = 1.0 + c.iter().take(degree).fold(0.0_f64, |m, x| m.max(x.abs()));
     let mut z: Vec<(f64, f64)> = (0..degree)
@@ -201,7 +201,7 @@ fn float_roots(c: &[f64]) -> Vec<(f64, f64)> {
     z
 }
 
-fn from_float(x: f64) -> Rational {
+pub(super) fn from_float(x: f64) -> Rational {
     Rational::try_from(x).unwrap_or_else(|_| Rational::from(0))
 }
 
@@ -218,7 +218,7 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     let own = &pieces[first.piece];
     let block = &blocks[own.block];
     let field = field_of(vertex, block, bits);
-    let value = newton(&field, &coefficients(&field, &own.poly), &from_float(first.re))?;
+    let value = newton(&field, &coefficients(&field, &own.poly), &around(&from_float(first.re)))?;
     let enclosure = field.to_interval(&value);
     let size = abs(&enclosure.lo).min(abs(&enclosure.hi));
     #[allow(clippy::float_arithmetic, reason = "proposes a bound between the eigenvalues")]
@@ -245,13 +245,18 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     Some(Top { rational, enclosure, poly, members, others, place })
 }
 
-/// The root near a float, enclosed by Newton's method on intervals: where the step maps an interval into itself it holds
-/// exactly one root.
-fn newton(field: &Enclosures, poly: &[Fixed], near: &Rational) -> Option<Fixed> {
+/// A short interval around a number.
+fn around(near: &Rational) -> Interval {
+    Interval::new(near - ratio(1, 1 << 24), near + ratio(1, 1 << 24))
+}
+
+/// The root in an interval, enclosed by Newton's method on intervals: where the step maps it into itself it holds exactly one
+/// root, of every polynomial with coefficients in the enclosures.
+pub(super) fn newton(field: &Enclosures, poly: &[Fixed], start: &Interval) -> Option<Fixed> {
     let derivative: Vec<Fixed> =
         poly.iter().enumerate().skip(1).map(|(k, c)| field.scale(c, &Rational::from(k as u64))).collect();
     let at = |p: &[Fixed], x: &Fixed| p.iter().rev().fold(field.zero(), |v, c| field.add(&field.mul(&v, x), c));
-    let mut x = field.interval(&Interval::new(near - ratio(1, 1 << 24), near + ratio(1, 1 << 24)));
+    let mut x = field.interval(start);
     let mut proved = false;
     for _ in 0..16 {
         let middle: crate::arith::Integer = (&x.lo + &x.hi) >> 1_u32;
@@ -272,7 +277,7 @@ fn newton(field: &Enclosures, poly: &[Fixed], near: &Rational) -> Option<Fixed> 
 }
 
 /// The quotient by `x − value`, for a root.
-fn deflate<F: Field>(field: &F, poly: &[F::E], value: &F::E) -> Vec<F::E> {
+pub(super) fn deflate<F: Field>(field: &F, poly: &[F::E], value: &F::E) -> Vec<F::E> {
     let mut quotient = Vec::new();
     let mut carry = field.zero();
     for c in poly.iter().skip(1).rev() {
@@ -284,7 +289,7 @@ fn deflate<F: Field>(field: &F, poly: &[F::E], value: &F::E) -> Vec<F::E> {
 }
 
 /// Whether all roots are certainly smaller than `bound` in modulus (Schur and Cohn).
-fn all_below(field: &Enclosures, poly: &[Fixed], bound: &Rational) -> bool {
+pub(super) fn all_below(field: &Enclosures, poly: &[Fixed], bound: &Rational) -> bool {
     let mut power = Rational::from(1);
     let mut a: Vec<Fixed> = Vec::new();
     for c in poly {
@@ -402,7 +407,7 @@ pub fn leading_value(vertex: &Vertex, blocks: &[Block], top: &Top, frequency: us
     }
     match &top.rational {
         Some(q) => Some(enclosures.rational(q)),
-        None => newton(&enclosures, &coefficients(&enclosures, &top.poly), &top.enclosure.mid()),
+        None => newton(&enclosures, &coefficients(&enclosures, &top.poly), &around(&top.enclosure.mid())),
     }
 }
 

@@ -3,14 +3,12 @@
 #![allow(clippy::float_arithmetic, reason = "widths and values of words say what is tried next")]
 
 use super::proposal::{Word, grow, piece, words};
-use super::word::between;
 use super::{Cover, Crossing, Hull, Pencil};
-use crate::algebraic::{Root, cmp_real};
+use crate::algebraic::{Root, between, sorted};
 use crate::arith::{Rational, abs, ratio};
 use crate::radius::budget::Budget;
 use crate::radius::{Ended, Options};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
-use std::cmp::Ordering;
 use std::time::Duration;
 
 /// How long the search goes on. What is left when it ends is not decided.
@@ -138,15 +136,6 @@ impl Below {
         marks.extend(self.crossings.iter().flat_map(|c| c.ends.iter().cloned()));
         sorted(marks, &self.range)
     }
-}
-
-/// Numbers of an interval, ascending and each once.
-pub(crate) fn sorted(mut marks: Vec<Root>, range: &(Rational, Rational)) -> Vec<Root> {
-    let (lo, hi) = (Root::from_rational(&range.0), Root::from_rational(&range.1));
-    marks.retain(|m| cmp_real(m, &lo) != Ordering::Less && cmp_real(m, &hi) != Ordering::Greater);
-    marks.sort_by(cmp_real);
-    marks.dedup_by(|a, b| cmp_real(a, b) == Ordering::Equal);
-    marks
 }
 
 /// An open interval without an answer.

@@ -8,11 +8,10 @@ mod hull;
 mod proposal;
 mod word;
 
-pub(crate) use cover::sorted;
 pub use cover::{Below, Place, Search, below};
 pub use hull::{Cover, Hull, Image, Piece, Seed, Vertex};
 pub use word::Crossing;
-pub(crate) use word::{between, interpolated, roots_within};
+pub(crate) use word::interpolated;
 
 use crate::arith::Rational;
 use crate::linalg::Matrix;

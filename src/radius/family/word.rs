@@ -1,11 +1,10 @@
 //! Where a word has an eigenvalue outside the open unit disc.
 
 use super::Pencil;
-use crate::algebraic::{Root, cmp_real, real_roots};
+use crate::algebraic::{Root, between, cmp_real, roots_within};
 use crate::arith::{Rational, abs, ratio};
 use crate::linalg::{Matrix, char_poly};
-use crate::poly::{Poly, factor};
-use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
+use crate::poly::Poly;
 use std::cmp::Ordering;
 
 /// Highest degree of a polynomial whose zeros are sought.
@@ -55,28 +54,6 @@ impl Crossing {
     pub fn holds_at(&self, p: &Root) -> bool {
         let before = self.ends.iter().take_while(|e| cmp_real(e, p) == Ordering::Less).count();
         self.ends.get(before).is_some_and(|e| e.same(p)) || self.above[before]
-    }
-}
-
-/// The different real roots of a polynomial in a closed interval, ascending.
-pub(crate) fn roots_within(f: &Poly, (lo, hi): &(Rational, Rational)) -> Vec<Root> {
-    let (lo, hi) = (Root::from_rational(lo), Root::from_rational(hi));
-    let inside = |r: &Root| cmp_real(r, &lo) != Ordering::Less && cmp_real(r, &hi) != Ordering::Greater;
-    let factors = factor(f);
-    let mut all: Vec<Root> = factors.iter().flat_map(|(g, _)| real_roots(g)).filter(inside).collect();
-    all.sort_by(cmp_real);
-    all
-}
-
-/// The simplest rational strictly between two real numbers, the first of which is smaller.
-pub(crate) fn between(a: &Root, b: &Root) -> Rational {
-    let mut bits = 32;
-    loop {
-        let (low, high) = (a.enclosure(bits).0.hi, b.enclosure(bits).0.lo);
-        if low < high {
-            return Rational::simplest_rational_in_open_interval(&low, &high);
-        }
-        bits *= 2;
     }
 }
 

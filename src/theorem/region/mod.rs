@@ -20,12 +20,12 @@ pub use independence::Independence;
 pub use table::{Basis, CurvePart, CurveRegions, CurveTable, Subject, member_verdict};
 
 use super::regularity::{Regularity, digits, regularity};
-use crate::algebraic::Root;
+use crate::algebraic::{Root, between, roots_within, sorted};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
 use crate::radius::Options;
-use crate::radius::family::{Below, Pencil, Place, Search, below, between, roots_within, sorted};
+use crate::radius::family::{Below, Pencil, Place, Search, below};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
@@ -219,7 +219,7 @@ impl MaskFamily {
         let pencil = Pencil::new(self.matrices()).ok_or(RegionError::Length)?;
         let mut threshold = Rational::from(1);
         let mut purse = Purse::new(search);
-        let mut members = Members { family: self, known: Vec::new(), options: purse.options() };
+        let mut members = Members { family: self, known: Vec::new(), left: MEMBERS };
         let mut orders = Vec::new();
         let last = most.min(self.sum_rules);
         for order in 0..=last {
@@ -230,7 +230,7 @@ impl MaskFamily {
                 purse.pay(found.spent);
                 found
             });
-            let fine = self.parts(order, range, radius.as_ref(), &mut members);
+            let fine = self.parts(order, range, radius.as_ref(), &mut |p| members.ask(p, order, &purse));
             orders.push(OrderRegion { order, radius, parts: joined(fine.clone()), fine });
             threshold /= Rational::from(self.arity as u64);
         }
@@ -255,7 +255,7 @@ impl MaskFamily {
         order: usize,
         range: &(Rational, Rational),
         radius: Option<&Below>,
-        members: &mut Members<'_>,
+        ask: &mut dyn FnMut(&Root) -> Finding,
     ) -> Vec<Part> {
         let special = self.special(order, range);
         let ends = [&range.0, &range.1].map(Root::from_rational);
@@ -273,7 +273,7 @@ impl MaskFamily {
             }
             match &special {
                 None => Finding::Special,
-                Some(points) if is_point && points.iter().any(|s| s.same(p)) => members.ask(p, order),
+                Some(points) if is_point && points.iter().any(|s| s.same(p)) => ask(p),
                 Some(_) => general,
             }
         };
@@ -331,29 +331,47 @@ impl<'a> Purse<'a> {
         Search { work: self.work / u64::from(parts), time: self.time().map(|t| t / parts), ..self.search.clone() }
     }
 
+    /// A piece of work, where there is time for all of it.
+    fn timed<T>(&self, work: impl FnOnce() -> T) -> Option<T> {
+        match self.time() {
+            Some(time) if time.is_zero() => None,
+            Some(time) => crate::stop::within(time, work),
+            None => Some(work()),
+        }
+    }
+
     fn pay(&mut self, spent: u64) {
         self.work = self.work.saturating_sub(spent);
     }
 
     /// For a member that is asked by itself.
     fn options(&self) -> Options {
-        Options { time: self.search.time, ..Options::default() }
+        Options { work: Some(self.search.work / MEMBER_SHARE), time: self.time(), ..Options::default() }
     }
 }
 
+/// A member that is asked by itself may spend this part of all.
+const MEMBER_SHARE: u64 = 16;
+
+/// Members that may be asked by themselves.
+const MEMBERS: usize = 40;
+
 /// Members that were asked.
 struct Members<'a> {
-    options: Options,
     family: &'a MaskFamily,
     known: Vec<(Rational, Option<Regularity>)>,
+    /// How many more may be asked.
+    left: usize,
 }
 
 impl Members<'_> {
     /// Whether a member has an order, from its own joint spectral radius.
-    fn ask(&mut self, p: &Root, order: usize) -> Finding {
+    fn ask(&mut self, p: &Root, order: usize, purse: &Purse<'_>) -> Finding {
         let Some(p) = p.rational() else { return Finding::Special };
         if !self.known.iter().any(|(q, _)| *q == p) {
-            let found = regularity(&self.family.member(&p), self.family.arity, &self.options).ok();
+            let asked = || regularity(&self.family.member(&p), self.family.arity, &purse.options()).ok();
+            let found = if self.left > 0 { purse.timed(asked).flatten() } else { None };
+            self.left = self.left.saturating_sub(1);
             self.known.push((p.clone(), found));
         }
         let found = self.known.iter().find(|(q, _)| *q == p).and_then(|(_, r)| r.as_ref());

@@ -5,12 +5,12 @@
 use super::argue::Arguments;
 use super::curve::CurveFamily;
 use super::fact::{CurveClaim, Fact, Why};
-use super::{Purse, RegionError};
-use crate::algebraic::{Root, cmp_real};
+use super::{MEMBERS, Purse, RegionError};
+use crate::algebraic::{Root, between, cmp_real, roots_within, sorted};
 use crate::answer::Verdict;
 use crate::arith::{Rational, ratio, to_f64};
 use crate::budget::Budget;
-use crate::radius::family::{Below, Place, Search, below, between, roots_within, sorted};
+use crate::radius::family::{Below, Place, Search, below};
 use crate::theorem::{Assertion, Certified, certify_within};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 use std::cmp::Ordering;
@@ -144,8 +144,9 @@ impl CurveFamily {
             return Err(RegionError::Range);
         }
         let pencil = self.pencil().ok_or(RegionError::Length)?;
-        let purse = Purse::new(search);
+        let mut purse = Purse::new(search);
         let radius = below(&pencil, range, &purse.share(2));
+        purse.pay(radius.spent);
         let mut covering = Covering {
             family: self,
             range: range.clone(),
@@ -156,13 +157,12 @@ impl CurveFamily {
             roots: BTreeMap::new(),
         };
         for _ in 0..SAMPLES {
-            let late = purse.time().is_some_and(|t| t.is_zero());
-            match covering.widest(&search.width) {
-                Some(hole) if !late => covering.look(&hole),
-                _ => break,
+            let Some(hole) = covering.widest(&search.width) else { break };
+            if purse.timed(|| covering.look(&hole)).is_none() {
+                break;
             }
         }
-        let mut borders = Borders { budget, purse, members: Vec::new(), facts: Vec::new() };
+        let mut borders = Borders { budget, purse, left: MEMBERS, members: Vec::new(), facts: Vec::new() };
         let mut tables = vec![covering.contraction()];
         for claim in CurveClaim::ALL {
             tables.push(covering.table(claim, &mut borders));
@@ -184,6 +184,8 @@ struct Hole {
 struct Borders<'a> {
     budget: &'a Budget,
     purse: Purse<'a>,
+    /// Members that may still be asked.
+    left: usize,
     members: Vec<(Rational, Option<Certified>)>,
     /// Arguments at irrational ones.
     facts: Vec<Fact>,
@@ -193,8 +195,10 @@ impl Borders<'_> {
     /// What a rational member by itself says.
     fn member(&mut self, family: &CurveFamily, q: &Rational, claim: CurveClaim) -> Verdict {
         if self.members.iter().all(|(known, _)| known != q) {
-            let late = self.purse.time().is_some_and(|t| t.is_zero());
-            let found = if late { None } else { certify_within(&family.member(q), &[], self.budget).ok() };
+            let budget = Budget { radius: self.purse.options(), ..self.budget.clone() };
+            let asked = || certify_within(&family.member(q), &[], &budget).ok();
+            let found = if self.left > 0 { self.purse.timed(asked).flatten() } else { None };
+            self.left = self.left.saturating_sub(1);
             self.members.push((q.clone(), found));
         }
         let found = self.members.iter().find(|(known, _)| known == q).and_then(|(_, c)| c.as_ref());
@@ -284,19 +288,31 @@ impl Covering<'_> {
     }
 
     fn table(&self, claim: CurveClaim, borders: &mut Borders<'_>) -> CurveTable {
-        let fine = split(&self.marks(claim), |from, to, inside| {
+        let mut fine = split(&self.marks(claim), |from, to, inside| {
             let Place::Below(hull) = self.radius.place(inside) else {
                 return (Verdict::Undetermined, Basis::NoContraction, None);
             };
-            match (self.fact(claim, from, to), from.same(to)) {
-                (Some(k), _) => {
+            match self.fact(claim, from, to) {
+                Some(k) => {
                     let fact = &self.known[k].fact;
                     (fact.verdict, Basis::Argument(fact.why.clone()), Some((k, hull)))
                 }
-                (None, false) => (Verdict::Undetermined, Basis::Gap, None),
-                (None, true) => self.border(claim, from, hull, borders),
+                None => (Verdict::Undetermined, Basis::Gap, None),
             }
         });
+        // Ends of hulls inside a gap are no borders.
+        let decided = |fine: &[CurvePart], at: Option<usize>| {
+            at.and_then(|at| fine.get(at)).is_some_and(|part| matches!(part.basis, Basis::Argument(_)))
+        };
+        for k in 0..fine.len() {
+            let beside = decided(&fine, k.checked_sub(1)) || decided(&fine, Some(k + 1));
+            if !beside || !fine[k].is_point() || fine[k].basis != Basis::Gap {
+                continue;
+            }
+            let p = fine[k].from.clone();
+            let Place::Below(hull) = self.radius.place(&p) else { continue };
+            (fine[k].verdict, fine[k].basis, fine[k].fact) = self.border(claim, &p, hull, borders);
+        }
         CurveTable { subject: Subject::Curve(claim), parts: joined(fine.clone()), fine }
     }
 
@@ -305,7 +321,8 @@ impl Covering<'_> {
         if let Some(q) = p.rational() {
             return (borders.member(self.family, &q, claim), Basis::Member, None);
         }
-        match self.arguments.facts(p, false).into_iter().find(|f| f.claim == claim) {
+        let found = borders.purse.timed(|| self.arguments.facts(p, false));
+        match found.into_iter().flatten().find(|f| f.claim == claim) {
             Some(fact) => {
                 let said = (fact.verdict, Basis::Argument(fact.why.clone()));
                 let index = self.known.len() + borders.facts.len();

@@ -14,6 +14,7 @@ mod ball;
 mod elem;
 pub mod field;
 mod isolate;
+mod line;
 mod modulus;
 mod number;
 mod propose;
@@ -22,6 +23,7 @@ mod relation;
 mod root;
 
 pub use elem::{Elem, cmp_real, locate};
+pub use line::{between, roots_within, sorted};
 pub use modulus::sqrt_down;
 pub use number::{Real, nearest};
 pub use root::{Root, positive_roots, real_roots, roots};
