@@ -33,7 +33,7 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-const WORDS: [&str; 55] = [
+const WORDS: [&str; 60] = [
     "smooth",
     "rough",
     "rules",
