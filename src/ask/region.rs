@@ -206,9 +206,7 @@ impl Family {
                 .with_help("--valence is for cases with a [vertex] table"));
         }
         Ok(match form {
-            FamilyForm::Mask => {
-                Self::Mask(Box::new(regions(what, set, asked.order.map_or(usize::MAX, |k| k), search)?))
-            }
+            FamilyForm::Mask => Self::Mask(Box::new(regions(what, set, asked.order.unwrap_or(usize::MAX), search)?)),
             FamilyForm::Curve => Self::Curve(Box::new(curve_regions(path, set, search, budget)?)),
             FamilyForm::Vertex => Self::Vertex(Box::new(vertex_regions(path, set, valences, search, budget)?)),
         })

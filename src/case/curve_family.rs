@@ -169,7 +169,7 @@ pub(super) fn at_value(
     let mut set = set.to_vec();
     set.retain(|(n, _)| n != parameter);
     set.push((parameter.to_owned(), Setting::Value(p.clone())));
-    Ok(member_text(&source.name, &source.text, &set)?.map_or_else(|| source.text.to_string(), |own| own))
+    Ok(member_text(&source.name, &source.text, &set)?.unwrap_or_else(|| source.text.to_string()))
 }
 
 /// Operators whose entries have at most this degree, and the control points, from members; `None` where they are no such family.
