@@ -3,8 +3,8 @@
 
 Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
 
-It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries, not those
-of joint spectral radii.  It is written for reading, not for hostile input: use secant-check where limits matter.
+It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries; its neighbours
+those of radii, lattices, regions and vertices.  It is written for reading, not for hostile input: use secant-check where limits matter.
 """
 import json
 import sys

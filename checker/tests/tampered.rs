@@ -255,6 +255,8 @@ fn same(found: &Accepted, original: &Accepted) -> bool {
                 found.claims.iter().filter(|d| !is_order(d)).all(|d| original.claims.iter().any(|o| weaker(d, o)));
             verdicts && all.starts_with(&mine) && known
         }
+        // Fewer orders; whatever bounds of the radii.
+        Claim::BorderSmooth { .. } => verdicts && original.claims.starts_with(&found.claims),
         // Fewer valences, or no plane without a half-plane.
         Claim::SmoothAtVertex(_) => {
             let open = |claim: &Decided| claim.verdict == Verdict::Undetermined;
@@ -300,7 +302,11 @@ fn tamper(step: usize) -> (usize, usize, Vec<(PathBuf, String)>, Vec<String>) {
     let (mut tried, mut rejected, mut harmless, mut wrong) = (0, 0, Vec::new(), Vec::new());
     let mut count = 0;
     let only = std::env::var("SECANT_MUTANT_ONLY").unwrap_or_default();
-    let chosen = stored("pass").into_iter().filter(|(path, ..)| path.to_string_lossy().contains(&only));
+    // Of families the ends of the parts may lie elsewhere, which is another true statement; of borders a small one is enough.
+    let left_out = ["region-", "border-stam-loop"];
+    let name = |path: &Path| path.file_name().map(|n| n.to_string_lossy().into_owned());
+    let fixed = |path: &Path| name(path).is_some_and(|n| left_out.iter().all(|start| !n.starts_with(start)));
+    let chosen = stored("pass").into_iter().filter(|(path, ..)| path.to_string_lossy().contains(&only) && fixed(path));
     for (path, case, text) in chosen {
         let original: Value = serde_json::from_str(&text).unwrap();
         let statement = secant_check::check(&case, &text).unwrap_or_else(|r| panic!("{}: {r}", path.display()));

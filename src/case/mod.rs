@@ -16,6 +16,7 @@ mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod own;
 mod parameters;
 mod question;
 mod read;
@@ -287,17 +288,13 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, data to interpolate, or states that name schemes or are
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
-        let built = matches!(
-            self.scheme,
-            Some(
-                Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::Interpolation(_) | Origin::States
-            )
-        );
+        let built =
+            matches!(self.scheme, Some(Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::States));
         let member = self.text.text.starts_with(parameters::MEMBER);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }

@@ -95,6 +95,9 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     if found.border.is_some() {
         return unsupported("a vertex on the border", format!("{n} faces"));
     }
+    if case.rule.own().is_some() {
+        return unsupported("stencils of one's own", valence(n));
+    }
     let (Some(top), Some(ground), Some(vector)) = (&found.top, found.ground, &found.eigenvector) else {
         return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
     };

@@ -2,6 +2,7 @@
 
 use super::block::{Block, Vertex};
 use super::cosine::{gcd, minimal_polynomial};
+use super::curvature::{Curvature, curvature};
 use super::field::{Enclosures, Field, Fixed};
 use super::limit::{self, Ring};
 use super::net::{Net, Signs};
@@ -96,6 +97,8 @@ pub struct AtValence {
     pub ground: Option<Ground>,
     /// That eigenvector.
     pub eigenvector: Option<Eigenvector>,
+    /// The curvature for almost all control points, where the surface is C¹ for them and the ring has Bézier patches.
+    pub curvature: Option<Curvature>,
     /// What the independent checker says of the verdicts.
     pub again: Again,
     /// The patches of sector 0 as floats `x, y`, for pictures: nets of points in the true plane.
@@ -119,6 +122,7 @@ impl AtValence {
             reason: VertexReason::Unexamined,
             ground: None,
             eigenvector: None,
+            curvature: None,
             again: Again::NotAsked,
             outline: Vec::new(),
         }
@@ -160,6 +164,7 @@ impl AtValence {
         if !self.polynomial && (self.jacobian.is_some() || self.half_plane.is_some() || self.ground.is_some()) {
             out.push(Statement::Lemma4);
         }
+        out.extend(self.curvature.as_ref().map(|_| Statement::CurvatureSize));
         out.sort_unstable();
         out.dedup();
         out
@@ -227,7 +232,7 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
 pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
     found.polynomial = rule.info().spline.is_some();
-    let vertex = Vertex::new(rule, valence, ring::RINGS)?;
+    let vertex = Vertex::examined(rule, valence)?;
     let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
         Ok(blocks) => blocks,
         Err(error @ (SchemeError::Mesh { .. } | SchemeError::Asymmetric { .. })) => {
@@ -246,6 +251,9 @@ pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Re
     };
     found.minimal = minimal(&vertex, &top);
     Judge { vertex: &vertex, blocks: &blocks, top: &top, found: &mut found, budget }.judge();
+    if found.smooth == Verdict::Proved && found.ground == Some(Ground::Regular) {
+        found.curvature = curvature(&vertex, &blocks, &top);
+    }
     found.top = Some(top);
     Ok(found)
 }
@@ -444,9 +452,7 @@ fn minimal(vertex: &Vertex, top: &Top) -> Option<Poly> {
     if let Some(q) = &top.rational {
         return Some(Poly::linear(q));
     }
-    let frequency = top.members.first()?.frequency;
-    let angle = if frequency == 0 { 1 } else { frequency };
-    let modulus = minimal_polynomial(vertex.valence / gcd(angle, vertex.valence));
+    let modulus = minimal_polynomial(vertex.valence / gcd(top.angle, vertex.valence));
     let degree = modulus.degree()?;
     if top.poly.iter().any(|c| c.degree().is_some_and(|d| d > 1)) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
         return None;

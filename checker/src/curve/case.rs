@@ -37,8 +37,7 @@ pub struct Hole {
 }
 
 /// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
-const CASE: &str =
-    "name title source kind convention pieces reversed shares map scheme start state control examine expect";
+const CASE: &str = "name title source kind convention pieces reversed shares map scheme interpolate start state control examine expect";
 const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
 
 /// What must be known of all states before their pieces are read.
@@ -143,6 +142,9 @@ impl Reader {
     }
 
     fn head<'a>(&self, table: &Node<'a>, default: Kind) -> Checked<Head<'a>> {
+        let built = ["chain", "scheme"].iter().find(|key| table.get(key).is_some());
+        let what = "a state that is a chain or names a scheme is not built here";
+        table.need(built.is_none(), "scheme", format_args!("{what}: {}", scheme::ELSEWHERE))?;
         table.known(STATE)?;
         let pieces = table.field("piece")?.list()?;
         let kind = match word(table, "kind")? {
@@ -273,7 +275,10 @@ impl Reader {
             None if form == Form::Maps => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
-        case.need(view.cols == dim, "case", "a wrong number of control points")?;
+        let (given, elsewhere) = (view.cols, scheme::ELSEWHERE);
+        let why =
+            format_args!("{given} control points for {dim} coordinates (a polygon of several spans: {elsewhere})");
+        case.need(given == dim, "case", why)?;
         Ok(Shape::new(states, start, view))
     }
 }
@@ -302,14 +307,22 @@ pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> 
 /// Reads a case file by a function, which sees what a `[scheme]` stands for in its place.
 fn opened<T>(source: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
     file(source, CASE, |case| {
-        let Some(table) = case.get("scheme") else { return read(case) };
+        let (key, table) = match (case.get("scheme"), case.get("interpolate")) {
+            (None, None) => return read(case),
+            (Some(table), None) => ("scheme", table),
+            (None, Some(table)) => ("interpolate", table),
+            _ => return case.reject("format", "`scheme` and `interpolate` exclude each other"),
+        };
         let Json::Object(keys) = case.value else { return case.reject("format", "a table is needed here") };
         let others =
             "pieces reversed shares map state start kind convention".split(' ').all(|key| case.get(key).is_none());
-        case.need(others, "format", "`scheme` stands in place of the operators")?;
+        case.need(others, "format", format_args!("`{key}` stands in place of the operators"))?;
+        let data = key == "interpolate" || table.get("interpolate").is_some();
+        case.need(!data || case.get("control").is_none(), "format", "the data say where the curve is seen")?;
+        let built = if key == "scheme" { scheme::expanded(&table) } else { scheme::interpolated(&table) }?;
         // Control points of the case are those of the curve that is built.
-        let built = scheme::expanded(&table)?.into_iter().filter(|(key, _)| case.get(key).is_none());
-        let keys = keys.iter().filter(|(key, _)| key != "scheme").cloned().chain(built).collect();
+        let built = built.into_iter().filter(|(key, _)| case.get(key).is_none());
+        let keys = keys.iter().filter(|(name, _)| name != key).cloned().chain(built).collect();
         read(&Node { value: &Json::Object(keys), place: case.place.clone() })
     })
 }
