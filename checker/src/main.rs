@@ -12,7 +12,7 @@ Usage: secant-check CASE CERTIFICATE.json
 CASE         what the certificate is about: a case (TOML), a file of matrices, or a matrix in plain text
 CERTIFICATE  what `secant certify CASE --certificate FILE` wrote (also `secant jsr`, `regularity`, `spectrum`, `solve`)
 
-Everything that is plain rational linear algebra is computed again from the case, a `[scheme]` of curves included; from the
+Everything that is plain linear algebra, rational or over a real number field, is computed again from the case, a `[scheme]` of curves included; from the
 certificate comes only what had to be found. A case with a mesh in `[scheme]`, a polygon of several spans or states that are
 chains is checked in its expanded form, which secant writes beside the certificate (FILE.case.toml). The rules are in docs/certificate.md.
 

@@ -79,7 +79,8 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     };
     let answers = node.field("answers")?;
     let shape = &case.shape;
-    let model = if contraction.is_null() { Model::unenclosed(shape)? } else { Model::read(shape, &contraction)? };
+    let model =
+        if contraction.is_null() { Model::unenclosed(shape, &())? } else { Model::read(shape, &(), &contraction)? };
     let chart = Chart::read(source, shape)?;
     let factors = if product.is_null() { Vec::new() } else { product.fields::<2>("first second")?.into() };
     let curves = factors.iter().map(product::curve).collect::<Checked<Vec<_>>>()?;

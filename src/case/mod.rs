@@ -42,7 +42,8 @@ pub use vertex_family::VertexFamilyCase;
 
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
-use crate::scheme::{Heading, Interpolation, Mask, MeshRule, complex_text};
+use crate::linalg::Entry;
+use crate::scheme::{Heading, Interpolation, Mask, MeshRule, case_text, complex_text};
 use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -105,6 +106,12 @@ pub struct Case<E = Rational> {
     pub reversals: BTreeMap<usize, Reversal>,
     /// The scheme that the case names under `[scheme]`.
     pub scheme: Option<Origin>,
+    /// The values of the roots and cosines in the text that a checker reads; `None` where one does not lie in the field of the
+    /// entries.
+    pub numbers: Option<Vec<E>>,
+    /// Over a number field: the case with its operators written out over the generator of the field, where a checker reads this
+    /// text and not the file.
+    pub flat: Option<String>,
     /// Entries left open (`"?"`); none but in what [`Case::read_open`] gives.
     pub unknown: Vec<Unknown>,
     /// Further points to examine, as written; every letter exists.
@@ -128,6 +135,8 @@ impl<E> Case<E> {
             faces: self.faces.clone(),
             reversals: self.reversals.clone(),
             scheme: None,
+            numbers: Some(Vec::new()),
+            flat: None,
             unknown: self.unknown.clone(),
             examine: self.examine.clone(),
             expect: self.expect.clone(),
@@ -270,13 +279,7 @@ impl Case {
     /// As [`Case::expanded`], with other operators, such as those of a solution.
     #[must_use]
     pub fn written_with(&self, complex: &Complex) -> String {
-        let heading = Heading {
-            name: self.name.clone(),
-            title: if self.title == self.name { String::new() } else { self.title.clone() },
-            source: self.source.clone().unwrap_or_default(),
-            examine: self.examine.clone(),
-        };
-        complex_text(complex, &heading)
+        complex_text(complex, &self.heading())
     }
 
     /// The text that a checker reads: the file itself, or [`Case::beside`].
@@ -300,7 +303,23 @@ impl Case {
     }
 }
 
+impl<E: Entry> Case<E> {
+    /// The case with every operator written out, as [`Case::expanded`] of a curve or a set.
+    fn flat_text(&self) -> String {
+        case_text(&self.shape, &self.heading())
+    }
+}
+
 impl<E> Case<E> {
+    fn heading(&self) -> Heading {
+        Heading {
+            name: self.name.clone(),
+            title: if self.title == self.name { String::new() } else { self.title.clone() },
+            source: self.source.clone().unwrap_or_default(),
+            examine: self.examine.clone(),
+        }
+    }
+
     /// The mask that `[scheme]` was understood to give.
     #[must_use]
     pub fn mask(&self) -> Option<&Mask> {

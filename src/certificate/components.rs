@@ -70,7 +70,7 @@ fn part(shape: &Shape, part: &Component) -> Result<Value, Unsupported> {
             let Some((fixed, first)) = points.split_last() else {
                 return unsupported("a loop without points", "every point");
             };
-            let top = super::top::top(&pull.linear, &pull.spectrum, pull.lead, &format!("loop {letter}"))?;
+            let top = super::top::top::<Rational>(&pull.linear, &pull.spectrum, pull.lead, &format!("loop {letter}"))?;
             Ok(json!({
                 "part": "loop", "state": state, "letter": letter, "top": top, "functional": elements(&pull.functional),
                 "joints": joints(first)?, "fixed": place(shape, fixed)?,

@@ -187,7 +187,7 @@ impl Product<'_> {
             let position = |point: &PointReport| me.borrow_mut().index(k, shape, point);
             answers.push(match curve {
                 None => Value::Null,
-                Some(found) => match super::everywhere::answer(shape, found, position)? {
+                Some(found) => match super::everywhere::answer(shape, found, &position)? {
                     Some(answer) => answer,
                     None => return unsupported("a curve of which nothing is decided", "every point"),
                 },
@@ -264,7 +264,7 @@ fn certified(shape: &Shape, b: &SurfaceBranch, exact: bool) -> Result<Value, Uns
     let mut orbits = Vec::new();
     if let Some(SurfaceWitness::Points(points)) = &b.outcome.witness {
         for (address, offset) in points {
-            let own = branch::orbit_top(&b.linear, offset, &name(b))?;
+            let own = branch::orbit_top(&b.linear, offset, &(), &name(b))?;
             orbits.push(json!({"address": address_json(address), "own": own}));
         }
     }
@@ -275,7 +275,7 @@ fn certified(shape: &Shape, b: &SurfaceBranch, exact: bool) -> Result<Value, Uns
         (None, Some((depth, proof))) => by_group(shape, b, proof, *depth)?,
         _ => return unsupported("this evidence", name(b)),
     };
-    Ok(json!({"top": top(&b.linear, &b.spectrum, lead, &name(b))?, "orbits": orbits, "bound": bound}))
+    Ok(json!({"top": top::<Rational>(&b.linear, &b.spectrum, lead, &name(b))?, "orbits": orbits, "bound": bound}))
 }
 
 /// The ring condition of the functionals that read leading coefficients.
@@ -306,7 +306,7 @@ fn by_group(shape: &Shape, b: &SurfaceBranch, proof: &RingProof, depth: usize) -
     let images = &space.rows * &b.linear;
     let k = space.pivots.len();
     let inner = Spectrum::of(&Matrix::from_fn(k, k, |i, j| images[(i, space.pivots[j])].clone()));
-    let Some(radius) = super::radius::below(&b.spectrum, depth, inner.char_poly.coeffs()) else {
+    let Some(radius) = super::radius::below::<Rational>(&b.spectrum, depth, inner.char_poly.coeffs()) else {
         return unsupported("moduli this close", name(b));
     };
     let rows: Value = rows.iter().map(|r| numbers(r)).collect();

@@ -105,7 +105,7 @@ impl Parts<'_> {
         let space = model.spaces.of(e)?;
         let linear = model.spaces.linear(&pieces[back].op, e, e)?;
         let falls = linear.power(space.basis.cols)?;
-        let leading = Leading::read(&top, &linear)?;
+        let leading = Leading::read(&top, &linear, &model.ground)?;
         top.need(leading.eigenvalue_sign() > 0, "components", "the leading eigenvalue must be positive")?;
         let (row, _) = leading.row(&linear, &functional)?;
         let mut signs = Vec::new();
@@ -119,7 +119,8 @@ impl Parts<'_> {
             let turn = whole(if piece.reversed { -1 } else { 1 });
             let images = rays.times(&piece.op.transpose())?.times(&space.reading.transpose())?.scaled(&turn);
             for k in 0..images.rows {
-                signs.push(leading.field.sign(&images.row(k).times(&row)?)?);
+                let value = leading.field.applied(&images.row(k), &row)?;
+                signs.push(leading.field.sign(&value)?);
             }
         }
         let one = signs.first().is_some_and(|s| *s != 0) && signs.iter().all(|s| *s == signs[0]);

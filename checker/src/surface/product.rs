@@ -65,7 +65,7 @@ impl<'a> Product<'a> {
         let mut read = Vec::new();
         for (shape, node) in curves.iter().zip(nodes) {
             let [_, contraction, points] = node.fields("operators contraction points")?;
-            let model = Model::read(shape, &contraction)?;
+            let model = Model::read(shape, &(), &contraction)?;
             shape.check_curves()?;
             // Along a cell that is a point the curve is constant, and the tangent subspace is that of the other curve.
             let pieces = &shape.states[0].pieces;

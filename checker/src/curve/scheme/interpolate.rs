@@ -44,8 +44,8 @@ impl Data {
         node.need(fits, "case", "3 points (x, y) or more are needed, all of as many coordinates")?;
         let ascend = points.windows(2).all(|w| w[0][0] < w[1][0]);
         node.need(ascend, "case", "points with increasing abscissas are needed")?;
-        let factors = node.field("vertical")?.each(|a| match a.value {
-            Json::List(_) => matrix(a),
+        let factors: Vec<Matrix> = node.field("vertical")?.each(|a| match a.value {
+            Json::List(_) => matrix(a, &()),
             _ => Ok(Matrix::identity(dim).scaled(&number(a)?)),
         })?;
         let sized = factors.len() + 1 == count && factors.iter().all(|a| (a.rows, a.cols) == (dim, dim));
