@@ -1,10 +1,10 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
-use super::region_vertex::{RegionsAtVertices, vertex_regions};
+use super::region_vertex::{RegionsAtVertices, vertex_regions_of_case};
 use crate::answer::Verdict;
 use crate::budget::Budget;
-use crate::case::{CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, Valences, named_family};
-use crate::diagnostic::Problem;
+use crate::case::{CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, Valences, VertexFamilyCase, named_family};
+use crate::diagnostic::{Problem, SourceText};
 use crate::radius::family::Search;
 use crate::report::document::Document;
 use crate::report::region as report;
@@ -136,7 +136,18 @@ pub fn curve_regions(
     search: &Search,
     budget: &Budget,
 ) -> Result<RegionsOfCurve, Problem> {
-    let case = CurveFamilyCase::read(path, set)?;
+    curve_regions_of_case(CurveFamilyCase::read(path, set)?, search, budget)
+}
+
+/// The same of a case that was read.
+///
+/// # Errors
+/// As [`curve_regions`].
+pub fn curve_regions_of_case(
+    case: CurveFamilyCase,
+    search: &Search,
+    budget: &Budget,
+) -> Result<RegionsOfCurve, Problem> {
     let wrong = |message: String| {
         Problem::new("secant::region", format!("{}: {message}", case.name))
             .with_help("single values can be asked: `secant certify CASE w=1/16`")
@@ -185,6 +196,16 @@ pub struct Asked {
     pub valences: Option<Valences>,
 }
 
+impl Asked {
+    fn no_valences(&self, what: &str) -> Result<(), Problem> {
+        match self.valences {
+            None => Ok(()),
+            Some(_) => Err(Problem::new("secant::region::valence", format!("{what} has no valences"))
+                .with_help("--valence is for cases with a [vertex] table")),
+        }
+    }
+}
+
 impl Family {
     /// The regions of what stands for a family.
     ///
@@ -197,18 +218,44 @@ impl Family {
         search: &Search,
         budget: &Budget,
     ) -> Result<Self, Problem> {
-        let path = Path::new(what);
-        let named = scheme::list().iter().any(|s| s.name == what);
-        let form = if named { FamilyForm::Mask } else { FamilyForm::of(path)? };
-        let valences = asked.valences.as_ref();
-        if form != FamilyForm::Vertex && valences.is_some() {
-            return Err(Problem::new("secant::region::valence", format!("{what} has no valences"))
-                .with_help("--valence is for cases with a [vertex] table"));
+        if scheme::list().iter().any(|s| s.name == what) {
+            asked.no_valences(what)?;
+            return Ok(Self::Mask(Box::new(regions(what, set, asked.order.unwrap_or(usize::MAX), search)?)));
+        }
+        let source = SourceText::read(Path::new(what))?;
+        Self::of_text(&source.name, &source.text, set, asked, search, budget)
+    }
+
+    /// The same of the text of a case.
+    ///
+    /// # Errors
+    /// A [`Problem`] where it is no family.
+    pub fn of_text(
+        name: &str,
+        text: &str,
+        set: &[(String, Setting)],
+        asked: &Asked,
+        search: &Search,
+        budget: &Budget,
+    ) -> Result<Self, Problem> {
+        let form = FamilyForm::of(text);
+        if form != FamilyForm::Vertex {
+            asked.no_valences(name)?;
         }
         Ok(match form {
-            FamilyForm::Mask => Self::Mask(Box::new(regions(what, set, asked.order.unwrap_or(usize::MAX), search)?)),
-            FamilyForm::Curve => Self::Curve(Box::new(curve_regions(path, set, search, budget)?)),
-            FamilyForm::Vertex => Self::Vertex(Box::new(vertex_regions(path, set, valences, search, budget)?)),
+            FamilyForm::Mask => {
+                let case = MaskFamilyCase::parse(name, text, set)?;
+                Self::Mask(Box::new(regions_of_case(case, asked.order.unwrap_or(usize::MAX), search)?))
+            }
+            FamilyForm::Curve => {
+                let case = CurveFamilyCase::parse(name, text, set)?;
+                Self::Curve(Box::new(curve_regions_of_case(case, search, budget)?))
+            }
+            FamilyForm::Vertex => {
+                let case = VertexFamilyCase::parse(name, text, set)?;
+                let found = vertex_regions_of_case(case, asked.valences.as_ref(), search, budget)?;
+                Self::Vertex(Box::new(found))
+            }
         })
     }
 

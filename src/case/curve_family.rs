@@ -40,21 +40,18 @@ pub enum FamilyForm {
 }
 
 impl FamilyForm {
-    /// The form of a file; what is no case at all is left to the reader of masks to complain about.
-    ///
-    /// # Errors
-    /// A [`Problem`] where the file cannot be read.
-    pub fn of(path: &Path) -> Result<Self, Problem> {
-        let source = SourceText::read(path)?;
-        let Ok(table) = DeTable::parse(&source.text) else { return Ok(Self::Mask) };
+    /// The form of the text of a case; what is no case at all is left to the reader of masks to complain about.
+    #[must_use]
+    pub fn of(text: &str) -> Self {
+        let Ok(table) = DeTable::parse(text) else { return Self::Mask };
         let has = |key: &str| table.get_ref().keys().any(|k| *k.get_ref() == key);
-        Ok(if has("vertex") {
+        if has("vertex") {
             Self::Vertex
         } else if ["map", "pieces", "state"].into_iter().any(has) {
             Self::Curve
         } else {
             Self::Mask
-        })
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use crate::case::{MAX_COORDINATES, Question};
 use crate::diagnostic::Problem;
 use crate::junction::{JunctionError, refine};
 use crate::linalg::Matrix;
+use crate::report::words::count;
 use crate::scheme::{Heading, complex_text};
 use crate::shape::Complex;
 use std::path::PathBuf;
@@ -35,28 +36,41 @@ fn refined(args: &RefineArgs) -> Result<String, Problem> {
     let first = case.complex();
     let mut complex = first.clone();
     let mut embedding = Matrix::identity(first.shape.states[first.shape.start].dim);
-    for _ in 0..args.steps {
+    for step in 1..=args.steps {
         let next = refine(&complex).map_err(|e| refused(&e).with_source(&case.text))?;
         verified(&complex, &next.complex, &next.embedding)?;
         embedding = &embedding * &next.embedding;
         complex = next.complex;
         let size = embedding.cols();
         if size > MAX_COORDINATES {
-            let why = format!("it would have {size} points, which is over the limit of {MAX_COORDINATES}");
-            return Err(refused(&JunctionError::Refinement(why)));
+            let why = format!("{} would have {size} points; the limit is {MAX_COORDINATES}", count(step, "step"));
+            return Err(Problem::new("secant::refine", why).with_help("take fewer --steps"));
         }
     }
+    // Without its own points the old curve is the one in barycentric space; its points by the old ones are the rows of E.
+    let given = complex.shape.control.is_some();
+    complex.shape.control.get_or_insert_with(|| embedding.clone());
     let heading = Heading {
         name: format!("{}-refined", case.name),
-        title: format!("{}, refined {} times", case.title, args.steps),
+        title: format!("{}, refined by {}", case.title, count(args.steps, "step")),
         source: case.source.clone().unwrap_or_default(),
         examine: Vec::new(),
     };
     let rows: Vec<String> =
         (0..embedding.cols()).map(|j| format!("#   {}", crate::junction::row_text(&embedding.column(j)))).collect();
+    let points = if given {
+        "`control` holds the old curve's points."
+    } else {
+        "`control` makes it the old curve, in the coordinates of its points; without it, it is one of more points, a larger family."
+    };
+    let left = if case.examine.is_empty() {
+        ""
+    } else {
+        "\n# The points to examine were left out: they have other addresses."
+    };
     Ok(format!(
-        "# Refined {} times, from {} to {} points. E T' = T E was verified for every cell; the new points by the old ones:\n{}\n{}",
-        args.steps,
+        "# Refined by {}, from {} to {} points. {points}{left}\n# E T' = T E was verified for every cell; the new points by the old ones:\n{}\n{}",
+        count(args.steps, "step"),
         embedding.rows(),
         embedding.cols(),
         rows.join("\n"),

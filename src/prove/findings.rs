@@ -45,13 +45,16 @@ impl Findings {
         self.verdict_on(&Required::default())
     }
 
-    /// The verdict on the claims that are required; at the vertices of a mesh on all claims.
+    /// The verdict on the claims that are required.
     #[must_use]
     pub fn verdict_on(&self, required: &Required) -> Verdict {
         match self {
             Self::Tangents { found, .. } => required.verdict(&found.claims),
             Self::OverField { found, .. } => required.verdict(&found.claims),
-            Self::Vertices { found, every, .. } => overall(found, every.as_ref()),
+            Self::Vertices { found, every, .. } => {
+                let overall = overall(found, every.as_ref());
+                required.at_vertices(overall, overall)
+            }
         }
     }
 

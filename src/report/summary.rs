@@ -111,14 +111,22 @@ fn points_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Blo
         return None;
     }
     let row = |point: &PointReport<E>| {
-        let parameter = point.branches.first().and_then(|b| parameter(&case.shape, &b.address));
+        // Where the curve pauses the branches of a point have different parameters.
+        let mut parameters: Vec<_> = point.branches.iter().filter_map(|b| parameter(&case.shape, &b.address)).collect();
+        parameters.sort();
+        parameters.dedup();
+        let shown: Vec<String> = parameters.iter().map(ToString::to_string).collect();
         let decimals = point
             .tangent
             .as_ref()
             .map_or_else(|| words("–"), |d| vec![Inline::Math(decimals_math(&direction_decimals(d)))]);
         vec![
             code(addresses(point).join(" = ")),
-            parameter.map_or_else(|| words("–"), |t| formula(Math::number(&t))),
+            match parameters.as_slice() {
+                [] => words("–"),
+                [t] => formula(Math::number(t)),
+                _ => words(shown.join(", ")),
+            },
             vec![Inline::Mark(tone(point.verdict), point.kind.word().to_owned())],
             point.tangent.as_ref().map_or_else(|| words("–"), direction),
             decimals,
@@ -142,12 +150,7 @@ pub fn overall_line<E: Reported>(found: &Certified<E>, required: &Required) -> L
         (!labels.is_empty()).then(|| listed(&labels))
     };
     let verdict = required.verdict(&found.claims);
-    let deciding: Vec<String> = found
-        .claims
-        .iter()
-        .filter(|c| c.verdict() == verdict && required.counts(c))
-        .map(|c| claims::label(&c.what))
-        .collect();
+    let deciding: Vec<String> = required.deciding(&found.claims).into_iter().map(|c| claims::label(&c.what)).collect();
     let mut out = vec![mark(verdict)];
     out.extend(words(match (verdict, deciding.as_slice()) {
         (_, []) => ", as what is required is not claimed of this shape.".to_owned(),
