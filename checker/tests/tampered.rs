@@ -33,7 +33,7 @@ fn places(value: &Value, at: &str, found: &mut Vec<String>) {
     }
 }
 
-const WORDS: [&str; 55] = [
+const WORDS: [&str; 60] = [
     "smooth",
     "rough",
     "rules",
@@ -73,6 +73,11 @@ const WORDS: [&str; 55] = [
     "address",
     "any point",
     "every point",
+    "every point by polynomials",
+    "every point by components",
+    "cones",
+    "loop",
+    "transient",
     "zero",
     "symmetric",
     "monotone",

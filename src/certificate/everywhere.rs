@@ -1,6 +1,7 @@
 //! The answer about every point of a curve: cones, joints, or the point that refutes.
 
 use super::branch::point;
+use super::components::{arcs, components};
 use super::top::{elements, top};
 use super::written::{Listed, Written, matrix, values};
 use super::{Unsupported, number, numbers, unsupported};
@@ -21,11 +22,11 @@ pub fn answer(shape: &Shape, found: &Certified, position: Listed<'_, Rational>) 
         Some(k) => vec![position(&found.points[k])?],
         None => Vec::new(),
     };
-    if every.hodograph.is_some() && witness.is_empty() {
-        return unsupported("zeros of the derivative of a polynomial curve", "every point");
+    if let Some(found) = every.hodograph.as_ref().filter(|_| witness.is_empty()) {
+        return Ok(Some(arcs(shape, found, every.verdict)));
     }
-    if every.components.is_some() {
-        return unsupported("components of the curve, one after the other", "every point");
+    if let Some(found) = &every.components {
+        return components(shape, found).map(Some);
     }
     if let Some(order) = every.derivative.as_deref().filter(|_| every.verdict == Verdict::Proved) {
         let radius = super::regularity::order(order)?["radius"].take();
@@ -101,6 +102,20 @@ pub fn over_field<E: Written>(shape: &Shape<E>, found: &Certified<E>, position: 
     })))
 }
 
+/// The cone of a state.
+pub fn cone(shape: &Shape, found: &CommonCone, e: usize) -> Result<Value, Unsupported> {
+    let Some(c) = found.cones.iter().find(|c| c.state == e) else {
+        return unsupported("a state without a cone", shape.states[e].name.clone());
+    };
+    let rays = matrix(&c.rays.transpose());
+    Ok(json!({"rays": rays, "functional": numbers(&c.functional), "chord": numbers(&c.chord)}))
+}
+
+/// The matrices of the images of the rays under the pieces of a state.
+pub fn images(found: &CommonCone, e: usize) -> Value {
+    found.maps.iter().filter(|m| m.state == e).map(|m| matrix(&m.matrix)).collect()
+}
+
 fn with_cone(
     shape: &Shape,
     found: &Certified,
@@ -110,20 +125,11 @@ fn with_cone(
     position: &dyn Fn(&PointReport) -> Result<usize, Unsupported>,
 ) -> Result<Value, Unsupported> {
     let states = shape.reachable();
-    let own = |e: usize| cone.cones.iter().find(|c| c.state == e);
-    let mut cones = Vec::new();
-    for &e in &states {
-        let Some(c) = own(e) else { return unsupported("a state without a cone", shape.states[e].name.clone()) };
-        let rays = matrix(&c.rays.transpose());
-        cones.push(json!({"rays": rays, "functional": numbers(&c.functional), "chord": numbers(&c.chord)}));
-    }
-    let maps = states.iter().map(|&e| {
-        let images = cone.maps.iter().filter(|m| m.state == e);
-        images.map(|m| matrix(&m.matrix)).collect::<Value>()
-    });
+    let cones = states.iter().map(|&e| self::cone(shape, cone, e)).collect::<Result<Value, _>>()?;
+    let maps = states.iter().map(|&e| images(cone, e));
     // Without control points the shape is looked at as it is.
     let seen = cone.view.as_deref().or_else(|| {
-        let start = own(shape.start).map(|c| c.functional.as_slice());
+        let start = cone.cones.iter().find(|c| c.state == shape.start).map(|c| c.functional.as_slice());
         start.filter(|_| shape.control.is_none())
     });
     let mut joints = Vec::new();
@@ -161,7 +167,7 @@ fn above(x: &Rational) -> Rational {
     Interval::point(more).outward(64).hi
 }
 
-fn slow_cycle(s: &SlowCycle) -> Result<Value, Unsupported> {
+pub fn slow_cycle(s: &SlowCycle) -> Result<Value, Unsupported> {
     let top = top::<Rational>(&s.linear, &s.spectrum, s.lead, &format!("cycle {:?}", s.word))?;
     Ok(json!({"state": s.state, "word": s.word, "top": top, "functional": elements(&s.functional)}))
 }

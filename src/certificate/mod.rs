@@ -6,6 +6,7 @@
 
 mod border;
 mod branch;
+mod components;
 mod confirm;
 mod everywhere;
 mod frames;

@@ -1,7 +1,7 @@
 //! The whole certificate: contraction, points, answers, and the verdict that follows from them.
 
 use super::{Address, Case, End, Germ, Kind, Model, Piece, Place, Point, Root, Way};
-use super::{close, complete, everywhere, frames, positive_definite, read_address};
+use super::{arcs, close, complete, components, everywhere, frames, positive_definite, read_address};
 use crate::base::{Accepted, Checked, Matrix, Node, Surd, Verdict, Whole, need, together};
 use crate::claim::{Claim, Decided, Joints, Subject};
 use num_bigint::BigInt;
@@ -12,6 +12,12 @@ const EVERY: &str = "every point";
 const DERIVATIVE: &str = "every point by its derivative";
 /// The same in a parameter of which the pieces take given shares.
 const SHARES: &str = "every point by its derivative in shares";
+/// The same, answered by Theorem 6″.
+const ARCS: &str = "every point by polynomials";
+/// The same, answered by Theorem 13.
+const COMPONENTS: &str = "every point by components";
+/// All of these.
+const TURNS: [&str; 5] = [EVERY, DERIVATIVE, SHARES, ARCS, COMPONENTS];
 
 /// The question about the joints whose lines are not killed, beside joints that are not all proved.
 const NOT_KILLED: &str = "joints not killed";
@@ -20,17 +26,37 @@ const NOT_KILLED: &str = "joints not killed";
 pub trait Derived: Whole {
     /// Theorem 12 in the uniform parameter, or in one with given shares.
     fn graph(model: &Model<'_, Self>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()>;
+    /// Theorem 6″.
+    fn arcs(model: &Model<'_, Self>, degree: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict>;
+    /// Theorem 13.
+    fn components(model: &Model<'_, Self>, parts: &Node<'_>, seen: &Node<'_>) -> Checked<()>;
 }
 
 impl Derived for BigInt {
     fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
         crate::regularity::graph(model, shares, radius)
     }
+
+    fn arcs(model: &Model<'_>, degree: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict> {
+        arcs::check(model, degree, arcs)
+    }
+
+    fn components(model: &Model<'_>, parts: &Node<'_>, seen: &Node<'_>) -> Checked<()> {
+        components::check(model, parts, seen)
+    }
 }
 
 impl Derived for Surd {
     fn graph(_: &Model<'_, Self>, _: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
         radius.reject("graph", "derivatives are checked over the rational numbers only")
+    }
+
+    fn arcs(_: &Model<'_, Self>, _: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict> {
+        arcs.reject("arc", "arcs are checked over the rational numbers only")
+    }
+
+    fn components(_: &Model<'_, Self>, parts: &Node<'_>, _: &Node<'_>) -> Checked<()> {
+        parts.reject("components", "components are checked over the rational numbers only")
     }
 }
 
@@ -61,15 +87,16 @@ fn questions<T: Whole>(case: &Case<T>) -> Vec<Question> {
 fn further<T: Whole>(case: &Case<T>, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
-        DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
-        SHARES if asked.iter().all(|(what, _)| *what != SHARES) => return Ok((SHARES, None)),
         NOT_KILLED
             if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) =>
         {
             return Ok((NOT_KILLED, None));
         }
-        EVERY if asked.iter().all(|(what, _)| *what != EVERY) => return Ok((EVERY, None)),
-        _ => {}
+        tag => {
+            if let Some(turns) = TURNS.into_iter().find(|t| *t == tag && asked.iter().all(|(what, _)| what != t)) {
+                return Ok((turns, None));
+            }
+        }
     }
     let [_, of, _, _] = item.fields("question address verdict points")?;
     let address = read_address(&of)?;
@@ -82,20 +109,30 @@ fn further<T: Whole>(case: &Case<T>, item: &Node<'_>, asked: &[Question], last: 
 
 /// The answer to one of the questions whether a curve is G¹.
 fn every_point<T: Derived>(model: &Model<'_, T>, points: &[Point<T>], node: &Node<'_>) -> Checked<everywhere::Answer> {
-    let (radius, shares) = match node.tag("question")? {
+    let verdict = match node.tag("question")? {
         EVERY => return everywhere::check(model, points, node),
         DERIVATIVE => {
             let [_, _, radius] = node.fields("question verdict radius")?;
-            (radius, None)
+            radius.at(T::graph(model, None, &radius))?;
+            Verdict::Proved
         }
         SHARES => {
             let [_, _, shares, radius] = node.fields("question verdict shares radius")?;
-            (radius, Some(shares))
+            radius.at(T::graph(model, Some(&shares), &radius))?;
+            Verdict::Proved
+        }
+        ARCS => {
+            let [_, _, degree, arcs] = node.fields("question verdict degree arcs")?;
+            arcs.at(T::arcs(model, &degree, &arcs))?
+        }
+        COMPONENTS => {
+            let [_, _, parts, seen] = node.fields("question verdict parts seen")?;
+            parts.at(T::components(model, &parts, &seen))?;
+            Verdict::Proved
         }
         _ => return node.reject("answers", "this is no question about every point of a curve"),
     };
-    radius.at(T::graph(model, shares.as_ref(), &radius))?;
-    let claims = vec![Claim::TangentTurns { rate: None }.is(Verdict::Proved)];
+    let claims = vec![Claim::TangentTurns { rate: None }.is(verdict)];
     Ok(everywhere::Answer { witness: None, claims })
 }
 
@@ -129,7 +166,7 @@ pub fn check<T: Derived>(case: &Case<T>, ground: &T::Ground, proof: [&Node<'_>; 
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, EVERY | DERIVATIVE | SHARES | NOT_KILLED)).then_some(verdict));
+        found.extend((question.0 != NOT_KILLED && !TURNS.contains(&question.0)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
     let line = |p: &Point<T>| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
@@ -169,7 +206,7 @@ impl<'a, T: Derived> Claims<'a, T> {
             (_, Some(address)) => {
                 let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
-                let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
+                let found = self.all(&points, &[Place::of_address(self.model, self.model.shape.start, address)?])?;
                 (stated, found, Claim::TangentAt { address: address.clone(), of: self.subject(address, found)? })
             }
             ("joints", _) => {
@@ -182,7 +219,7 @@ impl<'a, T: Derived> Claims<'a, T> {
                 self.not_killed(&theorem, &upstairs)?;
                 (stated, Verdict::Proved, Claim::TangentAtJoints(Joints::OnlyNotKilled))
             }
-            (what, None) if matches!(*what, EVERY | DERIVATIVE | SHARES) => {
+            (what, None) if TURNS.contains(what) => {
                 let mut found = every_point(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
                 more = found.claims.split_off(1);

@@ -8,7 +8,7 @@ use crate::claim::{Claim, Decided};
 use num_bigint::BigInt;
 
 /// Longest window, and most words of one window without a positive factor.
-const MAX_WINDOW: usize = 8;
+pub const MAX_WINDOW: usize = 8;
 const MAX_WORDS: usize = 1_000;
 /// Longest words and most products from which a rate is computed.
 const MAX_RATE: (usize, usize) = (12, 5_000);
@@ -21,9 +21,10 @@ pub struct Answer {
     pub claims: Vec<Decided>,
 }
 
-/// The cones of all reachable states, breadth first, and the matrices of the images of their rays.
+/// The cones of states that no piece leaves, breadth first, and the matrices of the images of their rays.
 pub struct Cones<'a, T: Whole = BigInt> {
     model: &'a Model<'a, T>,
+    states: Vec<usize>,
     /// By state: the rays, one a row.
     pub rays: Vec<Matrix<T>>,
     /// By state and letter.
@@ -134,7 +135,7 @@ impl<'a, T: Whole> Cones<'a, T> {
                 all[e].push(b);
             }
         }
-        Ok(Self { model, rays, maps: all })
+        Ok(Self { model, states: states.to_vec(), rays, maps: all })
     }
 
     fn cone(model: &Model<'_, T>, e: usize, node: &Node<'_>) -> Checked<Matrix<T>> {
@@ -170,8 +171,7 @@ impl<'a, T: Whole> Cones<'a, T> {
     fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
         // With each word where it ends, and where the products of its ends are positive.
         let none = |&e: &usize| (e, e, Vec::new(), Vec::new());
-        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> =
-            self.model.shape.reachable.iter().map(none).collect();
+        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> = self.states.iter().map(none).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (from, to, word, ends) in words {
@@ -192,7 +192,7 @@ impl<'a, T: Whole> Cones<'a, T> {
     }
 
     /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
-    fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
+    pub fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
         slow.need(window > 0, "slow", "the window must be positive")?;
         let cycles = self.idle_cycles(&self.idle_words(window)?)?;
         for (item, (e, word)) in slow.exactly(cycles.len(), "slow")?.iter().zip(&cycles) {
@@ -251,7 +251,7 @@ impl<'a, T: Whole> Cones<'a, T> {
         bound.need(most >= whole(1), "rate", "no cross-ratio is smaller than 1 together with its inverse")?;
         let rounded: Vec<Vec<Bounds>> = self.maps.iter().map(|maps| maps.iter().map(Bounds::of).collect()).collect();
         let identity = |&e: &usize| (e, Bounds::of(&Matrix::<T>::identity(self.rays[e].rows)));
-        let mut layer: Vec<(usize, Bounds)> = self.model.shape.reachable.iter().map(identity).collect();
+        let mut layer: Vec<(usize, Bounds)> = self.states.iter().map(identity).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (e, product) in &layer {

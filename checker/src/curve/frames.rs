@@ -50,7 +50,7 @@ pub fn check<T: Whole>(model: &Model<'_, T>, node: &Node<'_>, every: bool) -> Ch
 }
 
 /// The states in an order that does not depend on the frame: breadth first from the start.
-fn ordered<T: Whole>(model: &Model<'_, T>, states: &[usize]) -> Vec<usize> {
+pub fn ordered<T: Whole>(model: &Model<'_, T>, states: &[usize]) -> Vec<usize> {
     model.shape.reachable.iter().copied().filter(|e| states.contains(e)).collect()
 }
 
@@ -167,26 +167,8 @@ impl<T: Whole> Frame<T> {
     fn in_sight(&self, model: &Model<'_, T>, states: &[usize], node: &Node<'_>) -> Checked<()> {
         let [cones, maps, code, above] = node.fields("cones maps code above")?;
         let found = cones.at(Cones::read(model, states, &cones, &maps))?;
-        let mut words = Vec::new();
-        for item in code.list()? {
-            let [word, functional] = item.fields("word functional")?;
-            words.push((word.word()?, functional));
-        }
-        let (mut inner, mut open, mut leaves) = (Vec::new(), vec![Vec::new()], 0);
-        while let Some(word) = open.pop() {
-            let end = self.along(model, &word)?.state;
-            if let Some((_, functional)) = words.iter().find(|(w, _)| *w == word) {
-                functional.at(self.sees(model, &found, (&word, end), functional))?;
-                leaves += 1;
-                continue;
-            }
-            let longer = words.iter().any(|(w, _)| w.len() > word.len() && w.starts_with(&word));
-            code.need(longer, "frames", format_args!("no word of the code begins like {word:?}, or is its beginning"))?;
-            open.extend((0..model.shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
-            inner.push(word);
-        }
-        code.need(leaves == words.len(), "frames", "a word of the code goes on behind another one")?;
         let root = Root { state: self.state, view: self.rows.times(&model.spaces.of(self.state)?.reading)? };
+        let inner = sight(model, (self.state, &root.view), &found, &code)?;
         let mut listed = Vec::new();
         for item in above.list()? {
             let [point] = item.fields("point")?;
@@ -209,23 +191,40 @@ impl<T: Whole> Frame<T> {
         }
         Ok(())
     }
+}
 
-    /// The functional is positive on the cone behind a word as it is seen.
-    fn sees(
-        &self,
-        model: &Model<'_, T>,
-        cones: &Cones<'_, T>,
-        (word, end): (&[usize], usize),
-        row: &Node<'_>,
-    ) -> Checked<()> {
-        let (product, _) = model.shape.product(self.state, word)?;
-        let seen = self.rows.times(&model.spaces.of(self.state)?.reading)?.times(&product)?;
-        let images = seen.times(&cones.rays[end].transpose())?;
-        let functional: Matrix<T> = row.column(images.rows, &model.ground)?;
-        let values = functional.transpose().times(&images)?;
-        let positive = values.cols > 0 && values.all_positive();
-        row.need(positive, "frames", format_args!("the functional is not positive on the cone of {word:?}"))
+/// A complete prefix code of words from a state, each with a functional that is positive on the cone of its state as it is seen
+/// through the view: the words that have longer ones in the code.
+pub fn sight<T: Whole>(
+    model: &Model<'_, T>,
+    (from, view): (usize, &Matrix<T>),
+    cones: &Cones<'_, T>,
+    node: &Node<'_>,
+) -> Checked<Vec<Vec<usize>>> {
+    let mut words = Vec::new();
+    for item in node.list()? {
+        let [word, functional] = item.fields("word functional")?;
+        words.push((word.word()?, functional));
     }
+    let (mut inner, mut open, mut leaves) = (Vec::new(), vec![Vec::new()], 0);
+    while let Some(word) = open.pop() {
+        let (product, end) = model.shape.product(from, &word)?;
+        if let Some((_, row)) = words.iter().find(|(w, _)| *w == word) {
+            let images = view.times(&product)?.times(&cones.rays[end].transpose())?;
+            let functional: Matrix<T> = row.column(images.rows, &model.ground)?;
+            let values = functional.transpose().times(&images)?;
+            let positive = values.cols > 0 && values.all_positive();
+            row.need(positive, "frames", format_args!("the functional is not positive on the cone of {word:?}"))?;
+            leaves += 1;
+            continue;
+        }
+        let longer = words.iter().any(|(w, _)| w.len() > word.len() && w.starts_with(&word));
+        node.need(longer, "frames", format_args!("no word of the code begins like {word:?}, or is its beginning"))?;
+        open.extend((0..model.shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
+        inner.push(word);
+    }
+    node.need(leaves == words.len(), "frames", "a word of the code goes on behind another one")?;
+    Ok(inner)
 }
 
 /// Every first-level joint of each member is proved, once, in its own state seen through the rows: how many there are, and by

@@ -95,7 +95,7 @@ impl Place {
             }
             Self::Inside(address) | Self::OfSet(address) => {
                 let normal = address.normalise(model.shape, root.state).as_ref() == Some(address);
-                let here = normal && root.state == model.shape.start && Self::of_address(model, address)? == *self;
+                let here = normal && Self::of_address(model, root.state, address)? == *self;
                 need(here, "place", "the address is not in its normal form, or that of another kind of point")?;
                 Ok(vec![(None, address.clone())])
             }
@@ -108,10 +108,10 @@ impl Place {
         Some((*model.shape.path(root, path).ok()?.last()?, *left, *right))
     }
 
-    /// The place of the point with a normalised address: an end, a joint, a point inside, or a point of a set.
-    pub fn of_address<T: Whole>(model: &Model<'_, T>, address: &Address) -> Checked<Self> {
+    /// The place of the point with a normalised address from a state: an end, a joint, a point inside, or a point of a set.
+    pub fn of_address<T: Whole>(model: &Model<'_, T>, root: usize, address: &Address) -> Checked<Self> {
         let shape = model.shape;
-        let states = shape.path(shape.start, &address.prefix)?;
+        let states = shape.path(root, &address.prefix)?;
         let state = states[states.len() - 1];
         let cycle = shape.path(state, &address.cycle)?;
         if states.iter().chain(&cycle).any(|&e| shape.states[e].kind != Kind::Edge) {

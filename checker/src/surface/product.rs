@@ -97,7 +97,7 @@ impl<'a> Product<'a> {
             let part = |word: &[usize]| word.iter().map(|l| [l % columns, l / columns][k]).collect();
             let normal =
                 Address { prefix: part(&address.prefix), cycle: part(&address.cycle) }.normalise(model.shape, 0);
-            let (point, here) = (&points[item.index(points.len())?], normal.map(|a| Place::of_address(model, &a)));
+            let (point, here) = (&points[item.index(points.len())?], normal.map(|a| Place::of_address(model, 0, &a)));
             item.need(
                 Some(&point.place) == here.transpose()?.as_ref(),
                 "product",
