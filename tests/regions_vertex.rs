@@ -157,3 +157,31 @@ fn the_program_answers_about_vertices() {
         assert!(code == Some(2) && problem.contains(says) && problem.contains("help"), "{problem}");
     }
 }
+
+#[test]
+fn weights_that_are_no_polynomials_are_refused() {
+    let text = |weight: &str| {
+        format!(
+            "name = \"a\"\n[parameters]\nb = \"0..1\"\n[vertex]\nmesh = \"loop-variant\"\nbeta = \"{weight}\"\nvalence = \"5\"\n"
+        )
+    };
+    let read = |weight: &str| secant::case::VertexFamilyCase::parse("a.toml", &text(weight), &[]);
+    assert!(read("1/10 + b/100").is_ok());
+    // It vanishes wherever the family would be looked at to find its degree.
+    for weight in ["1/10 + b/100 + b*(b-1/4)*(b-1/2)*(b-3/4)/(1+b^2)", "1/(1+b)", "b/(b-3)"] {
+        assert_eq!(read(weight).unwrap_err().id(), "secant::case::parameters", "{weight}");
+    }
+    let named = text("n/100").replace("b = ", "n = ");
+    assert_eq!(
+        secant::case::VertexFamilyCase::parse("a.toml", &named, &[]).unwrap_err().id(),
+        "secant::case::parameters"
+    );
+}
+
+#[test]
+fn a_valence_of_two_costs_the_others_no_certificate() {
+    let text = "name = \"a\"\n[vertex]\nmesh = \"catmull-clark\"\nvalence = \"2..4\"\n";
+    let question = secant::case::Question::parse("a.toml", text).unwrap();
+    let found = secant::ask::answered(&question, true, &Budget::default(), &|| {}).unwrap();
+    assert!(found.findings.claims().len() >= 3);
+}

@@ -1,7 +1,7 @@
 //! Curves with a parameter that is left free: `[parameters]` with maps or operators.
 
 use super::node::{File, Table};
-use super::parameters::{Setting, expressions, member_text, one_free};
+use super::parameters::{Setting, degree, member_text, one_free};
 use super::{Case, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
@@ -58,7 +58,7 @@ impl FamilyForm {
 /// Highest degree of an expression.
 const MAX_DEGREE: usize = 8;
 /// Members beyond those that determine the entries, to compare with.
-const FURTHER: usize = 2;
+const FURTHER: usize = 4;
 
 impl CurveFamilyCase {
     /// Reads a case whose maps or operators depend on a parameter; what is set stands instead of what the file says.
@@ -101,9 +101,7 @@ impl CurveFamilyCase {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
         let text = &file.source.text;
         // Entries of operators are sums of products of numbers of the file with constants, so their degree is no higher.
-        let degree = DeTable::parse(text).map_or(0, |table| {
-            expressions(&table, &free.names).iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max)
-        });
+        let degree = degree(case, text, &free)?;
         if !(1..=MAX_DEGREE).contains(&degree) {
             let message = format!("the entries are polynomials of degree {degree} in `{}`", free.parameter);
             return Err(case

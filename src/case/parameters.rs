@@ -237,6 +237,30 @@ pub(super) fn expressions(table: &Spanned<DeTable<'_>>, values: &BTreeMap<String
     found
 }
 
+/// Highest degree of the expressions in the free parameter.
+///
+/// # Errors
+/// A [`Problem`] where one of them has a value and is no polynomial in it, such as `1/(1+p^2)`.
+pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free) -> Result<usize, Problem> {
+    let Ok(table) = DeTable::parse(text) else { return Ok(0) };
+    let found = expressions(&table, &free.names);
+    // Expressions that can be read at some value, one of them where a denominator may vanish at another.
+    let (from, to) = &free.range;
+    let read = |share: (u64, u64)| {
+        let value = from + (to - from) * Rational::from_naturals(share.0.into(), share.1.into());
+        let mut names = free.names.clone();
+        names.insert(free.parameter.clone(), Poly::constant(value));
+        expressions(&table, &names).len()
+    };
+    if [(0, 1), (3, 7), (5, 11), (1, 1)].into_iter().any(|share| read(share) > found.len()) {
+        let message = format!("an expression is no polynomial in `{}`", free.parameter);
+        return Err(case
+            .problem("parameters", message, "this case")
+            .with_help("regions are found for polynomials; single values can be asked: `secant certify CASE p=1/16`"));
+    }
+    Ok(found.iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max))
+}
+
 /// Every string in a list, and in a table of numbers every string, that is an expression in the names.
 fn collect(
     value: &Spanned<DeValue<'_>>,

@@ -2,13 +2,12 @@
 
 use super::curve_family::at_value;
 use super::node::{File, Table};
-use super::parameters::{Setting, expressions, one_free};
+use super::parameters::{Setting, degree, one_free};
 use super::{Valences, VertexCase, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::MeshRule;
 use std::path::Path;
-use toml::de::DeTable;
 
 /// A rule on meshes with one parameter that is left free.
 #[derive(Debug, Clone)]
@@ -31,6 +30,9 @@ pub struct VertexFamilyCase {
     pub text: SourceText,
     set: Vec<(String, Setting)>,
 }
+
+/// Letters of formulas: the valence, the sector, and a constant.
+const LETTERS: [&str; 3] = ["n", "k", "pi"];
 
 /// Keys of `[vertex]` that are no weights.
 const OTHERS: [&str; 3] = ["mesh", "valence", "cell"];
@@ -73,9 +75,12 @@ impl VertexFamilyCase {
 
     fn of_table(file: &File, case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
-        let degree = DeTable::parse(&file.source.text).map_or(0, |table| {
-            expressions(&table, &free.names).iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max)
-        });
+        let degree = degree(case, &file.source.text, &free)?;
+        if let Some(word) = LETTERS.into_iter().find(|word| free.names.contains_key(*word)) {
+            return Err(case
+                .problem("parameters", format!("`{word}` has a meaning of its own in formulas of weights"), "this case")
+                .with_help("give the parameter another name"));
+        }
         if !(1..=MAX_DEGREE).contains(&degree) {
             let message = format!("the weights are polynomials of degree {degree} in `{}`", free.parameter);
             return Err(case

@@ -95,6 +95,9 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     if found.border.is_some() {
         return unsupported("a vertex on the border", format!("{n} faces"));
     }
+    if n < 3 {
+        return unsupported("a valence below 3", valence(n));
+    }
     if case.rule.own().is_some() {
         return unsupported("stencils of one's own", valence(n));
     }

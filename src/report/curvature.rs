@@ -38,7 +38,7 @@ fn quotient(c: &Curvature) -> String {
     if c.size == Size::Vanishing { "< 1".to_owned() } else { format!("{:.5}", to_f64(&c.ratio.mid())) }
 }
 
-fn blocks(c: &Curvature, valence: usize) -> String {
+pub(super) fn blocks(c: &Curvature, valence: usize) -> String {
     let name = |k: &usize| {
         if *k == 0 || 2 * k == valence { k.to_string() } else { format!("{k}, {}", valence - k) }
     };

@@ -47,7 +47,7 @@ pub fn of_vertices(required: &Required, verdict: Verdict) -> Option<Block> {
     (!required.is_of_all_tangents()).then(|| {
         let mut said = words(format!("Required is {required}: "));
         said.push(mark(verdict));
-        said.extend(words(". Of vertices it is claimed whether the surface is C¹, and no higher order."));
+        said.extend(words(". Of vertices only C¹ can be required; the size of the curvature stands in its table."));
         Block::Paragraph(said)
     })
 }

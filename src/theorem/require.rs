@@ -177,6 +177,8 @@ impl Required {
             return Ok(Self { topics: named });
         }
         named.retain(|w| !TANGENTS.contains(&w.topic));
+        // Beside them this is the default.
+        named.iter_mut().for_each(|w| w.named = w.strict || w.topic != Topic::Inside);
         Ok(Self { topics: tangents().chain(named).collect() })
     }
 

@@ -77,11 +77,13 @@ fn tensor(node: &Node<'_>) -> Checked<Vec<Field>> {
     let factors = node.field("tensor")?.exactly(2, "format")?;
     let factor = |node: &Node<'_>| {
         let form = form(node)?;
+        let plain = form != "interpolate";
         node.need(
-            !matches!(form, "tensor" | "mesh" | "interpolate"),
-            "format",
-            "the factors of a tensor product are curves",
+            plain,
+            "scheme",
+            format_args!("products of functions that interpolate are not built here: {ELSEWHERE}"),
         )?;
+        node.need(!matches!(form, "tensor" | "mesh"), "format", "the factors of a tensor product are curves")?;
         let curve = curve(node, form, true)?;
         node.need(curve.vertex.is_some(), "format", "a factor of a tensor product is a curve, no set")?;
         Ok(curve)

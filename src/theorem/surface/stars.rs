@@ -193,7 +193,7 @@ mod tests {
     /// Parts of triangles that meet at the border only need stars of their own.
     #[test]
     fn all_parts_that_meet_lie_in_one_child() {
-        for (rule, valence) in [("loop", 6), ("loop", 5), ("doo-sabin", 5)] {
+        for (rule, valence) in [("loop", 6), ("loop", 3), ("doo-sabin", 3)] {
             let complex = patch(&mesh_rule(rule, &[].into()).unwrap(), valence).unwrap();
             let chart = Chart::new(&complex).unwrap();
             let stars = Stars::of(&complex.shape, &chart).unwrap();

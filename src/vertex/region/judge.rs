@@ -51,6 +51,10 @@ impl<'a> Judge<'a> {
     }
 
     fn by_signs(&self, leader: &Leader, window: &Window) -> Option<Finding> {
+        // At valence 2 block 1 belongs to ω = −1, and is no map to the plane.
+        if self.model.vertex.valence < 3 {
+            return None;
+        }
         let (field, values, value) = self.values(leader, window)?;
         let k = self.model.blocks[self.model.pieces[leader.piece].block].frequency;
         if k == 1 { self.of_map(&field, &values, &value) } else { self.of_function(k, &field, &values) }
