@@ -231,7 +231,9 @@ impl Required {
         let verdict = self.verdict(claims);
         let mut chosen: Vec<usize> = (0..claims.len()).filter(|k| claims[*k].what.topic().is_none()).collect();
         for wanted in &self.topics {
-            chosen.extend(about(claims, wanted.topic).into_iter().flat_map(|found| found.1));
+            let open = verdict == Verdict::Undetermined && !wanted.strict;
+            let found = about(claims, wanted.topic).filter(|found| found.0 == verdict && !open);
+            chosen.extend(found.into_iter().flat_map(|found| found.1));
         }
         let decides = |(k, c): &(usize, &Claim)| chosen.contains(k) && c.verdict() == verdict;
         claims.iter().enumerate().filter(decides).map(|(_, c)| c).collect()
@@ -355,6 +357,13 @@ mod tests {
         assert_eq!(deciding("c7,ends"), [Some(Topic::C(2))]);
         assert_eq!(deciding("joints"), [Some(Topic::Dense)]);
         assert_eq!(deciding("points"), []);
+        // Of a cusp at a joint `inside?` says nothing.
+        let cusp = [
+            Claim::refuted(Assertion::DenseJoints, None, Reason::EveryPoint),
+            Claim::refuted(Assertion::G1, None, Reason::EveryPoint),
+        ];
+        let decided = Required::default().deciding(&cusp).iter().map(|c| c.what.topic()).collect::<Vec<_>>();
+        assert_eq!(decided, [Some(Topic::Dense)]);
         let every = [Claim::proved(Assertion::G1, None), Claim::proved(Assertion::Polynomial(Measure::Uniform), None)];
         let required = Required::parse("inside,c7").unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(required.deciding(&every).len(), 2);
