@@ -203,6 +203,8 @@ class Regions(Found):
     It can be pickled, as :class:`Certified`.
     """
 
+    _findings: _secant.RegionFindings | None
+
     def __init__(
         self, data: dict[str, Any], verdict: str, asked: tuple[Any, ...], findings: _secant.RegionFindings | None = None
     ) -> None:
