@@ -171,11 +171,14 @@ fn weights_that_are_no_polynomials_are_refused() {
     for weight in ["1/10 + b/100 + b*(b-1/4)*(b-1/2)*(b-3/4)/(1+b^2)", "1/(1+b)", "b/(b-3)"] {
         assert_eq!(read(weight).unwrap_err().id(), "secant::case::parameters", "{weight}");
     }
+    // The valence is called n, in regions and with a value.
     let named = text("n/100").replace("b = ", "n = ");
-    assert_eq!(
-        secant::case::VertexFamilyCase::parse("a.toml", &named, &[]).unwrap_err().id(),
-        "secant::case::parameters"
-    );
+    let family = secant::case::VertexFamilyCase::parse("a.toml", &named, &[]).map(|_| ());
+    let member =
+        secant::case::member_text("a.toml", &named, &[("n".to_owned(), setting("n=1/2").unwrap().1)]).map(|_| ());
+    for refused in [family, member] {
+        assert_eq!(refused.unwrap_err().id(), "secant::case::parameter");
+    }
 }
 
 #[test]

@@ -100,14 +100,7 @@ impl CurveFamilyCase {
     fn of_table(file: &File, case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
         let text = &file.source.text;
-        // Entries of operators are sums of products of numbers of the file with constants, so their degree is no higher.
-        let degree = degree(case, text, &free)?;
-        if !(1..=MAX_DEGREE).contains(&degree) {
-            let message = format!("the entries are polynomials of degree {degree} in `{}`", free.parameter);
-            return Err(case
-                .problem("parameters", message, "this case")
-                .with_help(format!("regions are found for degrees from 1 to {MAX_DEGREE}")));
-        }
+        let degree = degree(case, text, &free, MAX_DEGREE)?;
         let (lo, hi) = &free.range;
         let count = degree + 1 + FURTHER;
         let at: Vec<Rational> =
@@ -115,11 +108,15 @@ impl CurveFamilyCase {
         let member = |p: &Rational| Case::parse(&file.source.name, &at_value(&file.source, set, &free.parameter, p)?);
         let members = at.iter().map(member).collect::<Result<Vec<_>, _>>()?;
         let shapes: Vec<&Shape> = members.iter().map(|m| &m.shape).collect();
-        let Some((operators, control)) = family(&at, &shapes, degree) else {
+        // Entries of operators and maps that are written out are sums of products of numbers of the file with constants, so that
+        // their degree is no higher; those of a scheme may be of any.
+        let written = members.iter().all(|m| m.scheme.is_none());
+        let Some((operators, control)) = family(&at, &shapes, degree).filter(|_| written) else {
             return Err(case
                 .problem(
                     "parameters",
-                    "regions are found for curves with one state, whose control points do not depend on the parameter",
+                    "regions are found for curves with one state, written as maps or operators, whose control points do not \
+                     depend on the parameter",
                     "this case",
                 )
                 .with_help("give the parameter a value behind the case, as in `secant certify CASE w=1/16`"));

@@ -89,13 +89,22 @@ fn value_of(text: &str) -> Result<Setting, String> {
     }
 }
 
+/// Letters in formulas of weights at vertices: the valence, the sector, and a constant.
+const FORMULA_LETTERS: [&str; 3] = ["n", "k", "pi"];
+
 /// The parameters of a case with what is set instead, in the order of the file.
 fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Vec<(String, Setting)>, Problem> {
     let Some(node) = case.get("parameters") else { return unknown(case, set, Vec::new()) };
     let table = node.table()?;
+    let letters = if case.get("vertex").is_some() { FORMULA_LETTERS.as_slice() } else { &[] };
     let mut all = Vec::new();
     for key in table.keys() {
         let Some(node) = table.get(&key) else { continue };
+        if letters.contains(&key.as_str()) {
+            return Err(node
+                .problem("parameter", format!("`{key}` has a meaning of its own in formulas of weights"), "this name")
+                .with_help("give the parameter another name"));
+        }
         if !is_name(&key) {
             return Err(node
                 .problem("parameter", format!("`{}` is not the name of a parameter", clipped(&key)), "this name")
@@ -237,28 +246,31 @@ pub(super) fn expressions(table: &Spanned<DeTable<'_>>, values: &BTreeMap<String
     found
 }
 
-/// Highest degree of the expressions in the free parameter.
+/// Highest degree of the expressions in the free parameter, from 1 to `most`.
 ///
 /// # Errors
-/// A [`Problem`] where one of them has a value and is no polynomial in it, such as `1/(1+p^2)`.
-pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free) -> Result<usize, Problem> {
+/// A [`Problem`] where it is another, or an expression is no polynomial, such as `1/(1+p^2)`.
+pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free, most: usize) -> Result<usize, Problem> {
     let Ok(table) = DeTable::parse(text) else { return Ok(0) };
     let found = expressions(&table, &free.names);
-    // Expressions that can be read at some value, one of them where a denominator may vanish at another.
-    let (from, to) = &free.range;
-    let read = |share: (u64, u64)| {
-        let value = from + (to - from) * Rational::from_naturals(share.0.into(), share.1.into());
-        let mut names = free.names.clone();
-        names.insert(free.parameter.clone(), Poly::constant(value));
-        expressions(&table, &names).len()
-    };
-    if [(0, 1), (3, 7), (5, 11), (1, 1)].into_iter().any(|share| read(share) > found.len()) {
+    // What is a number at the lower end, whose member every family reads, must be a polynomial: the member is read with the numbers, and
+    // refuses what is none there.
+    let mut lowest = free.names.clone();
+    lowest.insert(free.parameter.clone(), Poly::constant(free.range.0.clone()));
+    if expressions(&table, &lowest).len() > found.len() {
         let message = format!("an expression is no polynomial in `{}`", free.parameter);
         return Err(case
             .problem("parameters", message, "this case")
             .with_help("regions are found for polynomials; single values can be asked: `secant certify CASE p=1/16`"));
     }
-    Ok(found.iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max))
+    let degree = found.iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max);
+    if !(1..=most).contains(&degree) {
+        let message = format!("the expressions are polynomials of degree {degree} in `{}`", free.parameter);
+        return Err(case
+            .problem("parameters", message, "this case")
+            .with_help(format!("regions of such cases are found for degrees from 1 to {most}")));
+    }
+    Ok(degree)
 }
 
 /// Every string in a list, and in a table of numbers every string, that is an expression in the names.

@@ -31,9 +31,6 @@ pub struct VertexFamilyCase {
     set: Vec<(String, Setting)>,
 }
 
-/// Letters of formulas: the valence, the sector, and a constant.
-const LETTERS: [&str; 3] = ["n", "k", "pi"];
-
 /// Keys of `[vertex]` that are no weights.
 const OTHERS: [&str; 3] = ["mesh", "valence", "cell"];
 /// Highest degree of an expression.
@@ -75,18 +72,7 @@ impl VertexFamilyCase {
 
     fn of_table(file: &File, case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
-        let degree = degree(case, &file.source.text, &free)?;
-        if let Some(word) = LETTERS.into_iter().find(|word| free.names.contains_key(*word)) {
-            return Err(case
-                .problem("parameters", format!("`{word}` has a meaning of its own in formulas of weights"), "this case")
-                .with_help("give the parameter another name"));
-        }
-        if !(1..=MAX_DEGREE).contains(&degree) {
-            let message = format!("the weights are polynomials of degree {degree} in `{}`", free.parameter);
-            return Err(case
-                .problem("parameters", message, "this case")
-                .with_help(format!("regions at vertices are found for degrees from 1 to {MAX_DEGREE}")));
-        }
+        let degree = degree(case, &file.source.text, &free, MAX_DEGREE)?;
         let table = case.need("vertex", "{ mesh = \"loop-variant\", beta = \"b\" }")?.table()?;
         let mut weights = Vec::new();
         for key in table.keys().into_iter().filter(|k| !OTHERS.contains(&k.as_str())) {

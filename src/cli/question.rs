@@ -13,18 +13,7 @@ use std::path::{Path, PathBuf};
 pub fn question(path: &Path, args: &CertifyArgs) -> Result<Question, Problem> {
     let question = match args.valence.as_deref() {
         None => Question::ask(&path.to_string_lossy())?,
-        Some(text) if path.exists() => Question::at_valences(path, valences(text)?)?,
-        // A file with values of its parameters, or no file at all.
-        Some(text) => match Question::ask(&path.to_string_lossy())? {
-            Question::Vertices { case, .. } if case.border.is_none() => {
-                Question::Vertices { case, valences: Some(valences(text)?) }
-            }
-            _ => {
-                let message = format!("{} has no vertices with a valence", path.display());
-                return Err(Problem::new("secant::usage::valence", message)
-                    .with_help("--valence is for a case file with [vertex] (docs/case-format.md)"));
-            }
-        },
+        Some(text) => Question::at_valences(&path.to_string_lossy(), valences(text)?)?,
     };
     args.address.iter().try_fold(question, |question, text| question.with_address(text))
 }
