@@ -1,8 +1,7 @@
 //! The answers of `secant region` about curves as a document and as data.
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
-use super::region::{definition, end_data, end_text, gap, tone, word_reason};
-use crate::algebraic::Root;
+use super::region::{complete, ends, gap, part_data, place, tone, word_reason};
 use crate::case::CurveFamilyCase;
 use crate::linalg::Matrix;
 use crate::picture::bar;
@@ -11,6 +10,7 @@ use crate::shape::word_text;
 use crate::statement::Statement;
 use crate::theorem::region::{Basis, CurveClaim, CurveEnd, CurvePart, CurveRegions, CurveTable, Subject, Why};
 use serde_json::{Value, json};
+use std::iter;
 
 /// What a table claims.
 fn claim(subject: Subject) -> &'static str {
@@ -96,13 +96,6 @@ fn statement(basis: &Basis) -> Option<Statement> {
     })
 }
 
-fn place(part: &CurvePart) -> String {
-    if part.is_point() {
-        return end_text(&part.from);
-    }
-    format!("({}, {})", end_text(&part.from), end_text(&part.to))
-}
-
 fn rows(m: &Matrix<Poly>, parameter: &str) -> String {
     let row = |i: usize| m.row(i).iter().map(|f| f.display(parameter)).collect::<Vec<_>>().join(", ");
     (0..m.rows()).map(row).collect::<Vec<_>>().join("; ")
@@ -120,51 +113,29 @@ pub fn document(case: &CurveFamilyCase, found: &CurveRegions) -> Document {
         facts.push(fact(format!("piece {k}"), format!("{}{turned}", rows(m, p))));
     }
     let mut blocks = vec![Block::Facts(facts)];
-    let mut ends: Vec<&Root> = Vec::new();
     for table in &found.tables {
         blocks.push(Block::Heading(2, words(heading(table.subject))));
         let row = |part: &CurvePart| {
             let mark: Line = vec![Inline::Mark(tone(part.verdict), part.verdict.word().to_owned())];
-            vec![code(place(part)), mark, words(because(found, part))]
+            vec![code(place(&part.from, &part.to)), mark, words(because(found, part))]
         };
         blocks.push(Block::Table(Table {
             caption: words(format!("For which {p} {}", claim(table.subject))),
             header: vec![code(p), words("verdict"), words("because")],
             rows: table.parts.iter().map(row).collect(),
         }));
-        for end in table.parts.iter().flat_map(|part| [&part.from, &part.to]) {
-            if end.rational().is_none() && !ends.iter().any(|e| e.same(end)) {
-                ends.push(end);
-            }
-        }
     }
-    let list: Vec<Line> = ends.iter().filter_map(|e| definition(e, p)).map(words).collect();
-    if !list.is_empty() {
-        blocks.push(Block::Heading(2, words("Ends of intervals")));
-        blocks.push(Block::List(list));
-    }
+    let parts = found.tables.iter().flat_map(|t| &t.parts).map(|part| (&part.from, &part.to));
+    blocks.extend(ends(parts, "Ends of intervals", p));
     Document { title: format!("Regions of {}", case.name), blocks }
 }
 
 /// The document with the statements and the picture, for a file.
 #[must_use]
 pub fn report(case: &CurveFamilyCase, found: &CurveRegions) -> Document {
-    let mut document = document(case, found);
-    if let Some((svg, tikz)) = picture(case, found) {
-        let alt = format!("For each claim a bar over the range of {}, coloured by verdict.", case.parameter);
-        let caption = words("Green: proved. Red: refuted. Violet: undetermined. A vertical line is a single point.");
-        document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
-    }
-    let mut own = vec![Statement::FamilyCurves];
-    let all = found.tables.iter().flat_map(|t| &t.parts).filter_map(|part| statement(&part.basis));
-    all.for_each(|s| {
-        if !own.contains(&s) {
-            own.push(s);
-        }
-    });
-    document.blocks.push(Block::Heading(2, words("Statements")));
-    document.blocks.extend(own.into_iter().map(Block::Statement));
-    document
+    let parts = found.tables.iter().flat_map(|t| &t.parts);
+    let own = iter::once(Statement::FamilyCurves).chain(parts.filter_map(|part| statement(&part.basis)));
+    complete(document(case, found), picture(case, found), ("claim", &case.parameter), own)
 }
 
 /// A bar for each claim, as SVG and TikZ.
@@ -177,16 +148,9 @@ pub fn picture(case: &CurveFamilyCase, found: &CurveRegions) -> Option<(String, 
     bar::bars(&case.parameter, &bars)
 }
 
-fn part_data(found: &CurveRegions, part: &CurvePart) -> Value {
-    let mut data = serde_json::Map::new();
-    let both = json!([end_data(&part.from), end_data(&part.to)]);
-    match (part.is_point(), &part.basis) {
-        (true, _) => data.insert("point".to_owned(), end_data(&part.from)),
-        (false, Basis::Gap | Basis::Search) => data.insert("gap".to_owned(), both),
-        (false, _) => data.insert("interval".to_owned(), both),
-    };
-    data.insert("verdict".to_owned(), json!(part.verdict.word()));
-    data.insert("because".to_owned(), json!(because(found, part)));
+fn basis_data(found: &CurveRegions, part: &CurvePart) -> Value {
+    let gap = matches!(part.basis, Basis::Gap | Basis::Search);
+    let mut data = part_data((&part.from, &part.to), gap, part.verdict, because(found, part));
     if let Some(statement) = statement(&part.basis) {
         data.insert("statement".to_owned(), json!(statement.id()));
     }
@@ -200,7 +164,7 @@ fn part_data(found: &CurveRegions, part: &CurvePart) -> Value {
 #[must_use]
 pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
     let table = |t: &CurveTable| {
-        let parts: Vec<Value> = t.parts.iter().map(|part| part_data(found, part)).collect();
+        let parts: Vec<Value> = t.parts.iter().map(|part| basis_data(found, part)).collect();
         json!({"claim": id(t.subject), "statement": claim(t.subject), "table": parts})
     };
     let operator = |m: &Matrix<Poly>| -> Vec<Vec<String>> {

@@ -123,18 +123,20 @@ fn points_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Blo
         let mut parameters: Vec<_> = point.branches.iter().filter_map(|b| parameter(&case.shape, &b.address)).collect();
         parameters.sort();
         parameters.dedup();
-        let shown: Vec<String> = parameters.iter().map(ToString::to_string).collect();
+        let mut shown = if parameters.is_empty() { words("–") } else { Line::new() };
+        for (k, t) in parameters.iter().enumerate() {
+            if k > 0 {
+                shown.extend(words(", "));
+            }
+            shown.extend(formula(Math::number(t)));
+        }
         let decimals = point
             .tangent
             .as_ref()
             .map_or_else(|| words("–"), |d| vec![Inline::Math(decimals_math(&direction_decimals(d)))]);
         vec![
             code(addresses(point).join(" = ")),
-            match parameters.as_slice() {
-                [] => words("–"),
-                [t] => formula(Math::number(t)),
-                _ => words(shown.join(", ")),
-            },
+            shown,
             vec![Inline::Mark(tone(point.verdict), point.kind.word().to_owned())],
             point.tangent.as_ref().map_or_else(|| words("–"), direction),
             decimals,

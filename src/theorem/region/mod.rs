@@ -20,7 +20,7 @@ pub use independence::Independence;
 pub use table::{Basis, CurvePart, CurveRegions, CurveTable, Subject, member_verdict};
 
 use super::regularity::{Regularity, digits, regularity};
-use crate::algebraic::{Root, between, roots_within, sorted};
+use crate::algebraic::{Root, between, lies_within, roots_within, sorted};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
@@ -143,15 +143,7 @@ impl OrderRegion {
     /// What is said of a value of the range.
     #[must_use]
     pub fn at(&self, p: &Root) -> Option<&Finding> {
-        use crate::algebraic::cmp_real;
-        let holds = |part: &&Part| {
-            if part.is_point() {
-                part.from.same(p)
-            } else {
-                cmp_real(&part.from, p).is_lt() && cmp_real(p, &part.to).is_lt()
-            }
-        };
-        self.parts.iter().find(holds).map(|part| &part.finding)
+        self.parts.iter().find(|part| lies_within(p, &part.from, &part.to)).map(|part| &part.finding)
     }
 }
 

@@ -12,7 +12,7 @@ mod tie;
 
 pub use model::RuleFamily;
 
-use crate::algebraic::{Root, cmp_real};
+use crate::algebraic::{Root, lies_within};
 use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::budget::Budget;
@@ -161,14 +161,7 @@ impl VertexRegion {
     /// What is said of a value of the range.
     #[must_use]
     pub fn at(&self, p: &Root) -> Option<Finding> {
-        let holds = |part: &&Part| {
-            if part.is_point() {
-                part.from.same(p)
-            } else {
-                cmp_real(&part.from, p).is_lt() && cmp_real(p, &part.to).is_lt()
-            }
-        };
-        self.parts.iter().find(holds).map(|part| part.finding)
+        self.parts.iter().find(|part| lies_within(p, &part.from, &part.to)).map(|part| part.finding)
     }
 }
 
