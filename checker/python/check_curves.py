@@ -155,6 +155,16 @@ def weighted(row, v):
     return total
 
 
+def times(f, g):
+    if not f or not g:
+        return []
+    out = [Q(0)] * (len(f) + len(g) - 1)
+    for i, x in enumerate(f):
+        for j, y in enumerate(g):
+            out[i + j] += x * y
+    return trim(out)
+
+
 class Ring:
     """Polynomials modulo a monic one, which need not be irreducible."""
 
@@ -163,13 +173,7 @@ class Ring:
         need(2 <= len(m) <= most + 1 and m[-1] == 1, "field")
 
     def mul(self, a, b):
-        if not a or not b:
-            return []
-        p = [Q(0)] * (len(a) + len(b) - 1)
-        for i, x in enumerate(a):
-            for j, y in enumerate(b):
-                p[i + j] += x * y
-        p, d = trim(p), len(self.m) - 1
+        p, d = times(a, b), len(self.m) - 1
         while len(p) > d:
             lead, k = p[-1], len(p) - 1
             for i, c in enumerate(self.m):

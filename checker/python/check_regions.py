@@ -13,16 +13,11 @@ from fractions import Fraction as Q
 from itertools import product
 
 import check_curves
-from check_curves import characteristic, echelon, envelope, fields, identity, index, mul, need, rational, transpose, vector, word
+from check_curves import (
+    characteristic, combine, echelon, envelope, fields, identity, index, mul, need, rational, times, transpose, trim, vector, word
+)
 
 # ---- polynomials in the parameter: lists of coefficients, lowest first, [] for 0 -------------------------------------
-
-
-def trim(f):
-    f = list(f)
-    while f and f[-1] == 0:
-        f.pop()
-    return f
 
 
 def value(f, x):
@@ -33,23 +28,11 @@ def value(f, x):
 
 
 def plus(f, g, factor=1):
-    n = max(len(f), len(g))
-    at = lambda h, k: h[k] if k < len(h) else Q(0)
-    return trim(at(f, k) + factor * at(g, k) for k in range(n))
+    return combine(f, factor, g)
 
 
 def minus(f, g):
     return plus(f, g, -1)
-
-
-def times(f, g):
-    if not f or not g:
-        return []
-    out = [Q(0)] * (len(f) + len(g) - 1)
-    for i, x in enumerate(f):
-        for j, y in enumerate(g):
-            out[i + j] += x * y
-    return trim(out)
 
 
 def scaled(f, c):

@@ -94,14 +94,9 @@ pub fn run(args: &JunctionArgs) -> u8 {
 
 fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
     args.report.as_deref().map_or(Ok(()), known_format)?;
-    let names = schemes(&args.schemes);
-    let [a, b] = names.as_slice() else {
-        let message = format!("{} schemes are given, but a junction has two", names.len());
-        return Err(Problem::new("secant::usage::junction", message).with_help(
-            "as in  secant junction bspline degree=2 four-point  or with quotation marks around each scheme",
-        ));
-    };
-    let sides = [side(a)?, side(b)?];
+    let example = "bspline degree=2 four-point  or with quotation marks around each scheme";
+    let names = both(&args.schemes, example)?;
+    let sides = [side(&names[0])?, side(&names[1])?];
     let mut found = search(&sides[0], &sides[1], &wish(args)?).map_err(|e| refused(&e))?;
     for _ in 0..args.inside {
         found.member = found.member.map(|m| m.refined_inside()).transpose().map_err(|e| refused(&e))?;
@@ -118,8 +113,16 @@ fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
     Ok((found, sides))
 }
 
+/// The two schemes that are joined, each with the parameters behind it.
+pub(super) fn both(words: &[String], example: &str) -> Result<[String; 2], Problem> {
+    schemes(words).try_into().map_err(|names: Vec<String>| {
+        let message = format!("{} schemes are given, but a junction has two", names.len());
+        Problem::new("secant::usage::junction", message).with_help(format!("as in  secant junction {example}"))
+    })
+}
+
 /// The schemes, each with the parameters behind it.
-pub(super) fn schemes(words: &[String]) -> Vec<String> {
+fn schemes(words: &[String]) -> Vec<String> {
     let mut list: Vec<String> = Vec::new();
     for word in words {
         match list.last_mut() {

@@ -1,7 +1,7 @@
 //! `secant junction A B --surface`: a strip of intermediate faces between two face schemes.
 
 use super::certify::json_text;
-use super::junction::{JunctionArgs, control, mistake, number, refused, report, schemes, side, wish};
+use super::junction::{JunctionArgs, both, control, mistake, number, refused, report, side, wish};
 use super::output::{print, write_file};
 use super::{PROVED, REFUTED};
 use crate::arith::Rational;
@@ -17,13 +17,8 @@ use std::fmt::Write;
 
 /// Joins two face schemes, prints the member that was found and writes its case.
 pub fn run(args: &JunctionArgs) -> Result<u8, Problem> {
-    let names = schemes(&args.schemes);
-    let [a, b] = names.as_slice() else {
-        let message = format!("{} schemes are given, but a junction has two", names.len());
-        return Err(Problem::new("secant::usage::junction", message)
-            .with_help("as in  secant junction doo-sabin catmull-clark --surface"));
-    };
-    let sides = [face(a)?, face(b)?];
+    let names = both(&args.schemes, "doo-sabin catmull-clark --surface")?;
+    let sides = [face(&names[0])?, face(&names[1])?];
     let plan = plan(args)?;
     let found = find(&sides[0], &sides[1], &plan).map_err(|e| wrong(&e))?;
     if let Some(member) = &found.member {

@@ -11,6 +11,7 @@ use crate::arith::{Rational, ratio};
 use crate::linalg::{Matrix, strong_components};
 use crate::poly::Poly;
 use crate::scheme::{Corners, MeshRule, SchemeError, SectorStencils, Weight, cosine_stencils, sector_stencils};
+use std::ops::Add;
 
 /// So many rings more are tried for a rule by stencils of one's own, until they determine themselves.
 const MORE_RINGS: usize = 4;
@@ -273,21 +274,7 @@ impl Vertex {
 
     fn still_rational(&self, s: &SectorStencils) -> Vec<Vec<Rational>> {
         let before = usize::from(s.centre.is_some());
-        let size = s.rows.len() + before;
-        let mut entries = vec![vec![ratio(0, 1); size]; size];
-        if let Some((own, sums)) = &s.centre {
-            // The stencil of the centre has every sector's weights already.
-            entries[0][0].clone_from(own);
-            entries[0][1..].clone_from_slice(sums);
-        }
-        for (i, weights) in s.rows.iter().enumerate() {
-            if before == 1 {
-                entries[i + 1][0].clone_from(&s.from_centre[i]);
-            }
-            for (orbit, _, weight) in weights {
-                entries[i + before][orbit + before] += weight;
-            }
-        }
+        let mut entries = summed(s, &ratio(0, 1));
         if let Some((orbit, weight)) = self.central(0) {
             let own = weight.x.coeff(0);
             entries[orbit + before].fill(ratio(0, 1));
@@ -302,10 +289,21 @@ impl Vertex {
 
 /// The block 0 over `Q(2cos(2π/n))`.
 fn still_over(s: &SectorStencils<Poly>) -> (Vec<Vec<Symbol>>, usize, usize) {
+    let entries = summed(s, &Poly::zero());
+    let before = usize::from(s.centre.is_some());
+    (entries.into_iter().map(|row| row.into_iter().map(Symbol::real).collect()).collect(), before, 1)
+}
+
+/// The entries of block 0: the weights of an orbit in all sectors together, the centre first where it is a point.
+fn summed<W: Clone>(s: &SectorStencils<W>, zero: &W) -> Vec<Vec<W>>
+where
+    for<'a> &'a W: Add<Output = W>,
+{
     let before = usize::from(s.centre.is_some());
     let size = s.rows.len() + before;
-    let mut entries = vec![vec![Poly::zero(); size]; size];
+    let mut entries = vec![vec![zero.clone(); size]; size];
     if let Some((own, sums)) = &s.centre {
+        // The stencil of the centre has every sector's weights already.
         entries[0][0].clone_from(own);
         entries[0][1..].clone_from_slice(sums);
     }
@@ -318,7 +316,7 @@ fn still_over(s: &SectorStencils<Poly>) -> (Vec<Vec<Symbol>>, usize, usize) {
             *entry = &*entry + weight;
         }
     }
-    (entries.into_iter().map(|row| row.into_iter().map(Symbol::real).collect()).collect(), before, 1)
+    entries
 }
 
 /// The stencils with their rational weights, and whether that is all of them; a row with others is left empty.
