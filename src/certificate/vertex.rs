@@ -115,7 +115,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     }
     let rule = match ground {
         Ground::Regular => "theorem-7",
-        Ground::Winding => "theorem-8-winding",
+        Ground::Winding(_) => "theorem-8-winding",
         Ground::Fold => "theorem-8-fold",
         Ground::Line => "theorem-2",
         Ground::Path => "theorem-8-path",

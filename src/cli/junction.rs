@@ -75,25 +75,19 @@ pub struct JunctionArgs {
 /// Joins two schemes, prints the member that was found and writes its case.
 pub fn run(args: &JunctionArgs) -> u8 {
     let waiting = Waiting::with("joining …", args.quiet);
-    if args.surface {
-        let done = super::junction_surface::run(args);
-        waiting.finish();
-        return settle(done);
-    }
-    let found = joined(args);
+    let answer = if args.surface { super::junction_surface::answer } else { answer };
+    let done = args.report.as_deref().map_or(Ok(()), known_format).and_then(|()| answer(args));
     waiting.finish();
-    settle(found.map(|(found, sides)| {
-        if args.json {
-            print(&json_text(&data(&found, &sides), true));
-        } else if !args.quiet {
-            print(&text(&found, &sides));
+    settle(done.map(|(passes, shown)| {
+        if args.json || !args.quiet {
+            print(&shown);
         }
-        if found.member.is_some() { PROVED } else { REFUTED }
+        if passes { PROVED } else { REFUTED }
     }))
 }
 
-fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
-    args.report.as_deref().map_or(Ok(()), known_format)?;
+/// Whether a member passes, and what is printed of it; its case and proof are written.
+fn answer(args: &JunctionArgs) -> Result<(bool, String), Problem> {
     let example = "bspline degree=2 four-point  or with quotation marks around each scheme";
     let names = both(&args.schemes, example)?;
     let sides = [side(&names[0])?, side(&names[1])?];
@@ -102,15 +96,18 @@ fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
         found.member = found.member.map(|m| m.refined_inside()).transpose().map_err(|e| refused(&e))?;
     }
     if let Some(member) = &found.member {
-        let case = case(member, &names, args)?;
-        if let Some(path) = &args.report {
-            report(&case, path)?;
-        }
-        if let Some(path) = &args.output {
-            write_file(path, &case)?;
-        }
+        keep(&case(member, &names, args)?, args)?;
     }
-    Ok((found, sides))
+    let shown = if args.json { json_text(&data(&found, &sides), true) } else { text(&found, &sides) };
+    Ok((found.member.is_some(), shown))
+}
+
+/// Writes the case and its proof where that was asked for.
+pub(super) fn keep(case: &str, args: &JunctionArgs) -> Result<(), Problem> {
+    if let Some(path) = &args.report {
+        report(case, path)?;
+    }
+    args.output.as_ref().map_or(Ok(()), |path| write_file(path, case))
 }
 
 /// The two schemes that are joined, each with the parameters behind it.

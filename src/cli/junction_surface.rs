@@ -1,9 +1,7 @@
 //! `secant junction A B --surface`: a strip of intermediate faces between two face schemes.
 
 use super::certify::json_text;
-use super::junction::{JunctionArgs, both, control, mistake, number, refused, report, side, wish};
-use super::output::{print, write_file};
-use super::{PROVED, REFUTED};
+use super::junction::{JunctionArgs, both, control, keep, mistake, number, refused, side, wish};
 use crate::arith::Rational;
 use crate::case::Question;
 use crate::diagnostic::Problem;
@@ -15,27 +13,20 @@ use crate::theorem::surface::factors;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Joins two face schemes, prints the member that was found and writes its case.
-pub fn run(args: &JunctionArgs) -> Result<u8, Problem> {
+/// Joins two face schemes; as for two curves.
+///
+/// # Errors
+/// The [`Problem`] of a scheme, of an option, or of an output.
+pub fn answer(args: &JunctionArgs) -> Result<(bool, String), Problem> {
     let names = both(&args.schemes, "doo-sabin catmull-clark --surface")?;
     let sides = [face(&names[0])?, face(&names[1])?];
     let plan = plan(args)?;
     let found = find(&sides[0], &sides[1], &plan).map_err(|e| wrong(&e))?;
     if let Some(member) = &found.member {
-        let case = case(member, &names, args)?;
-        if let Some(path) = &args.report {
-            report(&case, path)?;
-        }
-        if let Some(path) = &args.output {
-            write_file(path, &case)?;
-        }
+        keep(&case(member, &names, args)?, args)?;
     }
-    if args.json {
-        print(&json_text(&data(&found), true));
-    } else if !args.quiet {
-        print(&text(&found, &sides));
-    }
-    Ok(if found.member.is_some() { PROVED } else { REFUTED })
+    let shown = if args.json { json_text(&data(&found), true) } else { text(&found, &sides) };
+    Ok((found.member.is_some(), shown))
 }
 
 fn wrong(error: &SurfaceError) -> Problem {

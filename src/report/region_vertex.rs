@@ -5,6 +5,7 @@ use super::region::{complete, ends, part_data, place, tone};
 use crate::case::VertexFamilyCase;
 use crate::picture::bar;
 use crate::statement::Statement;
+use crate::vertex::Ground;
 use crate::vertex::region::{Finding, Gap, Part, VertexRegion};
 use serde_json::{Value, json};
 use std::iter;
@@ -18,21 +19,24 @@ const NO_CERTIFICATE: &str = "There is no certificate format for regions at vert
 
 /// Why, in a few words.
 fn because(finding: Finding) -> String {
-    match finding {
-        Finding::Regular => "the characteristic map is regular and winds once".to_owned(),
-        Finding::Winding(k) => format!("eigenvectors of block {k} lead: the ring winds {k} times"),
-        Finding::Fold => "the characteristic map folds: its Jacobian determinant changes its sign".to_owned(),
-        Finding::Line => "one eigenvector leads, and its function has no zero on the ring".to_owned(),
-        Finding::Path => {
+    let ground = match finding {
+        Finding::By(ground) => ground,
+        Finding::Open(gap) => return open(gap).to_owned(),
+    };
+    match ground {
+        Ground::Regular => "the characteristic map is regular and winds once".to_owned(),
+        Ground::Winding(k) => format!("simple eigenvectors of block {k} lead, and not those of block 1"),
+        Ground::Fold => "the characteristic map folds: its Jacobian determinant changes its sign".to_owned(),
+        Ground::Line => "one eigenvector leads, and its function has no zero on the ring".to_owned(),
+        Ground::Path => {
             "one eigenvector of block 0 leads, and its function has no zero on a closed path around the vertex"
                 .to_owned()
         }
-        Finding::Sectors => {
+        Ground::Sectors => {
             "the two leading eigenvectors are the same in every sector, or in every second one".to_owned()
         }
-        Finding::Span => "the leading eigenvectors span three dimensions or more".to_owned(),
-        Finding::NoLimit => "besides 1 an eigenvalue has modulus 1 or more: the rings do not shrink".to_owned(),
-        Finding::Open(gap) => open(gap).to_owned(),
+        Ground::Span => "the leading eigenvectors span three dimensions or more".to_owned(),
+        Ground::NoLimit => "besides 1 an eigenvalue has modulus 1 or more: the rings do not shrink".to_owned(),
     }
 }
 

@@ -28,20 +28,38 @@ const DISPLAY_DEGREE: usize = 24;
 pub enum Ground {
     /// Theorem 7: the characteristic map is regular and winds once.
     Regular,
-    /// Theorem 8 (a): the leading eigenvectors live in blocks other than 1 and `n − 1`.
-    Winding,
+    /// Theorem 8 (a): the leading eigenvectors live in this block, other than 1 and `n − 1`.
+    Winding(usize),
     /// Theorem 8 (c): the Jacobian determinant changes its sign.
     Fold,
-    /// Theorem 2 or 3: one leading eigenvector, whose function on the ring has no zero.
+    /// Theorem 2 or 3, with Theorem 8 (e): one leading eigenvector, whose function on the ring has no zero.
     Line,
     /// Theorem 8 (e): the same on a closed path only.
     Path,
-    /// Theorem 8 (b): both leading eigenvectors are the same in every second sector.
+    /// Theorem 8 (b): the leading eigenvectors are the same in every second sector.
     Sectors,
     /// Theorem 8 (d): the leading eigenvectors span three dimensions or more.
     Span,
     /// An eigenvalue besides 1 is not smaller than 1 in modulus, so that the rings do not shrink.
     NoLimit,
+}
+
+impl Ground {
+    /// The verdict on C¹ for almost all control points.
+    #[must_use]
+    pub fn verdict(self) -> Verdict {
+        if self == Self::Regular { Verdict::Proved } else { Verdict::Refuted }
+    }
+
+    /// The statement about C¹.
+    #[must_use]
+    pub fn statement(self) -> Statement {
+        match self {
+            Self::Regular => Statement::Theorem7,
+            Self::NoLimit => Statement::NoLimit,
+            _ => Statement::Theorem8,
+        }
+    }
 }
 
 /// Enclosures of the leading eigenvector, as middles: with `ω = e^(2πik/n)`, a point of sector `s` has the value `ω^s (x + y ω)`.
@@ -155,7 +173,7 @@ impl AtValence {
             Some(Ground::Regular) => vec![Statement::Lemma3, Statement::Theorem7],
             Some(Ground::Span) => vec![Statement::Corollary, Statement::Theorem8],
             Some(Ground::Line) => vec![simple, Statement::Theorem8],
-            Some(Ground::Winding | Ground::Fold | Ground::Path | Ground::Sectors) => vec![Statement::Theorem8],
+            Some(Ground::Winding(_) | Ground::Fold | Ground::Path | Ground::Sectors) => vec![Statement::Theorem8],
             None => Vec::new(),
         };
         if self.plane == Verdict::Proved {
@@ -384,7 +402,7 @@ impl Judge<'_> {
             return;
         }
         if k != 1 {
-            self.found.ground = Some(Ground::Winding);
+            self.found.ground = Some(Ground::Winding(k));
             self.found.smooth = Verdict::Refuted;
             self.found.reason = VertexReason::Winding { length, block: k, times: self.found.winding };
             return;

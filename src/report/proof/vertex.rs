@@ -366,10 +366,9 @@ fn branch(f: &AtValence, statement: Statement) -> Evidence {
 fn obstruction(case: &VertexCase, f: &AtValence, mut evidence: Evidence) -> Evidence {
     let dimension = f.top.as_ref().map_or(0, |top| top.longest(f.valence).1);
     let text = match f.ground {
-        Some(Ground::Winding) => match (f.frequency, f.winding) {
-            (Some(k), Some(w)) => format!("(a): k = {k}, and by Lemma 3 the ring winds {w} times around 0."),
-            (Some(k), None) => format!("(a): k = {k}, and the eigenvectors are semisimple."),
-            (None, _) => return evidence,
+        Some(Ground::Winding(k)) => match f.winding {
+            Some(w) => format!("(a): k = {k}, and by Lemma 3 the ring winds {w} times around 0."),
+            None => format!("(a): k = {k}, and the eigenvectors are semisimple."),
         },
         Some(Ground::Sectors) => "(b): both leading eigenvectors are in the blocks 0 and n/2.".to_owned(),
         Some(Ground::Fold) => {
