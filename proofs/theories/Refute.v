@@ -20,15 +20,48 @@ Notation A := (automaton_of case).
 Notation N := (ambient case).
 Variables (centres : list qvec) (radii : list Q) (spaces : list qmat).
 
-Definition offset (e : nat) (c : direction_evidence) (q : qvec) : qvec :=
-  qsub N (qact N (qword case e (prefix (tail c))) (tail_value c)) q.
+(** The secant to the point of the address [b], whose periodic part has the value [v]. *)
+Definition offset (e : nat) (b : branch) (v q : qvec) : qvec := qsub N (qact N (qword case e (prefix b)) v) q.
+
+Lemma offset_ok s b q other v : controlled case centres radii spaces -> let e := stw A s (prefix b) in
+  let t := app (prefix other) (per (cycle other)) in
+  check_cycle case s b q = true -> check_cycle case e other v = true -> (length q <= N)%nat ->
+  adm A e t /\ sub (phi A e t) (qv q) = qv (offset e other v q).
+Proof.
+  intros (Hf & Hsys & _) e t H1 H2 H3.
+  pose proof (check_cycle_ok case s b q Hf H1) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hs & Hu & _).
+  pose proof (stw_ok A Hsys _ s Hs Hu) as He.
+  pose proof (check_cycle_ok case e other v Hf H2) as Hcyc. cbv zeta in Hcyc.
+  destruct Hcyc as (_ & Hu2 & Hw2 & Hne2 & Hcl2 & Hq2 & Hfix2).
+  pose proof (stw_ok A Hsys _ e He Hu2) as He2. pose proof (dim_ok A (wf A Hsys) _ He2) as Hd2. specialize (Hfix2 He2 (proj2 Hd2)).
+  assert (Hadm : adm A e t).
+  { apply adm_app. split; auto. apply (adm_per A Hsys e other (qv v)); auto. }
+  split; auto.
+  unfold offset, t. rewrite qsub_ok; auto; [|unfold qact; rewrite tab_length; auto].
+  rewrite qact_ok by apply qword_len. f_equal. rewrite (phi_app A Hsys); auto.
+  rewrite (phi_per A Hsys e other (qv v)); auto.
+  symmetry. apply qword_ok; auto. intros i Hi. apply Hq2. eapply Nat.le_trans; [apply Hd2|exact Hi].
+Qed.
+
+(** A space that a cycle keeps, as vectors that a matrix does not change. *)
+Lemma stays_ok s b q K : controlled case centres radii spaces -> let e := stw A s (prefix b) in let M := qword case e (cycle b) in
+  check_cycle case s b q = true -> (length K <= N)%nat -> qeqm N (qmul N K (qmul N M K)) (qmul N M K) = true ->
+  forall y, fixed_by case K y -> fixed_by case K (Ww A e (cycle b) y).
+Proof.
+  intros (Hf & Hsys & _) e M H1 Hl H y Hy.
+  pose proof (check_cycle_ok case s b q Hf H1) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hs & Hu & Hw & _).
+  pose proof (stw_ok A Hsys _ s Hs Hu) as He. fold e in Hw, He.
+  unfold fixed_by in *. pose proof (qeqm_ok N _ _ y H) as E. rewrite !qmul_ok in E by (auto; apply qword_len).
+  simpl in *. rewrite !Hy in E. unfold M in E. rewrite (qword_ok case (cycle b) Hf) in E; auto.
+  intros i Hi. rewrite <- Hy. apply (short_act case K y Hl i Hi).
+Qed.
 
 Definition check_limit (P : qmat) (s : nat) (b : branch) (q : qvec) (c : direction_evidence) (d : qvec) : bool :=
   let e := stw A s (prefix b) in
   let M := qword case e (cycle b) in
-  let L := turn (along c) in let F := proj c in let y := qact N (coordinates (along c)) (offset e c q) in
+  let L := turn (along c) in let F := proj c in let y := qact N (coordinates (along c)) (offset e (tail c) (tail_value c) q) in
   check_cycle case s b q && check_cycle case e (tail c) (tail_value c) && (length q <=? N) && (length d <=? N) &&
-  qeqv N (qact N (stays c) (offset e c q)) (offset e c q) && qeqm N (qmul N (stays c) (qmul N M (stays c))) (qmul N M (stays c)) &&
+  qeqv N (qact N (stays c) (offset e (tail c) (tail_value c) q)) (offset e (tail c) (tail_value c) q) && qeqm N (qmul N (stays c) (qmul N M (stays c))) (qmul N M (stays c)) &&
   check_chart case (stays c) P (qword case s (prefix b)) M (along c) &&
   (length F <=? N) && qeqm N (qmul N L F) (qsclm N (eigen c) F) && qeqm N (qmul N F L) (qsclm N (eigen c) F) && qeqm N (qmul N F F) F &&
   negb (Qeq_bool (eigen c) 0) && (0 <? turns_power c) && Qle_bool 0 (turns_rate c) &&
@@ -46,34 +79,24 @@ Qed.
 Theorem limit_ok P s b q c d : controlled case centres radii spaces -> check_limit P s b q c d = true ->
   limit_line A (qm P) s b (qv d).
 Proof.
-  intros (Hf & Hsys & Hball & Hbase & Hspan) H. unfold check_limit in H. rewrite !andb_true_iff in H.
+  intros Hcase H. pose proof Hcase as (Hf & Hsys & Hball & Hbase & Hspan). unfold check_limit in H. rewrite !andb_true_iff in H.
   destruct H as [[[[[[[[[[[[[[[[[[H1 H2] H3] H4] H5] H6] H7] H8] H9] H10] H11] H12] H13] H14] H15] H16] H17] H18] H19].
-  set (e := stw A s (prefix b)) in *. set (M := qword case e (cycle b)) in *. set (x := offset e c q) in *.
+  set (e := stw A s (prefix b)) in *. set (M := qword case e (cycle b)) in *. set (x := offset e (tail c) (tail_value c) q) in *.
   set (F := proj c) in *. set (L := turn (along c)) in *.
   apply Nat.leb_le in H3, H4, H8. apply Nat.ltb_lt in H13.
   pose proof (check_cycle_ok case s b q Hf H1) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hs & Hu & Hw & Hne & Hcl & Hq & Hfix).
   pose proof (stw_ok A Hsys _ s Hs Hu) as He. pose proof (dim_ok A (wf A Hsys) _ He) as Hd. specialize (Hfix He (proj2 Hd)).
-  pose proof (check_cycle_ok case e (tail c) (tail_value c) Hf H2) as Hcyc. cbv zeta in Hcyc.
-  destruct Hcyc as (_ & Hu2 & Hw2 & Hne2 & Hcl2 & Hq2 & Hfix2).
-  pose proof (stw_ok A Hsys _ e He Hu2) as He2. pose proof (dim_ok A (wf A Hsys) _ He2) as Hd2. specialize (Hfix2 He2 (proj2 Hd2)).
+  destruct (offset_ok s b q (tail c) (tail_value c) Hcase H1 H2 H3) as (Hadm & Hx).
   fold e in Hw, Hcl, Hq, Hfix, He, Hd.
   set (t := app (prefix (tail c)) (per (cycle (tail c)))).
-  assert (Hadm : adm A e t).
-  { apply adm_app. split; auto. apply (adm_per A Hsys e (tail c) (qv (tail_value c))); auto. }
-  assert (Hx : sub (phi A e t) (qv q) = qv x).
-  { unfold x, offset, t. rewrite qsub_ok; auto; [|unfold qact; rewrite tab_length; auto].
-    rewrite qact_ok by apply qword_len. f_equal. rewrite (phi_app A Hsys); auto.
-    rewrite (phi_per A Hsys e (tail c) (qv (tail_value c))); auto.
-    symmetry. apply qword_ok; auto. intros i Hi. apply Hq2. eapply Nat.le_trans; [apply Hd2|exact Hi]. }
+  fold e t in Hadm, Hx. fold x in Hx.
   assert (Hlen : (length (coordinates (along c)) <= N)%nat /\ (length L <= N)%nat /\ (length (seen (along c)) <= N)%nat /\ (length (stays c) <= N)%nat).
   { unfold check_chart in H7. rewrite !andb_true_iff, !Nat.leb_le in H7. unfold L. tauto. }
   destruct Hlen as (Hl1 & Hl2 & Hl3 & Hl4).
   assert (HVx : fixed_by case (stays c) (qv x)).
   { unfold fixed_by. simpl. rewrite <- qact_ok by auto. apply (qeqv_ok N); auto. }
   assert (HVL : forall y, fixed_by case (stays c) y -> fixed_by case (stays c) (Ww A e (cycle b) y)).
-  { intros y Hy. unfold fixed_by in *. pose proof (qeqm_ok N _ _ y H6) as E. rewrite !qmul_ok in E by (auto; apply qword_len).
-    simpl in *. rewrite !Hy in E. unfold M in E. rewrite (qword_ok case (cycle b) Hf) in E; auto.
-    intros i Hi. rewrite <- Hy. apply (short_act case (stays c) y Hl4 i Hi). }
+  { exact (stays_ok s b q (stays c) Hcase H1 Hl4 H6). }
   assert (Hlam : Q2R (eigen c) <> 0) by (apply nonzero; auto).
   set (Lc := act N (qm L)).
   assert (HFL : forall y, act N (qm F) (Lc y) = scl (Q2R (eigen c)) (act N (qm F) y)).

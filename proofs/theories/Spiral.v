@@ -187,13 +187,10 @@ Notation A := (automaton_of case).
 Notation N := (ambient case).
 Variables (centres : list qvec) (radii : list Q) (spaces : list qmat).
 
-Definition off (e : nat) (c : spiral_evidence) (q : qvec) : qvec :=
-  qsub N (qact N (qword case e (prefix (around c))) (around_value c)) q.
-
 Definition check_spiral (P : qmat) (s : nat) (b : branch) (q : qvec) (c : spiral_evidence) : bool :=
   let e := stw A s (prefix b) in
   let M := qword case e (cycle b) in
-  let L := turn (around_chart c) in let F := plane c in let x := off e c q in
+  let L := turn (around_chart c) in let F := plane c in let x := offset case e (around c) (around_value c) q in
   let p := qact N F (qact N (coordinates (around_chart c)) x) in
   let p0 := qact N (seen (around_chart c)) p in let p1 := qact N (seen (around_chart c)) (qact N L p) in
   let i := fst (minor_of c) in let j := snd (minor_of c) in
@@ -209,34 +206,24 @@ Definition check_spiral (P : qmat) (s : nat) (b : branch) (q : qvec) (c : spiral
 
 Theorem spiral_ok P s b q c : controlled case centres radii spaces -> check_spiral P s b q c = true -> no_tangent A (qm P) s b.
 Proof.
-  intros (Hf & Hsys & Hball & Hbase & Hspan) H. unfold check_spiral in H. rewrite !andb_true_iff in H.
+  intros Hcase H. pose proof Hcase as (Hf & Hsys & Hball & Hbase & Hspan). unfold check_spiral in H. rewrite !andb_true_iff in H.
   destruct H as [[[[[[[[[[[[[[[[[H1 H2] H3] H4] H5] H6] H7] H8] H9] H10] H11] H12] H13] H14] H15] H16] H17] H18].
-  set (e := stw A s (prefix b)) in *. set (M := qword case e (cycle b)) in *. set (x := off e c q) in *.
+  set (e := stw A s (prefix b)) in *. set (M := qword case e (cycle b)) in *. set (x := offset case e (around c) (around_value c) q) in *.
   set (F := plane c) in *. set (L := turn (around_chart c)) in *. set (C := coordinates (around_chart c)) in *.
   apply Nat.leb_le in H3, H7. apply Nat.ltb_lt in H12, H16, H17.
   pose proof (check_cycle_ok case s b q Hf H1) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hs & Hu & Hw & Hne & Hcl & Hq & Hfix).
   pose proof (stw_ok A Hsys _ s Hs Hu) as He. pose proof (dim_ok A (wf A Hsys) _ He) as Hd. specialize (Hfix He (proj2 Hd)).
-  pose proof (check_cycle_ok case e (around c) (around_value c) Hf H2) as Hcyc. cbv zeta in Hcyc.
-  destruct Hcyc as (_ & Hu2 & Hw2 & Hne2 & Hcl2 & Hq2 & Hfix2).
-  pose proof (stw_ok A Hsys _ e He Hu2) as He2. pose proof (dim_ok A (wf A Hsys) _ He2) as Hd2. specialize (Hfix2 He2 (proj2 Hd2)).
+  destruct (offset_ok case centres radii spaces s b q (around c) (around_value c) Hcase H1 H2 H3) as (Hadm & Hx).
   fold e in Hw, Hcl, Hq, Hfix, He, Hd.
   set (t := app (prefix (around c)) (per (cycle (around c)))).
-  assert (Hadm : adm A e t).
-  { apply adm_app. split; auto. apply (adm_per A Hsys e (around c) (qv (around_value c))); auto. }
-  assert (Hx : sub (phi A e t) (qv q) = qv x).
-  { unfold x, off, t. rewrite qsub_ok; auto; [|unfold qact; rewrite tab_length; auto].
-    rewrite qact_ok by apply qword_len. f_equal. rewrite (phi_app A Hsys); auto.
-    rewrite (phi_per A Hsys e (around c) (qv (around_value c))); auto.
-    symmetry. apply qword_ok; auto. intros i Hi. apply Hq2. eapply Nat.le_trans; [apply Hd2|exact Hi]. }
+  fold e t in Hadm, Hx. fold x in Hx.
   assert (Hlen : (length C <= N)%nat /\ (length L <= N)%nat /\ (length (seen (around_chart c)) <= N)%nat /\ (length (around_stays c) <= N)%nat).
   { unfold check_chart in H6. rewrite !andb_true_iff, !Nat.leb_le in H6. unfold L, C. tauto. }
   destruct Hlen as (Hl1 & Hl2 & Hl3 & Hl4).
   assert (HVx : fixed_by case (around_stays c) (qv x)).
   { unfold fixed_by. simpl. rewrite <- qact_ok by auto. apply (qeqv_ok N); auto. }
   assert (HVL : forall y, fixed_by case (around_stays c) y -> fixed_by case (around_stays c) (Ww A e (cycle b) y)).
-  { intros y Hy. unfold fixed_by in *. pose proof (qeqm_ok N _ _ y H5) as E. rewrite !qmul_ok in E by (auto; apply qword_len).
-    simpl in *. rewrite !Hy in E. unfold M in E. rewrite (qword_ok case (cycle b) Hf) in E; auto.
-    intros i Hi. rewrite <- Hy. apply (short_act case (around_stays c) y Hl4 i Hi). }
+  { exact (stays_ok case centres radii spaces s b q (around_stays c) Hcase H1 Hl4 H5). }
   set (Lc := act N (qm L)). set (Fc := act N (qm F)). set (y := act N (qm C) (qv x)).
   assert (Hml : forall X Y, (length (qmul N X Y) <= N)%nat) by (intros; unfold qmul; rewrite tab_length; auto).
   assert (Hsl : forall a X, (length (qsclm N a X) <= N)%nat) by (intros; unfold qsclm; rewrite tab_length; auto).
