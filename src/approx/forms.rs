@@ -4,8 +4,9 @@
 //! small and dense, and a form that is merely feasible is enough.
 #![allow(clippy::float_arithmetic, reason = "proposes forms, exact arithmetic checks them")]
 
-use super::dense::{Dense, factored, inverse, solved};
-use nalgebra::{DMatrix, Schur};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Schur};
+
+type Dense = DMatrix<f64>;
 
 /// An operator `T` from the space of `to` to that of `from`, row after row.
 pub struct FormArrow {
@@ -65,7 +66,8 @@ impl FormProblem {
                 ratios[a] = if component.contains(&arrow.to) { ratio } else { program.outer(&x, a)? };
             }
         }
-        let forms = forms.into_iter().map(|q| Some(q?.data)).collect::<Option<_>>()?;
+        // They are symmetric: columns are rows.
+        let forms = forms.into_iter().map(|q| Some(q?.as_slice().to_vec())).collect::<Option<_>>()?;
         Some(ProposedForms { forms, ratios })
     }
 
@@ -136,7 +138,8 @@ struct Program {
     offsets: Vec<usize>,
     pairs: Vec<Vec<(usize, usize)>>,
     blocks: Vec<Block>,
-    secants: Vec<Vec<Vec<f64>>>,
+    /// The unit vectors as columns.
+    secants: Vec<Dense>,
     variables: usize,
 }
 
@@ -154,7 +157,7 @@ impl Program {
         let place = |s: usize| component.iter().position(|k| *k == s);
         for (a, arrow) in problem.arrows.iter().enumerate() {
             let Some(from) = place(arrow.from) else { continue };
-            let map = Dense::new(problem.dims[arrow.from], problem.dims[arrow.to], arrow.map.clone());
+            let map = Dense::from_row_slice(problem.dims[arrow.from], problem.dims[arrow.to], &arrow.map);
             let to = match (place(arrow.to), &known[arrow.to]) {
                 (Some(to), _) => To::Inner(to, ratio),
                 (None, Some(form)) => {
@@ -165,12 +168,12 @@ impl Program {
             };
             blocks.push(Block { from, map, to });
         }
-        let secants = component.iter().map(|&s| unit_vectors(&problem.secants[s])).collect();
+        let secants = component.iter().map(|&s| unit_vectors(problem.dims[s], &problem.secants[s])).collect();
         Self { dims, offsets, pairs, blocks, secants, variables: variables + 1 }
     }
 
     fn form(&self, x: &[f64], s: usize) -> Dense {
-        let mut q = Dense::zero(self.dims[s], self.dims[s]);
+        let mut q = Dense::zeros(self.dims[s], self.dims[s]);
         for (&(i, j), &value) in self.pairs[s].iter().zip(&x[self.offsets[s]..]) {
             q[(i, j)] = value;
             q[(j, i)] = value;
@@ -187,13 +190,12 @@ impl Program {
 
     /// The matrix of a block, minus its part of `t`.
     fn matrix(&self, block: &Block, forms: &[Dense], x: &[f64]) -> Dense {
-        let mut m = block.map.transposed().times(&forms[block.from]).times(&block.map);
-        match &block.to {
-            To::Inner(to, ratio) => m.add(-ratio, &forms[*to]),
-            To::Outer { form, variable, .. } => m.add(-x[*variable], form),
-        }
-        m.shift(-ARROWS * x[self.variables - 1]);
-        m
+        let m = block.map.tr_mul(&forms[block.from]) * &block.map;
+        let m = match &block.to {
+            To::Inner(to, ratio) => m - *ratio * &forms[*to],
+            To::Outer { form, variable, .. } => m - x[*variable] * form,
+        };
+        shifted(m, -ARROWS * x[self.variables - 1])
     }
 
     fn value(&self, x: &[f64], sharp: f64) -> Option<f64> {
@@ -201,8 +203,7 @@ impl Program {
         let t = x[self.variables - 1];
         let mut sum = -sharp * t;
         let mut log = |m: Dense| -> Option<()> {
-            let l = factored(m)?;
-            sum -= 2.0 * (0..l.rows).map(|i| l[(i, i)].ln()).sum::<f64>();
+            sum -= m.cholesky()?.ln_determinant();
             Some(())
         };
         for block in &self.blocks {
@@ -210,7 +211,7 @@ impl Program {
         }
         for q in &forms {
             for sign in [1.0, -1.0] {
-                log(q.scaled(sign).shifted(1.0))?;
+                log(shifted(sign * q, 1.0))?;
             }
         }
         for block in &self.blocks {
@@ -219,8 +220,8 @@ impl Program {
             }
         }
         for (q, vectors) in forms.iter().zip(&self.secants) {
-            for v in vectors {
-                sum -= positive(q.at(v) - t)?.ln();
+            for value in values(q, vectors) {
+                sum -= positive(value - t)?.ln();
             }
         }
         Some(sum)
@@ -230,21 +231,23 @@ impl Program {
     fn step(&self, x: &[f64], sharp: f64) -> Option<(Vec<f64>, f64)> {
         let n = self.variables;
         let forms: Vec<Dense> = (0..self.dims.len()).map(|s| self.form(x, s)).collect();
-        let mut newton = Newton { program: self, slope: vec![0.0; n], bend: Dense::zero(n, n) };
+        let mut newton = Newton { program: self, slope: vec![0.0; n], bend: Dense::zeros(n, n) };
         newton.slope[n - 1] = -sharp;
         for block in &self.blocks {
-            newton.block(block, &inverse(self.matrix(block, &forms, x))?, x);
+            newton.block(block, &self.matrix(block, &forms, x).cholesky()?.inverse(), x);
         }
         for (s, q) in forms.iter().enumerate() {
             for sign in [1.0, -1.0] {
-                let z = inverse(q.scaled(sign).shifted(1.0))?;
+                let z = shifted(sign * q, 1.0).cholesky()?.inverse();
                 newton.slope_of(s, -sign, &z);
                 newton.bend_of(s, s, 1.0, &z);
             }
             newton.vectors(s, q, x[n - 1]);
         }
         let Newton { slope, bend, .. } = newton;
-        let step: Vec<f64> = solved(bend, &slope)?.into_iter().map(|d| -d).collect();
+        // What is read lies on and below the diagonal.
+        let factor: Cholesky<f64, Dyn> = bend.transpose().cholesky()?;
+        let step: Vec<f64> = factor.solve(&DVector::from_column_slice(&slope)).iter().map(|d| -d).collect();
         let gain = -step.iter().zip(&slope).map(|(d, g)| d * g).sum::<f64>();
         Some((step, gain))
     }
@@ -263,9 +266,9 @@ impl Program {
             x[self.variables - 1] *= 2.0;
             (x[self.variables - 1] > -1e9).then_some(())?;
         }
-        let count: usize = self.blocks.iter().map(|b| b.map.cols + 1).sum::<usize>()
+        let count: usize = self.blocks.iter().map(|b| b.map.ncols() + 1).sum::<usize>()
             + 2 * self.dims.iter().sum::<usize>()
-            + self.secants.iter().map(Vec::len).sum::<usize>();
+            + self.secants.iter().map(DMatrix::ncols).sum::<usize>();
         let mut sharp = SHARP[0];
         let mut steps = 0;
         loop {
@@ -304,16 +307,26 @@ fn positive(x: f64) -> Option<f64> {
 }
 
 /// Some of the vectors, of length 1.
-fn unit_vectors(all: &[Vec<f64>]) -> Vec<Vec<f64>> {
+fn unit_vectors(dim: usize, all: &[Vec<f64>]) -> Dense {
     let step = all.len().div_ceil(SECANTS).max(1);
-    let unit = |v: &Vec<f64>| {
-        let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
-        (norm > 0.0).then(|| v.iter().map(|x| x / norm).collect())
-    };
-    all.iter().step_by(step).filter_map(unit).collect()
+    let unit = |v: &Vec<f64>| DVector::from_column_slice(v).try_normalize(0.0);
+    let columns: Vec<DVector<f64>> = all.iter().step_by(step).filter_map(unit).collect();
+    Dense::from_fn(dim, columns.len(), |i, k| columns[k][i])
 }
 
-/// The first and the second derivative of the barrier; of the second one only what lies on and below the diagonal.
+/// The values of a form on the columns.
+fn values(q: &Dense, vectors: &Dense) -> Vec<f64> {
+    let images = q * vectors;
+    vectors.column_iter().zip(images.column_iter()).map(|(v, image)| v.dot(&image)).collect()
+}
+
+/// The matrix plus a multiple of the identity.
+fn shifted(mut m: Dense, by: f64) -> Dense {
+    (0..m.nrows()).for_each(|i| m[(i, i)] += by);
+    m
+}
+
+/// The first and the second derivative of the barrier; of the second one only what lies on and above the diagonal.
 struct Newton<'a> {
     program: &'a Program,
     slope: Vec<f64>,
@@ -334,11 +347,10 @@ impl Newton<'_> {
         let (program, top, left) = (self.program, self.program.offsets[s], self.program.offsets[r]);
         for (p, &(i, j)) in program.pairs[s].iter().enumerate() {
             let own = if i == j { factor } else { 2.0 * factor };
-            let (first, second) = (a.row(i), a.row(j));
             let width = if s == r { p + 1 } else { program.pairs[r].len() };
-            let line = &mut self.bend.row_mut(top + p)[left..left + width];
+            let mut line = self.bend.view_mut((left, top + p), (width, 1));
             for (x, &(k, l)) in line.iter_mut().zip(&program.pairs[r]) {
-                let both = first[k] * second[l] + first[l] * second[k];
+                let both = a[(i, k)] * a[(j, l)] + a[(i, l)] * a[(j, k)];
                 *x += if k == l { 0.5 * own * both } else { own * both };
             }
         }
@@ -347,8 +359,8 @@ impl Newton<'_> {
     /// Adds `factor tr(E a)` between the variables of a form and a later variable.
     fn beside(&mut self, s: usize, variable: usize, factor: f64, a: &Dense) {
         let (program, from) = (self.program, self.program.offsets[s]);
-        let line = &mut self.bend.row_mut(variable)[from..];
-        for (&(i, j), x) in program.pairs[s].iter().zip(line) {
+        let mut line = self.bend.view_mut((from, variable), (program.pairs[s].len(), 1));
+        for (&(i, j), x) in program.pairs[s].iter().zip(line.iter_mut()) {
             *x += factor * if i == j { a[(i, j)] } else { 2.0 * a[(i, j)] };
         }
     }
@@ -356,12 +368,12 @@ impl Newton<'_> {
     fn block(&mut self, block: &Block, z: &Dense, x: &[f64]) {
         let t = self.program.variables - 1;
         let from = block.from;
-        let tz = block.map.times(z);
-        let g = tz.times(&block.map.transposed());
+        let tz = &block.map * z;
+        let g = &tz * block.map.transpose();
         self.slope_of(from, -1.0, &g);
         self.bend_of(from, from, 1.0, &g);
-        self.beside(from, t, -ARROWS, &tz.times(&tz.transposed()));
-        let zz = z.times(z);
+        self.beside(from, t, -ARROWS, &(&tz * tz.transpose()));
+        let zz = z * z;
         self.slope[t] += ARROWS * z.trace();
         self.bend[(t, t)] += ARROWS * ARROWS * zz.trace();
         match &block.to {
@@ -372,19 +384,19 @@ impl Newton<'_> {
                 match from.cmp(to) {
                     std::cmp::Ordering::Equal => {
                         self.bend_of(from, from, -ratio, &tz);
-                        self.bend_of(from, from, -ratio, &tz.transposed());
+                        self.bend_of(from, from, -ratio, &tz.transpose());
                     }
                     std::cmp::Ordering::Greater => self.bend_of(from, *to, -ratio, &tz),
-                    std::cmp::Ordering::Less => self.bend_of(*to, from, -ratio, &tz.transposed()),
+                    std::cmp::Ordering::Less => self.bend_of(*to, from, -ratio, &tz.transpose()),
                 }
             }
             To::Outer { form, variable, .. } => {
-                let zf = z.times(form);
-                let (value, zfz) = (x[*variable], zf.times(z));
+                let zf = z * form;
+                let (value, zfz) = (x[*variable], &zf * z);
                 self.slope[*variable] += zf.trace() - 1.0 / value;
-                self.bend[(*variable, *variable)] += zf.times(&zf).trace() + 1.0 / (value * value);
-                self.bend[(t, *variable)] += ARROWS * zfz.trace();
-                let seen = block.map.times(&zfz).times(&block.map.transposed());
+                self.bend[(*variable, *variable)] += (&zf * &zf).trace() + 1.0 / (value * value);
+                self.bend[(*variable, t)] += ARROWS * zfz.trace();
+                let seen = &block.map * &zfz * block.map.transpose();
                 self.beside(from, *variable, -1.0, &seen);
             }
         }
@@ -392,16 +404,17 @@ impl Newton<'_> {
 
     fn vectors(&mut self, s: usize, q: &Dense, t: f64) {
         let (program, from, last) = (self.program, self.program.offsets[s], self.program.variables - 1);
-        for v in &program.secants[s] {
-            let room = q.at(v) - t;
+        let vectors = &program.secants[s];
+        for (v, value) in vectors.column_iter().zip(values(q, vectors)) {
+            let room = value - t;
             let one = |&(i, j): &(usize, usize)| if i == j { v[i] * v[j] / room } else { 2.0 * v[i] * v[j] / room };
             let row: Vec<f64> = program.pairs[s].iter().map(one).collect();
             for (p, &a) in row.iter().enumerate() {
                 self.slope[from + p] -= a;
-                let line = &mut self.bend.row_mut(from + p)[from..];
-                line.iter_mut().zip(&row[..=p]).for_each(|(x, b)| *x += a * b);
+                let mut line = self.bend.view_mut((from, from + p), (p + 1, 1));
+                line.iter_mut().zip(&row).for_each(|(x, b)| *x += a * b);
             }
-            let line = &mut self.bend.row_mut(last)[from..];
+            let mut line = self.bend.view_mut((from, last), (row.len(), 1));
             line.iter_mut().zip(&row).for_each(|(x, a)| *x -= a / room);
             self.slope[last] += 1.0 / room;
             self.bend[(last, last)] += 1.0 / (room * room);

@@ -1,6 +1,5 @@
 //! The float fallback and float proposals. Nothing here is a proof.
 
-mod dense;
 mod forms;
 mod growth;
 mod look;
