@@ -10,6 +10,8 @@ use crate::theorem::Context;
 pub(super) struct StarSpaces {
     /// By star: coordinates in `W` of differences of its points, on the coordinates of all its cells one after the other.
     pub charts: Vec<Matrix>,
+    /// By star: the basis of `W`, as rows, in coordinates in which points of different weights have different unit vectors.
+    pub bases: Vec<Matrix>,
     /// By star and child: the map from the quotient of the child.
     pub maps: Vec<Vec<Matrix>>,
     /// By star: where the coordinates of each cell begin.
@@ -60,7 +62,8 @@ impl StarSpaces {
             maps[*s].push(map);
         }
         let charts = (0..rows.len()).map(|s| chosen(s, &rows[s])).collect();
-        Some(Self { charts, maps, offsets })
+        let bases = spans.into_iter().map(|s| s.rows).collect();
+        Some(Self { charts, bases, maps, offsets })
     }
 
     pub fn dim(&self, star: usize) -> usize {
