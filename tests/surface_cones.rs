@@ -127,6 +127,90 @@ fn corners_and_creases_have_no_forms() {
     assert!(cones(&tie).is_none() && gaps(&tie).contains(&EverySurfaceGap::NoForms), "{:?}", gaps(&tie));
 }
 
+/// Copies of the first state of a case, a face with points for coordinates, as the pieces of a set: by copy and point, the point of the
+/// set.
+fn set_of(case: &Case, points: &[Vec<usize>]) -> Case {
+    let face = &case.shape.states[0].name;
+    let count = points.iter().flatten().max().unwrap() + 1;
+    let entry = |at: usize, k: usize| u8::from(at == k);
+    let piece = |own: &Vec<usize>| {
+        let row = |k: usize| format!("{:?}", own.iter().map(|&at| entry(at, k)).collect::<Vec<_>>());
+        let rows: Vec<String> = (0..count).map(row).collect();
+        format!("[[state.piece]]\nto = \"{face}\"\nmatrix = [{}]\n", rows.join(", "))
+    };
+    let pieces: String = points.iter().map(piece).collect();
+    let start = format!("start = \"{face}\"");
+    let text = case.expanded();
+    assert!(text.contains(&start), "{text}");
+    let text = text.replacen(&start, "start = \"all\"", 1);
+    let set = format!("[[state]]\nname = \"all\"\nkind = \"set\"\ndimension = {count}\n{pieces}");
+    Case::parse("set.toml", &format!("{text}\n{set}")).unwrap()
+}
+
+/// Points of copies of a face that are glued: numbers for all points of all copies, those that are paired made one.
+fn joined(copies: usize, width: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
+    let mut class: Vec<usize> = (0..copies * width).collect();
+    for pair in pairs {
+        let [x, y] = pair.map(|k| class[k]);
+        class.iter_mut().filter(|c| **c == x.max(y)).for_each(|c| *c = x.min(y));
+    }
+    let mut known = class.clone();
+    known.sort_unstable();
+    known.dedup();
+    let number = |k: usize| known.iter().position(|c| *c == class[k]).unwrap();
+    (0..copies).map(|copy| (0..width).map(|i| number(copy * width + i)).collect()).collect()
+}
+
+/// The points of a side of the first state of a case.
+fn side(case: &Case, side: usize) -> Vec<usize> {
+    let op = &case.complex().faces[&0].sides[side].op;
+    (0..op.cols()).map(|j| (0..op.rows()).find(|&i| op[(i, j)] != 0).unwrap()).collect()
+}
+
+/// Two copies of a face: the left side of the second one on the right side of the first one, or on its points from the left.
+fn two(case: &Case, on_one_side: bool) -> Case {
+    let (width, right, left) = (case.shape.states[0].dim, side(case, 1), side(case, 3));
+    let there = if on_one_side { &left } else { &right };
+    set_of(case, &joined(2, width, &there.iter().zip(&left).map(|(a, b)| [*a, width + b]).collect::<Vec<_>>()))
+}
+
+fn expanded_mesh(valence: usize) -> Case {
+    let scheme = format!("[scheme]\nmesh = \"catmull-clark\"\nvalence = {valence}\n");
+    Case::parse("patch.toml", &format!("name = \"patch\"\nsource = \"test\"\n{scheme}")).unwrap()
+}
+
+#[test]
+fn a_bicubic_patch_at_a_vertex_has_stars_of_many_dimensions() {
+    let patch = expanded_mesh(5);
+    let at_vertex = found(&patch);
+    let forms = cones(&at_vertex).expect("a proof by cones");
+    assert_eq!(forms.forms.iter().skip(1).map(secant::linalg::Matrix::rows).collect::<Vec<_>>(), [17, 24]);
+    assert_eq!(says(&forged(&patch, &at_vertex, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved));
+}
+
+#[test]
+fn faces_of_a_set_are_glued_along_sides() {
+    let face = bent("3/10", "1/4", "");
+    let pair = two(&face, false);
+    let smooth = found(&pair);
+    let forms = cones(&smooth).expect("a proof by cones");
+    assert_eq!((forms.stars.seams(), forms.stars.list[0].cells.len(), forms.stars.list.len()), (1, 2, 3));
+    assert_eq!(says(&forged(&pair, &smooth, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved));
+    let refused = |change: &dyn Fn(&mut Value)| match forged(&pair, &smooth, change) {
+        Ok(_) => panic!("a forgery is accepted"),
+        Err(rejected) => rejected.rule,
+    };
+    // Not glued, glued at one corner, along another side, and turned.
+    for nodes in [[4, 5, 6, 7], [1, 4, 5, 6], [4, 1, 2, 5], [2, 4, 5, 1]] {
+        let rule = refused(&|e| e["stars"][0]["cells"][1]["corners"] = json!(nodes));
+        assert!(["stars", "every"].contains(&rule.as_str()), "{nodes:?} {rule}");
+    }
+    refused(&|e| drop(e["stars"][0]["cells"].as_array_mut().unwrap().pop()));
+    refused(&|e| e["stars"][0]["cells"].as_array_mut().unwrap().swap(0, 1));
+    // The same face twice, folded over along its left side: two sheets on one another.
+    assert!(cones(&found(&two(&face, true))).is_none());
+}
+
 fn forged(
     case: &Case,
     found: &Certified,

@@ -2,6 +2,7 @@
 
 use super::apart::pairs;
 use super::branch::Setting;
+use super::glue::start;
 use super::place::Chart;
 use super::star_space::StarSpaces;
 use super::stars::{Part, Stars, parts};
@@ -23,15 +24,15 @@ const DIGITS: [i64; 3] = [16, 24, 32];
 /// The hypotheses of Theorem 16, as found.
 #[derive(Debug, Clone)]
 pub struct SurfaceForms {
-    /// The face, number 0, and the stars.
+    /// The start, number 0, and the stars.
     pub stars: Stars,
-    /// The forms, of integers, in coordinates of the visible quotients; of the face there is none (0 × 0).
+    /// The forms, of integers, in coordinates of the visible quotients; of the start there is none (0 × 0).
     pub forms: Vec<Matrix>,
-    /// By star and child, `κ`; none for the face.
+    /// By star and child, `κ`; none for the start.
     pub ratios: Vec<Vec<Rational>>,
     /// How many pairs of cells that do not meet have been looked at.
     pub pairs: usize,
-    /// After how many words of stars the control points, or the face, are seen not to fold the cones.
+    /// After how many words of stars the control points, or the start, are seen not to fold the cones.
     pub views: usize,
 }
 
@@ -41,13 +42,14 @@ pub struct SurfaceForms {
 /// The hypothesis that is not shown to hold.
 pub fn forms(setting: &Setting, chart: &Chart) -> Result<SurfaceForms, EverySurfaceGap> {
     let (cx, shape) = (&setting.cx, setting.cx.shape);
+    let start = start(setting.complex, chart).ok_or(EverySurfaceGap::Unparametrised)?;
     chart.share(&shape.reachable()).ok_or(EverySurfaceGap::Unequal)?;
     let largest = shape.reachable().iter().map(|&e| cx.spaces.of(e).basis.cols()).max();
     let most = cx.budget.star_dimensions;
     if largest.is_none_or(|d| d > most) {
         return Err(EverySurfaceGap::LargeStars);
     }
-    let stars = Stars::of(shape, chart).ok_or(EverySurfaceGap::LargeStars)?;
+    let stars = Stars::of(shape, chart, start).ok_or(EverySurfaceGap::LargeStars)?;
     let spaces = StarSpaces::new(cx, &stars).ok_or(EverySurfaceGap::LargeStars)?;
     let dims: Vec<usize> = (0..stars.list.len()).map(|s| spaces.dim(s)).collect();
     if dims.iter().any(|d| *d > most) {
