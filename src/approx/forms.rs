@@ -51,19 +51,22 @@ const SHARP: [f64; 4] = [1_000.0, 10.0, 10_000.0, 10_000_000.0];
 const NEAR: f64 = 3.0;
 
 impl FormProblem {
-    /// Forms for some choices of `κ` in the window between the third and the second growth, the likeliest first. They are looked
-    /// for in orthonormal coordinates.
-    pub fn proposals(&self) -> impl Iterator<Item = ProposedForms> {
+    /// Forms for some choices of `κ` in the window between the third and the second growth, the likeliest first, or spaces that lead to
+    /// one another for which there are none. They are looked for in orthonormal coordinates.
+    pub fn proposals(&self) -> impl Iterator<Item = Result<ProposedForms, Vec<usize>>> {
         let normal = self.orthonormal();
         [0.5, 0.75, 0.25].into_iter().filter_map(move |part| {
             let (problem, factors) = normal.as_ref()?;
-            let mut found = problem.proposal(part)?;
+            let mut found = match problem.proposal(part) {
+                Ok(found) => found,
+                Err(component) => return Some(Err(component)),
+            };
             for (form, l) in found.forms.iter_mut().zip(factors) {
                 let back = l * Dense::from_column_slice(l.nrows(), l.nrows(), form) * l.transpose();
                 // It is symmetric: columns are rows.
                 *form = back.as_slice().to_vec();
             }
-            Some(found)
+            Some(Ok(found))
         })
     }
 
@@ -91,23 +94,34 @@ impl FormProblem {
         Some((problem, factors))
     }
 
-    fn proposal(&self, part: f64) -> Option<ProposedForms> {
+    fn proposal(&self, part: f64) -> Result<ProposedForms, Vec<usize>> {
         let mut forms: Vec<Option<Dense>> = vec![None; self.dims.len()];
         let mut ratios = vec![0.0; self.arrows.len()];
         while let Some(component) = self.next_component(&forms) {
-            let ratio = self.window(&component, part)?;
-            let mut program = Program::new(self, &component, ratio, &forms);
-            let x = program.solve()?;
-            for (k, &s) in component.iter().enumerate() {
-                forms[s] = Some(program.form(&x, k));
-            }
-            for (a, arrow) in self.arrows.iter().enumerate().filter(|(_, a)| component.contains(&a.from)) {
-                ratios[a] = if component.contains(&arrow.to) { ratio } else { program.outer(&x, a)? };
-            }
+            self.of_component(&component, part, &mut forms, &mut ratios).ok_or(component)?;
         }
         // They are symmetric: columns are rows.
-        let forms = forms.into_iter().map(|q| Some(q?.as_slice().to_vec())).collect::<Option<_>>()?;
-        Some(ProposedForms { forms, ratios })
+        let forms = forms.into_iter().flatten().map(|q| q.as_slice().to_vec()).collect();
+        Ok(ProposedForms { forms, ratios })
+    }
+
+    fn of_component(
+        &self,
+        component: &[usize],
+        part: f64,
+        forms: &mut [Option<Dense>],
+        ratios: &mut [f64],
+    ) -> Option<()> {
+        let ratio = self.window(component, part)?;
+        let mut program = Program::new(self, component, ratio, forms);
+        let x = program.solve()?;
+        for (k, &s) in component.iter().enumerate() {
+            forms[s] = Some(program.form(&x, k));
+        }
+        for (a, arrow) in self.arrows.iter().enumerate().filter(|(_, a)| component.contains(&a.from)) {
+            ratios[a] = if component.contains(&arrow.to) { ratio } else { program.outer(&x, a)? };
+        }
+        Some(())
     }
 
     /// Spaces that lead to one another, all of whose other successors have their forms.

@@ -56,8 +56,18 @@ pub fn forms(setting: &Setting, chart: &Chart) -> Result<SurfaceForms, EverySurf
         return Err(EverySurfaceGap::LargeStars);
     }
     let problem = problem(cx, chart, &stars, &spaces);
-    let mut reason = EverySurfaceGap::NoForms;
+    let none = |star: usize| EverySurfaceGap::NoForms { star: stars.words(shape, star) };
+    let mut reason = none(1);
     for proposal in problem.proposals() {
+        let proposal = match proposal {
+            Ok(proposal) => proposal,
+            Err(spaces) => {
+                if matches!(reason, EverySurfaceGap::NoForms { .. }) {
+                    reason = none(spaces.first().map_or(1, |s| s + 1));
+                }
+                continue;
+            }
+        };
         for digits in DIGITS {
             let found = rounded(&stars, &spaces, &problem, &proposal, digits).filter(|f| f.holds(&spaces));
             let Some(mut found) = found else { continue };

@@ -67,6 +67,21 @@ impl Stars {
         Some(stars)
     }
 
+    /// The cells of a star as words from the start, where it first occurs.
+    pub(super) fn words(&self, shape: &Shape, star: usize) -> Vec<Vec<usize>> {
+        let alone = |(k, (e, _)): (usize, &(usize, Vec<usize>))| if *e == shape.start { Vec::new() } else { vec![k] };
+        let mut found: Vec<Option<Vec<Vec<usize>>>> = vec![None; self.list.len()];
+        found[0] = Some(self.list[0].cells.iter().enumerate().map(alone).collect());
+        // A star is listed after one of which it is a child.
+        for (s, child) in self.arrows() {
+            if let (None, Some(own)) = (&found[child.star], &found[s]) {
+                let word = |&[cell, letter]: &[usize; 2]| [own[cell].as_slice(), &[letter]].concat();
+                found[child.star] = Some(child.cells.iter().map(word).collect());
+            }
+        }
+        found.swap_remove(star).into_iter().flatten().collect()
+    }
+
     /// Along how many sides the cells of the start are glued.
     #[must_use]
     pub fn seams(&self) -> usize {
