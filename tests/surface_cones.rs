@@ -128,14 +128,13 @@ fn corners_and_creases_have_no_forms() {
     assert!(cones(&tie).is_none() && gaps(&tie).contains(&EverySurfaceGap::NoForms { star }), "{:?}", gaps(&tie));
 }
 
-/// Copies of the first state of a case, a face with points for coordinates, as the pieces of a set: by copy and point, the point of the
-/// set.
-fn set_of(case: &Case, points: &[Vec<usize>]) -> Case {
+/// Copies of the first state of a case, a face, as the pieces of a set: by copy and point, the points of the set with their weights.
+fn set_of(case: &Case, points: &[Vec<Vec<(usize, i64)>>]) -> Case {
     let face = &case.shape.states[0].name;
-    let count = points.iter().flatten().max().unwrap() + 1;
-    let entry = |at: usize, k: usize| u8::from(at == k);
-    let piece = |own: &Vec<usize>| {
-        let row = |k: usize| format!("{:?}", own.iter().map(|&at| entry(at, k)).collect::<Vec<_>>());
+    let count = points.iter().flatten().flatten().map(|p| p.0).max().unwrap() + 1;
+    let weight = |point: &[(usize, i64)], k: usize| point.iter().filter(|p| p.0 == k).map(|p| p.1).sum::<i64>();
+    let piece = |own: &Vec<Vec<(usize, i64)>>| {
+        let row = |k: usize| format!("{:?}", own.iter().map(|point| weight(point, k)).collect::<Vec<_>>());
         let rows: Vec<String> = (0..count).map(row).collect();
         format!("[[state.piece]]\nto = \"{face}\"\nmatrix = [{}]\n", rows.join(", "))
     };
@@ -149,7 +148,7 @@ fn set_of(case: &Case, points: &[Vec<usize>]) -> Case {
 }
 
 /// Points of copies of a face that are glued: numbers for all points of all copies, those that are paired made one.
-fn joined(copies: usize, width: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> {
+fn joined(copies: usize, width: usize, pairs: &[[usize; 2]]) -> Vec<Vec<Vec<(usize, i64)>>> {
     let mut class: Vec<usize> = (0..copies * width).collect();
     for pair in pairs {
         let [x, y] = pair.map(|k| class[k]);
@@ -159,7 +158,7 @@ fn joined(copies: usize, width: usize, pairs: &[[usize; 2]]) -> Vec<Vec<usize>> 
     known.sort_unstable();
     known.dedup();
     let number = |k: usize| known.iter().position(|c| *c == class[k]).unwrap();
-    (0..copies).map(|copy| (0..width).map(|i| number(copy * width + i)).collect()).collect()
+    (0..copies).map(|copy| (0..width).map(|i| vec![(number(copy * width + i), 1)]).collect()).collect()
 }
 
 /// The points of a side of the first state of a case.
@@ -210,6 +209,33 @@ fn faces_of_a_set_are_glued_along_sides() {
     refused(&|e| e["stars"][0]["cells"].as_array_mut().unwrap().swap(0, 1));
     // The same face twice, folded over along its left side: two sheets on one another.
     assert!(cones(&found(&two(&face, true))).is_none());
+}
+
+#[test]
+fn a_crease_between_two_patches_is_named() {
+    let text = "name = \"a\"\nsource = \"test\"\n[mask]\nsymbol = \"(1+x)^3*(1+y)^3/16\"\n";
+    let face = Case::parse("a.toml", text).unwrap();
+    assert!(cones(&found(&two(&face, false))).is_some());
+    // The same border curve, the means of two lines of points, with a derivative of its own across it.
+    let (left, right) = (side(&face, 3), side(&face, 1));
+    let line = |own: &[usize], other: &[usize], both: bool| -> Vec<usize> {
+        own.iter().copied().filter(|k| other.contains(k) == both).collect()
+    };
+    let (first, middle, last) = (line(&left, &right, false), line(&left, &right, true), line(&right, &left, false));
+    let mut second = vec![Vec::new(); 9];
+    for r in 0..3 {
+        second[first[r]] = vec![(9 + r, 1)];
+        second[middle[r]] = vec![(middle[r], 1), (last[r], 1), (9 + r, -1)];
+        second[last[r]] = vec![(12 + r, 1)];
+    }
+    let crease = set_of(&face, &[(0..9).map(|k| vec![(k, 1)]).collect(), second]);
+    match &gaps(&found(&crease))[..] {
+        [EverySurfaceGap::NoForms { star }] => {
+            let faces: Vec<usize> = star.iter().map(|word| word[0]).collect();
+            assert!(faces.contains(&0) && faces.contains(&1), "{star:?}");
+        }
+        other => panic!("{other:?}"),
+    }
 }
 
 fn forged(
