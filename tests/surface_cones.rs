@@ -100,7 +100,7 @@ fn a_patch_that_is_no_product_and_not_smooth_in_its_parameters_has_cones_around_
 fn control_points_are_looked_at_through_words_of_stars() {
     let bump = bent("3/10", "1/4", &control(|i, j| [4 * i + 3 * i64::from((i, j) == (1, 1)), 4 * j, 6 * i * j]));
     let smooth = found(&bump);
-    assert_eq!(cones(&smooth).expect("a proof by cones").views, 9);
+    assert_eq!(cones(&smooth).expect("a proof by cones").views, 1);
     assert_eq!(says(&forged(&bump, &smooth, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved));
     // The normals of neighbours come together; the cones shrink by 2/3 or so with each level.
     let angles = [4, 6].map(|level| turning(&bump, level));
@@ -185,7 +185,9 @@ fn a_bicubic_patch_at_a_vertex_has_stars_of_many_dimensions() {
     let at_vertex = found(&patch);
     let forms = cones(&at_vertex).expect("a proof by cones");
     assert_eq!(forms.forms.iter().skip(1).map(secant::linalg::Matrix::rows).collect::<Vec<_>>(), [17, 24]);
-    assert_eq!(says(&forged(&patch, &at_vertex, &|_| ()).unwrap()), Some(secant_check::Verdict::Proved));
+    // The checker accepts it, or there is none.
+    let certificate = confirm(&patch, &at_vertex).unwrap();
+    assert_eq!(certificate.json()["proof"]["every"]["by"], json!("cones"));
 }
 
 #[test]
