@@ -52,7 +52,7 @@ pub struct Budget {
     pub cone_steps: usize,
     /// Surfaces: cells in which zeros of the leading functionals are looked for (120).
     pub witness_cells: usize,
-    /// Surfaces: coordinates of a star of cells, for cones around planes (32).
+    /// Surfaces: coordinates of a star of cells, for cones around planes (30).
     pub star_dimensions: usize,
     /// Vertices: binary places of enclosures in the first attempt and in the second (192, 768).
     pub places: [u64; 2],
@@ -90,7 +90,7 @@ impl Budget {
             levels: 4,
             cone_steps: 300_000_000,
             witness_cells: 120,
-            star_dimensions: 32,
+            star_dimensions: 30,
             places: [192, 768],
             halvings: 14,
             ring_cells: 40_000,
