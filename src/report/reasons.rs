@@ -213,8 +213,8 @@ fn every_surface_gap(gap: &EverySurfaceGap) -> String {
         EverySurfaceGap::NoForms { star } => {
             let cells: Vec<String> = star.iter().map(|word| word_text(word)).collect();
             format!(
-                "no quadratic forms of signature (2, ·) were found that all stars of cells expand from their children; the first star \
-                 without one has the cells {}",
+                "no quadratic forms of signature (2, ·) were found that all stars of cells expand from their children; a star \
+                 without one first occurs at the cells {}",
                 listed(&cells)
             )
         }

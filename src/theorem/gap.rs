@@ -123,7 +123,7 @@ pub enum EverySurfaceGap {
     LargeStars,
     /// No forms of signature (2, ·) were found that all stars expand from their children.
     NoForms {
-        /// The cells of the first star without one, as words from the start.
+        /// The cells of a star without one where it first occurs, as words from the start.
         star: Vec<Vec<usize>>,
     },
     /// The forms that were found are not seen to be positive on all secants between parts that do not meet.
