@@ -140,11 +140,7 @@ fn along(complex: &Complex, start: Pair) -> Option<Matrix> {
         for (k, piece) in a.iter().enumerate() {
             let l = if turned { b.len() - 1 - k } else { k };
             let pair = (piece.target, b[l].target, turned ^ piece.reversed ^ b[l].reversed);
-            let known = pairs.iter().position(|p| *p == pair);
-            own.push(([k, l], known.unwrap_or(pairs.len())));
-            if known.is_none() {
-                pairs.push(pair);
-            }
+            own.push(([k, l], index(&mut pairs, pair)));
         }
         steps.push(own);
     }
@@ -159,6 +155,17 @@ fn along(complex: &Complex, start: Pair) -> Option<Matrix> {
         }
     }
     closures(spaces, &arrows).into_iter().next()
+}
+
+/// The place of an item in a list, at whose end it is put if it is new.
+fn index<T: PartialEq>(list: &mut Vec<T>, item: T) -> usize {
+    match list.iter().position(|x| *x == item) {
+        Some(known) => known,
+        None => {
+            list.push(item);
+            list.len() - 1
+        }
+    }
 }
 
 /// The points of both edges of a pair at one place: along the first parts, until a pair comes back.
@@ -205,11 +212,7 @@ fn is_surface(chart: &Chart, star: &Star, seams: &[Seam]) -> bool {
 fn renumbered(mut star: Star) -> Star {
     let mut known: Vec<usize> = Vec::new();
     for node in star.cells.iter_mut().flat_map(|c| &mut c.1) {
-        let number = known.iter().position(|n| n == node);
-        if number.is_none() {
-            known.push(*node);
-        }
-        *node = number.unwrap_or(known.len() - 1);
+        *node = index(&mut known, *node);
     }
     star
 }
