@@ -94,7 +94,7 @@ impl Reported for Rational {
     }
 
     fn local_sides(case: &Case, found: &Certified) -> Vec<Vec<LocalSide>> {
-        let Some(context) = LocalContext::new(&case.shape, &found.contraction) else { return Vec::new() };
+        let Some(context) = LocalContext::new(&case.shape, found) else { return Vec::new() };
         let of = |p: &PointReport| p.branches.iter().flat_map(|b| context.sides(b)).collect();
         found.points.iter().map(of).collect()
     }

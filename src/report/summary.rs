@@ -273,6 +273,7 @@ fn point_blocks<E: Reported>(case: &Case<E>, point: &PointReport<E>, verbose: bo
     }
     for side in local {
         facts.push((super::local::name(side), super::local::fact(side)));
+        facts.extend(super::local::characteristic(side));
     }
     vec![Block::Heading(3, head), Block::Facts(facts)]
 }

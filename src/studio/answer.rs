@@ -6,7 +6,7 @@ use crate::answer::Verdict;
 use crate::arith::to_f64;
 use crate::ask::{Answered, Checked, answered};
 use crate::budget::{Budget, Effort};
-use crate::case::{Case, Question};
+use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::mesh::{Found, Model, Scheme, certify};
 use crate::picture::{MarkStyle, Projection, mesh as mesh_picture};
