@@ -60,20 +60,28 @@ pub(super) fn characteristic(side: &LocalSide) -> Option<(String, Line)> {
     let word = |w: &Vec<usize>| format!("`{}`", word_text(w));
     let text = match side.characteristic.as_ref()? {
         Characteristic::Injective { cells } => {
-            format!("injective: it is strictly monotone on {} that cover the ring", count(*cells, "cell"))
+            let cover = if *cells == 1 { "covers" } else { "cover" };
+            format!(
+                "the characteristic map is injective: it is strictly monotone on {} that {cover} the ring",
+                count(*cells, "cell")
+            )
         }
         Characteristic::Not { words } => match words.as_slice() {
-            [one] => format!("not injective: it has the same value at both ends of the cell {}", word(one)),
+            [one] => format!(
+                "the characteristic map is not injective: it has the same value at both ends of the cell {}",
+                word(one)
+            ),
             words => format!(
-                "not injective: it changes in opposite directions on the cells {}",
+                "the characteristic map is not injective: it changes in opposite directions on the cells {}",
                 listed(&words.iter().map(word).collect::<Vec<_>>())
             ),
         },
         Characteristic::Open => {
-            "not decided: neither cones nor chords of a few hundred cells show whether it is injective".to_owned()
+            "neither cones nor chords of a few hundred cells show whether the characteristic map is injective"
+                .to_owned()
         }
     };
-    Some((format!("characteristic map {}", self::word(side)), line(&text, [])))
+    Some((format!("map {}", self::word(side)), line(&text, [])))
 }
 
 /// As data (docs/json.md).
