@@ -1,12 +1,13 @@
 //! What is stated of a whole curve: the joints of all levels (Theorem 5), and a tangent at every point (Theorem 6).
 
-use super::evidence::{self, Evidence, independent};
+use super::evidence::{self, Evidence};
+use super::field::{Field, Pairs};
 use super::refuted::undone;
-use super::{Model, NoTheorem, place};
+use super::{Model, NoTheorem, decided, place};
 use crate::arith::{Rational, sign};
 use crate::linalg::Matrix;
 use crate::shape::End;
-use crate::theorem::{BranchReport, Certified, Kind, PointReport, Role, Verdict, primitive};
+use crate::theorem::{BranchReport, Certified, Kind, PointReport, Role, Verdict};
 
 /// A first-level joint of a state in that state's own space.
 pub(super) struct OwnJoint {
@@ -22,7 +23,7 @@ pub(super) struct OwnJoint {
 pub(super) struct Own {
     pub prefix: Vec<usize>,
     pub cycle: Vec<usize>,
-    pub direction: Vec<Rational>,
+    pub direction: Pairs,
     pub evidence: Evidence,
 }
 
@@ -74,20 +75,30 @@ fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
     if !matches!(point.kind, Kind::Regular | Kind::Cusp) {
         return Err(none("a joint without one ray on each side"));
     }
-    let side = |b: &BranchReport| -> Result<(Own, Vec<Rational>), NoTheorem> {
-        let prefix = b.address.prefix.strip_prefix(&path[..]).ok_or_else(|| none("an address outside its state"))?;
-        let (transport, _) = model.shape.product(*state, prefix);
-        let (evidence, direction) = evidence::in_its_state(model.given(), b, &transport)
-            .map_err(|what| NoTheorem { what, place: place.clone() })?;
-        let at = transport.apply(&b.fixed);
-        Ok((Own { prefix: prefix.to_vec(), cycle: b.address.cycle.clone(), direction, evidence }, at))
-    };
-    let ((before, at), (after, _)) = (side(before)?, side(after)?);
-    if independent(&before.direction, &after.direction).is_some() {
+    let (before, after, at) = decided(point, &place, |field| {
+        let (before, at) = side(model, (*state, path), before, field)?;
+        let (after, _) = side(model, (*state, path), after, field)?;
+        Ok((before, after, at))
+    })?;
+    let cusp = before.direction == after.direction;
+    if !cusp && before.direction != after.direction.negated() {
         return Err(none("rays on different lines before the control points"));
     }
-    let cusp = before.direction == after.direction;
     Ok(OwnJoint { state: *state, pieces: (*left, *right), cusp, before, after, point: at })
+}
+
+/// A branch read from the state of a joint, and its point there.
+fn side(
+    model: &Model<'_>,
+    (state, path): (usize, &[usize]),
+    branch: &BranchReport,
+    field: &Field,
+) -> Result<(Own, Vec<Rational>), String> {
+    let prefix = branch.address.prefix.strip_prefix(path).ok_or("an address outside its state")?;
+    let (transport, _) = model.shape.product(state, prefix);
+    let (evidence, direction) = evidence::in_its_state(model.given(), branch, field, &transport)?;
+    let at = transport.apply(&branch.fixed);
+    Ok((Own { prefix: prefix.to_vec(), cycle: branch.address.cycle.clone(), direction, evidence }, at))
 }
 
 /// The cones of Theorem 6, or why they are not stated.
@@ -130,12 +141,4 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     let own = || model.shape.control.is_none().then(|| start.functional.clone());
     let seen_by = cone.view.clone().or_else(own).ok_or_else(|| none("cones that the control points do not show"))?;
     Ok(Cones { rays, maps, firsts, lasts, chords, ratio, seen_by })
-}
-
-/// The vector with coprime integer coordinates on the same ray, and the positive number by which it was divided.
-pub(super) fn reduced(v: &[Rational]) -> Option<(Vec<Rational>, Rational)> {
-    let lead = v.iter().position(|x| *x != 0)?;
-    let direction = primitive(v);
-    let factor = &v[lead] / &direction[lead];
-    Some((direction, factor))
 }
