@@ -24,7 +24,7 @@ fn written(case: &str) -> String {
     std::fs::read_to_string(file).unwrap()
 }
 
-const REPLAYED: [(&str, &[&str]); 9] = [
+const REPLAYED: [(&str, &[&str]); 10] = [
     ("cases/thesis/half-tangent.toml", &["half_tangent", "cusp (automaton", "levels_0_0_1", "Not stated: every point"]),
     ("cases/two-parameter/quarter-quarter.toml", &["regular (automaton", "levels_0_0_1", "tangent_at_every_address"]),
     ("cases/classical/takagi.toml", &["lead := Block (1#2)", "cusp (automaton"]),
@@ -36,6 +36,18 @@ const REPLAYED: [(&str, &[&str]); 9] = [
     // Both sides of a point inside a cell; secants that turn for ever.
     ("cases/two-parameter/interior-periodic.toml", &["passes (automaton", "passes_ok"]),
     ("cases/classical/levy.toml", &["no_tangent (automaton"]),
+    // Eigenvalues and tangents over Q(√2), the joints of all levels among them.
+    (
+        "cases/irrational/regular-sqrt-2.toml",
+        &["radicand := 2;", "quadratic_ray_ok", "quadratic_regular_ok", "levels_0_0_1", "(vval left_end_evidence_root ([1; 0], [0; 1#2]))"],
+    ),
+];
+
+/// The other kinds of points with such numbers.
+const QUADRATIC: [(&str, &[&str]); 3] = [
+    ("cases/irrational/cusp-sqrt-2.toml", &["quadratic_cusp_ok"]),
+    ("cases/irrational/interior-01.toml", &["radicand := 73;", "quadratic_passes_ok"]),
+    ("cases/irrational/lebesgue-sqrt-2.toml", &["quadratic_corner_ok"]),
 ];
 
 /// A curve at whose ends a complex pair dominates that is no multiple of a root of unity.
@@ -60,7 +72,7 @@ fn oblique() -> String {
 
 #[test]
 fn files_state_what_was_found_about_the_matrices_of_the_case() {
-    for (case, pieces) in REPLAYED {
+    for (case, pieces) in REPLAYED.into_iter().chain(QUADRATIC) {
         let text = written(case);
         for piece in pieces {
             assert!(text.contains(piece), "{case}: {piece} is missing in\n{text}");

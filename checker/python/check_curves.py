@@ -4,7 +4,7 @@
 Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
 
 It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries; its neighbours
-those of radii, lattices, regions and vertices.  It is written for reading, not for hostile input: use secant-check where limits matter.
+those of radii, lattices, regions, surfaces and vertices.  It is written for reading, not for hostile input: use secant-check where limits matter.
 """
 import json
 import sys
