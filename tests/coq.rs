@@ -88,7 +88,8 @@ fn files_state_what_was_found_about_the_matrices_of_the_case() {
 #[test]
 fn what_has_no_formal_theorem_is_refused_and_nothing_is_written() {
     for (case, why) in [
-        ("cases/irrational/regular-sqrt-2.toml", "irrational"),
+        ("cases/fields/db2.toml", "irrational entries"),
+        ("cases/irrational/two-fields.toml", "irrational numbers of two fields"),
         ("cases/contraction/long-words.toml", "Lemma 1"),
         ("cases/counterexamples/uniformity.toml", "refutation other than"),
         ("cases/surfaces/bicubic-space.toml", "surface"),
@@ -146,7 +147,10 @@ fn coq_accepts_the_files_and_no_changed_one() {
     let seen = written("cases/control/bezier-cusp.toml");
     let inside = written("cases/two-parameter/interior-periodic.toml");
     let spiral = oblique();
-    assert!(coqc(&spiral).0, "{spiral}");
+    let irrational = written("cases/irrational/regular-sqrt-2.toml");
+    for accepted in QUADRATIC.map(|(case, _)| written(case)).iter().chain([&spiral]) {
+        assert!(coqc(accepted).0, "{accepted}");
+    }
     for (text, from, to) in [
         // Another matrix, with columns that still sum to 1; a column that does not.
         (&thesis, "[5#4; 1#2; 0]; [-1#4; 1#2; 5#4]", "[5#4; 1#4; 0]; [-1#4; 3#4; 5#4]"),
@@ -175,6 +179,15 @@ fn coq_accepts_the_files_and_no_changed_one() {
         (&inside, "(qv [-2; 1; 1])", "(qv [2; -1; -1])"),
         (&spiral, "trace := 1;", "trace := 2;"),
         (&spiral, "norm := 29#100", "norm := 1#5"),
+        // Irrational numbers: another ray, its conjugate, another matrix, the root of another number, an interval without the root,
+        // another eigenvalue, another vector of what is seen of a joint at all levels.
+        (&irrational, "(vval left_end_evidence_root ([1; 0], [0; 1#2]))", "(vval left_end_evidence_root ([1; 0], [0; 1#3]))"),
+        (&irrational, "(vval left_end_evidence_root ([1; 0], [0; 1#2]))", "(vval left_end_evidence_root ([1; 0], [0; -1#2]))"),
+        (&irrational, "[0; 2#5; 1#10]", "[0; 3#10; 1#10]"),
+        (&irrational, "radicand := 2;", "radicand := 3;"),
+        (&irrational, "radicand := 2; below := ", "radicand := 2; below := 2 + "),
+        (&irrational, "q_lead := (2#5, 1#20)", "q_lead := (2#5, -1#20)"),
+        (&irrational, "views : list qmat := [[[", "views : list qmat := [[]; [["),
     ] {
         let (accepted, said) = coqc(&changed(text, from, to));
         assert!(!accepted, "Coq accepts the file with {to} in the place of {from}");

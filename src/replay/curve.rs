@@ -2,21 +2,22 @@
 
 use super::evidence::{self, Evidence};
 use super::field::{Field, Pairs};
-use super::refuted::undone;
 use super::{Model, NoTheorem, decided, place};
 use crate::arith::{Rational, sign};
 use crate::linalg::Matrix;
 use crate::shape::End;
 use crate::theorem::{BranchReport, Certified, Kind, PointReport, Role, Verdict};
 
-/// A first-level joint of a state in that state's own space.
+/// A first-level joint of a state, as it is seen in that state.
 pub(super) struct OwnJoint {
     pub state: usize,
     pub pieces: (usize, usize),
     pub cusp: bool,
     pub before: Own,
     pub after: Own,
+    /// What is seen of the point, and a vector of the state's space of which the direction after the point is seen.
     pub point: Vec<Rational>,
+    pub lift: Pairs,
 }
 
 /// A branch from the joint's state.
@@ -27,11 +28,13 @@ pub(super) struct Own {
     pub evidence: Evidence,
 }
 
-/// Theorem 5: the joints, and left inverses of all operators and of the control points.
+/// Theorem 5: the joints; what is seen of each state; and that the control points and all operators show as much, by matrices
+/// that make each of the other.
 pub(super) struct Levels {
     pub joints: Vec<OwnJoint>,
-    pub inverses: Vec<Vec<Matrix>>,
-    pub net: Matrix,
+    pub views: Vec<Matrix>,
+    pub pairs: Vec<Vec<(Matrix, Matrix)>>,
+    pub net: (Matrix, Matrix),
 }
 
 /// Theorem 6, by state in the order of the file.
@@ -52,18 +55,38 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
     if found.dense_claim().is_none_or(|c| c.verdict() != Verdict::Proved) {
         return Err(none("joints that are not all proved to have tangents"));
     }
-    let basis = |e: usize| &model.spaces.of(e).basis;
-    let net = undone(&model.net, basis(model.shape.start));
-    let net = net.ok_or_else(|| none("control points that are not injective"))?;
-    let pieces = |e: &usize| model.shape.states[*e].pieces.iter();
-    let of = |e: &usize| pieces(e).map(|p| undone(&p.op, basis(p.target))).collect::<Option<Vec<_>>>();
-    let inverses = model.states.iter().map(of).collect::<Option<Vec<_>>>();
-    let inverses = inverses.ok_or_else(|| none("operators that are not injective"))?;
+    let start = model.shape.start;
+    let shown = |e: usize, seen: &Matrix| {
+        let basis = &model.spaces.of(e).basis;
+        Some((through(&(&view(model, e) * basis), &(seen * basis))?, through(&(seen * basis), &(&view(model, e) * basis))?))
+    };
+    let net = shown(start, &model.net).ok_or_else(|| none("control points that are not injective"))?;
+    let of = |e: &usize| {
+        let pieces = model.shape.states[*e].pieces.iter();
+        pieces.map(|p| shown(p.target, &(&view(model, *e) * &p.op))).collect::<Option<Vec<_>>>()
+    };
+    let pairs = model.states.iter().map(of).collect::<Option<Vec<_>>>();
+    let pairs = pairs.ok_or_else(|| none("operators that are not injective"))?;
     if dense.joints.is_empty() {
         return Err(none("a curve without joints"));
     }
     let joints = dense.joints.iter().map(|k| own(model, &found.points[*k])).collect::<Result<Vec<_>, _>>()?;
-    Ok(Levels { joints, inverses, net })
+    let views = model.states.iter().map(|e| view(model, *e)).collect();
+    Ok(Levels { joints, views, pairs, net })
+}
+
+/// What is seen of a state: the rows of its visible quotient.
+fn view(model: &Model<'_>, state: usize) -> Matrix {
+    let space = model.spaces.of(state);
+    &space.visible * &space.coordinates
+}
+
+/// A matrix `X` with `X from = to`, where there is one.
+fn through(from: &Matrix, to: &Matrix) -> Option<Matrix> {
+    if from.cols() == 0 {
+        return Some(Matrix::zero(to.rows(), from.rows()));
+    }
+    Some(from.transpose().solve(&to.transpose())?.transpose())
 }
 
 fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
@@ -82,9 +105,17 @@ fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
     })?;
     let cusp = before.direction == after.direction;
     if !cusp && before.direction != after.direction.negated() {
-        return Err(none("rays on different lines before the control points"));
+        return Err(none("rays on different lines in a state of their own"));
     }
-    Ok(OwnJoint { state: *state, pieces: (*left, *right), cusp, before, after, point: at })
+    let space = model.spaces.of(*state);
+    let lifted = |v: &[Rational]| {
+        let column = Matrix::from_columns(v.len(), &[v.to_vec()]);
+        Some(space.basis.apply(&space.visible.solve(&column)?.column(0)))
+    };
+    let parts = (lifted(&after.direction.plain), lifted(&after.direction.rooted));
+    let (Some(plain), Some(rooted)) = parts else { return Err(none("a ray that is not seen")) };
+    let lift = Pairs { plain, rooted };
+    Ok(OwnJoint { state: *state, pieces: (*left, *right), cusp, before, after, point: at, lift })
 }
 
 /// A branch read from the state of a joint, and its point there.
@@ -95,11 +126,15 @@ fn side(
     field: &Field,
 ) -> Result<(Own, Vec<Rational>), String> {
     let prefix = branch.address.prefix.strip_prefix(path).ok_or("an address outside its state")?;
-    let (transport, _) = model.shape.product(state, prefix);
+    let (inside, _) = model.shape.product(state, prefix);
+    let transport = &view(model, state) * &inside;
     let (evidence, direction) = evidence::in_its_state(model.given(), branch, field, &transport)?;
     let at = transport.apply(&branch.fixed);
     Ok((Own { prefix: prefix.to_vec(), cycle: branch.address.cycle.clone(), direction, evidence }, at))
 }
+
+/// Digits of all numbers of the cones, so that Coq takes less than a minute.
+const MAX_DIGITS: usize = 150_000;
 
 /// The cones of Theorem 6, or why they are not stated.
 pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoTheorem> {
@@ -136,6 +171,10 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
         maps.push(images);
         firsts.push(model.shape.end_point(*e, End::Start).ok_or_else(missing)?);
         lasts.push(model.shape.end_point(*e, End::Finish).ok_or_else(missing)?);
+    }
+    let numbers = rays.iter().chain(maps.iter().flatten()).flat_map(Matrix::entries);
+    if numbers.map(|x| x.to_string().len()).sum::<usize>() > MAX_DIGITS {
+        return Err(none("cones whose numbers have too many digits"));
     }
     let start = cone.cones.iter().find(|c| c.state == model.shape.start).ok_or_else(missing)?;
     let own = || model.shape.control.is_none().then(|| start.functional.clone());

@@ -72,8 +72,11 @@ pub(super) struct Evidence {
 
 /// The largest power of an operator that is tried, and the most cells of a ring.
 pub(super) const MAX_POWER: usize = 64;
-const MAX_CELLS: usize = 4000;
+const MAX_CELLS: usize = 20_000;
 const MAX_DEPTH: usize = 60;
+
+/// Digits of a number in a chart, so that Coq takes less than a minute.
+const MAX_DIGITS: usize = 200;
 
 const SLOW: &str = "an eigenvalue that dominates too slowly";
 /// More places of the root may decide it.
@@ -165,6 +168,10 @@ fn finished(
     mode: Mode,
 ) -> Result<Evidence, String> {
     let exit = exit(given.shape, branch).ok_or("a cycle that nothing leaves")?;
+    let digits = chart.turn.entries().iter().map(|x| x.to_string().len()).max();
+    if digits.is_some_and(|n| n > MAX_DIGITS) {
+        return Err("numbers with too many digits".to_owned());
+    }
     let (chart, top, (power, rate)) = match gap(&chart.turn, field, &top) {
         Some(found) => (chart, top, found),
         None => {

@@ -175,7 +175,7 @@ fn evidence(out: &mut String, name: &str, e: &Evidence) {
         let [radicand, below, above] = [&field.radicand, &field.below, &field.above].map(number);
         let _ = writeln!(
             out,
-            "Definition {name}_root : root := {{| radicand := {radicand}; below := {below}; above := {above} |}}."
+            "Definition {name}_root : Quadratic.root := {{| radicand := {radicand}; below := {below}; above := {above} |}}."
         );
         format!(
             "q_root := {name}_root; q_lead := {}; q_row := {}; q_vector := {}",
@@ -344,13 +344,18 @@ fn spiral(out: &mut String, name: &str, s: &Spiral) {
 
 /// Theorem 5: every joint in its own state, and in all copies of the state.
 fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut Vec<String>) {
-    let inverses = list(&levels.inverses, |of| list(of, matrix));
-    let _ = writeln!(out, "(* The joints of all levels (Theorem 5): left inverses on the vectors of sum 0. *)");
-    let _ = writeln!(out, "Definition inverses : list (list qmat) := {inverses}.");
-    let _ = writeln!(out, "Definition net_inverse : qmat := {}.\n", matrix(&levels.net));
+    let pair = |(c, d): &(Matrix, Matrix)| format!("({}, {})", matrix(c), matrix(d));
+    let (views, pairs) = (list(&levels.views, matrix), list(&levels.pairs, |of| list(of, pair)));
+    let _ = writeln!(
+        out,
+        "(* The joints of all levels (Theorem 5): what is seen of each state, and that the control points and all operators show as much. *)"
+    );
+    let _ = writeln!(out, "Definition views : list qmat := {views}.");
+    let _ = writeln!(out, "Definition pairs : list (list (qmat * qmat)) := {pairs}.");
+    let _ = writeln!(out, "Definition net_pair : qmat * qmat := {}.\n", pair(&levels.net));
     for joint in &levels.joints {
         let state = model.number(joint.state);
-        let OwnJoint { pieces, before, after, cusp, point, .. } = joint;
+        let OwnJoint { pieces, before, after, cusp, point, lift, .. } = joint;
         let name = format!("levels_{state}_{}_{}", pieces.0, pieces.1);
         evidence(out, &format!("{name}_before"), &before.evidence);
         evidence(out, &format!("{name}_after"), &after.evidence);
@@ -358,14 +363,20 @@ fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut 
         let field = &after.evidence.field;
         let (theorem, q) = words(field);
         let (b1, b2, d) = (of(before), of(after), coordinates(field, &after.direction));
-        let r = real(&format!("{name}_after"), field, &after.direction);
+        let named = format!("{name}_after");
+        let (r, lifted) = (real(&named, field, &after.direction), real(&named, field, lift));
+        let seen = if field.is_rational() {
+            format!("lift_ok case spaces {state} views {} {d}", vector(&lift.plain))
+        } else {
+            format!("lift_pair_ok case spaces {state} views {named}_root {} {d}", coordinates(field, lift))
+        };
         let word = if *cusp { "cusp" } else { "regular" };
         let values = format!("({q}value {name}_before) ({q}value {name}_after)");
         let claim = format!(
-            "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u {r}))"
+            "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u {lifted}))"
         );
         let proof = format!(
-            "refine ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values} _ _ _ _); [exact contracts|vm_compute; reflexivity|].\n  apply ({theorem}{word}_ok case centres radii spaces (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
+            "refine ({word}_levels {GIVEN} {state} views pairs net_pair _ _ {values} {lifted} {r} _ _ _ _); [exact contracts|vm_compute; reflexivity|apply ({seen}); vm_compute; reflexivity|].\n  apply ({theorem}{word}_ok case centres radii spaces (view_of views {state}) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
             vector(point)
         );
         finished(out, &name, &claim, &proof);
