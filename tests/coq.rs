@@ -39,7 +39,13 @@ const REPLAYED: [(&str, &[&str]); 10] = [
     // Eigenvalues and tangents over Q(√2), the joints of all levels among them.
     (
         "cases/irrational/regular-sqrt-2.toml",
-        &["radicand := 2;", "quadratic_ray_ok", "quadratic_regular_ok", "levels_0_0_1", "(vval left_end_evidence_root ([1; 0], [0; 1#2]))"],
+        &[
+            "radicand := 2;",
+            "quadratic_ray_ok",
+            "quadratic_regular_ok",
+            "levels_0_0_1",
+            "(vval left_end_evidence_root ([1; 0], [0; 1#2]))",
+        ],
     ),
 ];
 
@@ -181,9 +187,17 @@ fn coq_accepts_the_files_and_no_changed_one() {
         (&spiral, "norm := 29#100", "norm := 1#5"),
         // Irrational numbers: another ray, its conjugate, another matrix, the root of another number, an interval without the root,
         // another eigenvalue, another vector of what is seen of a joint at all levels.
-        (&irrational, "(vval left_end_evidence_root ([1; 0], [0; 1#2]))", "(vval left_end_evidence_root ([1; 0], [0; 1#3]))"),
-        (&irrational, "(vval left_end_evidence_root ([1; 0], [0; 1#2]))", "(vval left_end_evidence_root ([1; 0], [0; -1#2]))"),
-        (&irrational, "[0; 2#5; 1#10]", "[0; 3#10; 1#10]"),
+        (
+            &irrational,
+            "(vval left_end_evidence_root ([1; 0], [0; 1#2]))",
+            "(vval left_end_evidence_root ([1; 0], [0; 1#3]))",
+        ),
+        (
+            &irrational,
+            "(vval left_end_evidence_root ([1; 0], [0; 1#2]))",
+            "(vval left_end_evidence_root ([1; 0], [0; -1#2]))",
+        ),
+        (&irrational, "[1; 11#20; 1#2]; [0; 2#5; 1#10]", "[1; 13#20; 1#2]; [0; 3#10; 1#10]"),
         (&irrational, "radicand := 2;", "radicand := 3;"),
         (&irrational, "radicand := 2; below := ", "radicand := 2; below := 2 + "),
         (&irrational, "q_lead := (2#5, 1#20)", "q_lead := (2#5, -1#20)"),

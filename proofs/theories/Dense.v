@@ -150,4 +150,28 @@ Proof.
   unfold fixed_by in *. simpl in F1, F2. unfold vval. rewrite !act_add, !act_scl, E1, E2. split; auto.
   simpl. rewrite F1, F2. reflexivity.
 Qed.
+(** Copies of these branches of states come as near as one likes to the point of every address. *)
+Definition joints_dense (P : qmat) (s : nat) (joints : list (nat * (branch * qvec))) : Prop :=
+  forall a eps, adm A s a -> 0 < eps -> exists u j, In j joints /\ admw A s u /\ stw A s u = fst j /\
+    nrm N (sub (point A (qm P) s (inside u (fst (snd j)))) (act N (qm P) (phi A s a))) <= eps.
+
+(** From every state a word leads to a state that has one. *)
+Definition check_ways (s : nat) (joints : list (nat * (branch * qvec))) (ways : list (list nat)) : bool :=
+  (s <? states A) && forallb (fun j => check_cycle case (fst j) (fst (snd j)) (snd (snd j))) joints &&
+  forallb (fun e => let w := nth e ways [] in check_letters case e w && existsb (fun j => fst j =? stw A e w) joints) (seq 0 (states A)).
+
+Theorem joints_dense_ok P s joints ways : controlled case centres radii spaces -> check_ways s joints ways = true -> joints_dense P s joints.
+Proof.
+  intros (Hf & Hsys & _) H a eps Ha Heps. unfold check_ways in H. rewrite !andb_true_iff in H. destruct H as [[Hs Hj] Hw]. apply Nat.ltb_lt in Hs.
+  rewrite forallb_forall in Hj.
+  destruct (copies_dense A Hsys (qm P) s (fun f t => exists j, In j joints /\ f = fst j /\ t = app (prefix (fst (snd j))) (per (cycle (fst (snd j))))) Hs)
+    with (a := a) (eps := eps) as (u & t & Hu & (j & J1 & J2 & J3) & Hn); auto.
+  - intros e He. pose proof (forall_lt _ _ Hw e He) as H1. cbv beta zeta in H1. rewrite andb_true_iff in H1. destruct H1 as [H1 H2].
+    apply check_letters_ok in H1. apply existsb_exists in H2. destruct H2 as (j & J1 & J2). apply Nat.eqb_eq in J2.
+    exists (nth e ways []), (app (prefix (fst (snd j))) (per (cycle (fst (snd j))))). split; [exact H1|]. split; [|exists j; auto].
+    pose proof (check_cycle_ok case _ _ _ Hf (Hj j J1)) as Hcyc. cbv zeta in Hcyc. destruct Hcyc as (Hfs & Hbu & Hbw & Hne & Hcl & Hq & Hfq).
+    pose proof (stw_ok A Hsys _ (fst j) Hfs Hbu) as He2. pose proof (dim_ok A (wf A Hsys) _ He2) as Hdm. specialize (Hfq He2 (proj2 Hdm)).
+    rewrite <- J2. apply adm_app. split; auto. apply (adm_per A Hsys (fst j) (fst (snd j)) (qv (snd (snd j)))); auto.
+  - exists u, j. split; auto. split; auto. split; auto. unfold point, inside. simpl prefix. simpl cycle. rewrite app_app, <- J3, <- act_sub. exact Hn.
+Qed.
 End Dense.

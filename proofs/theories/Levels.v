@@ -124,3 +124,69 @@ Proof.
   intros x Hx. apply V_word; auto.
 Qed.
 End Shown.
+
+(** Density: near the point of every address there are copies of chosen branches, where every state leads to a state that has one. *)
+Section Density.
+Variable A : automaton.
+Notation N := (N A).
+Notation nrm := (nrm N).
+Hypothesis sys : contracting A.
+
+Fixpoint letters (k : nat) (a : address) : list nat := match k with O => [] | S k => a O :: letters k (tl a) end.
+
+Lemma letters_ok k : forall e a, adm A e a ->
+  a = app (letters k a) (drop k a) /\ admw A e (letters k a) /\ stw A e (letters k a) = st A e a k /\ forall x, Ww A e (letters k a) x = W A e a k x.
+Proof.
+  induction k; intros e a Ha; simpl.
+  - split; [reflexivity|]. auto.
+  - destruct (IHk _ _ (adm_tl A e a Ha)) as (H1 & H2 & H3 & H4). split; [|split; [split; [apply (Ha O)|exact H2]|split; [exact H3|]]].
+    + rewrite <- (cons_tl a) at 1. f_equal. exact H1.
+    + intros x. rewrite H4. reflexivity.
+Qed.
+
+Lemma phi_far : exists B, 0 < B /\ forall e s t, (e < states A)%nat -> adm A e s -> adm A e t -> nrm (sub (phi A e s) (phi A e t)) <= B.
+Proof.
+  destruct sys as (Hwf & K & th & c & r & H1 & H2 & H3 & H4). exists (1 + 2 * sum (states A) r).
+  assert (Hr : 0 <= sum (states A) r) by (apply sum_nonneg; auto). split; [lra|]. intros e s t He Hs Ht.
+  pose proof (ball A Hwf K th c r H1 H2 H3 H4 e s He Hs) as B1. pose proof (ball A Hwf K th c r H1 H2 H3 H4 e t He Ht) as B2.
+  pose proof (sum_term (states A) r e H2 He) as B3.
+  replace (sub (phi A e s) (phi A e t)) with (sub (sub (phi A e s) (c e)) (sub (phi A e t) (c e))) by (extensionality i; unfold sub; ring).
+  eapply Rle_trans; [apply nrm_sub|]. lra.
+Qed.
+
+Theorem copies_dense (P : matrix) (s : nat) (at_state : nat -> address -> Prop) : (s < states A)%nat ->
+  (forall e, (e < states A)%nat -> exists w t, admw A e w /\ adm A (stw A e w) t /\ at_state (stw A e w) t) ->
+  forall a eps, adm A s a -> 0 < eps -> exists u t, admw A s u /\ at_state (stw A s u) t /\
+    nrm (act N P (sub (phi A s (app u t)) (phi A s a))) <= eps.
+Proof.
+  intros Hs Hways a eps Ha Heps. destruct phi_far as (B & HB & Hfar). pose proof sys as (Hwf & K & th & c & r & H1 & H2 & H3 & H4).
+  destruct (contraction A Hwf K th c r H1 H4) as (C & v & HC & Hv & Hcon).
+  set (S0 := size N P + 1). assert (HS : 0 < S0) by (unfold S0; pose proof (size_ge0 N P); lra).
+  destruct (pow_lt_1_zero v) with (y := eps / (S0 * C * B)) as (k & Hk).
+  { rewrite Rabs_pos_eq; lra. }
+  { apply Rdiv_lt_0_compat; auto. repeat apply Rmult_lt_0_compat; auto. }
+  specialize (Hk k (le_n k)). rewrite Rabs_pos_eq in Hk by (apply pow_le; lra).
+  destruct (letters_ok k s a Ha) as (L1 & L2 & L3 & L4). set (w := letters k a) in *.
+  pose proof (st_ok A Hwf k s a Hs Ha) as He. destruct (Hways _ He) as (x & t & X1 & X2 & X3).
+  rewrite <- L3 in *. exists (w ++ x), t. rewrite (stw_app A w). split; [|split; [exact X3|]].
+  - clear - L2 X1. revert s L2 X1. induction w as [|i w IH]; simpl; intros s L2 X1; auto. destruct L2. split; auto.
+  - assert (E1 : phi A s (app (w ++ x) t) = Ww A s w (phi A (stw A s w) (app x t))).
+    { rewrite app_app. apply (phi_app A sys); auto. apply adm_app. split; auto. apply adm_app. auto. }
+    assert (Hd : adm A (stw A s w) (drop k a)) by (rewrite L3; apply adm_drop; auto).
+    assert (E2 : phi A s a = Ww A s w (phi A (stw A s w) (drop k a))).
+    { rewrite L1 at 1. apply (phi_app A sys); auto. apply adm_app. auto. }
+    assert (Hx : adm A (stw A s w) (app x t)) by (apply adm_app; auto).
+    rewrite E1, E2, <- Ww_sub. set (y := sub (phi A (stw A s w) (app x t)) (phi A (stw A s w) (drop k a))).
+    assert (Hy : nrm y <= B) by (apply Hfar; auto).
+    assert (Hflat : flat N (dim A (st A s a k)) y).
+    { rewrite <- L3. apply bary_sub; apply (phi_bary' A sys); auto. }
+    pose proof (Hcon k s a y Hs Ha Hflat) as Hc. rewrite <- L4 in Hc. fold w in Hc.
+    assert (Hpow : 0 <= v ^ k) by (apply pow_le; lra). pose proof (nrm_ge0 N y). pose proof (nrm_ge0 N (Ww A s w y)).
+    eapply Rle_trans; [apply nrm_act|]. apply Rle_trans with (S0 * (C * v ^ k * B)).
+    + apply Rmult_le_compat; [apply size_ge0|auto|unfold S0; lra|]. eapply Rle_trans; [exact Hc|].
+      apply Rmult_le_compat_l; auto. apply Rmult_le_pos; lra.
+    + replace (S0 * (C * v ^ k * B)) with (v ^ k * (S0 * C * B)) by ring.
+      assert (HX : 0 < S0 * C * B) by (repeat apply Rmult_lt_0_compat; auto). set (X := S0 * C * B) in *.
+      apply (Rmult_lt_compat_r X) in Hk; auto. replace (eps / X * X) with eps in Hk by (field; lra). lra.
+Qed.
+End Density.

@@ -35,6 +35,8 @@ pub(super) struct Levels {
     pub views: Vec<Matrix>,
     pub pairs: Vec<Vec<(Matrix, Matrix)>>,
     pub net: (Matrix, Matrix),
+    /// By state in the order of the file, a word that leads to a state with a joint.
+    pub ways: Vec<Vec<usize>>,
 }
 
 /// Theorem 6, by state in the order of the file.
@@ -58,7 +60,10 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
     let start = model.shape.start;
     let shown = |e: usize, seen: &Matrix| {
         let basis = &model.spaces.of(e).basis;
-        Some((through(&(&view(model, e) * basis), &(seen * basis))?, through(&(seen * basis), &(&view(model, e) * basis))?))
+        Some((
+            through(&(&view(model, e) * basis), &(seen * basis))?,
+            through(&(seen * basis), &(&view(model, e) * basis))?,
+        ))
     };
     let net = shown(start, &model.net).ok_or_else(|| none("control points that are not injective"))?;
     let of = |e: &usize| {
@@ -72,7 +77,27 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
     }
     let joints = dense.joints.iter().map(|k| own(model, &found.points[*k])).collect::<Result<Vec<_>, _>>()?;
     let views = model.states.iter().map(|e| view(model, *e)).collect();
-    Ok(Levels { joints, views, pairs, net })
+    let ways = model.states.iter().map(|e| way(model, *e, &joints)).collect::<Option<Vec<_>>>();
+    let ways = ways.ok_or_else(|| none("a state from which no joint is reached"))?;
+    Ok(Levels { joints, views, pairs, net, ways })
+}
+
+/// A shortest word from a state to one with a joint.
+fn way(model: &Model<'_>, state: usize, joints: &[OwnJoint]) -> Option<Vec<usize>> {
+    let mut open = vec![(state, Vec::new())];
+    let mut next = 0;
+    while let Some((e, word)) = open.get(next).cloned() {
+        if joints.iter().any(|j| j.state == e) {
+            return Some(word);
+        }
+        for (letter, piece) in model.shape.states[e].pieces.iter().enumerate() {
+            if open.iter().all(|(known, _)| *known != piece.target) {
+                open.push((piece.target, word.iter().copied().chain([letter]).collect()));
+            }
+        }
+        next += 1;
+    }
+    None
 }
 
 /// What is seen of a state: the rows of its visible quotient.

@@ -138,12 +138,7 @@ pub(super) fn eigenvalue(branch: &BranchReport) -> Option<&Root> {
 }
 
 /// The chart of a branch that is seen through `transport`, and the top of the spectrum in it.
-fn leading(
-    given: Given<'_>,
-    branch: &BranchReport,
-    field: &Field,
-    transport: &Matrix,
-) -> Result<(Chart, Top), String> {
+fn leading(given: Given<'_>, branch: &BranchReport, field: &Field, transport: &Matrix) -> Result<(Chart, Top), String> {
     let (Some(root), Outcome::Line { block, .. }) = (eigenvalue(branch), &branch.outcome) else {
         return Err("a branch without a tangent line".to_owned());
     };
@@ -235,7 +230,10 @@ fn simple(operator: &Matrix, field: &Field, minpoly: &Poly, value: Pair) -> Resu
         1 => Pairs::rational(w),
         _ => {
             let sum = minpoly.coeff(1) + &value.plain;
-            Pairs { plain: image.iter().zip(&w).map(|(x, y)| x + &sum * y).collect(), rooted: scaled(&w, &value.rooted) }
+            Pairs {
+                plain: image.iter().zip(&w).map(|(x, y)| x + &sum * y).collect(),
+                rooted: scaled(&w, &value.rooted),
+            }
         }
     };
     let (w, u) = (right.column(0), left.column(0));
@@ -306,10 +304,9 @@ fn gap(operator: &Matrix, field: &Field, top: &Top) -> Option<(usize, Rational)>
         // `x v_i g_j`, as a rational and a multiple of the root. The functional of the other end of a chain belongs to the
         // eigenvector, that of the ring to the vector above it.
         let taken = |i: usize, j: usize| match &other {
-            Some((row, upper)) => Pair {
-                plain: &image.plain[i] * &row[j] + &upper[i] * &top.row.plain[j],
-                rooted: Rational::from(0),
-            },
+            Some((row, upper)) => {
+                Pair { plain: &image.plain[i] * &row[j] + &upper[i] * &top.row.plain[j], rooted: Rational::from(0) }
+            }
             None => field.times(&image.entry(i), &top.row.entry(j)),
         };
         let n = operator.rows();

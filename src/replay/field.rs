@@ -97,7 +97,10 @@ impl Field {
             return Some(Pairs::rational(primitive(&coords)));
         }
         let pairs = d.normalised().coords.iter().map(|x| self.pair(x, &d.root)).collect::<Option<Vec<_>>>()?;
-        Some(Pairs { plain: pairs.iter().map(|x| x.plain.clone()).collect(), rooted: pairs.into_iter().map(|x| x.rooted).collect() })
+        Some(Pairs {
+            plain: pairs.iter().map(|x| x.plain.clone()).collect(),
+            rooted: pairs.into_iter().map(|x| x.rooted).collect(),
+        })
     }
 
     /// The least and the most that a pair can be.
@@ -139,7 +142,10 @@ impl Field {
 
     pub fn scaled(&self, x: &Pairs, factor: &Pair) -> Pairs {
         let entries: Vec<Pair> = (0..x.plain.len()).map(|i| self.times(&x.entry(i), factor)).collect();
-        Pairs { plain: entries.iter().map(|x| x.plain.clone()).collect(), rooted: entries.into_iter().map(|x| x.rooted).collect() }
+        Pairs {
+            plain: entries.iter().map(|x| x.plain.clone()).collect(),
+            rooted: entries.into_iter().map(|x| x.rooted).collect(),
+        }
     }
 
     pub fn dot(&self, x: &Pairs, y: &Pairs) -> Pair {

@@ -186,11 +186,7 @@ fn place(point: &PointReport) -> String {
 const PLACES: [u64; 3] = [24, 64, 160];
 
 /// What is decided in a field of all numbers of a point.
-fn decided<T>(
-    point: &PointReport,
-    place: &str,
-    decide: impl Fn(&Field) -> Result<T, String>,
-) -> Result<T, NoTheorem> {
+fn decided<T>(point: &PointReport, place: &str, decide: impl Fn(&Field) -> Result<T, String>) -> Result<T, NoTheorem> {
     let rays = point.left.iter().chain(&point.right).chain(&point.tangent);
     let irrational = rays.filter(|d| d.rational().is_none()).map(|d| &d.root);
     let numbers: Vec<_> = point.branches.iter().filter_map(evidence::eigenvalue).chain(irrational).collect();
@@ -225,7 +221,8 @@ fn with_tangent(model: &Model<'_>, point: &PointReport, field: &Field) -> Result
         _ => Err("a side with several rays"),
     };
     let line = || direction(point.tangent.as_ref().ok_or("a line that is not known")?);
-    let replayed = |branch: &BranchReport, direction: Pairs, mode: Mode| replayed(model, branch, field, direction, mode);
+    let replayed =
+        |branch: &BranchReport, direction: Pairs, mode: Mode| replayed(model, branch, field, direction, mode);
     Ok(match (point.kind, &point.branches[..]) {
         (Kind::SmoothEnd | Kind::HalfTangent, [branch]) => {
             let rays = if point.left.is_empty() { &point.right } else { &point.left };

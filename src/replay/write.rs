@@ -382,6 +382,26 @@ fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut 
         finished(out, &name, &claim, &proof);
         names.push(name);
     }
+    everywhere_dense(out, model, levels);
+    names.push("dense".to_owned());
+}
+
+/// That the joints of all levels come near every point.
+fn everywhere_dense(out: &mut String, model: &Model<'_>, levels: &Levels) {
+    let joints = list(&levels.joints, |joint| {
+        let state = model.number(joint.state);
+        let (_, q) = words(&joint.before.evidence.field);
+        let named = format!("levels_{state}_{}_{}_before", joint.pieces.0, joint.pieces.1);
+        format!("({state}%nat, ({}, {q}value {named}))", branch(&joint.before.prefix, &joint.before.cycle))
+    });
+    let _ = writeln!(
+        out,
+        "(* They come as near as one likes to every point: a word from each state to one with a joint. *)"
+    );
+    let _ = writeln!(out, "Definition joints : list (nat * (branch * qvec)) := {joints}.");
+    let _ = writeln!(out, "Definition ways : list (list nat) := {}.", list(&levels.ways, |w| word(w)));
+    let proof = format!("apply (joints_dense_ok case centres radii spaces net start joints ways); {BY_COMPUTATION}.");
+    finished(out, "dense", "joints_dense case net start joints", &proof);
 }
 
 /// Theorem 6.
