@@ -65,7 +65,7 @@ impl Radius {
     /// A [`Problem`] where there is none, and where the text is not TOML.
     pub fn certificate(&self) -> Result<String, Problem> {
         let certificate = radius_certificate(&self.file, &self.found)
-            .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; nothing was written"))?;
+            .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; no certificate was written"))?;
         let written = certificate.text();
         secant_check::check_while(&self.text, &written, crate::stop::check).map_err(|e| {
             let help = match self.text.trim_start().starts_with(['{', '[']) || !self.text.contains('=') {

@@ -110,7 +110,7 @@ impl Regions {
 /// A certificate that the checker accepts, with what it is about.
 fn accepted(plain: String, made: crate::certificate::Certificate) -> Result<(String, String), Problem> {
     let made = crate::certificate::checked(&plain, made).map_err(|e| {
-        Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; nothing was written")
+        Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; no certificate was written")
     })?;
     Ok((made.text(), plain))
 }

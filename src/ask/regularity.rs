@@ -280,6 +280,7 @@ fn given(mask: &scheme::Mask) -> Understood {
 
 /// The mask of a case with one, whether its curve converges or not; otherwise its curve, which must be a model that contracts.
 fn subject_of_case(name: &str, text: &str) -> Result<Subject, Problem> {
+    let text = &*case::valued(name, text)?;
     if let Some((texts, arity, scale)) = written_mask(text) {
         let points = DeTable::parse(text).is_ok_and(|table| table.get_ref().contains_key("control"));
         let mask = understood(&texts, arity, scale).map_err(|e| no_mask(&format!("{name}: "), e))?;
@@ -367,19 +368,19 @@ pub fn certified_regularity(
     if let Some(case) = lattice_case(what, parameters, dilation)? {
         return lattice_certified(case);
     }
-    if let Some(extra) = parameters.first() {
-        return Err(wrong(format!("`{extra}` is a parameter, and certificates are about case files")));
-    }
     if !what.ends_with(".toml") && !Path::new(what).is_file() {
         return Err(Problem::new("secant::regularity", format!("{what} is no case file, which a certificate is about"))
             .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; wavelets have no certificates"));
     }
-    let case = Case::read(Path::new(what))?;
+    let case = match parameters {
+        [] => Case::read(Path::new(what))?,
+        set => Case::ask(&format!("{what} {}", set.join(" ")))?,
+    };
     let contraction = contracting(&case)?;
     let shape = &case.shape;
     let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
     let found = curve_regularity(shape, &spaces, &Options::default()).map_err(|e| wrong(e.to_string()))?;
-    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; nothing was written");
+    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; no certificate was written");
     let certificate = crate::certificate::regularity_certificate(&case, &spaces, &contraction, &found);
     let certificate = certificate
         .map_err(|e| nothing(e.to_string()))
@@ -388,7 +389,7 @@ pub fn certified_regularity(
     let own = report::curve_regularity(shape, &found);
     let mut smooth = Smooth { text: own, data: report::curve_data(shape, &found), decided };
     if matches!(case.scheme, Some(Origin::Mask(_))) {
-        let mask = regularity(what, &[], arity)?;
+        let mask = regularity(what, parameters, arity)?;
         let text = format!("{}\nThe certificate is about the curve:\n{}", mask.text, smooth.text);
         smooth = Smooth { text, ..mask };
     }

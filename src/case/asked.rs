@@ -1,7 +1,8 @@
 //! What somebody writes instead of a file: the name of a scheme, a mask, a symbol, a wavelet, the matrices of the pieces.
 
 use super::node::clipped;
-use super::parameters::{member_text, with_settings};
+use super::member::member_text;
+use super::parameters::with_settings;
 use super::{Case, Question, VertexCase};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};

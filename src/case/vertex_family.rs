@@ -2,7 +2,8 @@
 
 use super::curve_family::at_value;
 use super::node::{File, Table};
-use super::parameters::{Setting, degree, one_free};
+use super::member::degree;
+use super::parameters::{Setting, one_free};
 use super::{Valences, VertexCase, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
