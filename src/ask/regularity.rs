@@ -8,6 +8,7 @@ use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
 use crate::report::regularity::Meaning;
+use crate::report::values::decimal;
 use crate::scheme::{self, Laurent, Normalisation};
 use crate::shape::{Contraction, Shape, Spaces};
 use crate::theorem::enclosed::enclosed;
@@ -180,7 +181,10 @@ fn of_mask(what: &str, (mask, points): (&Understood, bool), options: &Options) -
             // The translates of a continuous orthonormal scaling function are stable.
             if field.orthonormal && found.exponent.lo > 0 { Meaning::Limit } else { Meaning::Scheme },
         ),
-        Filter::Near(near) => (format!("mask        near {what}"), Meaning::Near(near)),
+        Filter::Near(near) => (
+            format!("mask        near {}", near.mask.iter().map(|c| decimal(c, 10)).collect::<Vec<_>>().join(", ")),
+            Meaning::Near(near),
+        ),
         Filter::Rational(_) => return Err(wrong("a rational mask has no enclosures".to_owned())),
     };
     let decided = found.exponent.lo > 0 || found.exponent.hi <= 0;
@@ -229,7 +233,7 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
     if what.starts_with("[[[") {
         return of_read(Case::ask(what)?);
     }
-    if what.ends_with(".toml") || Path::new(what).is_file() {
+    if what.ends_with(".toml") || Path::new(what).exists() {
         return match std::fs::read_to_string(what) {
             Ok(text) => subject_of_case(what, &text),
             // What cannot be read is said by the reader of cases.
@@ -262,7 +266,10 @@ fn scheme_named(name: &str, parameters: &[String]) -> Result<Subject, Problem> {
         let Some((key, value)) = text.split_once('=') else {
             return Err(wrong(format!("`{text}` is not of the form name=value")));
         };
-        values.insert(key.trim().to_owned(), parse_rational(value).map_err(|e| wrong(e.to_string()))?);
+        let value = parse_rational(value).map_err(|e| wrong(e.to_string()))?;
+        if values.insert(key.trim().to_owned(), value).is_some() {
+            return Err(wrong(format!("`{}` is given twice", key.trim())).with_help("give each parameter one value"));
+        }
     }
     match scheme::mask(name, &values).map_err(|e| wrong(e.to_string()))? {
         Some(mask) => Ok(Subject::Mask(given(&mask), false)),

@@ -166,8 +166,8 @@ impl Matrices {
         };
         let written = certificate::spectra(name, &operators).map_err(Doubt::from);
         let accepted = written.and_then(|c| certificate::checked(text, c));
-        let accepted =
-            accepted.map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; no certificate was written"))?;
+        let accepted = accepted
+            .map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; no certificate was written"))?;
         Ok(accepted.text())
     }
 }

@@ -1,8 +1,8 @@
 //! What somebody writes instead of a file: the name of a scheme, a mask, a symbol, a wavelet, the matrices of the pieces.
 
-use super::node::clipped;
 use super::member::member_text;
-use super::parameters::with_settings;
+use super::node::clipped;
+use super::parameters::{twice, with_settings};
 use super::{Case, Question, VertexCase};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
@@ -62,7 +62,11 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
                     Problem::new("secant::usage::parameter", format!("`{word}` is not of the form name=value"));
                 return Some(Err(problem.with_help(format!("parameters follow the name, as in `{first} w=1/16`"))));
             };
-            lines.push(format!("{} = {}", quoted(key), quoted(value)));
+            let line = format!("{} = ", quoted(key));
+            if lines.iter().any(|l| l.starts_with(&line)) {
+                return Some(Err(twice(key)));
+            }
+            lines.push(line + &quoted(value));
         }
         return Some(Ok(case(first, text, &format!("\n[scheme]\n{}", lines.join("\n")))));
     }
@@ -80,7 +84,7 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
         return Some(Ok(case("symbol", text, &format!("\n[scheme]\nsymbol = {}", quoted(text)))));
     }
     let parts = coefficients(text)?;
-    let numbers = parts.iter().any(|w| parse_rational(&w.replace("//", "/")).is_ok());
+    let numbers = parts.iter().any(|w| parse_rational(&w.replace("//", "/")).is_ok() || w.contains("sqrt("));
     let list: Vec<String> = parts.iter().map(|w| quoted(&w.replace("//", "/"))).collect();
     numbers.then(|| Ok(case("mask", text, &format!("\n[scheme]\nmask = [{}]", list.join(", ")))))
 }

@@ -1,7 +1,7 @@
 //! Curves with a parameter that is left free: `[parameters]` with maps or operators.
 
-use super::node::{File, Table};
 use super::member::{degree, member_text};
+use super::node::{File, Table};
 use super::parameters::{Setting, one_free};
 use super::{Case, read};
 use crate::arith::Rational;

@@ -138,7 +138,9 @@ fn lines_of_parameters(table: &Spanned<DeTable<'_>>, text: &str) -> Vec<Range<us
     let start_of = |at: usize| text[..at].rfind('\n').map_or(0, |k| k + 1);
     let starts: BTreeSet<usize> = spans
         .iter()
-        .flat_map(|s| std::iter::once(start_of(s.start)).chain(text[s.clone()].match_indices('\n').map(|(k, _)| s.start + k + 1)))
+        .flat_map(|s| {
+            std::iter::once(start_of(s.start)).chain(text[s.clone()].match_indices('\n').map(|(k, _)| s.start + k + 1))
+        })
         .collect();
     starts.into_iter().map(|at| at..text[at..].find('\n').map_or(text.len(), |k| at + k)).collect()
 }
@@ -245,7 +247,10 @@ pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free, most: usize) -> 
             Expression::Formula(text) if mentions(&text, |word| word == name) => {
                 let formula = case.get("vertex").is_some() && mentions(&text, |word| FORMULA_WORDS.contains(&word));
                 let message = match formula {
-                    true => format!("`{}` has the parameter `{name}` and the valence in one weight, which regions do not take yet", clipped(&text)),
+                    true => format!(
+                        "`{}` has the parameter `{name}` and the valence in one weight, which regions do not take yet",
+                        clipped(&text)
+                    ),
                     false => format!("`{}` is no polynomial in `{name}`", clipped(&text)),
                 };
                 return Err(case.file.problem("parameters", message, span, "this expression").with_help(single));

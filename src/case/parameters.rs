@@ -106,7 +106,11 @@ pub(super) fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<
         let Some(node) = table.get(&key) else { continue };
         if letters.contains(&key.as_str()) {
             return Err(node
-                .problem("parameter", format!("`{key}` has a meaning of its own in formulas of weights and in symbols"), "this name")
+                .problem(
+                    "parameter",
+                    format!("`{key}` has a meaning of its own in formulas of weights and in symbols"),
+                    "this name",
+                )
                 .with_help("give the parameter another name"));
         }
         if !is_name(&key) {
@@ -126,12 +130,21 @@ pub(super) fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<
     unknown(case, set, all)
 }
 
+/// A parameter that is given two values.
+pub(super) fn twice(name: &str) -> Problem {
+    Problem::new("secant::usage::parameter", format!("`{}` is given twice", clipped(name)))
+        .with_help("give each parameter one value")
+}
+
 fn unknown(
     case: &Table<'_>,
     set: &[(String, Setting)],
     mut all: Vec<(String, Setting)>,
 ) -> Result<Vec<(String, Setting)>, Problem> {
-    for (name, setting) in set {
+    for (k, (name, setting)) in set.iter().enumerate() {
+        if set[..k].iter().any(|(earlier, _)| earlier == name) {
+            return Err(twice(name));
+        }
         match all.iter_mut().find(|(own, _)| own == name) {
             Some((_, own)) => own.clone_from(setting),
             None => {
@@ -223,6 +236,13 @@ impl MaskFamilyCase {
     fn of_table(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let name = super::read::name(case)?;
         let free = one_free(case, set)?;
+        if let Some(span) = case.key_span("interpolate") {
+            let message = "regions are found of masks, of curves by maps or operators, and of weights at vertices";
+            return Err(case
+                .file
+                .problem("parameters", message, span, "not of data that are interpolated")
+                .with_help("give the parameter a value behind the case, as in `secant certify CASE w=1/16`"));
+        }
         let node = case.need("scheme", "{ mask = [ … ] }")?;
         let mut table = node.table()?;
         table.what = "`[scheme]`".to_owned();

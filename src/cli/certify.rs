@@ -16,7 +16,7 @@ use crate::prove::Findings;
 use crate::report::proof::Level;
 use crate::report::words::{self, listed};
 use crate::report::{findings, html, json, latex, markdown};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The exit code of a verdict.
 #[must_use]
@@ -131,6 +131,16 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
     if mesh && args.cases.len() > 1 {
         return Err(Problem::new("secant::usage", "a mesh is certified by itself")
             .with_help("give one mesh at a time, with its --scheme"));
+    }
+    let with_value = |path: &&PathBuf| {
+        path.to_str()
+            .and_then(|text| text.split_once(char::is_whitespace))
+            .is_some_and(|(file, _)| is_mesh(Path::new(file)))
+    };
+    if let Some(path) = args.cases.iter().find(with_value) {
+        return Err(Problem::new("secant::usage", format!("{}: a mesh has no parameters", path.display())).with_help(
+            "leave out NAME=VALUE and --set; weights of a rule are parameters of a case with a [vertex] table",
+        ));
     }
     if let Some(option) =
         [(args.scheme.is_some(), "--scheme"), (args.ply.is_some(), "--ply"), (args.boundary.is_some(), "--boundary")]

@@ -32,14 +32,13 @@ fn of(command: &Command) -> Files<'_> {
         outputs.into_iter().filter_map(Option::as_deref).collect()
     }
     let (inputs, outputs) = match command {
-        Command::Certify(a) => {
-            (texts(&a.cases), given([&a.report, &a.svg, &a.png, &a.ply, &a.certificate, &a.coq]))
-        }
+        Command::Certify(a) => (texts(&a.cases), given([&a.report, &a.svg, &a.png, &a.ply, &a.certificate, &a.coq])),
         Command::Spectrum(a) => (texts(&a.files), given([&a.certificate])),
         Command::Jsr(a) => (texts(&a.files), given([&a.svg, &a.certificate])),
-        Command::Regularity(a) => {
-            (std::iter::once(a.what.as_str()).chain(a.more.iter().map(String::as_str)).collect(), given([&a.certificate]))
-        }
+        Command::Regularity(a) => (
+            std::iter::once(a.what.as_str()).chain(a.more.iter().map(String::as_str)).collect(),
+            given([&a.certificate]),
+        ),
         Command::Region(a) => (vec![a.what.as_str()], given([&a.report, &a.svg, &a.certificate])),
         Command::Expand { cases, output, .. } => (texts(cases), given([output])),
         Command::Import { file, output, .. } => (file.to_str().into_iter().collect(), given([output])),
@@ -88,9 +87,7 @@ pub fn keep_apart(command: &Command) -> Result<(), Problem> {
     let files = of(command);
     let inputs: Vec<PathBuf> = files.inputs.iter().filter_map(|text| read_for(text)).collect();
     let mut taken: Vec<PathBuf> = Vec::new();
-    for (path, in_place) in
-        files.outputs.iter().map(|p| (*p, false)).chain(files.in_place.iter().map(|p| (*p, true)))
-    {
+    for (path, in_place) in files.outputs.iter().map(|p| (*p, false)).chain(files.in_place.iter().map(|p| (*p, true))) {
         let Some(place) = place(path) else { continue };
         if !in_place && inputs.contains(&place) {
             return Err(itself(path));
@@ -121,7 +118,11 @@ impl Written {
     }
 
     /// Writes a certificate, and the case beside it, as [`write_certificate`].
-    pub fn certificate(&mut self, path: Option<&Path>, make: impl FnOnce() -> Result<(String, Option<String>), Problem>) {
+    pub fn certificate(
+        &mut self,
+        path: Option<&Path>,
+        make: impl FnOnce() -> Result<(String, Option<String>), Problem>,
+    ) {
         let Some(path) = path else { return };
         self.done(guarded(|| {
             let (certificate, beside) = make()?;
@@ -161,7 +162,9 @@ fn write_certificate(path: &Path, certificate: String, expanded: Option<String>)
     write_file(path, certificate)?;
     write_file(&beside, format!("{BESIDE}{}\n{case}", sha256(&case)))?;
     let (case, path) = (beside.display(), path.display());
-    remark(&format!("note: the certificate is about the expanded case, which is in {case}: secant-check {case} {path}"));
+    remark(&format!(
+        "note: the certificate is about the expanded case, which is in {case}: secant-check {case} {path}"
+    ));
     Ok(())
 }
 
@@ -181,9 +184,11 @@ fn free(beside: &Path, case: &str) -> Result<(), Problem> {
 }
 
 fn foreign(beside: &Path) -> Problem {
-    let message = format!("{} is another file, in whose place the case of the certificate would be written", beside.display());
-    Problem::new("secant::output::beside", message)
-        .with_help("the case is written beside its certificate: give that another name, or move the file; neither was written")
+    let message =
+        format!("{} is another file, in whose place the case of the certificate would be written", beside.display());
+    Problem::new("secant::output::beside", message).with_help(
+        "the case is written beside its certificate: give that another name, or move the file; neither was written",
+    )
 }
 
 #[cfg(test)]

@@ -86,7 +86,11 @@ fn options(args: &JsrArgs) -> Result<Options, Problem> {
 fn answer(path: &Path, args: &JsrArgs) -> Result<Radius, Problem> {
     let name = path.display().to_string();
     let wrong = |message: String, help: &str| Problem::new("secant::jsr", message).with_help(help);
-    let text = std::fs::read_to_string(path).map_err(|e| {
+    let read = match name.as_str() {
+        "-" => std::io::read_to_string(std::io::stdin()),
+        _ => std::fs::read_to_string(path),
+    };
+    let text = read.map_err(|e| {
         let scheme = !path.exists() && crate::case::Case::ask(&name).is_ok();
         let help = if scheme {
             "it is a scheme: `secant regularity` bounds the radii that say how smooth it is; here name a file with `matrices = [...]`"

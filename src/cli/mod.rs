@@ -283,6 +283,13 @@ impl CertifyArgs {
                 ],
             )?;
         }
+        if let Some(set) = self.set.iter().filter_map(|s| s.to_str()).find(|s| !question::is_parameter(s)) {
+            return Err(Problem::new(
+                "secant::usage::parameter",
+                format!("--set {set}: a parameter gets its value by ="),
+            )
+            .with_help("write --set NAME=VALUE, as in --set w=1/16"));
+        }
         self.cases.append(&mut self.set);
         Ok(Self { cases: question::joined(self.cases), ..self })
     }
@@ -371,7 +378,8 @@ struct RegularityArgs {
 
 #[derive(Debug, Args)]
 struct JsrArgs {
-    /// Files with `matrices = [...]`, JSON, or plain text (docs/radius.md).
+    /// Files with `matrices = [...]`, JSON, plain text, or matrices as NumPy prints them (docs/radius.md); `-` reads the standard
+    /// input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print JSON; of several files a list.
@@ -425,7 +433,9 @@ pub fn main() -> ExitCode {
     // Also for the messages about the command line itself.
     let choice = output::Colour::of_arguments(std::env::args_os());
     output::choose(choice);
-    let parsed = Cli::command().color(choice.of_help()).try_get_matches().and_then(|m| Cli::from_arg_matches(&m));
+    let arguments = question::with_masks(std::env::args_os(), &Cli::command());
+    let parsed =
+        Cli::command().color(choice.of_help()).try_get_matches_from(arguments).and_then(|m| Cli::from_arg_matches(&m));
     let cli = match parsed {
         Ok(cli) => cli,
         Err(error) => {
