@@ -105,7 +105,7 @@ fn a_file_that_cannot_be_made_takes_no_answer_with_it() {
     for (args, answer) in [
         (&["jsr", "np.txt", "--certificate", "c.json", "--svg", "c.svg"][..], "1.6180"),
         (&["regularity", "db2", "--certificate", "c.json"], "0.55"),
-        (&["spectrum", "golden.txt", "--certificate", "c.json"], "eigenvalue"),
+        (&["spectrum", "golden.txt", "--certificate", "c.json"], "moduli"),
         (&["region", "lv.toml", "--effort", "quick", "--certificate", "c.json", "--report", "c.md"], "valence"),
         (&["certify", "four-point", "--coq", "no/such/c.v", "--svg", "c.svg"], "Verdict"),
     ] {
@@ -165,7 +165,7 @@ fn parameters_go_with_the_valence_and_into_symbols() {
         std::fs::write(dir.join(name), text).expect("written");
     }
     let answers = |args: &[&str]| {
-        let (out, _) = run(dir, &[&["certify", "--json"][..], args].concat(), 0);
+        let (out, _) = run(dir, &[&["certify", "--json"][..], args].concat(), i32::from(args.contains(&"w=1/16")));
         let data: serde_json::Value = serde_json::from_str(&out).expect("JSON");
         (data["claims"].clone(), data["valences"].clone())
     };

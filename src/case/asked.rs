@@ -37,9 +37,26 @@ fn case(name: &str, title: &str, body: &str) -> String {
     format!("name = {}\ntitle = {}\n{body}\n", quoted(name), quoted(title))
 }
 
+/// What stands between the brackets around a whole text.
+fn enclosed(text: &str) -> Option<&str> {
+    let mut depth = 0_i64;
+    let closes = text.char_indices().find(|(_, c)| {
+        depth += match c {
+            '[' | '(' => 1,
+            ']' | ')' => -1,
+            _ => 0,
+        };
+        depth <= 0
+    });
+    closes.filter(|(at, _)| *at > 0 && at + 1 == text.len()).map(|(at, _)| &text[1..at])
+}
+
 /// The coefficients of a list: separated by commas, or by blanks as NumPy prints them.
 fn coefficients(text: &str) -> Option<Vec<&str>> {
-    let inner = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    let mut inner = text.trim();
+    while let Some(within) = enclosed(inner) {
+        inner = within.trim();
+    }
     let parts: Vec<&str> = if inner.contains(',') {
         inner.split(',').map(str::trim).filter(|w| !w.is_empty()).collect()
     } else {

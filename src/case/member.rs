@@ -17,8 +17,7 @@ use toml::de::{DeTable, DeValue};
 const MEMBER: &str = "# Member of a family: ";
 
 /// Keys that are words, and those below them.
-const WORDS: [&str; 10] =
-    ["name", "mesh", "cell", "normalisation", "valence", "arity", "to", "kind", "layout", "split"];
+const WORDS: [&str; 9] = ["name", "mesh", "cell", "normalisation", "valence", "arity", "to", "kind", "layout"];
 /// Lists of words.
 const LISTS: [&str; 2] = ["chain", "reversed"];
 

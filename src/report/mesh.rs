@@ -114,11 +114,6 @@ pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Docu
     }
     blocks.push(Block::heading(2, "Claims"));
     blocks.push(Block::List(claims(found)));
-    if !found.closed && found.boundary.is_none() {
-        blocks.push(Block::Paragraph(words(
-            "The border has no rule, so that nothing is known of the surface at it: add --boundary edge or edge-and-corner.",
-        )));
-    }
     if whole {
         let title = format!("{} with its verdicts", model.name);
         if let Some(svg) = svg(model, found, &title) {
