@@ -1,5 +1,6 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
+use super::region_plane::{RegionsInPlane, plane_regions};
 use super::region_vertex::{RegionsAtVertices, vertex_regions};
 use crate::answer::Verdict;
 use crate::budget::Budget;
@@ -9,9 +10,10 @@ use crate::radius::family::Search;
 use crate::report::document::Document;
 use crate::report::region as report;
 use crate::report::region_curve as curve_report;
+use crate::report::region_plane as plane_report;
 use crate::report::region_vertex as vertex_report;
 use crate::scheme;
-use crate::theorem::region::{CurveFamily, CurveRegions, MaskFamily, OrderRegion};
+use crate::theorem::region::{CurveFamily, CurveRegions, MaskFamily, OrderRegion, PlaneLimits};
 use serde_json::Value;
 use std::path::Path;
 
@@ -165,6 +167,17 @@ impl RegionsOfCurve {
     }
 }
 
+/// How far the plane is divided unless it is told otherwise, and at most.
+pub const DEPTH: usize = 7;
+const MAX_DEPTH: usize = 10;
+/// Work of the search that stands for one box.
+const BOX: u64 = 1_000_000;
+
+fn plane_limits(asked: &Asked, search: &Search) -> PlaneLimits {
+    let boxes = usize::try_from(search.work / BOX).map_or(usize::MAX, |n| n);
+    PlaneLimits { depth: asked.depth.map_or(DEPTH, |d| d).min(MAX_DEPTH), boxes, time: search.time }
+}
+
 /// What `secant region` answers.
 #[derive(Debug, Clone)]
 pub enum Family {
@@ -174,6 +187,8 @@ pub enum Family {
     Curve(Box<RegionsOfCurve>),
     /// At vertices of meshes.
     Vertex(Box<RegionsAtVertices>),
+    /// Of a curve with two parameters.
+    Plane(Box<RegionsInPlane>),
 }
 
 /// What is asked of a family beside its range.
@@ -183,6 +198,8 @@ pub struct Asked {
     pub order: Option<usize>,
     /// The valences at vertices of meshes, in the place of those of the file.
     pub valences: Option<Valences>,
+    /// How far the plane of two parameters is divided; without it as the effort says.
+    pub depth: Option<usize>,
 }
 
 impl Family {
@@ -196,6 +213,7 @@ impl Family {
         asked: &Asked,
         search: &Search,
         budget: &Budget,
+        step: &dyn Fn(usize),
     ) -> Result<Self, Problem> {
         let path = Path::new(what);
         let named = scheme::list().iter().any(|s| s.name == what);
@@ -209,7 +227,10 @@ impl Family {
             FamilyForm::Mask => {
                 Self::Mask(Box::new(regions(what, set, asked.order.map_or(usize::MAX, |k| k), search)?))
             }
-            FamilyForm::Curve => Self::Curve(Box::new(curve_regions(path, set, search, budget)?)),
+            FamilyForm::Curve => match plane_regions(path, set, &plane_limits(asked, search), step)? {
+                Some(found) => Self::Plane(Box::new(found)),
+                None => Self::Curve(Box::new(curve_regions(path, set, search, budget)?)),
+            },
             FamilyForm::Vertex => Self::Vertex(Box::new(vertex_regions(path, set, valences, search, budget)?)),
         })
     }
@@ -221,6 +242,7 @@ impl Family {
             Self::Mask(r) => r.verdict(),
             Self::Curve(r) => r.verdict(),
             Self::Vertex(r) => r.verdict(),
+            Self::Plane(r) => r.verdict(),
         }
     }
 
@@ -231,6 +253,7 @@ impl Family {
             Self::Mask(r) => r.document(),
             Self::Curve(r) => curve_report::document(&r.case, &r.found),
             Self::Vertex(r) => vertex_report::document(&r.case, &r.found),
+            Self::Plane(r) => plane_report::document(&r.case, &r.found),
         }
     }
 
@@ -241,6 +264,7 @@ impl Family {
             Self::Mask(r) => r.report(),
             Self::Curve(r) => curve_report::report(&r.case, &r.found),
             Self::Vertex(r) => vertex_report::report(&r.case, &r.found),
+            Self::Plane(r) => plane_report::report(&r.case, &r.found),
         }
     }
 
@@ -251,6 +275,7 @@ impl Family {
             Self::Mask(r) => r.svg(),
             Self::Curve(r) => curve_report::picture(&r.case, &r.found).map(|p| p.0),
             Self::Vertex(r) => vertex_report::picture(&r.case, &r.found).map(|p| p.0),
+            Self::Plane(r) => Some(plane_report::picture(&r.case, &r.found).0),
         }
     }
 
@@ -261,6 +286,7 @@ impl Family {
             Self::Mask(r) => r.data(),
             Self::Curve(r) => curve_report::data(&r.case, &r.found),
             Self::Vertex(r) => vertex_report::data(&r.case, &r.found),
+            Self::Plane(r) => plane_report::data(&r.case, &r.found),
         }
     }
 
@@ -272,6 +298,11 @@ impl Family {
         match self {
             Self::Mask(r) => r.certificate(),
             Self::Curve(r) => r.certificate(),
+            Self::Plane(r) => Err(Problem::new(
+                "secant::region::certificate",
+                format!("{}: there is no certificate format for regions in the plane", r.case.name),
+            )
+            .with_help("a line through it has one: give one of the parameters a value")),
             Self::Vertex(r) => Err(Problem::new(
                 "secant::region::certificate",
                 format!("{}: there is no certificate format for regions at vertices", r.case.name),

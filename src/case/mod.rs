@@ -17,6 +17,7 @@ mod matrix;
 pub mod matrix_file;
 mod node;
 mod parameters;
+mod plane_family;
 mod question;
 mod read;
 mod schema;
@@ -34,6 +35,7 @@ pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error}
 pub use field::is_over_field;
 pub use lattice::LatticeCase;
 pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting};
+pub use plane_family::PlaneFamilyCase;
 pub use question::{Question, Subject};
 pub use schema::schema;
 pub use vertex::{Valences, VertexCase};

@@ -294,6 +294,37 @@ pub(super) fn one_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Fr
     Ok(Free { parameter: (*parameter).clone(), range: ((*from).clone(), (*to).clone()), names })
 }
 
+/// Two parameters that are left free.
+pub(super) struct TwoFree {
+    pub parameters: [String; 2],
+    pub ranges: [(Rational, Rational); 2],
+    /// What every name stands for where one of them is the variable and the other has a value.
+    pub names: [BTreeMap<String, Poly>; 2],
+}
+
+/// The parameters of a family with two that are left free; `None` where it is not two.
+pub(super) fn two_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Option<TwoFree>, Problem> {
+    let all = parameters(case, set)?;
+    let range = |s: &Setting| match s {
+        Setting::Range(from, to) => Some((from.clone(), to.clone())),
+        Setting::Value(_) => None,
+    };
+    let free: Vec<(String, (Rational, Rational))> =
+        all.iter().filter_map(|(n, s)| Some((n.clone(), range(s)?))).collect();
+    let [(p, first), (q, second)] = free.as_slice() else { return Ok(None) };
+    let names = [p, q].map(|variable| {
+        let value = |(n, s): &(String, Setting)| match s {
+            Setting::Value(x) => (n.clone(), Poly::constant(x.clone())),
+            Setting::Range(..) if n == variable => (n.clone(), Poly::linear(&Rational::from(0))),
+            // A value for which no degree falls by chance.
+            Setting::Range(..) => (n.clone(), Poly::constant(Rational::from_unsigneds(1_000_003_u64, 7_001))),
+        };
+        all.iter().map(value).collect()
+    });
+    let (parameters, ranges) = ([p.clone(), q.clone()], [first.clone(), second.clone()]);
+    Ok(Some(TwoFree { parameters, ranges, names }))
+}
+
 /// The text without the lines of its table `[parameters]`.
 fn without_parameters(text: &str) -> String {
     let mut inside = false;

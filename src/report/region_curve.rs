@@ -67,7 +67,8 @@ fn because(found: &CurveRegions, part: &CurvePart) -> String {
     }
 }
 
-fn argument(why: &Why) -> String {
+/// What an argument says.
+pub(super) fn argument(why: &Why) -> String {
     match why {
         Why::InCone => "secants stay in a cone on which the leading coefficients have one sign".to_owned(),
         Why::Cones { slow: false } => "common cones, and regular joints".to_owned(),
@@ -84,16 +85,21 @@ fn statement(basis: &Basis) -> Option<Statement> {
     Some(match basis {
         Basis::Hull(_) => Statement::FamilyHulls,
         Basis::Word(_) => Statement::FamilyWords,
-        Basis::Argument(why) => match why {
-            Why::InCone => Statement::ConeEnds,
-            Why::Cones { slow: false } => Statement::Theorem6,
-            Why::Cones { slow: true } => Statement::Theorem6Slow,
-            Why::Corner(_) => Statement::LowerBounds,
-            Why::Spiral(_) | Why::Alternates(_) | Why::Cusp(_) => Statement::Corollary,
-            Why::Jumps(_) => Statement::TangentsJump,
-        },
+        Basis::Argument(why) => argument_statement(why),
         Basis::NoContraction | Basis::Member | Basis::Irrational | Basis::Gap | Basis::Search => return None,
     })
+}
+
+/// The statement that an argument uses.
+pub(super) fn argument_statement(why: &Why) -> Statement {
+    match why {
+        Why::InCone => Statement::ConeEnds,
+        Why::Cones { slow: false } => Statement::Theorem6,
+        Why::Cones { slow: true } => Statement::Theorem6Slow,
+        Why::Corner(_) => Statement::LowerBounds,
+        Why::Spiral(_) | Why::Alternates(_) | Why::Cusp(_) => Statement::Corollary,
+        Why::Jumps(_) => Statement::TangentsJump,
+    }
 }
 
 fn place(part: &CurvePart) -> String {
