@@ -66,7 +66,7 @@ fn benches(c: &mut Criterion) {
     );
     let vertex = |name: &str, valences: &str| {
         let valences = Valences::parse(valences).expect("valences");
-        Question::at_valences(&case(name), valences).expect("a case")
+        Question::at_valences(&case(name).display().to_string(), valences).expect("a case")
     };
     group(
         c,

@@ -82,9 +82,10 @@ pub fn checkers(text: &str) -> Result<(String, bool), String> {
 /// certificate uses. It never reads another system.
 pub fn differ(text: &str) -> Option<String> {
     match (secants(text), checkers(text)) {
-        (Ok(a), Ok((b, _))) => (a != b).then(|| format!("two systems:\n{a}\n{b}")),
+        // The checker takes symmetries among the maps of a set for maps; certificates are about the set that is written out.
+        (Ok(a), Ok((b, _))) => (a != b && !is_written_out(text)).then(|| format!("two systems:\n{a}\n{b}")),
         (Ok(_), Err(why)) => {
-            let room = ["limit", "meshes are not built here", "rows and columns", "pieces or coordinates"];
+            let room = ["limit", "not built here", "rows and columns", "pieces or coordinates"];
             let vertex = text.contains("[vertex]");
             // Of states that name schemes or are chains, and of data to interpolate, the checker reads the expanded form.
             let expands = ["\nchain = ", "\nscheme = ", "\n[interpolate]"];
@@ -112,10 +113,15 @@ pub fn differ(text: &str) -> Option<String> {
     }
 }
 
+/// Whether certificates of a case are about another text.
+fn is_written_out(text: &str) -> bool {
+    secant::case::Case::parse("a.toml", text).is_ok_and(|case| case.beside().is_some())
+}
+
 /// Stops where both read a text, as two systems.
 #[allow(dead_code)]
 pub fn compare(text: &str) {
     if let (Ok(own), Ok((theirs, _))) = (secants(text), checkers(text)) {
-        assert_eq!(own, theirs, "two systems");
+        assert!(own == theirs || is_written_out(text), "two systems:\n{own}\n{theirs}");
     }
 }

@@ -13,7 +13,8 @@ shift
 if [ $# -eq 0 ]; then
   cases=$here/../cases
   set -- "$cases/thesis/half-tangent.toml" "$cases/two-parameter/quarter-quarter.toml" "$cases/classical/takagi.toml" \
-    "$cases/two-parameter/corner-3-5.toml" "$cases/bspline/degree-3.toml" "$cases/classical/koch-4.toml"
+    "$cases/two-parameter/corner-3-5.toml" "$cases/bspline/degree-3.toml" "$cases/classical/koch-4.toml" \
+    "$cases/control/bezier-cusp.toml" "$cases/two-parameter/interior-periodic.toml" "$cases/classical/levy.toml"
 fi
 ! grep -rnE '\b(Admitted|admit|Axiom|Parameter|Conjecture|Abort)\b' "$here/theories" || { echo "something is not proved"; exit 1; }
 make -s -C "$here"

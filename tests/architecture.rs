@@ -166,3 +166,34 @@ fn proving_rooms_hold_no_prose() {
     }
     assert!(seen > 100, "{seen} literals were read");
 }
+
+/// The Rust files of a folder, by name.
+fn programs(folder: &str) -> BTreeSet<String> {
+    let entries = std::fs::read_dir(root().join(folder)).unwrap().map(|e| e.unwrap().path());
+    let rust = entries.filter(|p| p.extension().is_some_and(|e| e == "rs"));
+    rust.map(|p| p.file_name().unwrap().to_string_lossy().into_owned()).collect()
+}
+
+/// A file of tests that no program has would never run.
+#[test]
+fn every_file_of_tests_is_in_a_program() {
+    let read = |file: &str| std::fs::read_to_string(root().join(file)).unwrap();
+    let quoted = |line: &str, prefix: &str| Some(line.strip_prefix(prefix)?.split('"').next()?.to_owned());
+    let suite = read("tests/suite.rs");
+    let mut found: BTreeSet<String> = read("Cargo.toml")
+        .lines()
+        .filter_map(|l| quoted(l, "path = \"tests/"))
+        .filter(|f| f.ends_with(".rs"))
+        .collect();
+    for (path, module) in suite.lines().zip(suite.lines().skip(1)) {
+        if let Some(file) = quoted(path, "#[path = \"") {
+            assert!(module.starts_with("mod ") && module.ends_with(';'), "{module}");
+            found.insert(file);
+        }
+    }
+    found.retain(|f| !f.starts_with("../"));
+    assert_eq!(found, programs("tests"));
+    let targets = read("fuzz/Cargo.toml");
+    let targets = targets.lines().filter_map(|l| quoted(l, "path = \"fuzz_targets/"));
+    assert_eq!(targets.collect::<BTreeSet<_>>(), programs("fuzz/fuzz_targets"));
+}

@@ -701,3 +701,18 @@ fn options_of_radii_are_checked() {
         assert!(out.is_empty() && err.contains(option), "{option} {value}\n{err}");
     }
 }
+
+#[test]
+fn two_surfaces_are_joined() {
+    let joined = |more: &[&str], code: i32| {
+        output(&[&["junction", "doo-sabin", "catmull-clark", "--surface"], more].concat(), code)
+    };
+    let found: Value = serde_json::from_str(&joined(&["--json"], 0).0).expect("JSON");
+    let member = &found["member"];
+    assert_eq!((&member["pattern"], &member["passes"]), (&"D,I".into(), &true.into()));
+    assert_eq!((member["points"][0].as_u64(), member["parameters"].as_u64()), (Some(18), Some(24)));
+    assert!(joined(&["--pattern", "I,C"], 1).0.contains("no member passes"));
+    assert!(joined(&["--pattern", "D,I", "--stencil", "1/2, 1/2"], 2).1.contains("2 stencils are free"));
+    let other = ["junction", "doo-sabin", "bspline degree=2 arity=3", "--surface"];
+    assert!(output(&other, 2).1.contains("2, 2, 3, 3 pieces"));
+}

@@ -24,14 +24,39 @@ fn written(case: &str) -> String {
     std::fs::read_to_string(file).unwrap()
 }
 
-const REPLAYED: [(&str, &[&str]); 6] = [
+const REPLAYED: [(&str, &[&str]); 9] = [
     ("cases/thesis/half-tangent.toml", &["half_tangent", "cusp (automaton", "levels_0_0_1", "Not stated: every point"]),
     ("cases/two-parameter/quarter-quarter.toml", &["regular (automaton", "levels_0_0_1", "tangent_at_every_address"]),
     ("cases/classical/takagi.toml", &["lead := Block (1#2)", "cusp (automaton"]),
     ("cases/two-parameter/corner-3-5.toml", &["corner (automaton", "verdict: refuted"]),
     ("cases/bspline/degree-3.toml", &["regular (automaton", "tangent_at_every_address"]),
     ("cases/classical/koch-4.toml", &["no_tangent (automaton", "direction_evidence"]),
+    // Control points that hide part of what the operators do.
+    ("cases/control/bezier-cusp.toml", &["cusp (automaton", "ambient := 4", "turn := [["]),
+    // Both sides of a point inside a cell; secants that turn for ever.
+    ("cases/two-parameter/interior-periodic.toml", &["passes (automaton", "passes_ok"]),
+    ("cases/classical/levy.toml", &["no_tangent (automaton"]),
 ];
+
+/// A curve at whose ends a complex pair dominates that is no multiple of a root of unity.
+const OBLIQUE: &str = r#"
+name = "oblique"
+
+[[map]]
+linear = [["1/2", "-1/5"], ["1/5", "1/2"]]
+shift = [0, 0]
+
+[[map]]
+linear = [["1/2", "1/5"], ["-1/5", "1/2"]]
+shift = ["1/2", "1/5"]
+"#;
+
+fn oblique() -> String {
+    let dir = tempfile::tempdir().unwrap();
+    let case = dir.path().join("oblique.toml");
+    std::fs::write(&case, OBLIQUE).unwrap();
+    written(case.to_str().unwrap())
+}
 
 #[test]
 fn files_state_what_was_found_about_the_matrices_of_the_case() {
@@ -41,6 +66,8 @@ fn files_state_what_was_found_about_the_matrices_of_the_case() {
             assert!(text.contains(piece), "{case}: {piece} is missing in\n{text}");
         }
     }
+    let spiral = oblique();
+    assert!(spiral.contains("spiral_ok") && spiral.contains("trace := 1; norm := 29#100"), "{spiral}");
     let thesis = written(REPLAYED[0].0);
     assert!(thesis.contains("[[5#4; 1#2; 0]; [-1#4; 1#2; 5#4]; [0; 0; -1#4]]"), "{thesis}");
     assert!(thesis.contains("(qv [-1; 1; 0])") && thesis.contains("= qv [2; -1; 0]"), "{thesis}");
@@ -51,7 +78,7 @@ fn what_has_no_formal_theorem_is_refused_and_nothing_is_written() {
     for (case, why) in [
         ("cases/irrational/regular-sqrt-2.toml", "irrational"),
         ("cases/contraction/long-words.toml", "Lemma 1"),
-        ("cases/classical/levy.toml", "refutation other than"),
+        ("cases/counterexamples/uniformity.toml", "refutation other than"),
         ("cases/surfaces/bicubic-space.toml", "surface"),
         ("cases/two-parameter/sign-change.toml", "ring condition that takes too many cells"),
     ] {
@@ -104,6 +131,10 @@ fn coq_accepts_the_files_and_no_changed_one() {
     let smooth = written("cases/two-parameter/quarter-quarter.toml");
     let corner = written("cases/two-parameter/corner-3-5.toml");
     let koch = written("cases/classical/koch-4.toml");
+    let seen = written("cases/control/bezier-cusp.toml");
+    let inside = written("cases/two-parameter/interior-periodic.toml");
+    let spiral = oblique();
+    assert!(coqc(&spiral).0, "{spiral}");
     for (text, from, to) in [
         // Another matrix, with columns that still sum to 1; a column that does not.
         (&thesis, "[5#4; 1#2; 0]; [-1#4; 1#2; 5#4]", "[5#4; 1#4; 0]; [-1#4; 3#4; 5#4]"),
@@ -124,6 +155,14 @@ fn coq_accepts_the_files_and_no_changed_one() {
         (&smooth, "firsts := [[", "firsts := [[1; 0; 0]; ["),
         (&smooth, "low := 1", "low := 900"),
         (&koch, "turns_power := 1", "turns_power := 0"),
+        // A space that leaves out differences, a chart that is not kept, a tail whose offset leaves its space.
+        (&seen, "spaces : list qmat := [[[", "spaces : list qmat := [[]; [["),
+        (&seen, "coordinates := [[1", "coordinates := [[2"),
+        (&koch, "stays := [[", "stays := [[1; 1; 1]; ["),
+        // The opposite direction inside a cell; another pair.
+        (&inside, "(qv [-2; 1; 1])", "(qv [2; -1; -1])"),
+        (&spiral, "trace := 1;", "trace := 2;"),
+        (&spiral, "norm := 29#100", "norm := 1#5"),
     ] {
         let (accepted, said) = coqc(&changed(text, from, to));
         assert!(!accepted, "Coq accepts the file with {to} in the place of {from}");

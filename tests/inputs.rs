@@ -227,7 +227,7 @@ fn mistakes_are_told_with_a_remedy() {
         (&["certify", "loop"], "", "[vertex] mesh"),
         (&["certify", "-"], "name = \"c\"\n[scheme]\nmask = [1/4, 3/4]\n", "\"1/4\""),
         (&["certify", "-"], "name = \"c\"\n[scheme]\nname = \"bspline\"\ncontrol = [[0]]\n", "above the line [scheme]"),
-        (&["certify", "-"], "name = \"v\"\n[vertex]\nmesh = \"loop\"\nvalence = 5000\n", "between 3 and 256"),
+        (&["certify", "-"], "name = \"v\"\n[vertex]\nmesh = \"loop\"\nvalence = 5000\n", "between 2 and 1024"),
         (&["certify", "-"], "name = \"p\"\nmatrices = [[[1]]]\n", "secant jsr"),
         (&["certify", "-"], "v 0 0 0\nv 1 0 0\nf 1 2 2\n", "mesh in the Wavefront format"),
         (&["certify", "-"], "{\"maps\": []}", "secant import"),

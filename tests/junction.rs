@@ -307,3 +307,42 @@ fn any_two_schemes_have_a_junction() {
         }
     }
 }
+
+/// The intermediate curve on the points of its pieces is the same curve, and the operators of both agree through the stencils.
+#[test]
+fn the_intermediate_curve_refined_inside() {
+    let (two, three) = (spline("2"), spline("3"));
+    let before = member(&two, &three, "a,I,b", &["0, 7/10, 1/5, 1/10, 0", "0, 3/10, 11/20, 3/20, 0"]);
+    let after = before.refined_inside().unwrap();
+    assert_eq!((after.junction.points, after.junction.pattern), (7, Pattern::parse("a,a,I,b,b").unwrap()));
+    let embedding = before.array.transpose();
+    let (own, larger) = (before.junction.own(&before.array), after.junction.own(&after.array));
+    assert_eq!(&embedding * &larger, &own * &embedding);
+    assert_eq!(moduli(&after)[..4], moduli(&before)[..4]);
+    // The pieces of both kinds, two for each of the old ones.
+    let (old, new) = (before.junction.operators(&before.array), after.junction.operators(&after.array));
+    for j in 0..2 {
+        assert_eq!(&embedding * &new[j], &old[0] * &two.operators[j]);
+        assert_eq!(&embedding * &new[3 + j], &old[2] * &three.operators[j]);
+    }
+    let found = certified(&after);
+    assert_eq!((found.verdict, every(&found)), (Verdict::Proved, Verdict::Proved));
+    assert_eq!(after.refined_inside().unwrap().junction.points, after.array.rows());
+}
+
+/// Shares of the parameter stay those of the schemes; positions then only increase.
+#[test]
+fn a_scheme_with_shares() {
+    let corner = scheme::build("de-rham", &[("a".to_owned(), ratio(1, 3))].into()).unwrap();
+    let mut shape = corner;
+    let shares = [ratio(1, 3), ratio(2, 3)];
+    shape.states[0].pieces.iter_mut().zip(&shares).for_each(|(p, s)| p.share = Some(s.clone()));
+    let side = Side::of("own", &shape).unwrap();
+    assert_eq!((side.powers().len(), side.iterated(2).unwrap().shares.unwrap()[3].clone()), (1, ratio(4, 9)));
+    let found = search(&side, &spline("2"), &Wish::default()).unwrap().member.expect("it passes");
+    let complex = found.junction.complex(&found.array);
+    complex.check().unwrap();
+    complex.shape.check().unwrap();
+    assert_eq!((0..2).map(|i| complex.shape.states[2].share(i)).collect::<Vec<_>>(), shares);
+    assert!(certified(&found).verdict != Verdict::Refuted);
+}

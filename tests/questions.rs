@@ -74,7 +74,7 @@ fn addresses_and_valences_of_the_caller_come_after_those_of_the_file() {
     assert!(Question::read(&path).unwrap().with_address("9(0)").is_err());
 
     let path = root().join("cases/surfaces/catmull-clark.toml");
-    let asked = Question::at_valences(&path, Valences::parse("6").unwrap()).unwrap();
+    let asked = Question::at_valences(&path.to_string_lossy(), Valences::parse("6").unwrap()).unwrap();
     let found = prove(&asked, &Budget::default()).unwrap();
     assert_eq!(found.claims().len(), 1);
     assert!(asked.with_address("(0)").is_err());

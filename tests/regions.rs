@@ -513,3 +513,12 @@ fn the_program_answers_about_curves() {
         assert!(code == Some(2) && problem.contains("help"), "{name}: {problem}");
     }
 }
+
+#[test]
+fn operators_of_a_scheme_are_no_family() {
+    // Its entries are of degree 3 in the split, which the expressions of the file do not tell.
+    let text = "name = \"a\"\nconvention = \"columns\"\nstart = \"A\"\n[parameters]\np = \"1/4..3/4\"\n\
+                [[state]]\nname = \"A\"\nscheme = \"bezier\"\ndegree = 3\nsplit = \"p\"\n";
+    let refused = secant::case::CurveFamilyCase::parse("a.toml", text, &[]).unwrap_err();
+    assert!(refused.message().contains("written as maps or operators"), "{}", refused.message());
+}

@@ -36,6 +36,8 @@ mod identities;
 mod inputs;
 #[path = "junction.rs"]
 mod junction;
+#[path = "junction_surface.rs"]
+mod junction_surface;
 #[path = "latex.rs"]
 mod latex;
 #[path = "lattice.rs"]
@@ -74,6 +76,8 @@ mod solve;
 mod spectrum;
 #[path = "studio.rs"]
 mod studio;
+#[path = "surface_cones.rs"]
+mod surface_cones;
 #[path = "surfaces.rs"]
 mod surfaces;
 #[path = "theory.rs"]

@@ -216,7 +216,7 @@ fn turning_schemes_have_their_published_eigenvalues() {
 fn the_butterfly_scheme_has_its_cubic() {
     // 64x³ + (64h⁴ − 96h² − 16)x² + (23h² − 12h⁴ + 1)x − h² with h = cos(πk/n), so h² = (1 + cos(2πk/n))/2.
     let rule = scheme("butterfly", &[("w", ratio(1, 16))]);
-    assert!(matches!(local_matrix(&rule, 6, 1), Err(SchemeError::Mesh { .. })));
+    assert!(matches!(local_matrix(&rule, 6, 1), Err(SchemeError::Rings { .. })));
     for (n, h2) in [(3, ratio(1, 4)), (4, ratio(1, 2)), (6, ratio(3, 4))] {
         let h4 = &h2 * &h2;
         let p = [
@@ -419,4 +419,116 @@ fn the_butterfly_scheme_fails_at_high_valences() {
         assert!(found[0].is_multiple_of(2), "n = {n}: {found:?}");
         assert!(factors.iter().all(|(p, _)| p.degree() == Some(1) || !signs(p, &high, &ratio(1, 1))), "n = {n}");
     }
+}
+
+fn own(text: &str) -> secant::case::VertexCase {
+    secant::case::VertexCase::parse("own.toml", text).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+fn own_case(name: &str) -> secant::case::VertexCase {
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/surfaces").join(name).with_extension("toml");
+    secant::case::VertexCase::read(&path).unwrap_or_else(|e| panic!("{name}: {e:?}"))
+}
+
+/// Catmull and Clark's rule written as stencils has the matrices of the named one, at regular and other valences.
+#[test]
+fn stencils_give_the_matrices_of_named_rules() {
+    let quads = own("name = \"a\"\n[vertex]\nmesh = \"own\"\nsplit = \"quads\"\n[vertex.stencil]\n\
+         vertex = { vertex = \"9/16\", neighbours = \"3/32\", opposite = \"1/64\" }\n\
+         edge = { ends = \"3/8\", sides = \"1/16\" }\nface = { corners = \"1/4\" }\n[vertex.centre]\n\
+         vertex = { vertex = \"1 - 7/(4*n)\", neighbours = \"3/(2*n^2)\", opposite = \"1/(4*n^2)\" }\n");
+    let triangles = own("name = \"a\"\n[vertex]\nmesh = \"own\"\nsplit = \"triangles\"\n[vertex.stencil]\n\
+         vertex = { vertex = 1 }\nedge = { ends = \"1/2\", sides = \"1/8\", wings = \"-1/16\" }\n\
+         [vertex.centre]\nedge = { vertex = \"1/2\", \"neighbours@0\" = \"1/2\", \"neighbours@1\" = \"1/8\", \
+         \"neighbours@-1\" = \"1/8\", \"neighbours@2\" = \"-1/16\", \"neighbours@-2\" = \"-1/16\", \"1,1@0\" = \"-1/16\", \
+         \"1,1@-1\" = \"-1/16\" }\n");
+    let turned = own("name = \"a\"\n[vertex]\nmesh = \"own\"\nsplit = \"turned-quads\"\n[vertex.stencil]\n\
+         vertex = { vertex = \"1/2\", neighbours = \"1/8\" }\nface = { corners = \"1/4\" }\n\
+         [vertex.centre]\nvertex = { vertex = \"1/2\", neighbours = \"1/(2*n)\" }\n");
+    for (case, name) in [(quads, "catmull-clark"), (triangles, "butterfly"), (turned, "four-eight")] {
+        let rule = scheme(name, &[]);
+        for n in [3, 4, 5, 6, 7] {
+            assert_eq!(local(&case.rule, n, 2).matrix, local(&rule, n, 2).matrix, "{name} at {n}");
+        }
+    }
+}
+
+/// Irrational weights: Zorin's on spokes, and Loop's own, have the characteristic polynomials of the named rules.
+#[test]
+fn formulas_give_the_blocks_of_named_rules() {
+    use secant::vertex::at_valence;
+    let zorin =
+        own("name = \"a\"\n[vertex]\nmesh = \"own\"\nsplit = \"triangles\"\nvalence = \"5,7\"\n[vertex.stencil]\n\
+         vertex = { vertex = 1 }\nedge = { ends = \"1/2\", sides = \"1/8\", wings = \"-1/16\" }\n\
+         [vertex.centre]\nedge = { vertex = \"3/4\", neighbours = \"(1/4 + cos(2*pi*k/n) + cos(4*pi*k/n)/2)/n\" }\n");
+    let pairs = [(zorin, "butterfly-modified", vec![5, 7]), (own_case("loop-formula"), "loop", vec![5, 8, 9])];
+    for (case, name, valences) in pairs {
+        for n in valences {
+            let (found, named) = (at_valence(&case.rule, n).unwrap(), at_valence(&scheme(name, &[]), n).unwrap());
+            assert_eq!((found.smooth, found.winding), (named.smooth, named.winding), "{name} at {n}");
+            let (a, b) = (found.top.unwrap().enclosure, named.top.unwrap().enclosure);
+            assert!(a.lo <= b.hi && b.lo <= a.hi, "{name} at {n}");
+            let (x, y) = (found.eigenvector.map(|v| v.points), named.eigenvector.map(|v| v.points));
+            let far = |x: &Rational, y: &Rational| (x - y) * (x - y) > ratio(1, 1 << 60);
+            if let (Some(x), Some(y)) = (x, y) {
+                assert!(x.iter().zip(&y).all(|(p, q)| !far(&p.1.0, &q.1.0) && !far(&p.1.1, &q.1.1)), "{name} at {n}");
+            }
+        }
+    }
+}
+
+/// Kobbelt's scheme by rows and columns of new points, in floating point by a script.
+#[test]
+fn kobbelts_eigenvalues_are_those_of_rows_and_columns() {
+    use secant::vertex::block::Vertex;
+    let case = own_case("own-kobbelt");
+    for (n, expected) in
+        [(3, 0.426_330_909), (5, 0.537_943_860), (6, 0.559_684_520), (7, 0.573_197_038), (8, 0.582_134_302)]
+    {
+        let vertex = Vertex::examined(&case.rule, n).unwrap();
+        let block = vertex.block(1).unwrap();
+        let t = 2.0 * (std::f64::consts::TAU / n as f64).cos();
+        let at = |p: &secant::poly::Poly| p.coeffs().iter().rev().fold(0.0, |v, c| v * t + secant::arith::to_f64(c));
+        let value = |x: f64| {
+            let parts = block.parts.iter().map(|p| p.poly.iter().rev().fold(0.0, |v, c| v * x + at(c)));
+            parts.fold(f64::INFINITY, |m: f64, v| if v.abs() < m.abs() { v } else { m })
+        };
+        assert!(value(expected - 1e-7) * value(expected + 1e-7) < 0.0, "valence {n}");
+    }
+}
+
+#[test]
+fn stencils_are_checked() {
+    let refused = |text: &str| {
+        let head = "name = \"a\"\n[vertex]\nmesh = \"own\"\nvalence = 5\n";
+        let error = secant::case::VertexCase::parse("own.toml", &format!("{head}{text}"));
+        error.err().map(|p| p.to_string()).unwrap_or_default()
+    };
+    let stencil = "split = \"triangles\"\n[vertex.stencil]\nvertex = { vertex = 1 }\nedge = { ends = \"1/2\" }\n";
+    for (text, said) in [
+        ("split = \"hexagons\"\n", "no such way"),
+        ("split = \"triangles\"\n[vertex.stencil]\nvertex = { vertex = 1 }\n", "edge"),
+        (
+            "split = \"triangles\"\n[vertex.stencil]\nvertex = { vertex = 1 }\nedge = { ends = \"1/2\", tips = 0 }\n",
+            "`tips`",
+        ),
+        (
+            "split = \"triangles\"\n[vertex.stencil]\nvertex = { vertex = 1 }\nedge = { ends = \"1/2\", \"1,0\" = 0 }\n",
+            "two weights",
+        ),
+        (&format!("{stencil}[vertex.centre]\nedge = {{ vertex = \"1/2\" }}\n"), "add up to 1/2"),
+        (&format!("{stencil}[vertex.centre]\nedge = {{ vertex = \"cos(pi/7)\" }}\n"), "field"),
+        (&format!("{stencil}[vertex.centre]\nvertex = {{ \"neighbours@0\" = 1 }}\n"), "not symmetric"),
+    ] {
+        assert!(refused(text).contains(said), "{text}: {}", refused(text));
+    }
+    // A stencil that reaches around the centre, and none for it.
+    let wide = own(
+        "name = \"a\"\n[vertex]\nmesh = \"own\"\nsplit = \"triangles\"\nvalence = 5\n[vertex.stencil]\nvertex = { vertex = 1 }\n\
+         edge = { ends = \"9/16\", beyond = \"-1/16\" }\n",
+    );
+    let error = secant::vertex::at_valence(&wide.rule, 5).err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(error.contains("reaches around the centre"), "{error}");
+    assert!(secant::vertex::block::Vertex::new(&wide.rule, 6, 4).is_ok());
 }

@@ -3,8 +3,8 @@
 
 Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
 
-It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries, not those
-of joint spectral radii.  It is written for reading, not for hostile input: use secant-check where limits matter.
+It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries; its neighbours
+those of radii, lattices, regions and vertices.  It is written for reading, not for hostile input: use secant-check where limits matter.
 """
 import json
 import sys
@@ -155,6 +155,16 @@ def weighted(row, v):
     return total
 
 
+def times(f, g):
+    if not f or not g:
+        return []
+    out = [Q(0)] * (len(f) + len(g) - 1)
+    for i, x in enumerate(f):
+        for j, y in enumerate(g):
+            out[i + j] += x * y
+    return trim(out)
+
+
 class Ring:
     """Polynomials modulo a monic one, which need not be irreducible."""
 
@@ -163,13 +173,7 @@ class Ring:
         need(2 <= len(m) <= most + 1 and m[-1] == 1, "field")
 
     def mul(self, a, b):
-        if not a or not b:
-            return []
-        p = [Q(0)] * (len(a) + len(b) - 1)
-        for i, x in enumerate(a):
-            for j, y in enumerate(b):
-                p[i + j] += x * y
-        p, d = trim(p), len(self.m) - 1
+        p, d = times(a, b), len(self.m) - 1
         while len(p) > d:
             lead, k = p[-1], len(p) - 1
             for i, c in enumerate(self.m):
@@ -912,7 +916,7 @@ def branches_of(model, root, view, place):
         return list(zip(("left", "right"), branches))
     need(at in ("inside", "of set"), "format")
     addr = address(fields(place, "at", "address")[1])
-    need(root == model.case.start and model.normalise(addr, root) == addr and place_of(model, addr) == place, "place")
+    need(model.normalise(addr, root) == addr and place_of(model, addr, root) == place, "place")
     return [("both", addr)]
 
 
@@ -967,8 +971,8 @@ def check_point(model, root, view, value):
 Point = namedtuple("Point", "place verdict kind common")
 
 
-def place_of(model, addr):
-    states = model.path(model.case.start, addr[0])
+def place_of(model, addr, root):
+    states = model.path(root, addr[0])
     if any(model.states[e][0] != "edge" for e in states + model.path(states[-1], addr[1])):
         return {"at": "of set", "address": {"prefix": addr[0], "cycle": addr[1]}}
 
@@ -1005,6 +1009,8 @@ def envelope(value):
 
 DERIVATIVE = "every point by its derivative"
 SHARES = "every point by its derivative in shares"
+ARCS = "every point by polynomials"
+COMPONENTS = "every point by components"
 NOT_KILLED = "joints not killed"
 
 
@@ -1040,7 +1046,7 @@ class Certificate:
         need(len(answers) >= len(asked), "answers")
         for k in range(len(asked), len(answers)):
             question = answers[k].get("question")
-            if question in ("every point", DERIVATIVE, SHARES, NOT_KILLED):
+            if question in ("every point", DERIVATIVE, SHARES, ARCS, COMPONENTS, NOT_KILLED):
                 need(question not in asked and (question != NOT_KILLED or kind == "edge"), "answers")
             elif k + 1 < len(answers) or question != "any point":
                 question = address(answers[k].get("address"))
@@ -1086,6 +1092,19 @@ class Certificate:
             need(verdict == "proved", "answers")
             self.lines.append("proved: every point, by its derivative")
             return None
+        elif question in (ARCS, COMPONENTS):
+            keys = ("degree", "arcs") if question == ARCS else ("parts", "seen")
+            what, verdict, *evidence = fields(value, "question", "verdict", *keys)
+            import check_turns
+            try:
+                found = check_turns.arcs(self.model, *evidence) if question == ARCS else None
+                if question == COMPONENTS:
+                    check_turns.Parts(self.model).check(*evidence)
+            except Exception:  # as above
+                need(False, "components")
+            need(verdict == (found or "proved"), "answers")
+            self.lines.append(f"{verdict}: {question}")
+            return None
         elif question == "any point":
             what, verdict, products = fields(value, "question", "verdict", "products")
             found, text = self.similarities(products), "any point"
@@ -1096,7 +1115,7 @@ class Certificate:
             else:
                 what, of, verdict, items = fields(value, "question", "address", "verdict", "points")
                 need(address(of) == question, "answers")
-                places, text, question = [place_of(self.model, question)], f"address {question}", "address"
+                places, text, question = [place_of(self.model, question, self.case.start)], f"address {question}", "address"
             chosen = self.select(items)
             need(all(p[0] in places for p in chosen), "answers")
             found = self.together([p[1] for p in chosen])
@@ -1328,7 +1347,7 @@ class Cones:
     """The answer to "every point": the verdict on G1 that follows."""
 
     def __init__(self, model, points, used):
-        self.model, self.points, self.used = model, points, used
+        self.model, self.points, self.used, self.states = model, points, used, model.reachable
         need(model.states[model.case.start][0] == "edge", "every-point")
 
     def check(self, cones, maps, view, window, slow, rate, joints, witness):
@@ -1396,7 +1415,7 @@ class Cones:
 
     def idle_cycles(self, window):
         """The cycles of the graph of words of a length that have no positive factor."""
-        model, words = self.model, [(e, ()) for e in self.model.reachable]
+        model, words = self.model, [(e, ()) for e in self.states]
         for _ in range(window):
             longer = [(e, w + (k,)) for e, w in words for k in range(len(model.states[model.path(e, w)[-1]][1]))]
             ends = lambda e, w: zip(model.path(e, w), (w[j:] for j in range(len(w))))

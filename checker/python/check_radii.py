@@ -125,6 +125,11 @@ class System:
             self.polytope(value, kind, bound)
         elif kind == "quadratic":
             self.quadratic(value, bound)
+        elif kind == "transposed":
+            _, inner = fields(value, "norm", "of")
+            need(inner["norm"] in ("symmetric", "monotone", "balanced", "tree"), "format")
+            turned = [(t, s, transpose(m, self.dims[t])) for s, t, m in self.arrows]
+            System(self.dims, turned).norm(inner, bound)
         else:
             need(kind == "tree", "format")
             self.tree(value, bound)
@@ -280,10 +285,10 @@ class Smoothness:
         space, chord = self.first(model, own if shared else None)
         best = (0, space)
         need(0 < len(orders) <= MAX_ORDERS, "orders")
-        last = False
+        last, low = False, Q(0)
         for k, item in enumerate(orders):
             need(not last, "orders")
-            before = space
+            before, least = space, low
             order, dims, radius, outcome = fields(item, "order", "dims", "radius", "outcome")
             self.order = k
             if k:
@@ -299,6 +304,8 @@ class Smoothness:
                 chord = {e: sub(finish, start) for e, (start, finish) in ends.items()}
             elif outcome == "cycle":
                 need(k and low * self.n ** k >= 1, "orders")
+            elif outcome == "exponent":
+                need(k and least * self.n ** k > 1, "orders")
             elif outcome == "chord":
                 need(k and any(self.turns_back(e, before, space, chord) for e in model.reachable), "orders")
             else:

@@ -28,7 +28,7 @@ fn matrix_list(source: &str) -> Checked<System> {
                 let endless = matches!(x.value, Json::Number(text) if text.contains('n'));
                 x.need(!endless, "case", "numbers of matrices are integers, decimals or texts")?;
             }
-            matrices.push(matrix(&item)?);
+            matrices.push(matrix(&item, &())?);
         }
         // A file without a name is one with an empty name.
         let name = match word(node, "name")? {
@@ -353,7 +353,7 @@ impl System {
         for item in forms.list()? {
             let [state, form] = item.fields("state form")?;
             let s = state.index(self.dims.len())?;
-            read[s] = Some(positive_definite(&form, self.dims[s])?);
+            read[s] = Some(positive_definite(&form, self.dims[s], &())?);
         }
         let read: Vec<Matrix> = forms.some(read.into_iter().collect(), "quadratic", "a state without a form")?;
         need(square <= bound * bound, "quadratic", "the bound is below the root of the square")?;

@@ -1,7 +1,7 @@
 //! Checks a secant certificate against its case, by the rules of `docs/certificate.md` and without any search.
 //!
-//! No code is shared with secant: this crate reads the case file itself, computes everything that is plain rational linear
-//! algebra again, and takes from the certificate only what had to be found. All arithmetic is exact.
+//! No code is shared with secant: this crate reads the case file itself, computes everything that is plain linear algebra
+//! (rational, or over a real number field) again, and takes from the certificate only what had to be found. All arithmetic is exact.
 
 mod base;
 mod claim;
@@ -18,7 +18,7 @@ mod surface;
 mod vertex;
 
 pub use base::{Accepted, Checked, Rejected, Verdict, number};
-use base::{Json, Node, need, reject, unreadable};
+use base::{Ground, Json, Node, Surd, need, reject, unreadable};
 pub use claim::{Address, Claim, Decided, End, Joints, Place, Real, Subject};
 use curve::case;
 
@@ -51,6 +51,18 @@ pub fn check_while(case: &str, certificate: &str, look: fn()) -> Checked<Accepte
     number::looking(look, || checked(case, certificate))
 }
 
+/// A certificate about a curve or a set, over the rational numbers or over a field that it names.
+fn certify(case: &str, proof: &Node<'_>) -> Checked<Accepted> {
+    let Some(field) = proof.get("field") else {
+        let [contraction, points, answers] = proof.fields("contraction points answers")?;
+        return curve::check(&case::read(case, false)?, &(), [&contraction, &points, &answers]);
+    };
+    let [_, contraction, points, answers] = proof.fields("field contraction points answers")?;
+    let ground = Ground::read(&field)?;
+    let case = case::over::<Surd>(case, false, &ground)?;
+    curve::check(&case, &ground, [&contraction, &points, &answers])
+}
+
 fn checked(case: &str, certificate: &str) -> Checked<Accepted> {
     unreadable(need(case.len().max(certificate.len()) <= MAX_BYTES, "limit", "a file is too large"))?;
     number::refill();
@@ -61,7 +73,7 @@ fn checked(case: &str, certificate: &str) -> Checked<Accepted> {
     version.need(known, "format", format_args!("this checker reads version {VERSION} only"))?;
     let proof = Node { place: "proof".to_owned(), ..proof };
     let found = match kind.text()? {
-        "certify" => curve::check(&case::read(case, false)?, &proof)?,
+        "certify" => certify(case, &proof)?,
         "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
         "region" => region::check(case, &proof)?,
         "solve" => solve::check(&case::read(case, true)?, &proof)?,

@@ -12,9 +12,9 @@ Usage: secant-check CASE CERTIFICATE.json
 CASE         what the certificate is about: a case (TOML), a file of matrices, or a matrix in plain text
 CERTIFICATE  what `secant certify CASE --certificate FILE` wrote (also `secant jsr`, `regularity`, `spectrum`, `solve`)
 
-Everything that is plain rational linear algebra is computed again from the case, a `[scheme]` of curves included; from the
-certificate comes only what had to be found. A case with a mesh in `[scheme]` is checked in its expanded form, which secant
-writes beside the certificate (FILE.case.toml). The rules are in docs/certificate.md.
+Everything that is plain linear algebra, rational or over a real number field, is computed again from the case, a `[scheme]` of curves included; from the
+certificate comes only what had to be found. A case with a mesh in `[scheme]`, a polygon of several spans or states that are
+chains is checked in its expanded form, which secant writes beside the certificate (FILE.case.toml). The rules are in docs/certificate.md.
 
 Exit codes: 0 accepted (the claims are printed, each with its verdict), 1 rejected (with the rule, the place in the
 certificate and the reason), 2 one of the files cannot be read.

@@ -37,7 +37,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
         let [contraction, orders] = node.fields("contraction orders")?;
         (contraction, orders, None)
     };
-    let model = Model::read(&case.shape, &contraction)?;
+    let model = Model::read(&case.shape, &(), &contraction)?;
     contraction.at(case.shape.check_curves())?;
     let mut level = node.at(Level::own(&model))?;
     let mut last = level.families.clone();

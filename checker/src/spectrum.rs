@@ -97,10 +97,10 @@ fn roots_and_chains(matrix: &Matrix, node: &Node<'_>, modulus: &Node<'_>) -> Che
             factors.push(Rc::clone(&factor));
         }
         roots.need(counted == p.len() - 1, "roots", "the discs must be as many as the degree")?;
-        let by_root = Field::companion(&p);
+        let field = Field::of(Field::companion(&p), [Q::zero(), Q::zero()]);
         let mut blocks: Vec<usize> = Vec::new();
         for item in chains.list()? {
-            let vectors = chain(&item, matrix, &by_root, 1, "chains")?;
+            let vectors = chain(&item, matrix, &field, 1, "chains")?;
             let coefficients = vectors.len() * (p.len() - 1);
             item.need(basis.rows + coefficients <= matrix.rows, "chains", "there are more vectors than dimensions")?;
             basis = vectors.iter().fold(basis, |all, v| all.stack(&v.transpose()));

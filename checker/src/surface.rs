@@ -1,7 +1,9 @@
 //! Certificates of the tangent planes of a surface (kind `surface`, docs/certificate.md, section 8.1).
 
+mod apart;
 mod branch;
 mod chart;
+mod cones;
 mod derivative;
 mod product;
 
@@ -79,7 +81,8 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     };
     let answers = node.field("answers")?;
     let shape = &case.shape;
-    let model = if contraction.is_null() { Model::unenclosed(shape)? } else { Model::read(shape, &contraction)? };
+    let model =
+        if contraction.is_null() { Model::unenclosed(shape, &())? } else { Model::read(shape, &(), &contraction)? };
     let chart = Chart::read(source, shape)?;
     let factors = if product.is_null() { Vec::new() } else { product.fields::<2>("first second")?.into() };
     let curves = factors.iter().map(product::curve).collect::<Checked<Vec<_>>>()?;
@@ -108,11 +111,13 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         found_at.push(Claim::PlaneOfCells(place.clone()).is(verdict));
     }
     dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
+    let every = every.map(|every| surface.every(&root, chart.as_ref(), &found_at, &every)).transpose()?;
+    let planes = every == Some(Verdict::Proved);
     let mut found: Vec<Decided> = Vec::new();
     for (item, question) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
         let decided = match (question, &chart) {
             (Question::Points(claim, numbers), _) => claim.is(together(numbers.iter().map(|&k| found_at[k].verdict))),
-            (Question::Dense, Some(chart)) => surface.dense_set(chart, &dense)?,
+            (Question::Dense, Some(chart)) => surface.dense_set(chart, &dense, planes)?,
             (Question::Dense, None) => {
                 return item.reject("dense", "a shape without parameters has no vertices inside");
             }
@@ -121,9 +126,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         found.push(decided);
     }
     let verdict = together(found.iter().map(|d| d.verdict));
-    if let Some(every) = every {
-        found.push(Claim::PlaneTurns.is(surface.every(&root, chart.as_ref(), &found_at, &every)?));
-    }
+    found.extend(every.map(|verdict| Claim::PlaneTurns.is(verdict)));
     Ok(Accepted { case: case.name, verdict, claims: found, points: found_at })
 }
 
@@ -173,6 +176,11 @@ impl Surface<'_> {
                 derivative::check(self.model, chart, node)?;
                 Verdict::Proved
             }
+            "cones" => {
+                node.need(self.cover, "contraction", "without contraction only a product has an answer")?;
+                cones::check(self.model, chart, node)?;
+                Verdict::Proved
+            }
             "point" => {
                 let [_, _, point] = node.fields("by verdict point")?;
                 let broken = points[point.index(points.len())?].verdict == Verdict::Refuted;
@@ -187,7 +195,7 @@ impl Surface<'_> {
                 curves.need(seen, "every", "the view must be injective")?;
                 product.every(&curves)?
             }
-            _ => return node.reject("every", "a point, a product or a derivative is needed"),
+            _ => return node.reject("every", "a point, a product, a derivative or cones are needed"),
         };
         let decided = found != Verdict::Undetermined;
         node.need(decided, "every", "this decides nothing")?;
@@ -195,11 +203,13 @@ impl Surface<'_> {
         Ok(found)
     }
 
-    /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face.
-    fn dense_set(&self, chart: &Chart, node: &Node<'_>) -> Checked<Decided> {
+    /// Theorem 5″: a vertex inside every face that is reached, in the visible quotient of that face. Planes at every point are planes at a
+    /// dense set.
+    fn dense_set(&self, chart: &Chart, node: &Node<'_>, planes: bool) -> Checked<Decided> {
         let model = self.model;
         if node.is_null() {
-            return Ok(Claim::PlaneDense { projected: false }.is(Verdict::Undetermined));
+            let verdict = if planes { Verdict::Proved } else { Verdict::Undetermined };
+            return Ok(Claim::PlaneDense { projected: false }.is(verdict));
         }
         for (e, item) in model.for_states(node, "dense")? {
             let space = model.spaces.of(e)?;

@@ -57,10 +57,10 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
 
 /// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.
 fn read_valences(node: &Node<'_>) -> Checked<Option<BTreeSet<usize>>> {
-    let valence = |n: &usize| (3..=MAX_VALENCE).contains(n);
+    let valence = |n: &usize| (2..=MAX_VALENCE).contains(n);
     let Json::Text(text) = node.value else {
         let n = index(node, MAX_VALENCE + 1)?;
-        node.need(valence(&n), "format", format_args!("a valence is a number from 3 to {MAX_VALENCE}"))?;
+        node.need(valence(&n), "format", format_args!("a valence is a number from 2 to {MAX_VALENCE}"))?;
         return Ok(Some(BTreeSet::from([n])));
     };
     if text.trim() == "all" {

@@ -1,5 +1,5 @@
 (** The axioms behind the main theorems. *)
-From Secant Require Import Directions Replay Dense Refute Everywhere.
+From Secant Require Import Directions Replay Dense Refute Spiral Quadratic Everywhere.
 Print Assumptions contraction.
 Print Assumptions attractor_equation.
 Print Assumptions base_points.
@@ -9,6 +9,16 @@ Print Assumptions leads_semisimple.
 Print Assumptions leads_block.
 Print Assumptions directed_intro.
 Print Assumptions limit_intro.
+Print Assumptions limit_several.
+Print Assumptions before_turns.
+Print Assumptions spaces_ok.
+Print Assumptions check_far_ok.
+Print Assumptions chart_ok.
+Print Assumptions branch_core.
+Print Assumptions branch_ok.
+Print Assumptions half_tangent_ok.
+Print Assumptions passes_ok.
+Print Assumptions tangent_line_ok.
 Print Assumptions limit_parallel.
 Print Assumptions no_common_tangent.
 Print Assumptions one_direction.
@@ -19,6 +29,15 @@ Print Assumptions regular_ok.
 Print Assumptions cusp_ok.
 Print Assumptions corner_ok.
 Print Assumptions no_tangent_ok.
+Print Assumptions limit_turned.
+Print Assumptions spiral_apart.
+Print Assumptions spiral_ok.
 Print Assumptions regular_levels.
 Print Assumptions cusp_levels.
 Print Assumptions cones_ok.
+Print Assumptions quadratic_ray_ok.
+Print Assumptions quadratic_passes_ok.
+Print Assumptions quadratic_line_ok.
+Print Assumptions quadratic_regular_ok.
+Print Assumptions quadratic_cusp_ok.
+Print Assumptions quadratic_corner_ok.

@@ -1,5 +1,6 @@
 (** Checkers: computations with rational numbers from which the hypotheses of the theorems follow. *)
 From Coq Require Import Reals Lra Lia List QArith Qabs Qreals Bool FunctionalExtensionality.
+From Coquelicot Require Import Coquelicot.
 From Secant Require Import Vec Automaton Leading Germ Rational.
 Import ListNotations.
 Open Scope R_scope.
@@ -128,52 +129,173 @@ Proof.
     apply (ball A Hwf (S fuel) (Rmax 0 (Q2R theta)) (fun e => qv (centre e)) (fun e => Q2R (radius e))); auto.
 Qed.
 
-(** Lower bounds of a functional on the addresses that do not begin with a word. *)
+(** The spaces of the differences of the attractors, as the vectors that a matrix does not change. *)
+Section Spaces.
+Variable spaces : list qmat.
+Definition space_of e := nth e spaces [].
+Definition in_space e (x : vec) := act N (qm (space_of e)) x = x.
+
+Definition check_spaces : bool := forallb (fun e =>
+  (length (space_of e) <=? N) && forallb (fun i => let d := dst A e i in
+    qeqm N (qmul N (space_of e) (qmul N (mt e i) (space_of d))) (qmul N (mt e i) (space_of d)) &&
+    let off := qsub N (qact N (mt e i) (centre d)) (centre e) in qeqv N (qact N (space_of e) off) off)
+  (seq 0 (deg A e))) (seq 0 (states A)).
+
+Lemma in_space_sub e x y : in_space e x -> in_space e y -> in_space e (sub x y).
+Proof. unfold in_space. intros Hx Hy. rewrite act_sub, Hx, Hy. reflexivity. Qed.
+
+Lemma in_space_add e x y : in_space e x -> in_space e y -> in_space e (add x y).
+Proof. unfold in_space. intros Hx Hy. rewrite act_add, Hx, Hy. reflexivity. Qed.
+
+Hypothesis form : check_form = true.
+Hypothesis sys : contracting A.
+Hypothesis based : forall e, (e < states A)%nat -> qbary N (dim A e) (centre e) = true.
+Hypothesis spanned : check_spaces = true.
+
+Lemma spaces_step e i : (e < states A)%nat -> (i < deg A e)%nat -> (length (space_of e) <= N)%nat /\
+  (forall x, in_space (dst A e i) x -> in_space e (act N (mat A e i) x)) /\
+  in_space e (sub (act N (mat A e i) (qv (centre (dst A e i)))) (qv (centre e))).
+Proof.
+  intros He Hi. destruct (check_form_ok form) as [Hwf Hlen]. pose proof (Hlen e i He Hi) as Hl.
+  pose proof (forall_lt _ _ spanned e He) as H. cbv beta in H. rewrite andb_true_iff in H. destruct H as [H1 H2].
+  apply Nat.leb_le in H1. pose proof (forall_lt _ _ H2 i Hi) as H3. cbv beta zeta in H3. rewrite andb_true_iff in H3.
+  destruct H3 as [H3 H4]. split; [exact H1|]. split.
+  - intros x Hx. unfold in_space in *. pose proof (qeqm_ok N _ _ x H3) as E. rewrite !qmul_ok, Hx in E by auto. exact E.
+  - pose proof (qeqv_ok N _ _ H4) as E. rewrite qact_ok in E by auto.
+    assert (Hd : (dst A e i < states A)%nat) by (apply (Hwf e He); auto).
+    pose proof (qbary_len _ _ _ (based e He)). pose proof (qbary_len _ _ _ (based _ Hd)).
+    pose proof (dim_ok A Hwf e He). rewrite qsub_ok in E; [|unfold qact; rewrite tab_length; auto|simpl in *; lia].
+    rewrite qact_ok in E by auto. exact E.
+Qed.
+
+Lemma space_word w : forall e x, (e < states A)%nat -> admw A e w -> in_space (stw A e w) x -> in_space e (Ww A e w x).
+Proof.
+  induction w as [|i w IH]; simpl; intros e x He Hw Hx; auto. destruct Hw as [Hi Hw].
+  apply (spaces_step e i He Hi). apply IH; auto. apply (wf A sys e He); auto.
+Qed.
+
+Theorem spaces_ok e s : (e < states A)%nat -> adm A e s -> in_space e (sub (phi A e s) (qv (centre e))).
+Proof.
+  assert (H : forall k e s, (e < states A)%nat -> adm A e s -> in_space e (sub (W A e s k (qv (centre (st A e s k)))) (qv (centre e)))).
+  { induction k; simpl; intros f t Hf Ht.
+    - replace (sub (qv (centre f)) (qv (centre f))) with (scl 0 (qv (centre f))) by (extensionality j; unfold sub, scl; ring).
+      unfold in_space. rewrite act_scl. extensionality j; unfold scl; ring.
+    - pose proof (Ht O) as Ht0. simpl in Ht0. destruct (spaces_step f (t O) Hf Ht0) as (_ & H1 & H2).
+      pose proof (IHk (dst A f (t O)) (tl t) ltac:(apply (wf A sys f Hf); auto) (adm_tl A f t Ht)) as H3.
+      apply H1 in H3. rewrite act_sub in H3. pose proof (in_space_add f _ _ H3 H2) as H4.
+      match goal with |- in_space f ?y => replace y with
+        (add (sub (act N (mat A f (t O)) (W A (dst A f (t O)) (tl t) k (qv (centre (st A (dst A f (t O)) (tl t) k)))))
+                  (act N (mat A f (t O)) (qv (centre (dst A f (t O))))))
+             (sub (act N (mat A f (t O)) (qv (centre (dst A f (t O))))) (qv (centre f))))
+        by (extensionality j; unfold add, sub; simpl; ring) end. exact H4. }
+  intros He Hs. set (x := fun k => sub (W A e s k (qv (centre (st A e s k)))) (qv (centre e))).
+  assert (Hlim : forall i, is_lim_seq (fun k => x k i) (sub (phi A e s) (qv (centre e)) i)).
+  { intros i. unfold x, sub. apply (is_lim_seq_minus' _ (fun _ => qv (centre e) i)); [|apply is_lim_seq_const].
+    apply (phi_from A sys (fun e => qv (centre e))); auto. intros f Hf. apply qbary_ok. apply based; auto. }
+  unfold in_space. extensionality i.
+  assert (H1 : is_lim_seq (fun k => x k i) (act N (qm (space_of e)) (sub (phi A e s) (qv (centre e))) i)).
+  { apply is_lim_seq_ext with (u := fun k => act N (qm (space_of e)) (x k) i); [intros k; exact (f_equal (fun v => v i) (H k e s He Hs))|].
+    unfold act. apply (lim_sum N (fun k j => qm (space_of e) i j * x k j)). intros j Hj.
+    apply (is_lim_seq_scal_l (fun k => x k j) (qm (space_of e) i j) (sub (phi A e s) (qv (centre e)) j)). apply Hlim. }
+  pose proof (is_lim_seq_unique _ _ (Hlim i)) as E1. pose proof (is_lim_seq_unique _ _ H1) as E2.
+  rewrite E1 in E2. injection E2; auto.
+Qed.
+
+Lemma differences e s t : (e < states A)%nat -> adm A e s -> adm A e t -> in_space e (sub (phi A e s) (phi A e t)).
+Proof.
+  intros He Hs Ht. pose proof (in_space_sub e _ _ (spaces_ok e s He Hs) (spaces_ok e t He Ht)) as H.
+  match goal with |- in_space e ?y => replace y with (sub (sub (phi A e s) (qv (centre e))) (sub (phi A e t) (qv (centre e))))
+    by (extensionality j; unfold sub; ring) end. exact H.
+Qed.
+End Spaces.
+
+(** A functional on the addresses that do not begin with a word: above a number by a bound; below it; either of the two; or
+    above it after the word and below it before the word, in the order of addresses. *)
+Inductive mode := Above | Below | Apart | Sides.
+
 Definition next (rest : option (list nat)) (i : nat) : option (list nat) :=
   match rest with Some (a :: r) => if a =? i then Some r else None | _ => None end.
+Definition turned_to (m : mode) (rest : option (list nat)) (i : nat) : mode :=
+  match m, rest with Sides, Some (a :: _) => if a <? i then Above else if i <? a then Below else Sides | _, _ => m end.
 
-Fixpoint check_ring (fuel : nat) (rest : option (list nat)) (e : nat) (h : qvec) (low : Q) : bool :=
+Definition check_cell (m : mode) (e : nat) (h : qvec) (mid low : Q) : bool :=
+  let at_centre := (qdot N h (centre e) - mid)%Q in let r := (qosc (dim A e) h * radius e)%Q in
+  let over := Qle_bool low (at_centre - r) in let under := Qle_bool (at_centre + r) (- low) in
+  match m with Above => over | Below => under | Apart => over || under | Sides => false end.
+
+Fixpoint check_far (fuel : nat) (m : mode) (rest : option (list nat)) (e : nat) (h : qvec) (mid low : Q) : bool :=
   match rest with Some [] => true | _ =>
-    Qle_bool low (qdot N h (centre e) - qosc (dim A e) h * radius e) ||
+    check_cell m e h mid low ||
     match fuel with
     | O => false
-    | S f => forallb (fun i => check_ring f (next rest i) (dst A e i) (qrow N h (mt e i)) low) (seq 0 (deg A e))
+    | S f => forallb (fun i => check_far f (turned_to m rest i) (next rest i) (dst A e i) (qrow N h (mt e i)) mid low) (seq 0 (deg A e))
     end
   end.
 
-Lemma check_ring_ok fuel : contracting A -> in_balls -> (forall e, (e < states A)%nat -> bary N (dim A e) (qv (centre e))) ->
-  forall rest e h low, (e < states A)%nat -> check_ring fuel rest e h low = true -> forall s, adm A e s ->
-  (exists r, rest = Some r /\ begins r s) \/ Q2R low <= dot N (qv h) (phi A e s).
+(** The first letters agree with the word, then one is larger (smaller). *)
+Definition follows (w : list nat) (s : address) := exists k, (k < length w)%nat /\ (forall j, (j < k)%nat -> s j = nth j w O) /\ (nth k w O < s k)%nat.
+Definition precedes (w : list nat) (s : address) := exists k, (k < length w)%nat /\ (forall j, (j < k)%nat -> s j = nth j w O) /\ (s k < nth k w O)%nat.
+
+Definition far (m : mode) (rest : option (list nat)) (s : address) (x low : R) : Prop :=
+  (exists r, rest = Some r /\ begins r s) \/
+  match m with
+  | Above => low <= x | Below => x <= - low | Apart => low <= Rabs x
+  | Sides => exists r, rest = Some r /\ ((follows r s /\ low <= x) \/ (precedes r s /\ x <= - low))
+  end.
+
+Lemma far_cons m rest s x low : far (turned_to m rest (s O)) (next rest (s O)) (tl s) x low -> far m rest s x low.
+Proof.
+  intros [(r & Hr & Hb)|H].
+  - left. destruct rest as [[|a r']|]; simpl in Hr; try discriminate.
+    destruct (Nat.eqb_spec a (s O)); [|discriminate]. injection Hr as <-. exists (a :: r'). split; auto. split; auto.
+  - right. destruct m; simpl in H; auto. destruct rest as [[|a r]|]; simpl in H;
+      try (destruct H as (r' & Hr & _); discriminate).
+    exists (a :: r). split; auto. destruct (Nat.ltb_spec a (s O)); [|destruct (Nat.ltb_spec (s O) a)].
+    + left. split; auto. exists O. simpl. split; [lia|]. split; [intros; lia|auto].
+    + right. split; auto. exists O. simpl. split; [lia|]. split; [intros; lia|auto].
+    + assert (Ea : a = s O) by lia. destruct H as (r' & Hr & H). destruct (Nat.eqb_spec a (s O)); [|discriminate]. injection Hr as <-.
+      assert (Hs : forall k, (forall j, (j < k)%nat -> tl s j = nth j r O) -> forall j, (j < S k)%nat -> s j = nth j (a :: r) O).
+      { intros k Hk [|j] Hj; [simpl; auto|]. apply (Hk j). lia. }
+      destruct H as [[(k & K1 & K2 & K3) K4]|[(k & K1 & K2 & K3) K4]]; [left|right]; split; auto; exists (S k);
+        (split; [simpl; lia|split; [apply Hs; auto|exact K3]]).
+Qed.
+
+Lemma check_far_ok fuel : contracting A -> in_balls -> (forall e, (e < states A)%nat -> bary N (dim A e) (qv (centre e))) ->
+  forall m rest e h mid low, (e < states A)%nat -> check_far fuel m rest e h mid low = true -> forall s, adm A e s ->
+  far m rest s (dot N (qv h) (phi A e s) - Q2R mid) (Q2R low).
 Proof.
   intros Hsys Hball Hcb.
-  assert (Hleaf : forall e h low s, (e < states A)%nat -> adm A e s ->
-    Qle_bool low (qdot N h (centre e) - qosc (dim A e) h * radius e) = true -> Q2R low <= dot N (qv h) (phi A e s)).
-  { intros e h low s He Hs H. apply Q2R_le in H. rewrite Q2R_minus, Q2R_mult, qdot_ok in H.
+  assert (Hleaf : forall m rest e h mid low s, (e < states A)%nat -> adm A e s -> check_cell m e h mid low = true ->
+    far m rest s (dot N (qv h) (phi A e s) - Q2R mid) (Q2R low)).
+  { intros m rest e h mid low s He Hs H.
     pose proof (Hball e s He Hs) as Hb. pose proof (dim_ok A (wf A Hsys) e He) as Hd.
     pose proof (qosc_bound N (dim A e) h (sub (phi A e s) (qv (centre e))) (proj2 Hd)
       (bary_sub _ _ _ _ (phi_bary' A Hsys e s He Hs) (Hcb e He))) as Ho.
     rewrite dot_sub in Ho. pose proof (qosc_ge0 (dim A e) h).
-    assert (Q2R (qosc (dim A e) h) * nrm N (sub (phi A e s) (qv (centre e))) <= Q2R (qosc (dim A e) h) * Q2R (radius e))
+    assert (Hr : Q2R (qosc (dim A e) h) * nrm N (sub (phi A e s) (qv (centre e))) <= Q2R (qosc (dim A e) h) * Q2R (radius e))
       by (apply Rmult_le_compat_l; auto).
-    pose proof (Rle_abs (- (dot N (qv h) (phi A e s) - dot N (qv h) (qv (centre e))))) as Ha. rewrite Rabs_Ropp in Ha.
-    simpl in *. lra. }
-  induction fuel as [|f IH]; intros rest e h low He H s Hs.
-  - destruct rest as [[|a r]|]; [left; exists []; simpl; auto| |];
-      right; apply Hleaf; auto; simpl in H; rewrite orb_false_r in H; auto.
-  - assert (Hstep : Qle_bool low (qdot N h (centre e) - qosc (dim A e) h * radius e) = true \/
-      (forallb (fun i => check_ring f (next rest i) (dst A e i) (qrow N h (mt e i)) low) (seq 0 (deg A e)) = true)
-      \/ rest = Some []).
-    { destruct rest as [[|a r]|]; auto; simpl in H; rewrite orb_true_iff in H; tauto. }
-    destruct Hstep as [H1|[H1|H1]]; [right; apply Hleaf; auto| |subst; left; exists []; simpl; auto].
-    pose proof (Hs O) as Hs0. pose proof (forall_lt _ _ H1 (s O) Hs0) as H2. cbv beta in H2.
+    set (x := dot N (qv h) (phi A e s)) in *.
+    pose proof (Rle_abs (x - dot N (qv h) (qv (centre e)))) as Ha1.
+    pose proof (Rle_abs (- (x - dot N (qv h) (qv (centre e))))) as Ha2. rewrite Rabs_Ropp in Ha2.
+    assert (Hover : Qle_bool low (qdot N h (centre e) - mid - qosc (dim A e) h * radius e) = true -> Q2R low <= x - Q2R mid).
+    { intros Hq. apply Q2R_le in Hq. rewrite !Q2R_minus, Q2R_mult, qdot_ok in Hq. simpl in *. lra. }
+    assert (Hunder : Qle_bool (qdot N h (centre e) - mid + qosc (dim A e) h * radius e) (- low) = true -> x - Q2R mid <= - Q2R low).
+    { intros Hq. apply Q2R_le in Hq. rewrite Q2R_plus, Q2R_minus, Q2R_opp, Q2R_mult, qdot_ok in Hq. simpl in *. lra. }
+    right. unfold check_cell in H. destruct m; auto; [|discriminate].
+    rewrite orb_true_iff in H. destruct H as [H|H].
+    - apply Hover in H. pose proof (Rle_abs (x - Q2R mid)). simpl in *. lra.
+    - apply Hunder in H. pose proof (Rle_abs (- (x - Q2R mid))) as Ha3. rewrite Rabs_Ropp in Ha3. simpl in *. lra. }
+  induction fuel as [|f IH]; intros m rest e h mid low He H s Hs; simpl in H.
+  - destruct rest as [[|a r]|]; [left; exists []; simpl; auto| |]; rewrite orb_false_r in H; apply Hleaf; auto.
+  - assert (Hstep : rest = Some [] \/ check_cell m e h mid low = true \/
+      forallb (fun i => check_far f (turned_to m rest i) (next rest i) (dst A e i) (qrow N h (mt e i)) mid low) (seq 0 (deg A e)) = true).
+    { destruct rest as [[|a r]|]; auto; rewrite orb_true_iff in H; tauto. }
+    destruct Hstep as [->|[H1|H1]]; [left; exists []; simpl; auto|apply Hleaf; auto|].
+    pose proof (Hs O) as Hs0. simpl in Hs0. pose proof (forall_lt _ _ H1 (s O) Hs0) as H2. cbv beta in H2.
     assert (Hd : (dst A e (s O) < states A)%nat) by (apply (dst_ok A (wf A Hsys)); auto).
-    destruct (IH (next rest (s O)) (dst A e (s O)) (qrow N h (mt e (s O))) low Hd H2 (tl s)) as [(r & Hr & Hb)|Hv];
-      [apply adm_tl; auto| |].
-    + left. destruct rest as [[|a r']|]; simpl in Hr; try discriminate.
-      destruct (Nat.eqb_spec a (s O)); [|discriminate]. injection Hr as <-. exists (a :: r'). split; auto. split; auto.
-    + right. rewrite qrow_ok in Hv.
-      destruct Hsys as (Hwf & K & th & c & r & Q1 & Q2 & Q3 & Q4).
-      rewrite (phi_step A Hwf K th c r Q1 Q4 e s He Hs). exact Hv.
+    apply far_cons. destruct Hsys as (Hwf & K & th & c & r & Q1 & Q2 & Q3 & Q4).
+    rewrite (phi_step A Hwf K th c r Q1 Q4 e s He Hs).
+    pose proof (IH _ _ _ _ _ _ Hd H2 (tl s) (adm_tl A e s Hs)) as H3. rewrite qrow_ok in H3. exact H3.
 Qed.
 End Contraction.
 
@@ -209,36 +331,23 @@ Definition top_value (t : top) := match t with Simple l _ _ | Block l _ _ _ _ =>
 Definition top_row (t : top) := match t with Simple _ g _ => g | Block _ _ g2 _ _ => g2 end.
 Definition top_vector (t : top) := match t with Simple _ _ v => v | Block _ _ _ v1 _ => v1 end.
 
-(** [g M = a] on vectors of sum 0. *)
-Definition eqrow (n : nat) (a b : qvec) : bool := Qeq_bool (qosc n (qsub N a b)) 0.
 (** [M - sum_i (M v_i) g_i]. *)
 Definition less (M : qmat) (l : list (qvec * qvec)) : qmat :=
   tab N (fun i => tab N (fun j => fold_right (fun gv x => Qred (x - qnth (snd gv) i * qnth (fst gv) j)) (qent M i j) l)).
 
-Definition check_top (n : nat) (M : qmat) (t : top) (k : nat) (eta : Q) : bool :=
-  (0 <? k) && Qlt_bool eta (qpow k (Qabs (top_value t))) && Qle_bool 0 eta && negb (Qeq_bool (top_value t) 0) &&
+Definition check_top (M : qmat) (t : top) (k : nat) (eta : Q) : bool :=
+  (length M <=? N) && (0 <? k) && Qlt_bool eta (qpow k (Qabs (top_value t))) && Qle_bool 0 eta && negb (Qeq_bool (top_value t) 0) &&
   match t with
   | Simple lam g v =>
-      qflat N n v && (length g <=? N) && qeqv N (qact N M v) (qscl N lam v) && eqrow n (qrow N g M) (qscl N lam g) &&
-      Qeq_bool (qdot N g v) 1 && Qle_bool (qtau N n (less (qmpow N k M) [(g, qact N (qmpow N k M) v)])) eta
+      (length v <=? N) && (length g <=? N) && qeqv N (qact N M v) (qscl N lam v) && qeqv N (qrow N g M) (qscl N lam g) &&
+      Qeq_bool (qdot N g v) 1 && Qle_bool (qcolumn N (less (qmpow N k M) [(g, qact N (qmpow N k M) v)])) eta
   | Block lam g1 g2 v1 v2 =>
-      qflat N n v1 && qflat N n v2 && (length g1 <=? N) && (length g2 <=? N) &&
+      (length v1 <=? N) && (length v2 <=? N) && (length g1 <=? N) && (length g2 <=? N) &&
       qeqv N (qact N M v1) (qscl N lam v1) && qeqv N (qact N M v2) (qadd N (qscl N lam v2) v1) &&
-      eqrow n (qrow N g2 M) (qscl N lam g2) && eqrow n (qrow N g1 M) (qadd N (qscl N lam g1) g2) &&
+      qeqv N (qrow N g2 M) (qscl N lam g2) && qeqv N (qrow N g1 M) (qadd N (qscl N lam g1) g2) &&
       Qeq_bool (qdot N g1 v1) 1 && Qeq_bool (qdot N g1 v2) 0 && Qeq_bool (qdot N g2 v1) 0 && Qeq_bool (qdot N g2 v2) 1 &&
-      Qle_bool (qtau N n (less (qmpow N k M) [(g1, qact N (qmpow N k M) v1); (g2, qact N (qmpow N k M) v2)])) eta
+      Qle_bool (qcolumn N (less (qmpow N k M) [(g1, qact N (qmpow N k M) v1); (g2, qact N (qmpow N k M) v2)])) eta
   end.
-
-Lemma eqrow_ok n a b x : (n <= N)%nat -> (length a <= N)%nat -> (length b <= N)%nat -> eqrow n a b = true ->
-  flat N n x -> dot N (qv a) x = dot N (qv b) x.
-Proof.
-  intros Hn Ha Hb H Hx. apply Q2R_eq in H. rewrite Q2R_0 in H.
-  pose proof (qosc_bound N n (qsub N a b) x Hn Hx) as Ho. rewrite H, Rmult_0_l, qsub_ok in Ho by auto.
-  assert (Hd : dot N (sub (qv a) (qv b)) x = dot N (qv a) x - dot N (qv b) x).
-  { unfold dot, sub. rewrite <- sum_minus. apply sum_ext; intros; ring. }
-  rewrite Hd in Ho. pose proof (Rabs_pos (dot N (qv a) x - dot N (qv b) x)).
-  destruct (Req_dec (dot N (qv a) x - dot N (qv b) x) 0); [lra|]. apply Rabs_pos_lt in H1. lra.
-Qed.
 
 Lemma less_ok M l x : (length M <= N)%nat -> (forall gv, In gv l -> dot N (qv (fst gv)) x = 0) ->
   act N (qm (less M l)) x = act N (qm M) x.
@@ -259,69 +368,68 @@ Qed.
 Definition top_scale (t : top) : nat -> R :=
   match t with Simple lam _ _ => fun m => Q2R lam ^ m | Block lam _ _ _ _ => block_scale (Q2R lam) end.
 
-Theorem check_top_ok n M t k eta L :
-  (n <= N)%nat -> (length M <= N)%nat ->
-  (forall x, (forall i, (N <= i)%nat -> x i = 0) -> act N (qm M) x = L x) ->
-  (forall x y, L (add x y) = add (L x) (L y)) -> (forall a x, L (scl a x) = scl a (L x)) ->
-  (forall x, flat N n x -> flat N n (L x)) ->
-  check_top n M t k eta = true ->
-  leads N (flat N n) L (fun x => scl (dot N (qv (top_row t)) x) (qv (top_vector t))) (top_scale t) /\
-  flat N n (qv (top_vector t)).
+(** Vectors with [N] coordinates. *)
+Definition short (y : vec) := forall i, (N <= i)%nat -> y i = 0.
+
+Lemma short_act M y : (length M <= N)%nat -> short (act N (qm M) y).
+Proof. intros HM i Hi. unfold act. apply sum_0; intros. rewrite qm_short by lia. ring. Qed.
+
+Lemma short_qv l : (length l <= N)%nat -> short (qv l).
+Proof. intros Hl i Hi. apply qv_short. lia. Qed.
+
+Theorem check_top_ok M t k eta : check_top M t k eta = true ->
+  leads N short (act N (qm M)) (fun x => scl (dot N (qv (top_row t)) x) (qv (top_vector t))) (top_scale t).
 Proof.
-  intros Hn HM HL La Ls LV H. unfold check_top in H. rewrite !andb_true_iff in H.
-  destruct H as [[[[H1 H2] H3] H4] H5]. apply Nat.ltb_lt in H1.
+  intros H. unfold check_top in H. rewrite !andb_true_iff in H.
+  destruct H as [[[[[HM H1] H2] H3] H4] H5]. apply Nat.leb_le in HM. apply Nat.ltb_lt in H1.
   apply Q2R_lt in H2. rewrite qpow_ok, Q2R_abs in H2. apply Q2R_le in H3. rewrite Q2R_0 in H3.
   assert (Hlam : Q2R (top_value t) <> 0).
   { intros H0. rewrite negb_true_iff in H4. assert (Hq : (top_value t == 0)%Q) by (apply eqR_Qeq; rewrite Q2R_0; auto).
     apply Qeq_bool_iff in Hq. congruence. }
-  assert (Hb : forall x, flat N n x -> nrm N (L x) <= (1 + size N (qm M)) * nrm N x).
-  { intros x [Hx _]. rewrite <- HL by (intros; apply Hx; lia). pose proof (nrm_act N (qm M) x). pose proof (nrm_ge0 N x). lra. }
+  set (L := act N (qm M)).
+  assert (Hb : forall x, short x -> nrm N (L x) <= (1 + size N (qm M)) * nrm N x).
+  { intros x _. pose proof (nrm_act N (qm M) x). pose proof (nrm_ge0 N x). unfold L. lra. }
   assert (Hb1 : 1 <= 1 + size N (qm M)) by (pose proof (size_ge0 N (qm M)); lra).
-  assert (HLV : forall x, flat N n x -> act N (qm M) x = L x) by (intros x [Hx _]; apply HL; intros; apply Hx; lia).
-  assert (Hpw : forall x, flat N n x -> act N (qm (qmpow N k M)) x = Nat.iter k L x).
-  { intros x Hx. rewrite qmpow_ok; auto; [|intros; apply Hx; lia]. clear - HLV Hx LV.
-    assert (H : Nat.iter k (act N (qm M)) x = Nat.iter k L x /\ flat N n (Nat.iter k L x)); [|apply H].
-    induction k as [|k [IH1 IH2]]; simpl; auto. rewrite IH1. auto. }
-  assert (Hgap : forall x l, flat N n x -> (forall gv, In gv l -> dot N (qv (fst gv)) x = 0) ->
-    Qle_bool (qtau N n (less (qmpow N k M) l)) eta = true -> nrm N (Nat.iter k L x) <= Q2R eta * nrm N x).
-  { intros x l Hx Hl Hq. apply Q2R_le in Hq. rewrite <- Hpw, <- (less_ok _ l) by (auto; apply qmpow_len).
-    eapply Rle_trans; [apply (qtau_bound N n); auto|]. apply Rmult_le_compat_r; [apply nrm_ge0|auto]. }
-  assert (Hrow : forall g h x, (length h <= N)%nat -> eqrow n (qrow N g M) h = true -> flat N n x ->
-    dot N (qv g) (L x) = dot N (qv h) x).
-  { intros g h x Hh Hq Hx. rewrite <- HLV, <- qrow_ok by auto. apply (eqrow_ok n); auto. unfold qrow. rewrite tab_length. auto. }
+  assert (Hadd : forall x y, short x -> short y -> short (add x y)).
+  { intros x y Hx Hy i Hi. unfold add. rewrite Hx, Hy by auto. ring. }
+  assert (Hscl : forall a x, short x -> short (scl a x)).
+  { intros a x Hx i Hi. unfold scl. rewrite Hx by auto. ring. }
+  assert (HLV : forall x, short x -> short (L x)) by (intros; apply short_act; auto).
+  assert (Hgap : forall x l, short x -> (forall gv, In gv l -> dot N (qv (fst gv)) x = 0) ->
+    Qle_bool (qcolumn N (less (qmpow N k M) l)) eta = true -> nrm N (Nat.iter k L x) <= Q2R eta * nrm N x).
+  { intros x l Hx Hl Hq. apply Q2R_le in Hq. unfold L. rewrite <- qmpow_ok, <- (less_ok _ l) by (auto; apply qmpow_len).
+    eapply Rle_trans; [apply qcolumn_ok|]. apply Rmult_le_compat_r; [apply nrm_ge0|auto]. }
+  assert (Hrow : forall g h x, qeqv N (qrow N g M) h = true -> dot N (qv g) (L x) = dot N (qv h) x).
+  { intros g h x Hq. apply qeqv_ok in Hq. unfold L. rewrite <- qrow_ok, Hq. reflexivity. }
   assert (Hdscl : forall a g x, (length g <= N)%nat -> dot N (qv (qscl N a g)) x = Q2R a * dot N (qv g) x).
   { intros a g x Hg. rewrite qscl_ok by auto. unfold dot, scl. rewrite <- sum_scal. apply sum_ext; intros; ring. }
   assert (Htab : forall (f : nat -> Q), (length (tab N f) <= N)%nat) by (intros; rewrite tab_length; auto).
+  assert (Ladd : forall x y, L (add x y) = add (L x) (L y)) by (intros; apply act_add).
+  assert (Lscl : forall a x, L (scl a x) = scl a (L x)) by (intros; apply act_scl).
   destruct t as [lam g v|lam g1 g2 v1 v2]; simpl in *; rewrite ?andb_true_iff in H5.
-  - destruct H5 as [[[[[Hv Hg] Hvec] Hgr] Hgv] Hq]. pose proof (qflat_len _ _ _ Hv) as Hvl. apply qflat_ok in Hv.
-    apply Nat.leb_le in Hg. apply qeqv_ok in Hvec. rewrite qact_ok, HLV, qscl_ok in Hvec by (auto; lia).
-    apply Q2R_eq in Hgv. rewrite qdot_ok, Q2R_1 in Hgv.
-    split; auto. apply (leads_simple N (flat N n) L (1 + size N (qm M))) with (k := k) (eta := Q2R eta); auto.
-    + intros; apply flat_add; auto.
-    + intros; apply flat_scl; auto.
-    + intros x Hx. rewrite (Hrow g (qscl N lam g)); auto. apply Htab.
+  - destruct H5 as [[[[[Hv Hg] Hvec] Hgr] Hgv] Hq]. apply Nat.leb_le in Hv, Hg.
+    apply qeqv_ok in Hvec. rewrite qact_ok, qscl_ok in Hvec by auto. apply Q2R_eq in Hgv. rewrite qdot_ok, Q2R_1 in Hgv.
+    apply (leads_simple N short L (1 + size N (qm M))) with (k := k) (eta := Q2R eta); auto.
+    + apply short_qv; auto.
+    + intros x Hx. rewrite (Hrow g (qscl N lam g)); auto.
     + intros x Hx Hgx. apply (Hgap x _ Hx) in Hq; auto. intros gv [<-|[]]; auto.
   - destruct H5 as [[[[[[[[[[[[Hv1 Hv2] Hg1] Hg2] Hvec1] Hvec2] Hgr2] Hgr1] H11] H12] H21] H22] Hq].
-    pose proof (qflat_len _ _ _ Hv1) as Hl1. pose proof (qflat_len _ _ _ Hv2) as Hl2.
-    apply qflat_ok in Hv1, Hv2. apply Nat.leb_le in Hg1, Hg2. apply qeqv_ok in Hvec1, Hvec2.
-    rewrite qact_ok, HLV, qscl_ok in Hvec1 by (auto; lia).
-    rewrite qact_ok, HLV, qadd_ok, qscl_ok in Hvec2 by (auto; try apply Htab; lia).
+    apply Nat.leb_le in Hv1, Hv2, Hg1, Hg2. apply qeqv_ok in Hvec1, Hvec2.
+    rewrite qact_ok, qscl_ok in Hvec1 by auto. rewrite qact_ok, qadd_ok, qscl_ok in Hvec2 by (auto; apply Htab).
     apply Q2R_eq in H11, H12, H21, H22. rewrite qdot_ok in H11, H12, H21, H22. rewrite Q2R_1 in H11, H22. rewrite Q2R_0 in H12, H21.
-    split; auto.
-    apply (leads_block N (flat N n) L (1 + size N (qm M))) with (g1 := qv g1) (v2 := qv v2) (k := k) (eta := Q2R eta); auto.
-    + intros; apply flat_add; auto.
-    + intros; apply flat_scl; auto.
-    + intros x Hx. rewrite (Hrow g2 (qscl N lam g2)); auto. apply Htab.
-    + intros x Hx. rewrite (Hrow g1 (qadd N (qscl N lam g1) g2)); auto; [|apply Htab].
+    apply (leads_block N short L (1 + size N (qm M))) with (g1 := qv g1) (v2 := qv v2) (k := k) (eta := Q2R eta); auto.
+    + apply short_qv; auto.
+    + apply short_qv; auto.
+    + intros x Hx. rewrite (Hrow g2 (qscl N lam g2)); auto.
+    + intros x Hx. rewrite (Hrow g1 (qadd N (qscl N lam g1) g2)); auto.
       rewrite qadd_ok by (auto; apply Htab). rewrite <- Hdscl by auto. unfold dot, add. rewrite <- sum_plus.
       apply sum_ext; intros; ring.
     + intros x Hx Hx1 Hx2. apply (Hgap x _ Hx) in Hq; auto. intros gv [<-|[<-|[]]]; auto.
 Qed.
 
-Lemma top_scale_pos n M t k eta : check_top n M t k eta = true -> 0 < Q2R (top_value t) ->
-  exists m1, forall m c, (m1 <= m)%nat -> 0 < c -> 0 < top_scale t m * c.
+Lemma top_scale_pos t m : 0 < Q2R (top_value t) -> (1 <= m)%nat -> 0 < top_scale t m.
 Proof.
-  intros _ Hl. exists 1%nat. intros m c Hm Hc. apply Rmult_lt_0_compat; auto. destruct t; simpl in *.
+  intros Hl Hm. destruct t; simpl in *.
   - apply pow_lt; auto.
   - unfold block_scale. apply Rdiv_lt_0_compat; auto. apply Rmult_lt_0_compat; [apply (lt_INR 0); lia|apply pow_lt; auto].
 Qed.

@@ -101,23 +101,6 @@ Qed.
 Lemma deg_pos e : (e < states A)%nat -> (0 < deg A e)%nat.
 Proof. intros He. apply (wf A sys e He). Qed.
 
-(** The limits of start points and of end points are the points of the addresses. *)
-Lemma phi_from (a : nat -> vec) e s i : (forall e, (e < states A)%nat -> bary N (dim A e) (a e)) ->
-  (e < states A)%nat -> adm A e s -> is_lim_seq (fun k => W A e s k (a (st A e s k)) i) (phi A e s i).
-Proof.
-  intros Ha He Hs. destruct (Nat.lt_ge_cases i N) as [Hi|Hi].
-  - apply (base_points A sys e s (fun k => a (st A e s k)) (sum (states A) (fun f => nrm N (a f)))); auto.
-    + intros k. apply Ha. apply st_ok; auto. apply (wf A sys).
-    + intros k. apply (sum_term (states A) (fun f => nrm N (a f)) (st A e s k)).
-      * intros; apply nrm_ge0.
-      * apply st_ok; auto. apply (wf A sys).
-  - assert (Hb : forall k, bary N (dim A e) (W A e s k (a (st A e s k)))).
-    { intros k. apply W_bary; auto; [apply (wf A sys)|]. apply Ha. apply st_ok; auto. apply (wf A sys). }
-    pose proof (dim_ok A (wf A sys) e He). destruct (phi_bary' A sys e s He Hs) as [H1 _]. rewrite H1 by lia.
-    apply is_lim_seq_ext with (u := fun _ => 0); [|apply is_lim_seq_const].
-    intros k. symmetry. apply (Hb k). lia.
-Qed.
-
 Lemma after_first e s : (e < states A)%nat -> adm A e s -> inC e (sub (phi A e s) (first e)).
 Proof.
   intros He Hs.
@@ -133,7 +116,7 @@ Proof.
   destruct (in_cone_closed (rays e) (ray e)) as (_ & _ & _ & Hl).
   apply (Hl (fun k => sub (W A e s k (first (st A e s k))) (first e))); [intros; apply H; auto|].
   intros i. unfold sub. apply (is_lim_seq_minus' _ (fun _ => first e i)); [|apply is_lim_seq_const].
-  apply phi_from; auto. intros; apply first_ok; auto.
+  apply (phi_from A sys); auto. intros; apply first_ok; auto.
 Qed.
 
 Lemma before_last e s : (e < states A)%nat -> adm A e s -> inC e (sub (last e) (phi A e s)).
@@ -151,11 +134,8 @@ Proof.
   destruct (in_cone_closed (rays e) (ray e)) as (_ & _ & _ & Hl).
   apply (Hl (fun k => sub (last e) (W A e s k (last (st A e s k))))); [intros; apply H; auto|].
   intros i. unfold sub. apply (is_lim_seq_minus' (fun _ => last e i)); [apply is_lim_seq_const|].
-  apply phi_from; auto. intros; apply last_ok; auto.
+  apply (phi_from A sys); auto. intros; apply last_ok; auto.
 Qed.
-
-(** The order of the curve: the first letter that differs decides. *)
-Definition before (s t : address) := exists k, (forall j, (j < k)%nat -> s j = t j) /\ (s k < t k)%nat.
 
 (** Secants, directed forward, lie in the cone. *)
 Lemma forward k : forall e s t, (e < states A)%nat -> adm A e s -> adm A e t ->

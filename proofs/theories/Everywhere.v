@@ -24,7 +24,7 @@ Variable case : system.
 Notation A := (automaton_of case).
 Notation N := (ambient case).
 Notation mt e i := (snd (piece case e i)).
-Variables (centres : list qvec) (radii : list Q) (k : cones).
+Variables (centres : list qvec) (radii : list Q) (spaces : list qmat) (k : cones).
 
 Definition ray_list e := nth e (rays_of k) [].
 Definition ray_at e j := nth j (ray_list e) [].
@@ -53,17 +53,17 @@ Definition check_state (e : nat) : bool :=
   qeqv N (qsub N (last_at e) (first_at e)) (qcomb n (qnth (chord_at e)) (ray_at e)) &&
   forallb (fun i => forallb (fun j =>
       qeqv N (qact N (mt e i) (ray_at (dst A e i) j)) (qcomb n (fun l => qent (map_at e i) l j) (ray_at e)) &&
-      forallb (fun l => Qlt_bool 0 (qent (map_at e i) l j) &&
-        forallb (fun j' => Qle_bool (ratio k * qent (map_at e i) l j') (qent (map_at e i) l j))
-          (seq 0 (length (ray_list (dst A e i))))) (seq 0 n))
-    (seq 0 (length (ray_list (dst A e i))))) (seq 0 (deg A e)).
+      forallb (fun l => Qlt_bool 0 (qent (map_at e i) l j)) (seq 0 n))
+    (seq 0 (length (ray_list (dst A e i)))) &&
+    forallb (fun l => let bound := Qred (ratio k * qmax (map (qent (map_at e i) l) (seq 0 (length (ray_list (dst A e i)))))) in
+      forallb (fun j => Qle_bool bound (qent (map_at e i) l j)) (seq 0 (length (ray_list (dst A e i))))) (seq 0 n)) (seq 0 (deg A e)).
 
 Definition check_cones (P : qmat) (s : nat) : bool :=
   (s <? states A) && (length P <=? N) && Qlt_bool 0 (ratio k) && Qle_bool (ratio k) 1 &&
   forallb check_state (seq 0 (states A)) &&
   forallb (fun j => Qlt_bool 0 (qdot N (seen_by k) (qact N P (ray_at s j)))) (seq 0 (length (ray_list s))).
 
-Theorem cones_ok P s : controlled case centres radii -> check_cones P s = true -> tangent_at_every_address A (qm P) s.
+Theorem cones_ok P s : controlled case centres radii spaces -> check_cones P s = true -> tangent_at_every_address A (qm P) s.
 Proof.
   intros (Hf & Hsys & _) H. unfold check_cones in H. rewrite !andb_true_iff in H.
   destruct H as [[[[[H1 H2] H3] H4] H5] H6]. apply Nat.ltb_lt in H1. apply Nat.leb_le in H2.
@@ -101,12 +101,14 @@ Proof.
     { intros j Hj. pose proof (forall_lt _ _ G8 j Hj) as G. apply Q2R_le in G. rewrite Q2R_0 in G. auto. }
     split.
     { rewrite <- (qsub_ok N) by tauto. rewrite <- (qcomb_ok _ (qnth (chord_at e))) by auto. apply (qeqv_ok N); auto. }
-    intros i j Hi Hj. pose proof (forall_lt _ _ G10 i Hi) as G. cbv beta in G. pose proof (forall_lt _ _ G j Hj) as G'. cbv beta in G'.
-    rewrite andb_true_iff in G'. destruct G' as [Ga Gc]. split.
+    intros i j Hi Hj. pose proof (forall_lt _ _ G10 i Hi) as G. cbv beta in G. rewrite andb_true_iff in G. destruct G as [G Gr'].
+    pose proof (forall_lt _ _ G j Hj) as G'. cbv beta in G'. rewrite andb_true_iff in G'. destruct G' as [Ga Gc]. split.
     { rewrite <- Ha by auto. rewrite <- (qcomb_ok _ (fun l => qent (map_at e i) l j)) by auto. apply (qeqv_ok N); auto. }
-    intros l Hl. pose proof (forall_lt _ _ Gc l Hl) as Gd. cbv beta in Gd. rewrite andb_true_iff in Gd. destruct Gd as [Gd Ge].
-    split; [apply Q2R_lt in Gd; rewrite Q2R_0 in Gd; auto|]. intros j' Hj'. pose proof (forall_lt _ _ Ge j' Hj') as Gf. cbv beta in Gf.
-    apply Q2R_le in Gf. rewrite Q2R_mult in Gf. auto. }
+    intros l Hl. pose proof (forall_lt _ _ Gc l Hl) as Gd. cbv beta in Gd.
+    split; [apply Q2R_lt in Gd; rewrite Q2R_0 in Gd; auto|]. intros j' Hj'.
+    pose proof (forall_lt _ _ Gr' l Hl) as Ge. cbv beta zeta in Ge. pose proof (forall_lt _ _ Ge j Hj) as Gf. cbv beta in Gf.
+    apply Q2R_le in Gf. rewrite Q2R_red, Q2R_mult in Gf. eapply Rle_trans; [|exact Gf]. apply Rmult_le_compat_l; [lra|].
+    apply qmax_ok. apply in_map_iff. exists j'. split; auto. apply in_seq. lia. }
   intros a Ha.
   eexists. apply (tangent_everywhere A Hsys (fun e => length (ray_list e)) (fun e j => qv (ray_at e j))
     (fun e i l j => Q2R (qent (map_at e i) l j)) (Q2R (ratio k)) (fun e => qv (first_at e)) (fun e => qv (last_at e))

@@ -17,17 +17,44 @@ Definition point (A : automaton) (P : matrix) (s : nat) (b : branch) : vec :=
 Definition secant (A : automaton) (P : matrix) (s : nat) (b : branch) (m : nat) (t : address) : vec :=
   sub (act (N A) P (phi A s (app (prefix b) (rep m (cycle b) t)))) (point A P s b).
 
-(** The secants of the germ of a branch tend to multiples of [d], with a factor in [sg], uniformly: for every [eps], those of
-    the addresses that share [m] turns of the cycle deviate by at most [eps] times their length. The germ is no single point. *)
-Definition directed (sg : R -> Prop) (A : automaton) (P : matrix) (s : nat) (b : branch) (d : vec) :=
+(** The secants of the germ of a branch tend to multiples of [d], uniformly: for every [eps], those of the addresses that share
+    [m] turns of the cycle deviate by at most [eps] times their length from [c d], where the factor [c] is one that [sg] allows
+    for the rest of the address. The germ is no single point. *)
+Definition directed_by (sg : address -> R -> Prop) (A : automaton) (P : matrix) (s : nat) (b : branch) (d : vec) :=
   (forall eps, 0 < eps -> exists m0, forall m t, (m0 <= m)%nat -> adm A (stw A s (prefix b)) t ->
      0 < nrm (N A) (secant A P s b m t) ->
-     exists c, sg c /\ nrm (N A) (sub (secant A P s b m t) (scl c d)) <= eps * nrm (N A) (secant A P s b m t)) /\
+     exists c, sg t c /\ nrm (N A) (sub (secant A P s b m t) (scl c d)) <= eps * nrm (N A) (secant A P s b m t)) /\
   (forall m, exists t, adm A (stw A s (prefix b)) t /\ 0 < nrm (N A) (secant A P s b m t)).
+
+Definition directed (sg : R -> Prop) := directed_by (fun _ => sg).
 
 (** One limit ray; one limit line. *)
 Definition half_tangent := directed (fun c => 0 < c).
 Definition tangent_line := directed (fun c => True).
+
+(** The order of addresses: the first letter that differs decides. *)
+Definition before (s t : address) := exists k, (forall j, (j < k)%nat -> s j = t j) /\ (s k < t k)%nat.
+
+(** One limit ray on each side of a point inside a cell: [d] for what comes after it, [-d] for what comes before. The rest of an
+    address decides on which side it is ([before_turns]). *)
+Definition passes (A : automaton) (P : matrix) (s : nat) (b : branch) :=
+  directed_by (fun t c => (before (per (cycle b)) t -> 0 < c) /\ (before t (per (cycle b)) -> c < 0)) A P s b.
+
+Lemma before_app w s t : before (app w s) (app w t) <-> before s t.
+Proof.
+  induction w as [|i w IH]; simpl; [tauto|]. rewrite <- IH. split; intros (k & H1 & H2).
+  - destruct k as [|k]; [unfold cons in H2; lia|]. exists k. split; [intros j Hj; apply (H1 (S j)); lia|exact H2].
+  - exists (S k). split; [intros [|j] Hj; [reflexivity|apply H1; lia]|exact H2].
+Qed.
+
+Lemma before_turns u w m t : w <> [] ->
+  (before (app u (per w)) (app u (rep m w t)) <-> before (per w) t) /\
+  (before (app u (rep m w t)) (app u (per w)) <-> before t (per w)).
+Proof.
+  intros Hw. rewrite !before_app. induction m as [|m [IH1 IH2]]; simpl; [tauto|].
+  rewrite (per_app w Hw) at 1. rewrite before_app, IH1. split; [tauto|].
+  rewrite (per_app w Hw) at 1. rewrite before_app. exact IH2.
+Qed.
 
 (** [d] or [-d] is a limit direction of the germ (up to length). *)
 Definition limit_line (A : automaton) (P : matrix) (s : nat) (b : branch) (d : vec) :=
@@ -268,96 +295,107 @@ Qed.
 Lemma secant_rep m n t : secant A P s b m (rep n w t) = secant A P s b (m + n) t.
 Proof. unfold secant. rewrite rep_rep. reflexivity. Qed.
 
-(** The corollary that refutes without the ring condition: one point of the attractor in [V'] with a leading part. *)
-Theorem limit_intro (V' : vec -> Prop) (pi : vec -> vec) (scale : nat -> R) t :
-  leads N V' L pi scale -> adm A e t -> V' (sub (phi A e t) q) -> 0 < nrm (G (pi (sub (phi A e t) q))) ->
-  limit_line A P s b (G (pi (sub (phi A e t) q))).
+(** A chart of the germ: coordinates in which a turn and what is seen are linear maps of their own. It may leave out what is
+    not seen, and what the differences of the attractor do not reach. *)
+Section Chart.
+Variables (C Q : matrix) (Lc : vec -> vec) (Y : vec -> Prop) (within : address -> Prop).
+Notation y t := (act N C (sub (phi A e t) q)).
+Hypothesis chart_Y : forall t, adm A e t -> within t -> Y (y t).
+Hypothesis chart_G : forall m t, adm A e t -> within t -> G (pw m (sub (phi A e t) q)) = act N Q (Nat.iter m Lc (y t)).
+
+Lemma seen_bound : exists S, 1 <= S /\ forall x, nrm (act N Q x) <= S * nrm x.
 Proof.
-  intros Hlead Ht HV Hseen eps m Heps. set (x := sub (phi A e t) q) in *. set (d := G (pi x)) in *.
-  destruct (Ww_bound A u s) as (B & HB & HuB).
-  pose (S := size N P * B + 1). assert (HS : 1 <= S) by (unfold S; pose proof (size_ge0 N P); nra).
-  assert (HG : forall x, nrm (G x) <= S * nrm x).
-  { intros z. eapply Rle_trans; [apply nrm_act|]. pose proof (HuB z). pose proof (size_ge0 N P). pose proof (nrm_ge0 N z).
-    apply Rle_trans with (size N P * (B * nrm z)); [apply Rmult_le_compat_l; auto|]. unfold S. nra. }
+  exists (1 + size N Q). pose proof (size_ge0 N Q). split; [lra|]. intros x.
+  pose proof (nrm_act N Q x). pose proof (nrm_ge0 N x). lra.
+Qed.
+
+(** The corollary that refutes without the ring condition: one point of the attractor with a leading part. *)
+Theorem limit_intro (pi : vec -> vec) (scale : nat -> R) t :
+  leads N Y Lc pi scale -> adm A e t -> within t -> 0 < nrm (act N Q (pi (y t))) ->
+  limit_line A P s b (act N Q (pi (y t))).
+Proof.
+  intros Hlead Ht HV Hseen eps m Heps. set (x := y t) in *. set (d := act N Q (pi x)) in *.
+  destruct seen_bound as (S & HS & HG).
   pose (e2 := Rmin (1 / 2) (eps / 2) * nrm d).
   assert (Hmin : 0 < Rmin (1 / 2) (eps / 2)) by (apply Rmin_glb_lt; lra).
   assert (He2 : 0 < e2) by (apply Rmult_lt_0_compat; auto).
   pose proof (nrm_ge0 N x) as Hx0.
   destruct (Hlead (e2 / (S * (nrm x + 1)))) as (m0 & Hm0).
   { apply Rdiv_lt_0_compat; auto. apply Rmult_lt_0_compat; lra. }
-  exists (m + m0)%nat, t. split; [lia|]. split; auto. rewrite secant_eq by auto. fold x.
-  destruct (Hm0 (m + m0)%nat ltac:(lia)) as (Hsm & Hl). specialize (Hl x HV).
+  exists (m + m0)%nat, t. split; [lia|]. split; auto. rewrite secant_eq, chart_G by auto. fold x.
+  destruct (Hm0 (m + m0)%nat ltac:(lia)) as (Hsm & Hl). specialize (Hl x (chart_Y t Ht HV)).
   set (n := (m + m0)%nat) in *. assert (Hk : 0 < Rabs (scale n)) by (apply Rabs_pos_lt; auto).
-  assert (H2 : nrm (sub (G (pw n x)) (scl (scale n) d)) <= e2 * Rabs (scale n)).
-  { unfold d. rewrite <- act_scl, <- Ww_scl, <- act_sub, <- Ww_sub. eapply Rle_trans; [apply HG|].
+  set (z := act N Q (Nat.iter n Lc x)) in *.
+  assert (H2 : nrm (sub z (scl (scale n) d)) <= e2 * Rabs (scale n)).
+  { unfold d, z. rewrite <- act_scl, <- act_sub. eapply Rle_trans; [apply HG|].
     apply Rle_trans with (S * (e2 / (S * (nrm x + 1)) * Rabs (scale n) * (nrm x + 1))).
     - apply Rmult_le_compat_l; [lra|]. eapply Rle_trans; [exact Hl|]. apply Rmult_le_compat_l; [|lra].
       apply Rmult_le_pos; [|lra]. left. apply Rdiv_lt_0_compat; auto. apply Rmult_lt_0_compat; lra.
     - right. field. lra. }
-  assert (H3 : Rabs (scale n) * nrm d <= nrm (G (pw n x)) + e2 * Rabs (scale n)).
-  { rewrite <- nrm_scl. eapply Rle_trans; [apply (nrm_back N _ (G (pw n x)))|]. rewrite nrm_sub_sym. lra. }
+  assert (H3 : Rabs (scale n) * nrm d <= nrm z + e2 * Rabs (scale n)).
+  { rewrite <- nrm_scl. eapply Rle_trans; [apply (nrm_back N _ z)|]. rewrite nrm_sub_sym. lra. }
   assert (He3 : e2 <= 1 / 2 * nrm d) by (apply Rmult_le_compat_r; [lra|apply Rmin_l]).
   assert (He4 : e2 <= eps / 2 * nrm d) by (apply Rmult_le_compat_r; [lra|apply Rmin_r]).
-  assert (H4 : Rabs (scale n) * nrm d / 2 <= nrm (G (pw n x))) by nra.
+  assert (H4 : Rabs (scale n) * nrm d / 2 <= nrm z) by nra.
   split; [nra|]. exists (scale n). eapply Rle_trans; [exact H2|]. nra.
 Qed.
 
-(** Theorems 2 and 3 with the rule for rays: the ring condition [g (x - q) >= delta > 0] on all addresses that do not begin
-    with the cycle, for an operator that leads to [v]. *)
-Variables (g v : vec) (scale : nat -> R) (delta : R) (sg : R -> Prop).
-Hypothesis leading : leads N V L (fun x => scl (dot N g x) v) scale.
+(** Theorems 2 and 3 with the rule for rays: the ring condition [|g y| >= delta > 0] on all addresses that do not begin with
+    the cycle, for an operator that leads to [v]. *)
+Variables (g v : vec) (scale : nat -> R) (delta : R) (sg : address -> R -> Prop).
+Hypothesis everywhere : forall t, adm A e t -> within t.
+Hypothesis leading : leads N Y Lc (fun x => scl (dot N g x) v) scale.
 Hypothesis delta_pos : 0 < delta.
-Hypothesis ring : forall t, adm A e t -> ~ begins w t -> delta <= dot N g (sub (phi A e t) q).
+Hypothesis ring : forall t, adm A e t -> ~ begins w t -> delta <= Rabs (dot N g (y t)).
 Hypothesis escape : exists t, adm A e t /\ ~ begins w t.
-Hypothesis seen : 0 < nrm (G v).
-Hypothesis signs : exists m1, forall m c, (m1 <= m)%nat -> 0 < c -> sg (scale m * c).
+Hypothesis seen : 0 < nrm (act N Q v).
+Hypothesis signs : exists m1, forall m t, (m1 <= m)%nat -> adm A e t -> ~ begins w t -> sg t (scale m * dot N g (y t)).
+Hypothesis turned : forall n t c, sg t c -> sg (rep n w t) c.
 
 Lemma ring_power eps : 0 < eps -> exists m0, forall m t, (m0 <= m)%nat -> adm A e t -> ~ begins w t ->
   0 < nrm (secant A P s b m t) /\
-  exists c, sg c /\ nrm (sub (secant A P s b m t) (scl c (G v))) <= eps * nrm (secant A P s b m t).
+  exists c, sg t c /\ nrm (sub (secant A P s b m t) (scl c (act N Q v))) <= eps * nrm (secant A P s b m t).
 Proof.
-  intros Heps. destruct (Ww_bound A u s) as (B & HB & HuB). destruct reach as (R1 & HR1 & HR).
-  pose (S := size N P * B + 1). assert (HS : 1 <= S) by (unfold S; pose proof (size_ge0 N P); nra).
-  assert (HG : forall x, nrm (G x) <= S * nrm x).
-  { intros x. eapply Rle_trans; [apply nrm_act|]. pose proof (HuB x). pose proof (size_ge0 N P). pose proof (nrm_ge0 N x).
-    apply Rle_trans with (size N P * (B * nrm x)); [apply Rmult_le_compat_l; auto|]. unfold S. nra. }
-  pose (e2 := Rmin (1 / 2) (eps / 2) * nrm (G v)).
+  intros Heps. destruct reach as (R0 & HR0 & HR). destruct seen_bound as (S & HS & HG).
+  set (d := act N Q v) in *.
+  pose (R1 := size N C * R0 + 1). assert (HR1 : 0 < R1) by (unfold R1; pose proof (size_ge0 N C); nra).
+  pose (e2 := Rmin (1 / 2) (eps / 2) * nrm d).
   assert (Hmin : 0 < Rmin (1 / 2) (eps / 2)) by (apply Rmin_glb_lt; lra).
   assert (He2 : 0 < e2) by (apply Rmult_lt_0_compat; auto).
   destruct (leading (e2 * delta / (S * R1))) as (m0 & Hm0).
   { apply Rdiv_lt_0_compat; apply Rmult_lt_0_compat; lra. }
   destruct signs as (m1 & Hm1). exists (m0 + m1)%nat. intros m t Hm Ht Hb.
   destruct (Hm0 m) as (Hsm & Hlead); [lia|].
-  pose (x := sub (phi A e t) q).
-  assert (Hx : V x) by (apply bary_sub; auto; apply phi_bary'; auto; apply e_ok).
+  rewrite secant_eq, chart_G by auto. set (x := y t) in *.
   pose proof (ring t Ht Hb) as Hring. fold x in Hring.
-  pose proof (Hlead x Hx) as H1.
+  pose proof (Hlead x (chart_Y t Ht (everywhere t Ht))) as H1.
   replace (scl (scale m) (scl (dot N g x) v)) with (scl (scale m * dot N g x) v) in H1
     by (extensionality i; unfold scl; ring).
-  pose proof (HR t Ht) as Hxr. fold x in Hxr.
-  rewrite secant_eq by auto. fold x. set (k := scale m * dot N g x) in *.
+  assert (Hxr : nrm x <= R1).
+  { unfold x, R1. eapply Rle_trans; [apply nrm_act|]. pose proof (HR t Ht). pose proof (size_ge0 N C).
+    assert (size N C * nrm (sub (phi A e t) q) <= size N C * R0) by (apply Rmult_le_compat_l; auto). lra. }
+  set (k := scale m * dot N g x) in *. set (z := act N Q (Nat.iter m Lc x)) in *.
   assert (Hk : Rabs (scale m) * delta <= Rabs k).
-  { unfold k. rewrite Rabs_mult. apply Rmult_le_compat_l; [apply Rabs_pos|].
-    rewrite (Rabs_pos_eq (dot N g x)); lra. }
+  { unfold k. rewrite Rabs_mult. apply Rmult_le_compat_l; [apply Rabs_pos|auto]. }
   assert (Hsm' : 0 < Rabs (scale m)) by (apply Rabs_pos_lt; auto).
-  assert (H2 : nrm (sub (G (pw m x)) (scl k (G v))) <= e2 * Rabs k).
-  { rewrite <- act_scl, <- Ww_scl, <- act_sub, <- Ww_sub. eapply Rle_trans; [apply HG|].
+  assert (H2 : nrm (sub z (scl k d)) <= e2 * Rabs k).
+  { unfold z, d. rewrite <- act_scl, <- act_sub. eapply Rle_trans; [apply HG|].
     apply Rle_trans with (S * (e2 * delta / (S * R1) * Rabs (scale m) * R1)).
     - apply Rmult_le_compat_l; [lra|]. eapply Rle_trans; [exact H1|]. apply Rmult_le_compat_l; auto.
       apply Rmult_le_pos; [|lra]. left. apply Rdiv_lt_0_compat; apply Rmult_lt_0_compat; lra.
     - replace (S * (e2 * delta / (S * R1) * Rabs (scale m) * R1)) with (e2 * (Rabs (scale m) * delta)) by (field; lra).
       apply Rmult_le_compat_l; lra. }
-  assert (H3 : Rabs k * nrm (G v) <= nrm (G (pw m x)) + e2 * Rabs k).
-  { rewrite <- nrm_scl. eapply Rle_trans; [apply (nrm_back N _ (G (pw m x)))|]. rewrite nrm_sub_sym. lra. }
+  assert (H3 : Rabs k * nrm d <= nrm z + e2 * Rabs k).
+  { rewrite <- nrm_scl. eapply Rle_trans; [apply (nrm_back N _ z)|]. rewrite nrm_sub_sym. lra. }
   assert (Hkp : 0 < Rabs k) by (assert (0 < Rabs (scale m) * delta) by (apply Rmult_lt_0_compat; auto); lra).
-  assert (He3 : e2 <= 1 / 2 * nrm (G v)) by (apply Rmult_le_compat_r; [lra|apply Rmin_l]).
-  assert (He4 : e2 <= eps / 2 * nrm (G v)) by (apply Rmult_le_compat_r; [lra|apply Rmin_r]).
-  assert (H4 : Rabs k * nrm (G v) / 2 <= nrm (G (pw m x))) by nra.
-  split; [nra|]. exists k. split; [apply Hm1; [lia|lra]|].
+  assert (He3 : e2 <= 1 / 2 * nrm d) by (apply Rmult_le_compat_r; [lra|apply Rmin_l]).
+  assert (He4 : e2 <= eps / 2 * nrm d) by (apply Rmult_le_compat_r; [lra|apply Rmin_r]).
+  assert (H4 : Rabs k * nrm d / 2 <= nrm z) by nra.
+  split; [nra|]. exists k. split; [apply (Hm1 m t); auto; lia|].
   eapply Rle_trans; [exact H2|]. nra.
 Qed.
 
-Theorem directed_intro : directed sg A P s b (G v).
+Theorem directed_intro : directed_by sg A P s b (act N Q v).
 Proof.
   split.
   - intros eps Heps. destruct (ring_power eps Heps) as (m0 & Hm0). exists m0. intros m t Hm Ht Hpos.
@@ -366,8 +404,37 @@ Proof.
       rewrite (nrm_0 N (G _)) in Hpos; [lra|]. intros i Hi.
       replace (sub q q) with (scl 0 q) by (extensionality j; unfold sub, scl; ring).
       rewrite (pw_scl L (Ww_scl A w e)), Ww_scl, act_scl. unfold scl. ring.
-    + rewrite secant_rep. apply (Hm0 (m + n)%nat t'); auto. lia.
+    + rewrite secant_rep. destruct (Hm0 (m + n)%nat t' ltac:(lia) Ht' Hb) as (_ & c & Hc & Hn). exists c. split; auto.
   - intros m. destruct (ring_power 1 Rlt_0_1) as (m0 & Hm0). destruct escape as (t & Ht & Hb).
     exists (rep m0 w t). split; [apply adm_rep; auto|]. rewrite secant_rep. apply Hm0; auto. lia.
+Qed.
+End Chart.
+
+(** More than one turn at a time: what the germ tends to along some of its turns. *)
+Lemma limit_several (r : nat) d : (0 < r)%nat ->
+  limit_line A P s {| prefix := u; cycle := concat (repeat w r) |} d -> limit_line A P s b d.
+Proof.
+  intros Hr H eps m Heps. destruct (H eps m Heps) as (n & t & Hn & Ht & Hx & c & Hc). simpl in Ht.
+  assert (E : forall t, app (concat (repeat w r)) t = rep r w t).
+  { clear. intros t. induction r as [|r IH]; simpl; auto. rewrite <- IH. unfold app. rewrite fold_right_app. reflexivity. }
+  assert (E2 : forall n t, rep n (concat (repeat w r)) t = rep (n * r) w t).
+  { intros n0 t0. induction n0 as [|n0 IH]; auto. change (rep (S n0) (concat (repeat w r)) t0)
+      with (app (concat (repeat w r)) (rep n0 (concat (repeat w r)) t0)). rewrite E, IH, rep_rep. reflexivity. }
+  assert (E3 : per (concat (repeat w r)) = per w).
+  { extensionality i. unfold per.
+    assert (Hlw : length w <> O) by (pose proof w_ne; destruct w; simpl; congruence).
+    assert (Hl : length (concat (repeat w r)) = (r * length w)%nat).
+    { clear. induction r as [|r IH]; simpl; auto. rewrite app_length, IH. reflexivity. }
+    assert (Hn2 : forall k j, (j < k * length w)%nat -> nth j (concat (repeat w k)) O = nth (j mod length w) w O).
+    { intros k. induction k as [|k IH]; simpl; intros j Hj; [lia|]. destruct (Nat.lt_ge_cases j (length w)).
+      - rewrite app_nth1, Nat.mod_small by auto. reflexivity.
+      - rewrite app_nth2 by auto. rewrite IH by lia. f_equal.
+        replace j with ((j - length w) + 1 * length w)%nat at 2 by lia. symmetry. apply Nat.mod_add; auto. }
+    rewrite Hl. rewrite Hn2 by (apply Nat.mod_upper_bound; nia). f_equal.
+    rewrite (Nat.mul_comm r). rewrite Nat.mod_mul_r by lia.
+    rewrite (Nat.mul_comm (length w)), Nat.mod_add by auto. apply Nat.mod_mod; auto. }
+  assert (Es : forall t, secant A P s {| prefix := u; cycle := concat (repeat w r) |} n t = secant A P s b (n * r) t).
+  { intros t0. unfold secant, point. simpl. rewrite E2, E3. reflexivity. }
+  rewrite Es in Hx, Hc. exists (n * r)%nat, t. split; [nia|]. split; auto. split; auto. exists c; auto.
 Qed.
 End Branch.

@@ -1,5 +1,5 @@
-(** All levels (Theorem 5): where the operators are injective on vectors of sum 0, what is found of the branches of a state
-    holds at all of its copies inside the attractor of the start state. *)
+(** All levels (Theorem 5): where the operators are injective on the differences of the attractors, what is found of the branches
+    of a state holds at all of its copies inside the attractor of the start state. *)
 From Coq Require Import Reals Lra Lia List FunctionalExtensionality.
 From Secant Require Import Vec Automaton Leading Germ.
 Import ListNotations.
@@ -41,7 +41,9 @@ Hypothesis s_ok : (s < states A)%nat.
 Hypothesis u_ok : admw A s u.
 Hypothesis to_f : stw A s u = f.
 Notation G x := (act N P (Ww A s u x)).
-Hypothesis inj : injective_on N (flat N (dim A f)) (fun x => G x).
+Variable V : vec -> Prop.
+Hypothesis V_diff : forall t t', adm A f t -> adm A f t' -> V (sub (phi A f t) (phi A f t')).
+Hypothesis inj : injective_on N V (fun x => G x).
 
 Lemma f_ok : (f < states A)%nat.
 Proof. rewrite <- to_f. apply (stw_ok A sys); auto. Qed.
@@ -54,14 +56,14 @@ Qed.
 
 Lemma secant_inside b m t : adm A (stw A f (prefix b)) t -> admw A f (prefix b) ->
   adm A f (app (prefix b) (rep m (cycle b) t)) -> adm A f (app (prefix b) (per (cycle b))) ->
-  secant A P s (inside u b) m t = G (secant A identity f b m t) /\ flat N (dim A f) (secant A identity f b m t).
+  secant A P s (inside u b) m t = G (secant A identity f b m t) /\ V (secant A identity f b m t).
 Proof.
   intros Ht Hb H1 H2. pose proof f_ok as Hf. unfold secant, point, inside; simpl. rewrite !app_app.
   rewrite (phi_app A sys u s (app _ (rep _ _ _))), (phi_app A sys u s (app _ (per _))); auto;
     try (apply adm_app; rewrite to_f; auto).
   rewrite to_f, !act_identity by (intros; apply phi_support; auto). split.
   - rewrite <- act_sub, <- Ww_sub. reflexivity.
-  - apply bary_sub; apply phi_bary'; auto.
+  - apply V_diff; auto.
 Qed.
 
 Theorem directed_inside sg b d : admw A f (prefix b) -> adm A f (app (prefix b) (per (cycle b))) ->
@@ -100,26 +102,33 @@ Notation nrm := (nrm N).
 Hypothesis sys : contracting A.
 Variable P : matrix.
 Variable s : nat.
-Hypothesis net_inj : injective_on N (flat N (dim A s)) (act N P).
-Hypothesis ops_inj : forall e i, (e < states A)%nat -> (i < deg A e)%nat ->
-  injective_on N (flat N (dim A (dst A e i))) (act N (mat A e i)).
+Variable V : nat -> vec -> Prop.
+Hypothesis V_step : forall e i x, (e < states A)%nat -> (i < deg A e)%nat -> V (dst A e i) x -> V e (act N (mat A e i) x).
+Hypothesis net_inj : injective_on N (V s) (act N P).
+Hypothesis ops_inj : forall e i, (e < states A)%nat -> (i < deg A e)%nat -> injective_on N (V (dst A e i)) (act N (mat A e i)).
+
+Lemma V_word u : forall e x, (e < states A)%nat -> admw A e u -> V (stw A e u) x -> V e (Ww A e u x).
+Proof.
+  induction u as [|i u IH]; simpl; intros e x He Hu Hx; auto. destruct Hu as [Hi Hu]. apply V_step; auto.
+  apply IH; auto. apply (wf A sys e He); auto.
+Qed.
 
 Lemma words_inj u : forall e, (e < states A)%nat -> admw A e u ->
-  injective_on N (flat N (dim A (stw A e u))) (Ww A e u).
+  injective_on N (V (stw A e u)) (Ww A e u).
 Proof.
   induction u as [|i u IH]; intros e He Hu; simpl.
   - exists 1. split; [lra|]. intros; lra.
   - destruct Hu as [Hi Hu]. destruct (wf A sys e He) as (_ & _ & Hd). destruct (Hd i Hi) as (Hd1 & _).
     destruct (IH (dst A e i) Hd1 Hu) as (k & Hk & H). destruct (ops_inj e i He Hi) as (k' & Hk' & H').
     exists (k' * k). split; [apply Rmult_lt_0_compat; auto|]. intros x Hx. rewrite Rmult_assoc.
-    eapply Rle_trans; [apply Rmult_le_compat_l; [lra|apply H; auto]|]. apply H'. apply (Ww_flat A sys); auto.
+    eapply Rle_trans; [apply Rmult_le_compat_l; [lra|apply H; auto]|]. apply H'. apply V_word; auto.
 Qed.
 
 Lemma seen_inj u : (s < states A)%nat -> admw A s u ->
-  injective_on N (flat N (dim A (stw A s u))) (fun x => act N P (Ww A s u x)).
+  injective_on N (V (stw A s u)) (fun x => act N P (Ww A s u x)).
 Proof.
   intros Hs Hu. destruct (words_inj u s Hs Hu) as (k & Hk & H). destruct net_inj as (k' & Hk' & H').
   exists (k' * k). split; [apply Rmult_lt_0_compat; auto|]. intros x Hx. rewrite Rmult_assoc.
-  eapply Rle_trans; [apply Rmult_le_compat_l; [lra|apply H; auto]|]. apply H'. apply (Ww_flat A sys); auto.
+  eapply Rle_trans; [apply Rmult_le_compat_l; [lra|apply H; auto]|]. apply H'. apply V_word; auto.
 Qed.
 End Injective.

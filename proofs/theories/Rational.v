@@ -263,3 +263,58 @@ Qed.
 Lemma qmpow_len k M : (length (qmpow k M) <= N)%nat.
 Proof. destruct k; simpl; [unfold qid|unfold qmul]; rewrite tab_length; auto. Qed.
 End Dimension.
+
+Section Columns.
+Variable N : nat.
+
+(** The norm of an operator: its largest column. *)
+Definition qcolumn (M : qmat) : Q := qmax (map (fun j => qsum N (fun k => Qabs (qent M k j))) (seq 0 N)).
+
+Lemma qcolumn_ok M x : nrm N (act N (qm M) x) <= Q2R (qcolumn M) * nrm N x.
+Proof.
+  unfold nrm at 1, act.
+  apply Rle_trans with (sum N (fun i => sum N (fun j => Rabs (qm M i j) * Rabs (x j)))).
+  - apply sum_le; intros i Hi. eapply Rle_trans; [apply sum_abs|]. apply sum_le; intros. rewrite Rabs_mult; lra.
+  - rewrite sum_swap. unfold nrm. rewrite <- sum_scal. apply sum_le; intros j Hj.
+    rewrite (sum_ext N _ (fun i => Rabs (x j) * Rabs (qm M i j))) by (intros; ring). rewrite sum_scal, Rmult_comm.
+    apply Rmult_le_compat_r; [apply Rabs_pos|].
+    assert (H : In (qsum N (fun k => Qabs (qent M k j))) (map (fun j => qsum N (fun k => Qabs (qent M k j))) (seq 0 N))).
+    { apply in_map_iff. exists j. split; auto. apply in_seq. lia. }
+    apply qmax_ok in H. rewrite qsum_ok in H. eapply Rle_trans; [|exact H]. right.
+    apply sum_ext; intros. rewrite Q2R_abs. reflexivity.
+Qed.
+
+Definition qsubm (A B : qmat) : qmat := tab N (fun i => tab N (fun j => Qred (qent A i j - qent B i j))).
+Definition qsclm (a : Q) (A : qmat) : qmat := tab N (fun i => tab N (fun j => Qred (a * qent A i j))).
+Definition qeqm (A B : qmat) : bool :=
+  (length A <=? N) && (length B <=? N) &&
+  forallb (fun i => forallb (fun j => Qeq_bool (qent A i j) (qent B i j)) (seq 0 N)) (seq 0 N).
+
+Lemma qsubm_ok A B x : (length A <= N)%nat -> (length B <= N)%nat ->
+  act N (qm (qsubm A B)) x = sub (act N (qm A) x) (act N (qm B) x).
+Proof.
+  intros HA HB. extensionality i. unfold sub, act. rewrite <- sum_minus. apply sum_ext; intros j Hj.
+  destruct (Nat.lt_ge_cases i N) as [Hi|Hi].
+  - unfold qm at 1, qsubm. rewrite tab_nth. destruct (Nat.ltb_spec i N); [|lia]. rewrite tab_nth.
+    destruct (Nat.ltb_spec j N); [|lia]. rewrite Q2R_red, Q2R_minus. unfold qm, qent. ring.
+  - rewrite !qm_short; try lia; [ring|]. unfold qsubm. rewrite tab_length. lia.
+Qed.
+
+Lemma qsclm_ok a A x : (length A <= N)%nat -> act N (qm (qsclm a A)) x = scl (Q2R a) (act N (qm A) x).
+Proof.
+  intros HA. extensionality i. unfold scl, act. rewrite <- sum_scal. apply sum_ext; intros j Hj.
+  destruct (Nat.lt_ge_cases i N) as [Hi|Hi].
+  - unfold qm at 1, qsclm. rewrite tab_nth. destruct (Nat.ltb_spec i N); [|lia]. rewrite tab_nth.
+    destruct (Nat.ltb_spec j N); [|lia]. rewrite Q2R_red, Q2R_mult. unfold qm, qent. ring.
+  - rewrite !qm_short; try lia; [ring|]. unfold qsclm. rewrite tab_length. lia.
+Qed.
+
+Lemma qeqm_ok A B x : qeqm A B = true -> act N (qm A) x = act N (qm B) x.
+Proof.
+  unfold qeqm. rewrite !andb_true_iff, !Nat.leb_le. intros [[HA HB] H]. extensionality i. unfold act.
+  apply sum_ext; intros j Hj. destruct (Nat.lt_ge_cases i N) as [Hi|Hi].
+  - pose proof (forall_lt _ _ H i Hi) as H1. cbv beta in H1. pose proof (forall_lt _ _ H1 j Hj) as H2. cbv beta in H2.
+    apply Q2R_eq in H2. unfold qm. unfold qent in H2. rewrite H2. ring.
+  - rewrite !qm_short by lia. ring.
+Qed.
+End Columns.

@@ -119,4 +119,20 @@ Qed.
 
 Lemma phi_bary' e s : (e < states A)%nat -> adm A e s -> bary N (dim A e) (phi A e s).
 Proof. destruct sys as (Hwf & K & th & c & r & H1 & H2 & H3 & H4). apply (phi_bary A Hwf K th c r); auto. Qed.
+(** The limits of points of the states are the points of the addresses. *)
+Lemma phi_from (a : nat -> vec) e s i : (forall e, (e < states A)%nat -> bary N (dim A e) (a e)) ->
+  (e < states A)%nat -> adm A e s -> is_lim_seq (fun k => W A e s k (a (st A e s k)) i) (phi A e s i).
+Proof.
+  intros Ha He Hs. destruct (Nat.lt_ge_cases i N) as [Hi|Hi].
+  - apply (base_points A sys e s (fun k => a (st A e s k)) (sum (states A) (fun f => nrm (a f)))); auto.
+    + intros k. apply Ha. apply st_ok; auto. apply wf.
+    + intros k. apply (sum_term (states A) (fun f => nrm (a f)) (st A e s k)).
+      * intros; apply nrm_ge0.
+      * apply st_ok; auto. apply wf.
+  - assert (Hb : forall k, bary N (dim A e) (W A e s k (a (st A e s k)))).
+    { intros k. apply W_bary; auto; [apply wf|]. apply Ha. apply st_ok; auto. apply wf. }
+    pose proof (dim_ok A wf e He). destruct (phi_bary' e s He Hs) as [H1 _]. rewrite H1 by lia.
+    apply is_lim_seq_ext with (u := fun _ => 0); [|apply is_lim_seq_const].
+    intros k. symmetry. apply (Hb k). lia.
+Qed.
 End Words.

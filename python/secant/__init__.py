@@ -10,7 +10,7 @@ from ._errors import CertificateError, InputError, InternalError, SecantError
 from ._executors import RayExecutor
 from ._meshes import CertifiedMesh, MeshVertex
 from ._numbers import Algebraic
-from ._regions import RegionOrder, RegionPart, Regions, region
+from ._regions import RegionClaim, RegionOrder, RegionPart, Regions, RegionTable, RegionValence, region
 from ._results import Certificate, Certified, Checked, Claim, Direction, Point, Verdict
 from ._secant import version as __version__
 from ._spectra import Eigenvalue, JordanForm, Spectrum, jordan_form, spectra, spectrum
@@ -32,10 +32,13 @@ __all__ = [
     "JointRadius",
     "JordanForm",
     "MeshVertex",
-    "RegionOrder",
-    "RegionPart",
     "Point",
     "RayExecutor",
+    "RegionClaim",
+    "RegionOrder",
+    "RegionPart",
+    "RegionTable",
+    "RegionValence",
     "Regions",
     "Regularity",
     "Row",

@@ -78,6 +78,8 @@ class CertifiedMesh(Judged):
     every_point = None
     _certificate: Certificate | None = None
 
+    _findings: _secant.MeshFindings | None
+
     def __init__(
         self, data: dict[str, Any], asked: dict[str, Any], findings: _secant.MeshFindings | None = None
     ) -> None:

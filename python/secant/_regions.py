@@ -1,4 +1,4 @@
-"""For which values of a parameter a scheme converges and is smooth."""
+"""For which values of a parameter a scheme converges and is smooth, a curve has tangents, or a vertex is C¹."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import html
 import itertools
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -98,22 +98,24 @@ def _compare(x: Fraction, end: Number) -> int:
 
 
 @dataclass(frozen=True)
-class RegionOrder:
-    """The answers for one order of smoothness.
+class RegionTable:
+    """The answers to one claim.
 
     Attributes
     ----------
-    order : int
-        0 for convergence, k for C^k.
     statement : str
         What is claimed of a value.
     parts : tuple of RegionPart
         The range from below, each value in one part.
     """
 
-    order: int
     statement: str
     parts: tuple[RegionPart, ...]
+
+    @property
+    def label(self) -> str:
+        """A short name of the claim."""
+        return self.statement
 
     def at(self, x: Any) -> Verdict:
         """The answer for one rational value of the parameter.
@@ -143,11 +145,65 @@ class RegionOrder:
         return self._where(Verdict.REFUTED)
 
 
+@dataclass(frozen=True)
+class RegionOrder(RegionTable):
+    """The answers for one order of smoothness of a mask: 0 for convergence, k for C^k."""
+
+    order: int
+
+    @property
+    def label(self) -> str:
+        """``converges`` or ``C^k``."""
+        return "converges" if self.order == 0 else f"C^{self.order}"
+
+
+@dataclass(frozen=True)
+class RegionClaim(RegionTable):
+    """The answers to one claim about a curve: ``contraction``, ``tangent-at-ends``, ``dense-joints`` or ``g1``."""
+
+    claim: str
+
+    @property
+    def label(self) -> str:
+        """The claim."""
+        return self.claim
+
+
+@dataclass(frozen=True)
+class RegionValence(RegionTable):
+    """The answers for the vertices of one valence: whether the surface is C¹ there."""
+
+    valence: int
+
+    @property
+    def label(self) -> str:
+        """``valence n``."""
+        return f"valence {self.valence}"
+
+
+def _tables(data: dict[str, Any]) -> Iterator[tuple[int | str, RegionTable]]:
+    """The tables, each with its key."""
+    for k in ("orders", "claims", "valences"):
+        for t in data.get(k, ()):
+            parts = tuple(map(RegionPart._of, t["table"]))
+            if k == "orders":
+                yield t["order"], RegionOrder(t["statement"], parts, t["order"])
+            elif k == "claims":
+                yield t["claim"], RegionClaim(t["statement"], parts, t["claim"])
+            else:
+                yield t["valence"], RegionValence(t["statement"], parts, t["valence"])
+
+
 class Regions(Found):
-    """For which values of a parameter a scheme converges and is C^k: a sequence of :class:`RegionOrder`.
+    """For which values of a parameter claims hold, a sequence of tables.
+
+    Of a mask these are :class:`RegionOrder`, with the order as key (``found[1]``); of a curve :class:`RegionClaim`, with the
+    claim (``found["g1"]``); of the vertices of a mesh :class:`RegionValence`, with the valence (``found[5]``).
 
     It can be pickled, as :class:`Certified`.
     """
+
+    _findings: _secant.RegionFindings | None
 
     def __init__(
         self, data: dict[str, Any], verdict: str, asked: tuple[Any, ...], findings: _secant.RegionFindings | None = None
@@ -171,30 +227,42 @@ class Regions(Found):
         return Fraction(low), Fraction(high)
 
     @property
-    def mask(self) -> tuple[str, ...]:
-        """The coefficients, polynomials in the parameter."""
-        return tuple(self._data["mask"])
+    def mask(self) -> tuple[str, ...] | None:
+        """The coefficients of a mask, polynomials in the parameter."""
+        mask = self._data.get("mask")
+        return None if mask is None else tuple(mask)
 
     @property
     def verdict(self) -> Verdict:
-        """Proved where every order holds on the whole range, refuted where some value refutes one."""
+        """Proved where every claim holds on the whole range, refuted where some value refutes one."""
         return Verdict(self._verdict)
 
     @cached_property
+    def _by_key(self) -> dict[int | str, RegionTable]:
+        return dict(_tables(self._data))
+
+    @property
+    def tables(self) -> tuple[RegionTable, ...]:
+        """The tables."""
+        return tuple(self._by_key.values())
+
+    @property
     def orders(self) -> tuple[RegionOrder, ...]:
-        """The orders, from convergence up."""
-        return tuple(
-            RegionOrder(o["order"], o["statement"], tuple(map(RegionPart._of, o["table"]))) for o in self._data["orders"]
-        )
+        """The orders of a mask, from convergence up."""
+        return tuple(t for t in self.tables if isinstance(t, RegionOrder))
 
     def __len__(self) -> int:
-        return len(self.orders)
+        return len(self.tables)
 
-    def __iter__(self) -> Iterator[RegionOrder]:
-        return iter(self.orders)
+    def __iter__(self) -> Iterator[RegionTable]:
+        return iter(self.tables)
 
-    def __getitem__(self, order: int) -> RegionOrder:
-        return self.orders[order]
+    def __getitem__(self, key: int | str) -> RegionTable:
+        try:
+            return self._by_key[key]
+        except KeyError:
+            keys = ", ".join(map(repr, self._by_key))
+            raise KeyError(f"there is no table {key!r}; the tables are {keys}") from None
 
     def _native(self) -> _secant.RegionFindings:
         if self._findings is None:
@@ -210,7 +278,7 @@ class Regions(Found):
 
     @property
     def svg(self) -> str:
-        """A bar for each order, coloured by verdict.
+        """A bar for each table, coloured by verdict.
 
         Raises
         ------
@@ -231,11 +299,11 @@ class Regions(Found):
 
     def __repr__(self) -> str:
         low, high = self.range
-        return f"<Regions of {self.name}: {self.parameter} from {low} to {high}, orders 0 to {len(self) - 1}>"
+        return f"<Regions of {self.name}: {self.parameter} from {low} to {high}: {', '.join(t.label for t in self)}>"
 
     def _repr_html_(self) -> str:
         rows = "".join(
-            f"<tr><td>{'converges' if o.order == 0 else f'C^{o.order}'}</td>"
+            f"<tr><td>{html.escape(o.label)}</td>"
             f"<td style='text-align:left'>{html.escape(p.__repr__()[1:-1])}</td>"
             f"<td style='text-align:left'>{html.escape(p.reason)}</td></tr>"
             for o in self
@@ -268,6 +336,7 @@ def region(
     parameters: Mapping[str, Any] | None = None,
     *,
     order: int | None = None,
+    valences: str | Iterable[int] | None = None,
     width: Any = None,
     hulls: int | None = None,
     effort: Effort = "normal",
@@ -276,18 +345,23 @@ def region(
     arity: int = 2,
     name: str = "mask",
 ) -> Regions:
-    """For which values of a parameter a scheme converges and is C^k: open intervals and single values, with exact ends.
+    """For which values of a parameter claims hold: open intervals and single values, with exact ends.
+
+    Of masks convergence and C^k; of curves of one state contraction, tangents at ends and joints, and G¹; of the vertices of
+    a mesh C¹.
 
     Parameters
     ----------
     x : str, path, dict or list
         The name of a scheme (``"four-point"``, also with its range: ``"four-point w=-1/2..1/2"``); a case with ``[parameters]``
-        and a mask (docs/case-format.md), as path, text or dict; or a mask whose coefficients are expressions in the parameters:
+        and a mask, maps, operators or ``[vertex]`` (docs/case-format.md), as path, text or dict; or a mask whose coefficients are expressions in the parameters:
         texts such as ``"1/2+w"``, or of SymPy.
     parameters : mapping
         A range with its ends for the parameter that is left free, values for the others: ``{"w": ("-1/2", "1/2")}``.
     order : int, optional
-        The highest order of smoothness that is asked about; without it all that the sum rules allow.
+        The highest order of smoothness of masks that is asked about; without it all that the sum rules allow.
+    valences : str or sequence of int, optional
+        The valences at vertices of a mesh, such as ``"3..12"``, in the place of those of the case.
     width : number, optional
         Gaps that are narrower are left; ``"1e-6"`` without it.
     hulls : int, optional
@@ -310,7 +384,7 @@ def region(
     Raises
     ------
     InputError
-        If it is no mask with one parameter that is left free.
+        If it is no family with one parameter that is left free. (In the plane of two, `secant region CASE` answers.)
 
     Examples
     --------
@@ -322,21 +396,22 @@ def region(
     if seconds is not None and not 0 < seconds < float("inf"):
         raise InputError(f"seconds={seconds} is no positive number", code="secant::region", help="as in seconds=60")
     set = [_setting(key, v, exact) for key, v in (parameters or {}).items()]
+    at = valences if valences is None or isinstance(valences, str) else ",".join(str(int(n)) for n in valences)
     if width is not None:
         width = written(number(width, exact, "the width"))
     if isinstance(x, str) and "\n" not in x and not os.path.isfile(x):
         scheme, *ranges = x.split() or [x]
-        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, width, hulls, effort, seconds)
+        asked: tuple[Any, ...] = (scheme, None, [*ranges, *set], order, at, width, hulls, effort, seconds)
     elif isinstance(x, (str, os.PathLike, Mapping)):
         given = source(x, exact=exact, name=name)
-        asked = (given.name, text_of(given), set, order, width, hulls, effort, seconds)
+        asked = (given.name, text_of(given), set, order, at, width, hulls, effort, seconds)
     else:
         mask = [_coefficient(c, exact, f"coefficient {k} of the mask") for k, c in enumerate(x)]
         limits = dict(text.split("=", 1) for text in set)
         case = {"name": name, "parameters": limits, "scheme": {"mask": mask, "arity": arity}}
-        asked = (name, text_of(source(case)), [], order, width, hulls, effort, seconds)
+        asked = (name, text_of(source(case)), [], order, at, width, hulls, effort, seconds)
     findings, data, verdict = _secant.region(*asked)
     return Regions(json.loads(data), verdict, asked, findings)
 
 
-__all__ = ["RegionOrder", "RegionPart", "Regions", "region"]
+__all__ = ["RegionClaim", "RegionOrder", "RegionPart", "RegionTable", "RegionValence", "Regions", "region"]

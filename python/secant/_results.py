@@ -377,6 +377,8 @@ class Certified(Judged):
     It can be pickled: what travels is the data and the text of the case, from which reports and pictures are made again.
     """
 
+    _findings: _secant.Findings | None
+
     def __init__(
         self,
         data: dict[str, Any],

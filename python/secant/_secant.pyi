@@ -33,6 +33,7 @@ def region(
     text: str | None,
     set: list[str],
     order: int | None,
+    valences: str | None,
     width: str | None,
     hulls: int | None,
     effort: str,

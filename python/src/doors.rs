@@ -5,7 +5,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use secant::ask::{self, Answered, Matrices};
 use secant::budget::{Budget, Effort};
-use secant::case::{Case, Question, Valences, VertexCase};
+use secant::case::{Case, Question, Valences};
 use secant::certificate::sha256;
 use secant::diagnostic::{Problem, SourceText};
 use secant::prove;
@@ -80,12 +80,12 @@ impl Asked {
                     Problem::new("secant::usage::valence", e).with_help("write 5, \"3..32\", \"3,5,8\" or \"all\"")
                 })?;
                 match (path, text) {
-                    (Some(path), _) => Question::at_valences(path, valences)?,
-                    (None, Some(text)) => {
-                        let case = Arc::new(VertexCase::parse(&self.name, text)?);
-                        Question::Vertices { case, valences: Some(valences) }
+                    (Some(path), _) => {
+                        let source = SourceText::read(path)?;
+                        Question::parse_at_valences(&source.name, &source.text, valences)?
                     }
-                    (None, None) => Question::at_valences(self.name.as_ref(), valences)?,
+                    (None, Some(text)) => Question::parse_at_valences(&self.name, text, valences)?,
+                    (None, None) => Question::at_valences(&self.name, valences)?,
                 }
             }
         };

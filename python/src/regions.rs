@@ -4,8 +4,8 @@ use crate::doors::{budget, certificate_json, rendered};
 use crate::work::outside;
 use pyo3::prelude::*;
 use secant::arith::{Rational, parse_rational};
-use secant::ask::{Regions, regions, regions_of_case};
-use secant::case::{MaskFamilyCase, setting};
+use secant::ask::{Asked, Family};
+use secant::case::{FamilyForm, PlaneFamilyCase, Valences, setting};
 use secant::diagnostic::Problem;
 use secant::radius::family::Search;
 use secant::report::text;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 /// What was found, kept for reports, pictures and certificates.
 #[pyclass(frozen, module = "secant._secant")]
-pub struct RegionFindings(Arc<Regions>);
+pub struct RegionFindings(Arc<Family>);
 
 #[pymethods]
 impl RegionFindings {
@@ -54,6 +54,7 @@ pub fn region(
     text: Option<String>,
     set: Vec<String>,
     order: Option<usize>,
+    valences: Option<String>,
     width: Option<String>,
     hulls: Option<usize>,
     effort: String,
@@ -61,7 +62,8 @@ pub fn region(
 ) -> PyResult<(RegionFindings, String, String)> {
     outside(py, move || {
         let set = set.iter().map(|t| setting(t)).collect::<Result<Vec<_>, _>>()?;
-        let mut search: Search = budget(&effort, None, None)?.regions;
+        let budget = budget(&effort, None, None)?;
+        let mut search: Search = budget.regions.clone();
         if let Some(seconds) = seconds {
             search = search.within(seconds);
         }
@@ -69,10 +71,19 @@ pub fn region(
         if let Some(text) = width {
             search.width = positive(&text)?;
         }
-        let most = order.unwrap_or(usize::MAX);
+        let valences = valences.map(|text| Valences::parse(&text).map_err(|e| {
+            Problem::new("secant::usage::valence", e).with_help("as in valences=[3, 4, 5] or valences=\"3..12\"")
+        })).transpose()?;
+        let asked = Asked { order, valences, depth: None };
         let found = match text {
-            Some(text) => regions_of_case(MaskFamilyCase::parse(&name, &text, &set)?, most, &search)?,
-            None => regions(&name, &set, most, &search)?,
+            Some(text) => {
+                if FamilyForm::of(&text) == FamilyForm::Curve && PlaneFamilyCase::parse(&name, &text, &set)?.is_some() {
+                    return Err(Problem::new("secant::python::plane", format!("{name}: two parameters are left free"))
+                        .with_help("give one of them a value; `secant region CASE` answers in the plane of two"));
+                }
+                Family::of_text(&name, &text, &set, &asked, &search, &budget, &|_| {})?
+            }
+            None => Family::ask(&name, &set, &asked, &search, &budget, &|_| {})?,
         };
         let (data, verdict) = (found.data().to_string(), found.verdict().word().to_owned());
         Ok((RegionFindings(Arc::new(found)), data, verdict))

@@ -1,3 +1,4 @@
+import pathlib
 import pickle
 from fractions import Fraction as F
 
@@ -28,7 +29,7 @@ def test_the_answers_of_the_paper(three_point):
 def test_every_value_is_in_one_part(three_point):
     for order in three_point:
         for k in range(61):
-            assert sum(F(k, 360) in part for part in order.parts) == 1, (order.order, k)
+            assert sum(F(k, 360) in part for part in order.parts) == 1, (order.label, k)
 
 
 def test_members_agree(three_point):
@@ -82,3 +83,29 @@ def test_wrong_questions(x, parameters):
     assert caught.value.help
     with pytest.raises(secant.InputError):
         secant.region("four-point w=0..1/16", width=0)
+
+
+FAMILIES = pathlib.Path(__file__).parents[2] / "tests" / "families"
+
+
+def test_curves(tmp_path):
+    found = secant.region(FAMILIES / "corner-cutting.toml", {"a": ("1/5", "2/5")})
+    assert [t.claim for t in found] == list(found._by_key) and found.mask is None and found.orders == ()
+    g1 = found["g1"]
+    # With b = 1/4 the curve is G¹ up to 3/8.
+    assert g1.at("3/8") == g1.at("1/4") == "proved" and g1.at("19/50") == "refuted"
+    assert F(3, 8) in {end for run in g1.proved for end in run}
+    again = pickle.loads(pickle.dumps(found))
+    assert again["g1"].at("3/8") == "proved" and again.certificate.check() and "g1" in again._repr_html_()
+    with pytest.raises(KeyError, match="g1"):
+        found["c1"]
+    with pytest.raises(secant.InputError, match="valences"):
+        secant.region(FAMILIES / "corner-cutting.toml", {"a": ("1/5", "2/5")}, valences=[5])
+
+
+def test_vertices():
+    found = secant.region(FAMILIES / "loop-beta.toml", valences=[6])
+    assert len(found) == 1 and found[6].valence == 6 and "valence 6" in repr(found)
+    assert found[6].at("1/16") == "proved"
+    with pytest.raises(secant.SecantError):
+        found.certificate

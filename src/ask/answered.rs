@@ -77,6 +77,10 @@ pub fn answered(
             let once = found.claims.iter().filter(|c| !is_proved_again(c, certificate, &orders));
             once.map(|c| claims::label(&c.what)).collect()
         }
+        (Findings::OverField { found, .. }, Some(Ok(certificate))) => {
+            let once = found.claims.iter().filter(|c| !is_proved_again(c, certificate, &[]));
+            once.map(|c| claims::label(&c.what)).collect()
+        }
         _ => Vec::new(),
     };
     Ok(Answered { findings, evidence, once })
@@ -108,9 +112,13 @@ impl Answered {
         match (&self.findings, &self.evidence) {
             (_, None) => Checked::NotAsked,
             (_, Some(Err(_))) => Checked::NoRule,
-            (Findings::Tangents { .. }, Some(Ok(_))) if !self.once.is_empty() => Checked::Part,
-            (Findings::Tangents { .. }, Some(Ok(_))) => Checked::Yes,
-            (Findings::OverField { .. }, Some(Ok(_))) => Checked::Part,
+            (Findings::Tangents { .. } | Findings::OverField { .. }, Some(Ok(_))) => {
+                if self.once.is_empty() {
+                    Checked::Yes
+                } else {
+                    Checked::Part
+                }
+            }
             (Findings::Vertices { found, every, .. }, Some(Ok(_))) => {
                 let mut decided = found.iter().filter(|f| f.smooth != Verdict::Undetermined);
                 let all = every.is_none() && decided.all(|f| f.again == Again::Proved);

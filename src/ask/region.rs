@@ -1,11 +1,13 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
-use super::region_plane::{RegionsInPlane, plane_regions};
-use super::region_vertex::{RegionsAtVertices, vertex_regions};
+use super::region_plane::{RegionsInPlane, plane_regions_of_case};
+use super::region_vertex::{RegionsAtVertices, vertex_regions_of_case};
 use crate::answer::Verdict;
 use crate::budget::Budget;
-use crate::case::{CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, Valences, named_family};
-use crate::diagnostic::Problem;
+use crate::case::{
+    CurveFamilyCase, FamilyForm, MaskFamilyCase, PlaneFamilyCase, Setting, Valences, VertexFamilyCase, named_family,
+};
+use crate::diagnostic::{Problem, SourceText};
 use crate::radius::family::Search;
 use crate::report::document::Document;
 use crate::report::region as report;
@@ -138,7 +140,18 @@ pub fn curve_regions(
     search: &Search,
     budget: &Budget,
 ) -> Result<RegionsOfCurve, Problem> {
-    let case = CurveFamilyCase::read(path, set)?;
+    curve_regions_of_case(CurveFamilyCase::read(path, set)?, search, budget)
+}
+
+/// The same of a case that was read.
+///
+/// # Errors
+/// As [`curve_regions`].
+pub fn curve_regions_of_case(
+    case: CurveFamilyCase,
+    search: &Search,
+    budget: &Budget,
+) -> Result<RegionsOfCurve, Problem> {
     let wrong = |message: String| {
         Problem::new("secant::region", format!("{}: {message}", case.name))
             .with_help("single values can be asked: `secant certify CASE w=1/16`")
@@ -167,15 +180,17 @@ impl RegionsOfCurve {
     }
 }
 
-/// How far the plane is divided unless it is told otherwise, and at most.
+/// How often the plane is halved in both directions unless it is told otherwise.
 pub const DEPTH: usize = 7;
-const MAX_DEPTH: usize = 10;
+/// The same at most.
+pub const MAX_DEPTH: usize = 10;
 /// Work of the search that stands for one box.
 const BOX: u64 = 1_000_000;
 
-fn plane_limits(asked: &Asked, search: &Search) -> PlaneLimits {
+fn plane_limits(asked: &Asked, search: &Search, budget: &Budget) -> PlaneLimits {
     let boxes = usize::try_from(search.work / BOX).map_or(usize::MAX, |n| n);
-    PlaneLimits { depth: asked.depth.map_or(DEPTH, |d| d).min(MAX_DEPTH), boxes, time: search.time }
+    let depth = asked.depth.unwrap_or(DEPTH).min(MAX_DEPTH);
+    PlaneLimits { depth, boxes, time: search.time, lines: Some((search.clone(), budget.clone())) }
 }
 
 /// What `secant region` answers.
@@ -198,12 +213,23 @@ pub struct Asked {
     pub order: Option<usize>,
     /// The valences at vertices of meshes, in the place of those of the file.
     pub valences: Option<Valences>,
-    /// How far the plane of two parameters is divided; without it as the effort says.
+    /// How often the plane of two parameters is halved; [`DEPTH`] without it.
     pub depth: Option<usize>,
 }
 
+impl Asked {
+    fn no_valences(&self, what: &str) -> Result<(), Problem> {
+        match self.valences {
+            None => Ok(()),
+            Some(_) => Err(Problem::new("secant::region::valence", format!("{what} has no valences"))
+                .with_help("--valence is for cases with a [vertex] table")),
+        }
+    }
+}
+
 impl Family {
-    /// The regions of what stands for a family.
+    /// The regions of what stands for a family. `step` is told how much of the plane of two parameters was done, in boxes of the
+    /// smallest size.
     ///
     /// # Errors
     /// A [`Problem`] where it is none.
@@ -215,23 +241,49 @@ impl Family {
         budget: &Budget,
         step: &dyn Fn(usize),
     ) -> Result<Self, Problem> {
-        let path = Path::new(what);
-        let named = scheme::list().iter().any(|s| s.name == what);
-        let form = if named { FamilyForm::Mask } else { FamilyForm::of(path)? };
-        let valences = asked.valences.as_ref();
-        if form != FamilyForm::Vertex && valences.is_some() {
-            return Err(Problem::new("secant::region::valence", format!("{what} has no valences"))
-                .with_help("--valence is for cases with a [vertex] table"));
+        if scheme::list().iter().any(|s| s.name == what) {
+            asked.no_valences(what)?;
+            return Ok(Self::Mask(Box::new(regions(what, set, asked.order.unwrap_or(usize::MAX), search)?)));
+        }
+        let source = SourceText::read(Path::new(what))?;
+        Self::of_text(&source.name, &source.text, set, asked, search, budget, step)
+    }
+
+    /// The same of the text of a case.
+    ///
+    /// # Errors
+    /// A [`Problem`] where it is no family.
+    pub fn of_text(
+        name: &str,
+        text: &str,
+        set: &[(String, Setting)],
+        asked: &Asked,
+        search: &Search,
+        budget: &Budget,
+        step: &dyn Fn(usize),
+    ) -> Result<Self, Problem> {
+        let form = FamilyForm::of(text);
+        if form != FamilyForm::Vertex {
+            asked.no_valences(name)?;
         }
         Ok(match form {
             FamilyForm::Mask => {
-                Self::Mask(Box::new(regions(what, set, asked.order.map_or(usize::MAX, |k| k), search)?))
+                let case = MaskFamilyCase::parse(name, text, set)?;
+                Self::Mask(Box::new(regions_of_case(case, asked.order.unwrap_or(usize::MAX), search)?))
             }
-            FamilyForm::Curve => match plane_regions(path, set, &plane_limits(asked, search), step)? {
-                Some(found) => Self::Plane(Box::new(found)),
-                None => Self::Curve(Box::new(curve_regions(path, set, search, budget)?)),
-            },
-            FamilyForm::Vertex => Self::Vertex(Box::new(vertex_regions(path, set, valences, search, budget)?)),
+            FamilyForm::Curve => {
+                if let Some(case) = PlaneFamilyCase::parse(name, text, set)? {
+                    let found = plane_regions_of_case(case, &plane_limits(asked, search, budget), step)?;
+                    return Ok(Self::Plane(Box::new(found)));
+                }
+                let case = CurveFamilyCase::parse(name, text, set)?;
+                Self::Curve(Box::new(curve_regions_of_case(case, search, budget)?))
+            }
+            FamilyForm::Vertex => {
+                let case = VertexFamilyCase::parse(name, text, set)?;
+                let found = vertex_regions_of_case(case, asked.valences.as_ref(), search, budget)?;
+                Self::Vertex(Box::new(found))
+            }
         })
     }
 

@@ -3,7 +3,7 @@
 use crate::answer::Verdict;
 use crate::case::{PlaneFamilyCase, Setting};
 use crate::diagnostic::Problem;
-use crate::theorem::region::{Area, CurveFamily, Known, PlaneLimits, PlaneRegion};
+use crate::theorem::region::{Area, CurveFamily, PlaneLimits, PlaneRegion};
 use std::path::Path;
 
 /// The plane of a curve with two parameters.
@@ -26,7 +26,19 @@ pub fn plane_regions(
     limits: &PlaneLimits,
     step: &dyn Fn(usize),
 ) -> Result<Option<RegionsInPlane>, Problem> {
-    let Some(case) = PlaneFamilyCase::read(path, set)? else { return Ok(None) };
+    let case = PlaneFamilyCase::read(path, set)?;
+    case.map(|case| plane_regions_of_case(case, limits, step)).transpose()
+}
+
+/// The same of a case that was read.
+///
+/// # Errors
+/// As [`plane_regions`].
+pub fn plane_regions_of_case(
+    case: PlaneFamilyCase,
+    limits: &PlaneLimits,
+    step: &dyn Fn(usize),
+) -> Result<RegionsInPlane, Problem> {
     let family =
         CurveFamily::new(case.operators.clone(), case.reversed.clone(), case.control.clone()).map_err(|e| {
             Problem::new("secant::region", format!("{}: {e}", case.name))
@@ -34,17 +46,13 @@ pub fn plane_regions(
         })?;
     let [first, second] = case.ranges.clone();
     let found = family.plane(&Area { first, second }, limits, step);
-    Ok(Some(RegionsInPlane { case, found }))
+    Ok(RegionsInPlane { case, found })
 }
 
 impl RegionsInPlane {
     /// The whole as one verdict.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
-        let one = |known: &Known| match known {
-            Known::Curve(verdict, _) => *verdict,
-            Known::Expands(_) | Known::Open => Verdict::Undetermined,
-        };
-        Verdict::all(self.found.boxes.len().max(1), self.found.boxes.iter().map(|b| one(&b.known)))
+        Verdict::all(self.found.boxes.len().max(1), self.found.boxes.iter().map(|b| b.known.verdict()))
     }
 }

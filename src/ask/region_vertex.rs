@@ -60,7 +60,7 @@ pub fn vertex_regions_of_case(
         let left = u32::try_from(list.len() - k).map_or(1, |n| n.max(1));
         let limits = Limits {
             width: search.width.clone(),
-            windows: usize::try_from(search.work / WINDOW).map_or(usize::MAX, |n| n),
+            windows: usize::try_from(search.work / WINDOW).unwrap_or(usize::MAX),
             time: search.time.map(|time| time.saturating_sub(begun.elapsed()) / left),
         };
         found.push(region(&family, *valence, &limits, budget).map_err(|e| {

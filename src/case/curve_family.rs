@@ -1,7 +1,8 @@
 //! Curves with a parameter that is left free: `[parameters]` with maps or operators.
 
+use super::free::{degree, one_free};
 use super::node::{File, Table};
-use super::parameters::{Setting, expressions, member_text, one_free};
+use super::parameters::{Setting, member_text};
 use super::{Case, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
@@ -40,28 +41,25 @@ pub enum FamilyForm {
 }
 
 impl FamilyForm {
-    /// The form of a file; what is no case at all is left to the reader of masks to complain about.
-    ///
-    /// # Errors
-    /// A [`Problem`] where the file cannot be read.
-    pub fn of(path: &Path) -> Result<Self, Problem> {
-        let source = SourceText::read(path)?;
-        let Ok(table) = DeTable::parse(&source.text) else { return Ok(Self::Mask) };
+    /// The form of the text of a case; what is no case at all is left to the reader of masks to complain about.
+    #[must_use]
+    pub fn of(text: &str) -> Self {
+        let Ok(table) = DeTable::parse(text) else { return Self::Mask };
         let has = |key: &str| table.get_ref().keys().any(|k| *k.get_ref() == key);
-        Ok(if has("vertex") {
+        if has("vertex") {
             Self::Vertex
         } else if ["map", "pieces", "state"].into_iter().any(has) {
             Self::Curve
         } else {
             Self::Mask
-        })
+        }
     }
 }
 
 /// Highest degree of an expression.
 const MAX_DEGREE: usize = 8;
 /// Members beyond those that determine the entries, to compare with.
-const FURTHER: usize = 2;
+const FURTHER: usize = 4;
 
 impl CurveFamilyCase {
     /// Reads a case whose maps or operators depend on a parameter; what is set stands instead of what the file says.
@@ -103,16 +101,7 @@ impl CurveFamilyCase {
     fn of_table(file: &File, case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
         let text = &file.source.text;
-        // Entries of operators are sums of products of numbers of the file with constants, so their degree is no higher.
-        let degree = DeTable::parse(text).map_or(0, |table| {
-            expressions(&table, &free.names).iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max)
-        });
-        if !(1..=MAX_DEGREE).contains(&degree) {
-            let message = format!("the entries are polynomials of degree {degree} in `{}`", free.parameter);
-            return Err(case
-                .problem("parameters", message, "this case")
-                .with_help(format!("regions are found for degrees from 1 to {MAX_DEGREE}")));
-        }
+        let degree = degree(case, text, &free, MAX_DEGREE)?;
         let (lo, hi) = &free.range;
         let count = degree + 1 + FURTHER;
         let at: Vec<Rational> =
@@ -120,11 +109,15 @@ impl CurveFamilyCase {
         let member = |p: &Rational| Case::parse(&file.source.name, &at_value(&file.source, set, &free.parameter, p)?);
         let members = at.iter().map(member).collect::<Result<Vec<_>, _>>()?;
         let shapes: Vec<&Shape> = members.iter().map(|m| &m.shape).collect();
-        let Some((operators, control)) = family(&at, &shapes, degree) else {
+        // Entries of operators and maps that are written out are sums of products of numbers of the file with constants, so that
+        // their degree is no higher; those of a scheme may be of any.
+        let written = members.iter().all(|m| m.scheme.is_none());
+        let Some((operators, control)) = family(&at, &shapes, degree).filter(|_| written) else {
             return Err(case
                 .problem(
                     "parameters",
-                    "regions are found for curves with one state, whose control points do not depend on the parameter",
+                    "regions are found for curves with one state, written as maps or operators, whose control points do not \
+                     depend on the parameter",
                     "this case",
                 )
                 .with_help("give the parameter a value behind the case, as in `secant certify CASE w=1/16`"));
@@ -169,7 +162,7 @@ pub(super) fn at_value(
     let mut set = set.to_vec();
     set.retain(|(n, _)| n != parameter);
     set.push((parameter.to_owned(), Setting::Value(p.clone())));
-    Ok(member_text(&source.name, &source.text, &set)?.map_or_else(|| source.text.to_string(), |own| own))
+    Ok(member_text(&source.name, &source.text, &set)?.unwrap_or_else(|| source.text.to_string()))
 }
 
 /// Operators whose entries have at most this degree, and the control points, from members; `None` where they are no such family.

@@ -6,9 +6,11 @@ use crate::algebraic::field::{FieldBuilder, NumberField};
 use crate::algebraic::{Elem, Real};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::Problem;
+use crate::jordan::Scalar;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
-use crate::shape::{Boundary, CellKind, Piece, Shape, State};
+use crate::shape::{Boundary, CellKind, Piece, Shape, State, entries};
+use std::borrow::Cow;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
 
@@ -26,6 +28,20 @@ impl Case<Real> {
     /// The case is read once more than the field has degrees: entries are polynomials in its generator, and everything that
     /// is checked is linear in them, so that values at as many rational numbers determine and check them.
     pub fn over_field(name: &str, text: &str) -> Result<Self, Problem> {
+        let (mut case, built) = Self::as_written(name, text)?;
+        let field = Real::base(entries(&case.shape));
+        if !field.is_rational() && (built || case.numbers.is_none()) {
+            // Operators over the generator of the field, whose roots and cosines lie in it.
+            let flat = case.flat_text();
+            let (again, _) = Self::as_written(name, &flat)?;
+            case.numbers = again.numbers.filter(|_| Real::base(entries(&again.shape)).same(&field));
+            case.flat = Some(flat);
+        }
+        Ok(case)
+    }
+
+    /// The case, and whether a scheme stands in it.
+    fn as_written(name: &str, text: &str) -> Result<(Self, bool), Problem> {
         let mut builder = FieldBuilder::new();
         if let Ok(table) = DeTable::parse(text) {
             for key in ["pieces", "map", "state", "control", "scheme"] {
@@ -45,15 +61,24 @@ impl Case<Real> {
         let plain = matches!(first.scheme, None | Some(Origin::Mask(_)));
         let faces = first.shape.states.iter().any(|s| s.kind == CellKind::Face);
         let shapes: Vec<(&Rational, &Shape)> = samples.iter().map(|(t, case)| (t, &case.shape)).collect();
-        let shape = if plain && !faces { over(&field, &shapes) } else { None };
-        let Some(shape) = shape else {
+        let mut asked: Vec<Elem> = builder.asked().iter().map(|x| builder.elem(x)).collect();
+        asked.sort_by(|a, b| a.0.coeffs().cmp(b.0.coeffs()));
+        asked.dedup();
+        let shape = if plain && !faces { over(&field, &shapes, &asked) } else { None };
+        let Some((shape, numbers)) = shape else {
             let message = "irrational entries are read in curves and sets, and in masks of one span";
             let help =
                 "surfaces, shares of the parameter, and schemes that are more than a mask, need rational numbers";
             return Err(first.problem_at_state(first.shape.start, "secant::case::irrational-entry", message, help));
         };
         // What a scheme was built from was read with a rational number in the place of the generator.
-        Ok(first.with_shape(shape))
+        Ok((Self { numbers, ..first.with_shape(shape) }, first.scheme.is_some()))
+    }
+
+    /// The text that a checker reads: the file itself, or [`Case::flat`].
+    #[must_use]
+    pub fn checked_over_field(&self) -> Cow<'_, str> {
+        self.flat.as_ref().map_or(Cow::Borrowed(&self.text.text), |text| Cow::Borrowed(text))
     }
 
     /// The case with its entries rounded to so many binary digits, for pictures: nothing is proved of it.
@@ -68,8 +93,13 @@ fn place(k: usize) -> Rational {
     Rational::from(1 + k) + Rational::from_unsigneds(4_099u64, 7_919u64)
 }
 
-/// The shape whose values these are; `None` where they are not those of polynomials of smaller degree than the field.
-fn over(field: &NumberField, samples: &[(&Rational, &Shape)]) -> Option<Shape<Real>> {
+/// The shape whose values these are, and some more numbers where they lie in the field of its entries; `None` where the values are
+/// not those of polynomials of smaller degree than the field.
+fn over(
+    field: &NumberField,
+    samples: &[(&Rational, &Shape)],
+    asked: &[Elem],
+) -> Option<(Shape<Real>, Option<Vec<Real>>)> {
     let mut matrices: Vec<Matrix<Elem>> = Vec::new();
     let mut read = |part: &dyn Fn(&Shape) -> Option<&Matrix>| -> Option<usize> {
         let values: Option<Vec<(&Rational, &Matrix)>> = samples.iter().map(|(t, s)| Some((*t, part(s)?))).collect();
@@ -89,6 +119,9 @@ fn over(field: &NumberField, samples: &[(&Rational, &Shape)]) -> Option<Shape<Re
     let elements: Vec<Elem> = matrices.iter().flat_map(|m| m.entries().iter().cloned()).collect();
     let (small, moved) = field.shrunk(&elements);
     let small = Arc::new(small);
+    let (all, every) = field.shrunk(&[elements.as_slice(), asked].concat());
+    let numbers = (all.degree() == small.degree() && all.same(&small))
+        .then(|| every[elements.len()..].iter().map(|x| Real::new(&small, x.clone())).collect());
     let mut moved = moved.into_iter();
     let matrices: Vec<Matrix<Real>> =
         matrices.iter().map(|m| m.map(|_| Real::new(&small, moved.next().expect("as many as before")))).collect();
@@ -126,7 +159,7 @@ fn over(field: &NumberField, samples: &[(&Rational, &Shape)]) -> Option<Shape<Re
         Some(k) => Some(matrices[k?].clone()),
         None => None,
     };
-    Some(Shape { states, start: first.start, control, frame: first.frame })
+    Some((Shape { states, start: first.start, control, frame: first.frame }, numbers))
 }
 
 /// Whether a case is refused because an entry is not rational, or is not written as a rational.

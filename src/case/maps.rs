@@ -1,6 +1,7 @@
 use super::matrix::Written;
 use super::node::{Node, Table};
-use super::{MAX_PIECES, Model, Places, StatePlace};
+use super::symmetry::written_out;
+use super::{MAX_PIECES, Model, Origin, Places, StatePlace};
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
 use crate::linalg::Matrix;
@@ -51,10 +52,18 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>, kind: CellKind) -> Result<
         shape.states[0].pieces.push(Piece { target: 0, op, reversed, share: share(map)? });
         place.pieces.push(map.need("linear", "[[\"1/2\"]]")?.span());
     }
+    let operators: Vec<Matrix> = shape.states[0].pieces.iter().map(|p| p.op.clone()).collect();
+    let out = if kind == CellKind::Set { written_out(&operators) } else { None };
+    let scheme = out.map(|out| {
+        place.pieces = out.operators.iter().map(|(k, _)| place.pieces[*k].clone()).collect();
+        let piece = |(_, op)| Piece { target: 0, op, reversed: false, share: None };
+        shape.states[0].pieces = out.operators.into_iter().map(piece).collect();
+        Origin::Symmetric { maps: out.symmetries, group: out.group }
+    });
     shape.frame = Frame::Affine;
     shape.control = Some(Shape::affine_control(shape.states[0].dim - 1));
     let places = Places { states: vec![place], control: None };
-    Ok(Model { complex: Complex::of_curves(shape), places, unknown: Vec::new(), scheme: None })
+    Ok(Model { complex: Complex::of_curves(shape), places, unknown: Vec::new(), scheme })
 }
 
 /// What a piece takes of the parameter, where its table says so.

@@ -10,12 +10,14 @@ mod curve_family;
 mod expect;
 mod faces;
 mod field;
+mod free;
 mod interpolate;
 mod lattice;
 mod maps;
 mod matrix;
 pub mod matrix_file;
 mod node;
+mod own;
 mod parameters;
 mod plane_family;
 mod question;
@@ -24,6 +26,7 @@ mod schema;
 mod scheme;
 mod source;
 mod states;
+mod symmetry;
 mod vertex;
 mod vertex_family;
 
@@ -43,7 +46,8 @@ pub use vertex_family::VertexFamilyCase;
 
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
-use crate::scheme::{Heading, Interpolation, Mask, MeshRule, complex_text};
+use crate::linalg::Entry;
+use crate::scheme::{Heading, Interpolation, Mask, MeshRule, case_text, complex_text};
 use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -56,7 +60,7 @@ pub const MAX_STATES: usize = 64;
 /// Largest number of pieces of a state.
 pub const MAX_PIECES: usize = 64;
 /// Largest number of barycentric coordinates of a state, and of coordinates of a control point.
-pub const MAX_COORDINATES: usize = 64;
+pub const MAX_COORDINATES: usize = 96;
 /// Largest number of addresses to examine.
 pub const MAX_ADDRESSES: usize = 256;
 /// Longest address to examine, in letters.
@@ -106,6 +110,12 @@ pub struct Case<E = Rational> {
     pub reversals: BTreeMap<usize, Reversal>,
     /// The scheme that the case names under `[scheme]`.
     pub scheme: Option<Origin>,
+    /// The values of the roots and cosines in the text that a checker reads; `None` where one does not lie in the field of the
+    /// entries.
+    pub numbers: Option<Vec<E>>,
+    /// Over a number field: the case with its operators written out over the generator of the field, where a checker reads this
+    /// text and not the file.
+    pub flat: Option<String>,
     /// Entries left open (`"?"`); none but in what [`Case::read_open`] gives.
     pub unknown: Vec<Unknown>,
     /// Further points to examine, as written; every letter exists.
@@ -129,6 +139,8 @@ impl<E> Case<E> {
             faces: self.faces.clone(),
             reversals: self.reversals.clone(),
             scheme: None,
+            numbers: Some(Vec::new()),
+            flat: None,
             unknown: self.unknown.clone(),
             examine: self.examine.clone(),
             expect: self.expect.clone(),
@@ -151,6 +163,15 @@ pub enum Origin {
     Tensor,
     /// Data that are interpolated.
     Interpolation(Box<Interpolation>),
+    /// The product of two functions that interpolate data.
+    Graphs,
+    /// A set some of whose maps are symmetries, written out with the others.
+    Symmetric {
+        /// Which of the maps are symmetries.
+        maps: Vec<usize>,
+        /// The number of elements of their group.
+        group: usize,
+    },
     /// An automaton, some of whose states name a scheme or are chains.
     States,
     /// A mask in two variables.
@@ -271,13 +292,7 @@ impl Case {
     /// As [`Case::expanded`], with other operators, such as those of a solution.
     #[must_use]
     pub fn written_with(&self, complex: &Complex) -> String {
-        let heading = Heading {
-            name: self.name.clone(),
-            title: if self.title == self.name { String::new() } else { self.title.clone() },
-            source: self.source.clone().unwrap_or_default(),
-            examine: self.examine.clone(),
-        };
-        complex_text(complex, &heading)
+        complex_text(complex, &self.heading())
     }
 
     /// The text that a checker reads: the file itself, or [`Case::beside`].
@@ -289,7 +304,8 @@ impl Case {
         }
     }
 
-    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, data to interpolate, or states that name schemes or are
+    /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
+    /// symmetries among its maps, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
@@ -297,7 +313,12 @@ impl Case {
         let built = matches!(
             self.scheme,
             Some(
-                Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::Interpolation(_) | Origin::States
+                Origin::Mesh { .. }
+                    | Origin::Lattice
+                    | Origin::Polygon(_)
+                    | Origin::Graphs
+                    | Origin::Symmetric { .. }
+                    | Origin::States
             )
         );
         let member = self.text.text.starts_with(parameters::MEMBER);
@@ -305,7 +326,23 @@ impl Case {
     }
 }
 
+impl<E: Entry> Case<E> {
+    /// The case with every operator written out, as [`Case::expanded`] of a curve or a set.
+    fn flat_text(&self) -> String {
+        case_text(&self.shape, &self.heading())
+    }
+}
+
 impl<E> Case<E> {
+    fn heading(&self) -> Heading {
+        Heading {
+            name: self.name.clone(),
+            title: if self.title == self.name { String::new() } else { self.title.clone() },
+            source: self.source.clone().unwrap_or_default(),
+            examine: self.examine.clone(),
+        }
+    }
+
     /// The mask that `[scheme]` was understood to give.
     #[must_use]
     pub fn mask(&self) -> Option<&Mask> {

@@ -226,6 +226,9 @@ impl<'a> Node<'a> {
                     format!("{digits} characters"),
                 )
                 .with_help(format!("at most {} digits are read", crate::arith::MAX_DIGITS)),
+            ParseNumberError::Exponent(_) => self
+                .problem("number-too-long", format!("{} has too large an exponent", self.what), "this exponent")
+                .with_help(format!("exponents of ten up to {} are read", crate::arith::MAX_DIGITS)),
             ParseNumberError::Malformed(text) if is_infinite(text) => self
                 .not_a_number("infinite values and NaN are no exact numbers; give an integer, a fraction or a decimal"),
             ParseNumberError::Malformed(_) => {

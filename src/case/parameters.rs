@@ -4,6 +4,7 @@
 //! numbers, may be expressions in parameters. With a value for each of them the case is one case, written out; with one of them
 //! left free a mask is a family.
 
+use super::free::one_free;
 use super::node::{File, Node, Table, clipped};
 use super::scheme::refused;
 use crate::algebraic::field::polynomial;
@@ -89,13 +90,22 @@ fn value_of(text: &str) -> Result<Setting, String> {
     }
 }
 
+/// Letters in formulas of weights at vertices: the valence, the sector, and a constant.
+const FORMULA_LETTERS: [&str; 3] = ["n", "k", "pi"];
+
 /// The parameters of a case with what is set instead, in the order of the file.
-fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Vec<(String, Setting)>, Problem> {
+pub(super) fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Vec<(String, Setting)>, Problem> {
     let Some(node) = case.get("parameters") else { return unknown(case, set, Vec::new()) };
     let table = node.table()?;
+    let letters = if case.get("vertex").is_some() { FORMULA_LETTERS.as_slice() } else { &[] };
     let mut all = Vec::new();
     for key in table.keys() {
         let Some(node) = table.get(&key) else { continue };
+        if letters.contains(&key.as_str()) {
+            return Err(node
+                .problem("parameter", format!("`{key}` has a meaning of its own in formulas of weights"), "this name")
+                .with_help("give the parameter another name"));
+        }
         if !is_name(&key) {
             return Err(node
                 .problem("parameter", format!("`{}` is not the name of a parameter", clipped(&key)), "this name")
@@ -259,70 +269,6 @@ fn collect(
         }
         _ => {}
     }
-}
-
-/// The one parameter that is left free, and what every name stands for: the free one for itself.
-pub(super) struct Free {
-    pub parameter: String,
-    pub range: (Rational, Rational),
-    pub names: BTreeMap<String, Poly>,
-}
-
-/// The parameters of a family.
-pub(super) fn one_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Free, Problem> {
-    let all = parameters(case, set)?;
-    let free: Vec<(&String, &Rational, &Rational)> = all
-        .iter()
-        .filter_map(|(n, s)| match s {
-            Setting::Range(from, to) => Some((n, from, to)),
-            Setting::Value(_) => None,
-        })
-        .collect();
-    let [(parameter, from, to)] = free.as_slice() else {
-        let message = format!("{} parameters are left free, and exactly one is needed", free.len());
-        return Err(case.problem("parameters", message, "this case").with_help(
-            "give one of them a range, behind the case as in  w=-1/2..1/2  or under [parameters] as in  w = \"-1/2..1/2\", and the \
-             others values",
-        ));
-    };
-    let variable = Poly::linear(&Rational::from(0));
-    let value = |(n, s): &(String, Setting)| match s {
-        Setting::Value(q) => (n.clone(), Poly::constant(q.clone())),
-        Setting::Range(..) => (n.clone(), variable.clone()),
-    };
-    let names = all.iter().map(value).collect();
-    Ok(Free { parameter: (*parameter).clone(), range: ((*from).clone(), (*to).clone()), names })
-}
-
-/// Two parameters that are left free.
-pub(super) struct TwoFree {
-    pub parameters: [String; 2],
-    pub ranges: [(Rational, Rational); 2],
-    /// What every name stands for where one of them is the variable and the other has a value.
-    pub names: [BTreeMap<String, Poly>; 2],
-}
-
-/// The parameters of a family with two that are left free; `None` where it is not two.
-pub(super) fn two_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Option<TwoFree>, Problem> {
-    let all = parameters(case, set)?;
-    let range = |s: &Setting| match s {
-        Setting::Range(from, to) => Some((from.clone(), to.clone())),
-        Setting::Value(_) => None,
-    };
-    let free: Vec<(String, (Rational, Rational))> =
-        all.iter().filter_map(|(n, s)| Some((n.clone(), range(s)?))).collect();
-    let [(p, first), (q, second)] = free.as_slice() else { return Ok(None) };
-    let names = [p, q].map(|variable| {
-        let value = |(n, s): &(String, Setting)| match s {
-            Setting::Value(x) => (n.clone(), Poly::constant(x.clone())),
-            Setting::Range(..) if n == variable => (n.clone(), Poly::linear(&Rational::from(0))),
-            // A value for which no degree falls by chance.
-            Setting::Range(..) => (n.clone(), Poly::constant(Rational::from_unsigneds(1_000_003_u64, 7_001))),
-        };
-        all.iter().map(value).collect()
-    });
-    let (parameters, ranges) = ([p.clone(), q.clone()], [first.clone(), second.clone()]);
-    Ok(Some(TwoFree { parameters, ranges, names }))
 }
 
 /// The text without the lines of its table `[parameters]`.

@@ -1,7 +1,7 @@
 //! What a case file asks, as its table says: the tangents of a shape, or smoothness at the vertices of a mesh.
 
 use super::node::{File, Table};
-use super::{Case, MAX_LETTERS, Valences, VertexCase};
+use super::{Case, MAX_LETTERS, Valences, VertexCase, asked};
 use crate::algebraic::Real;
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
@@ -113,12 +113,21 @@ impl Question {
         Self::parse(name, &complex_text(complex, &heading))
     }
 
-    /// The question about the vertices of a mesh of a file, which may also be a `[scheme]` of a mesh.
+    /// The question about the vertices of a mesh of what somebody writes, as [`Question::ask`]; it may also be a `[scheme]` of a mesh.
     ///
     /// # Errors
-    /// As [`VertexCase::read`].
-    pub fn at_valences(path: &Path, valences: Valences) -> Result<Self, Problem> {
-        let case = VertexCase::read(path)?;
+    /// As [`VertexCase::read`]; what is no case at all is told so.
+    pub fn at_valences(text: &str, valences: Valences) -> Result<Self, Problem> {
+        let source = asked(text)?;
+        Self::parse_at_valences(&source.name, &source.text, valences)
+    }
+
+    /// The same of the text of a case; `name` is shown in diagnostics.
+    ///
+    /// # Errors
+    /// As [`VertexCase::parse`].
+    pub fn parse_at_valences(name: &str, text: &str, valences: Valences) -> Result<Self, Problem> {
+        let case = VertexCase::parse(name, text)?;
         if case.border.is_some() {
             let message = format!("{} is about vertices on the border, which have no valence", case.name);
             return Err(Problem::new("secant::usage::valence", message)

@@ -214,6 +214,8 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
         faces,
         reversals,
         scheme,
+        numbers: Some(Vec::new()),
+        flat: None,
         unknown,
         examine,
         expect,

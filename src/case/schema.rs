@@ -224,8 +224,14 @@ fn border_table() -> Value {
 
 fn vertex() -> Value {
     let meshes: Vec<&str> = scheme::mesh_rules().iter().map(|s| s.name).collect();
-    let mut all = Map::new();
+    let meshes: Vec<&str> = meshes.into_iter().chain(["own"]).collect();
+    let mut all = own_stencils();
     all.insert("mesh".to_owned(), words(&meshes));
+    // Of `loop-variant` it may be a formula or a table by valence.
+    all.insert(
+        "beta".to_owned(),
+        json!({"type": ["number", "string", "object"], "description": "weight, or a formula in n"}),
+    );
     all.insert(
         "valence".to_owned(),
         json!({"type": ["integer", "string"], "description": "5, \"3..32\", \"3,5,8\" or \"all\""}),
@@ -245,6 +251,22 @@ fn vertex() -> Value {
         all.entry(*key).or_insert(json!({"description": "weights"}));
     }
     json!({"type": "object", "properties": all, "additionalProperties": false})
+}
+
+/// The keys of `mesh = "own"`.
+fn own_stencils() -> Map<String, Value> {
+    let weights = || json!({"type": "object", "additionalProperties": {"type": ["number", "string"]}});
+    let stencils = |more: Vec<(&str, Value)>| {
+        let elements = ["vertex", "edge", "face"].map(|key| (key, weights()));
+        object(&elements.into_iter().chain(more).collect::<Vec<_>>())
+    };
+    let centre = stencils(vec![("valence", json!({"type": ["integer", "string"]}))]);
+    let keys = [
+        ("split", words(&scheme::OwnRule::splits())),
+        ("stencil", stencils(Vec::new())),
+        ("centre", json!({"anyOf": [centre.clone(), {"type": "array", "items": centre}]})),
+    ];
+    keys.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 fn expect() -> Value {

@@ -4,7 +4,7 @@ use super::node::{Node, Table, clipped, suggest};
 use super::{MAX_COORDINATES, Model, Origin, Places, StatePlace};
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
-use crate::scheme::{self, Ends, Laurent, Mask, Normalisation, SchemeError};
+use crate::scheme::{self, Ends, Interpolation, Laurent, Mask, Normalisation, SchemeError};
 use crate::shape::{Complex, Shape};
 use std::collections::BTreeMap;
 
@@ -30,7 +30,7 @@ pub(super) fn read(case: &Table<'_>, node: &Node<'_>) -> Result<Model, Problem> 
     table.what = "`[scheme]`".to_owned();
     own_keys_only(&table)?;
     let (complex, origin) = match form(&table)? {
-        "tensor" => (tensor(&table)?, Origin::Tensor),
+        "tensor" => tensor(case, &table)?,
         "mesh" => mesh(&table)?,
         "interpolate" => {
             if let Some(span) = case.key_span("control") {
@@ -266,7 +266,13 @@ fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<Mask, Problem>
     Mask::from_filter(arity, &filter, scale).map_err(problem)
 }
 
-fn tensor(table: &Table<'_>) -> Result<Complex, Problem> {
+/// A factor of a tensor product: a curve with vertices, or data that are interpolated.
+enum Factor {
+    Curve(Shape),
+    Data(Box<Interpolation>),
+}
+
+fn tensor(case: &Table<'_>, table: &Table<'_>) -> Result<(Complex, Origin), Problem> {
     table.only(&["tensor"])?;
     let node = table.need("tensor", "[{ name = \"bspline\" }, { name = \"bspline\" }]")?;
     let factors = node.array(|k| format!("factor {k} of `tensor`"))?;
@@ -275,22 +281,50 @@ fn tensor(table: &Table<'_>) -> Result<Complex, Problem> {
             .problem("value", format!("{} factors are given", factors.len()), "two are needed")
             .with_help("a tensor product has two curves, as in [{ name = \"bspline\" }, { name = \"bspline\" }]"));
     };
-    let factor = |node: &Node<'_>, rename: &str| -> Result<Shape, Problem> {
-        let table = node.table()?;
-        let form = form(&table)?;
-        if matches!(form, "tensor" | "mesh" | "interpolate") {
-            return Err(node
-                .problem("value", format!("{} is no curve", node.what), "a surface")
-                .with_help("the factors of a tensor product are curves"));
+    match (factor(a)?, factor(b)?) {
+        (Factor::Curve(a), Factor::Curve(b)) => {
+            let (a, b) = (renamed(a, "u"), renamed(b, "w"));
+            let built = scheme::tensor(&a, &b).map_err(|e| refused(table, &node, &e, &[]))?;
+            Ok((built, Origin::Tensor))
         }
-        let mut shape = curve(&table, form, true)?.shape;
-        for state in &mut shape.states {
-            state.name = if state.name == "v" { "v".to_owned() } else { rename.to_owned() };
+        (Factor::Data(a), Factor::Data(b)) => {
+            if let Some(span) = case.key_span("control") {
+                return Err(case
+                    .file
+                    .problem("two-forms", "`control` and `interpolate` exclude each other", span, "given besides")
+                    .with_help("the surface is (x, y, f(x) g(y))"));
+            }
+            let built = scheme::product_surface(&a, &b).map_err(|e| refused(table, &node, &e, &[]))?;
+            Ok((built, Origin::Graphs))
         }
-        Ok(shape)
-    };
-    let (a, b) = (factor(a, "u")?, factor(b, "w")?);
-    scheme::tensor(&a, &b).map_err(|e| refused(table, &node, &e, &[]))
+        _ => Err(node
+            .problem("value", "one factor interpolates data and the other does not", "two of one kind are needed")
+            .with_help("a function of x is multiplied with a function of y: give `interpolate` in both factors")),
+    }
+}
+
+fn factor(node: &Node<'_>) -> Result<Factor, Problem> {
+    let table = node.table()?;
+    match form(&table)? {
+        "tensor" | "mesh" => Err(node
+            .problem("value", format!("{} is no curve", node.what), "a surface")
+            .with_help("the factors of a tensor product are curves")),
+        "interpolate" => {
+            table.only(&["interpolate", "vertical", "polynomials"])?;
+            match super::interpolate::built(&table, "interpolate")? {
+                (_, Origin::Interpolation(data)) => Ok(Factor::Data(data)),
+                (complex, _) => Ok(Factor::Curve(complex.shape)),
+            }
+        }
+        form => Ok(Factor::Curve(curve(&table, form, true)?.shape)),
+    }
+}
+
+fn renamed(mut shape: Shape, name: &str) -> Shape {
+    for state in shape.states.iter_mut().filter(|s| s.name != "v") {
+        name.clone_into(&mut state.name);
+    }
+    shape
 }
 
 fn mesh(table: &Table<'_>) -> Result<(Complex, Origin), Problem> {

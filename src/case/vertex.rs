@@ -1,6 +1,7 @@
 //! Case files about the vertices of a mesh: a `[vertex]` table names the rule on meshes, its weights and the valences.
 
 use super::node::{File, Node, Table};
+use super::own;
 use crate::answer::Verdict;
 use crate::arith::{Rational, ratio};
 use crate::diagnostic::{Problem, SourceText};
@@ -28,13 +29,13 @@ impl Valences {
     /// use secant::case::Valences;
     /// assert_eq!(Valences::parse("3..5, 8"), Ok(Valences::List(vec![3, 4, 5, 8])));
     /// assert_eq!(Valences::parse("all"), Ok(Valences::All));
-    /// assert!(Valences::parse("2").is_err());
+    /// assert!(Valences::parse("1").is_err());
     /// ```
     pub fn parse(text: &str) -> Result<Self, String> {
         if text.trim() == "all" {
             return Ok(Self::All);
         }
-        Self::numbers(text, 3, "valence").map(Self::List)
+        Self::numbers(text, 2, "valence").map(Self::List)
     }
 
     fn numbers(text: &str, least: usize, what: &str) -> Result<Vec<usize>, String> {
@@ -191,10 +192,10 @@ fn faces(node: &Node<'_>) -> Result<Valences, Problem> {
     })
 }
 
-fn valences(node: &Node<'_>) -> Result<Valences, Problem> {
+pub(super) fn valences(node: &Node<'_>) -> Result<Valences, Problem> {
     if node.is_integer() && node.index(MAX_VALENCE).is_err() {
         return Err(node
-            .problem("range", format!("a valence is between 3 and {MAX_VALENCE}"), "out of range")
+            .problem("range", format!("a valence is between 2 and {MAX_VALENCE}"), "out of range")
             .with_help("write valence = 5, \"3..32\" (both ends included), \"3,5,8\" or \"all\""));
     }
     let text = match node.index(MAX_VALENCE) {
@@ -226,13 +227,19 @@ fn expect(node: &Node<'_>, read: fn(&Node<'_>) -> Result<Valences, Problem>) -> 
 
 fn rule(table: &Table<'_>) -> Result<(String, MeshRule), Problem> {
     let scheme = table.text("mesh", "\"catmull-clark\"")?;
+    if scheme == "own" {
+        return Ok((scheme.to_owned(), own::own_rule(table)?));
+    }
+    if let Some(node) = table.get("beta").filter(|node| scheme == "loop-variant" && own::is_formula(node)) {
+        return Ok((scheme.to_owned(), own::loop_rule(table, &node)?));
+    }
     let Some(info) = mesh_rules().iter().find(|r| r.name == scheme) else {
         let error = mesh_rule(scheme, &BTreeMap::new()).err().map(|e| e.to_string()).unwrap_or_default();
         let names: Vec<&str> = mesh_rules().iter().map(|r| r.name).collect();
         return Err(table
             .need("mesh", "\"catmull-clark\"")?
             .problem("value", error, "not a scheme on meshes")
-            .with_help(format!("the schemes are {}", names.join(", "))));
+            .with_help(format!("the schemes are {}, and own, with stencils", names.join(", "))));
     };
     let mut known = vec!["mesh", "valence", "cell", "boundary", "faces"];
     known.extend(info.parameters.iter().map(|p| p.name));

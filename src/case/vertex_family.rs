@@ -1,14 +1,14 @@
 //! Rules on meshes with a parameter that is left free: `[parameters]` with `[vertex]`.
 
 use super::curve_family::at_value;
+use super::free::{degree, one_free};
 use super::node::{File, Table};
-use super::parameters::{Setting, expressions, one_free};
+use super::parameters::Setting;
 use super::{Valences, VertexCase, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
 use crate::scheme::MeshRule;
 use std::path::Path;
-use toml::de::DeTable;
 
 /// A rule on meshes with one parameter that is left free.
 #[derive(Debug, Clone)]
@@ -73,15 +73,7 @@ impl VertexFamilyCase {
 
     fn of_table(file: &File, case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
-        let degree = DeTable::parse(&file.source.text).map_or(0, |table| {
-            expressions(&table, &free.names).iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max)
-        });
-        if !(1..=MAX_DEGREE).contains(&degree) {
-            let message = format!("the weights are polynomials of degree {degree} in `{}`", free.parameter);
-            return Err(case
-                .problem("parameters", message, "this case")
-                .with_help(format!("regions at vertices are found for degrees from 1 to {MAX_DEGREE}")));
-        }
+        let degree = degree(case, &file.source.text, &free, MAX_DEGREE)?;
         let table = case.need("vertex", "{ mesh = \"loop-variant\", beta = \"b\" }")?.table()?;
         let mut weights = Vec::new();
         for key in table.keys().into_iter().filter(|k| !OTHERS.contains(&k.as_str())) {

@@ -1,23 +1,24 @@
 //! Points and branches: which rule proves them, and the evidence it needs.
 
 use super::top::{element, elements, longest, top};
+use super::written::{Written, matrix};
 use super::{Unsupported, address_json, number, numbers, tree, unsupported};
 use crate::algebraic::locate;
-use crate::jordan::{Eigenvalue, Spectrum};
+use crate::jordan::{Eigenvalue, Spectral};
 use crate::linalg::Matrix;
 use crate::shape::Address;
 use crate::shape::Shape;
 use crate::theorem::{
     BranchReport, Depth, Direction, Kind, Outcome, PointReport, Position, RingProof, Statement, Verdict, Witness,
-    depths,
+    depths, field,
 };
 use serde_json::{Value, json};
 
 /// A decided point.
-pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value, Unsupported> {
+pub fn point<E: Written>(shape: &Shape<E>, point: &PointReport<E>, place: &Value) -> Result<Value, Unsupported> {
     let mut common = Value::Null;
     let mut branches = Vec::new();
-    let plane = |b: &&BranchReport| matches!(b.outcome, Outcome::AtLeast { dimension: 2.., .. });
+    let plane = |b: &&BranchReport<E>| matches!(b.outcome, Outcome::AtLeast { dimension: 2.., .. });
     let rule = match (point.verdict, point.branches.iter().find(plane)) {
         (Verdict::Proved, _) => {
             if let Some(vector) = point.tangent.as_ref().and_then(crate::theorem::Direction::rational) {
@@ -26,7 +27,7 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
                 let (Some(first), Some(second)) = (line(a), line(b)) else {
                     return unsupported("a branch without a line", branch_name(a));
                 };
-                common = algebraic(&[first, second], &branch_name(a))?;
+                common = algebraic(&[first, second], E::COMMON, &branch_name(a))?;
             }
             "line"
         }
@@ -56,11 +57,11 @@ pub fn point(shape: &Shape, point: &PointReport, place: &Value) -> Result<Value,
     }))
 }
 
-pub fn branch_name(b: &BranchReport) -> String {
+pub fn branch_name<E: Written>(b: &BranchReport<E>) -> String {
     format!("branch {}", b.address)
 }
 
-fn line(b: &BranchReport) -> Option<&Direction> {
+fn line<E: Written>(b: &BranchReport<E>) -> Option<&Direction> {
     match &b.outcome {
         Outcome::Line { direction, .. } => Some(direction),
         _ => None,
@@ -69,7 +70,7 @@ fn line(b: &BranchReport) -> Option<&Direction> {
 
 /// The coordinates of one line that several directions have in common, as algebraic numbers with the elements of the fields
 /// of the directions that they are.
-fn algebraic(directions: &[&Direction], place: &str) -> Result<Value, Unsupported> {
+fn algebraic(directions: &[&Direction], places: u64, place: &str) -> Result<Value, Unsupported> {
     // The first coordinate that is not 0 becomes 1.
     let unit = |d: &&Direction| {
         let d = d.normalised();
@@ -81,7 +82,7 @@ fn algebraic(directions: &[&Direction], place: &str) -> Result<Value, Unsupporte
     let normal: Vec<Direction> = directions.iter().map(unit).collect::<Result<_, _>>()?;
     let number = |k: usize| {
         let x = locate(&normal[0].coords[k], &normal[0].root);
-        let interval = x.enclosure(100).0;
+        let interval = x.enclosure(places).0;
         json!({
             "polynomial": numbers(x.minpoly().coeffs()),
             "interval": [number(&interval.lo), number(&interval.hi)],
@@ -95,25 +96,25 @@ fn eigenvalue(pair: &(usize, usize)) -> Eigenvalue {
     Eigenvalue { factor: pair.0, root: pair.1 }
 }
 
-fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
+fn branch<E: Written>(shape: &Shape<E>, b: &BranchReport<E>) -> Result<Value, Unsupported> {
     match &b.outcome {
         Outcome::Line { statement: Statement::CorollaryLine, .. } => Ok(json!({"rule": "corollary-line"})),
         Outcome::Line { eigenvalue: lead, block, functional, proof: Some(proof), .. } => Ok(json!({
             "rule": if *block == 1 { "theorem-2" } else { "theorem-3" },
-            "top": top(&b.linear, &b.spectrum, eigenvalue(lead), &branch_name(b))?,
+            "top": top::<E>(&b.linear, &b.spectrum, eigenvalue(lead), &branch_name(b))?,
             "functional": elements(functional),
             "cover": tree::cover(shape, &b.ring, proof, None)?,
         })),
         Outcome::AtLeast { statement, eigenvalues, isolation, witness, .. } => {
             let lead = eigenvalue(&eigenvalues[0]);
-            let top = top(&b.linear, &b.spectrum, lead, &branch_name(b))?;
+            let top = top::<E>(&b.linear, &b.spectrum, lead, &branch_name(b))?;
             match (statement, witness, isolation) {
                 (Statement::Corollary, _, _) => Ok(json!({"rule": "corollary", "top": top})),
                 (Statement::Theorem4, Some(witness), Some(isolation)) => {
                     theorem4(shape, b, lead, &top, witness, isolation)
                 }
                 (Statement::Section6, Some(Witness::Crossing { part, positive, negative, cover, .. }), _) => {
-                    let Some(chain) = longest(&b.spectrum.factor(lead).left) else {
+                    let Some(chain) = longest(b.spectrum.part(lead.factor).left) else {
                         return unsupported("an empty chain", branch_name(b));
                     };
                     Ok(json!({
@@ -133,34 +134,36 @@ fn branch(shape: &Shape, b: &BranchReport) -> Result<Value, Unsupported> {
             }
         }
         Outcome::Open { direction: Some(_), .. } => {
-            let longest = b.spectrum.classes[0].members.iter().max_by_key(|m| b.spectrum.factor(**m).blocks[0]);
+            let members = &b.spectrum.classes()[0].members;
+            let longest = members.iter().max_by_key(|m| b.spectrum.part(m.factor).blocks[0]);
             let Some(&lead) = longest else { return unsupported("an empty spectrum", branch_name(b)) };
-            Ok(json!({"rule": "direction", "top": top(&b.linear, &b.spectrum, lead, &branch_name(b))?}))
+            Ok(json!({"rule": "direction", "top": top::<E>(&b.linear, &b.spectrum, lead, &branch_name(b))?}))
         }
         _ => unsupported("a branch that is not decided", branch_name(b)),
     }
 }
 
 /// Theorem 4′: the change of sign, and the rows whose common kernel meets the ring nowhere.
-fn leading_sign(
-    shape: &Shape,
-    b: &BranchReport,
+fn leading_sign<E: Written>(
+    shape: &Shape<E>,
+    b: &BranchReport<E>,
     top: &Value,
     proof: &RingProof,
     [positive, negative]: [&Address; 2],
 ) -> Result<Value, Unsupported> {
-    let lead = b.spectrum.classes[0].members.iter().max_by_key(|m| b.spectrum.factor(**m).blocks[0]);
-    let Some(chain) = lead.and_then(|m| longest(&b.spectrum.factor(*m).left)) else {
+    let lead = b.spectrum.classes()[0].members.iter().max_by_key(|m| b.spectrum.part(m.factor).blocks[0]);
+    let Some(chain) = lead.and_then(|m| longest(b.spectrum.part(m.factor).left)) else {
         return unsupported("an empty chain", branch_name(b));
     };
-    let space = |d: &Depth| proof.functionals.len() == d.rows.rows();
-    let Some(depth) = depths(&b.spectrum, &b.linear).into_iter().find(space) else {
+    let space = |d: &Depth<E>| proof.functionals.len() == d.rows.rows();
+    let Some(depth) = depths::<E>(&b.spectrum, &b.linear).into_iter().find(space) else {
         return unsupported("irrational functionals of several moduli", branch_name(b));
     };
     let images = &depth.rows * &b.linear;
     let (k, pivots) = (depth.rows.rows(), depth.rows.echelon().pivots);
-    let inner = Spectrum::of(&Matrix::from_fn(k, k, |i, j| images[(i, pivots[j])].clone()));
-    let Some(radius) = super::radius::below(&b.spectrum, depth.classes, inner.char_poly.coeffs()) else {
+    let inner = Matrix::from_fn(k, k, |i, j| images[(i, pivots[j])].clone());
+    let inner = E::characteristic(&E::spectrum(&inner, &field(shape)));
+    let Some(radius) = super::radius::below::<E>(&b.spectrum, depth.classes, &inner) else {
         return unsupported("moduli this close", branch_name(b));
     };
     let letters =
@@ -182,7 +185,7 @@ fn leading_sign(
         "top": top,
         "functional": elements(&chain.vectors[0]),
         "radius": number(&radius),
-        "rows": (0..k).map(|i| numbers(depth.rows.row(i))).collect::<Value>(),
+        "rows": matrix(&depth.rows),
         "cover": tree::cover(shape, &b.ring, proof, None)?,
         "positive": address_json(positive),
         "negative": address_json(negative),
@@ -190,15 +193,15 @@ fn leading_sign(
     }))
 }
 
-fn theorem4(
-    shape: &Shape,
-    b: &BranchReport,
+fn theorem4<E: Written>(
+    shape: &Shape<E>,
+    b: &BranchReport<E>,
     lead: Eigenvalue,
     top: &Value,
-    witness: &Witness,
+    witness: &Witness<E>,
     isolation: &RingProof,
 ) -> Result<Value, Unsupported> {
-    let Some(chain) = longest(&b.spectrum.factor(lead).left) else {
+    let Some(chain) = longest(b.spectrum.part(lead.factor).left) else {
         return unsupported("an empty chain", branch_name(b));
     };
     let functional = elements(&chain.vectors[0]);
@@ -214,7 +217,7 @@ fn theorem4(
             "rule": "orbit",
             "top": top,
             "address": address_json(address),
-            "own": orbit_top(&b.linear, offset, &branch_name(b))?,
+            "own": orbit_top(&b.linear, offset, &field(shape), &branch_name(b))?,
         })),
         Witness::SignChange { positive, negative, .. } if simple => Ok(json!({
             "rule": "sign-change",
@@ -232,20 +235,20 @@ fn theorem4(
 }
 
 /// The top of the spectrum of `linear` on the cyclic hull of `x`.
-pub fn orbit_top(linear: &Matrix, x: &[crate::arith::Rational], place: &str) -> Result<Value, Unsupported> {
+pub fn orbit_top<E: Written>(linear: &Matrix<E>, x: &[E], base: &E::Base, place: &str) -> Result<Value, Unsupported> {
     let hull = krylov(linear, x);
     let images = &hull.rows * &linear.transpose();
     let k = hull.rows.rows();
     let own = Matrix::from_fn(k, k, |i, j| images[(j, hull.pivots[i])].clone());
-    let spectrum = Spectrum::of(&own);
-    let members = spectrum.classes.first().map(|class| &class.members);
-    match members.and_then(|m| m.iter().max_by_key(|m| spectrum.factor(**m).blocks[0])) {
-        Some(&lead) => super::top::top(&own, &spectrum, lead, place),
+    let spectrum = E::spectrum(&own, base);
+    let members = spectrum.classes().first().map(|class| &class.members);
+    match members.and_then(|m| m.iter().max_by_key(|m| spectrum.part(m.factor).blocks[0])) {
+        Some(&lead) => super::top::top::<E>(&own, &spectrum, lead, place),
         None => unsupported("an empty hull", place),
     }
 }
 
 /// The cyclic hull of `x`, as rows in echelon form.
-fn krylov(linear: &Matrix, x: &[crate::arith::Rational]) -> crate::linalg::Echelon {
+fn krylov<E: Written>(linear: &Matrix<E>, x: &[E]) -> crate::linalg::Echelon<E> {
     Matrix::from_rows(x.len(), vec![x.to_vec()]).closure(&[&linear.transpose()]).echelon()
 }

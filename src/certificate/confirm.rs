@@ -1,6 +1,6 @@
 //! What the checker says of a certificate, compared with what was found.
 
-use super::{Certificate, Unsupported, certificate};
+use super::{Certificate, Unsupported, Written, certificate, flat_certificate};
 use crate::case::Case;
 use crate::shape::Spaces;
 use crate::theorem::{About, Assertion, Certified, Parameter, Verdict};
@@ -32,15 +32,36 @@ pub enum Doubt {
 /// # Cost
 /// That of [`certificate`] and of [`secant_check::check`].
 pub fn confirm(case: &Case, found: &Certified) -> Result<Certificate, Doubt> {
+    let Some(surface) = &found.surface else { return confirm_flat(case, found) };
     let certificate = certificate(case, found)?;
     let accepted = accepted(&case.checked_text(), &certificate)?;
     if !same_verdict(found.verdict, accepted.verdict) {
         return Err(Doubt::Differs(accepted.verdict.word()));
     }
-    match &found.surface {
-        None => same_claims(found, &certificate, &accepted)?,
-        Some(surface) => same_every_plane(surface.every.verdict(), &certificate, &accepted)?,
+    same_every_plane(surface.every.verdict(), &certificate, &accepted)?;
+    Ok(certificate)
+}
+
+/// The same for a curve or a set, also over a number field.
+///
+/// # Errors
+/// As [`confirm`].
+///
+/// # Cost
+/// As [`confirm`].
+pub fn confirm_flat<E: Written>(case: &Case<E>, found: &Certified<E>) -> Result<Certificate, Doubt> {
+    let certificate = flat_certificate(case, found)?;
+    let accepted = match accepted(&E::text(case), &certificate) {
+        Err(Doubt::Rejected(rejected)) if E::IRRATIONAL && matches!(&*rejected.rule, "case" | "numbers") => {
+            let what = "numbers that the checker does not read".to_owned();
+            return Err(Unsupported { what, place: rejected.place }.into());
+        }
+        answer => answer?,
+    };
+    if !same_verdict(found.verdict, accepted.verdict) {
+        return Err(Doubt::Differs(accepted.verdict.word()));
     }
+    same_claims(found, &certificate, &accepted)?;
     Ok(certificate)
 }
 
@@ -62,7 +83,7 @@ fn same_every_plane(found: Verdict, certificate: &Certificate, accepted: &Accept
 /// certificate, which it has compared.
 ///
 /// Of the joints that were examined only a refutation is a claim of its own; what is proved of them is in the list of points.
-fn same_claims(found: &Certified, certificate: &Certificate, accepted: &Accepted) -> Result<(), Doubt> {
+fn same_claims<E: Written>(found: &Certified<E>, certificate: &Certificate, accepted: &Accepted) -> Result<(), Doubt> {
     let alone = secant_check::Claim::TangentAtJoints(Joints::OnlyNotKilled);
     let beside = accepted.claims.iter().any(|d| d.claim == alone);
     for claim in found.claims.iter().filter(|c| c.verdict() != Verdict::Undetermined) {

@@ -1,7 +1,6 @@
 //! The evidence for Theorems 11, 11′ and 11″: one entry for each frame, in the order in which they are found.
 
 use super::branch::point;
-use super::everywhere::matrix;
 use super::{Unsupported, numbers, unsupported};
 use crate::shape::Shape;
 use crate::theorem::{FrameCones, FrameReport, Frames, PointReport, Role};
@@ -34,16 +33,8 @@ fn seen(shape: &Shape, report: &PointReport) -> Result<Value, Unsupported> {
 fn cones(shape: &Shape, frame: &FrameReport, found: &FrameCones) -> Result<Value, Unsupported> {
     let (mut cones, mut maps) = (Vec::new(), Vec::new());
     for member in &frame.family {
-        let Some(cone) = found.cone.cones.iter().find(|c| c.state == member.state) else {
-            return unsupported("a state without a cone", "frames");
-        };
-        cones.push(json!({
-            "rays": matrix(&cone.rays.transpose()),
-            "functional": numbers(&cone.functional),
-            "chord": numbers(&cone.chord),
-        }));
-        let images = found.cone.maps.iter().filter(|m| m.state == member.state);
-        maps.push(images.map(|m| matrix(&m.matrix)).collect::<Value>());
+        cones.push(super::everywhere::cone(shape, &found.cone, member.state)?);
+        maps.push(super::everywhere::images(&found.cone, member.state));
     }
     let code = found.code.iter().map(|(word, h)| json!({"word": word, "functional": numbers(h)})).collect::<Value>();
     let above = found.above.iter().map(|p| Ok(json!({"point": seen(shape, p)?}))).collect::<Result<Value, _>>()?;

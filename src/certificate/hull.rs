@@ -1,13 +1,13 @@
 //! Convex hulls that hold the attractors, with the coefficients that show it.
 
-use super::{Unsupported, number, numbers, unsupported};
-use crate::arith::Rational;
+use super::written::{Written, values};
+use super::{Unsupported, number, unsupported};
 use crate::linalg::Matrix;
 use crate::shape::{Polytopes, Shape, Weights};
 use serde_json::{Value, json};
 
 /// The vertices of the hull of a state, and the images of the hulls of its pieces as convex combinations.
-pub fn hull(shape: &Shape, state: usize, hulls: &[Vec<Vec<Rational>>]) -> Result<Value, Unsupported> {
+pub fn hull<E: Written>(shape: &Shape<E>, state: usize, hulls: &[Vec<Vec<E>>]) -> Result<Value, Unsupported> {
     let vertices = &hulls[state];
     let mut images = Vec::new();
     for piece in &shape.states[state].pieces {
@@ -17,7 +17,7 @@ pub fn hull(shape: &Shape, state: usize, hulls: &[Vec<Vec<Rational>>]) -> Result
         };
         images.push(Value::Array(combinations));
     }
-    let points: Vec<Value> = vertices.iter().map(|v| numbers(v)).collect();
+    let points: Vec<Value> = vertices.iter().map(|v| values(v)).collect();
     Ok(json!({"points": points, "images": images}))
 }
 
@@ -27,8 +27,8 @@ pub fn polytope(proof: &Polytopes, state: usize) -> Value {
 }
 
 /// Vertices of a state with the combinations of the images under its pieces.
-pub fn with_weights(vertices: &[Vec<Rational>], weights: &[Vec<Weights>]) -> Value {
-    let points: Vec<Value> = vertices.iter().map(|v| numbers(v)).collect();
+pub fn with_weights<E: Written>(vertices: &[Vec<E>], weights: &[Vec<Weights>]) -> Value {
+    let points: Vec<Value> = vertices.iter().map(|v| values(v)).collect();
     let terms = |weights: &Weights| -> Value {
         weights.iter().map(|(k, w)| json!({"vertex": k, "weight": number(w)})).collect()
     };
@@ -37,7 +37,7 @@ pub fn with_weights(vertices: &[Vec<Rational>], weights: &[Vec<Weights>]) -> Val
 }
 
 /// The point as a convex combination of the vertices of one triangle (or segment, or point) of a fan.
-fn combination(vertices: &[Vec<Rational>], point: &[Rational]) -> Option<Value> {
+fn combination<E: Written>(vertices: &[Vec<E>], point: &[E]) -> Option<Value> {
     let n = vertices.len();
     let corners: Vec<Vec<usize>> = match n {
         0 => return None,
@@ -47,13 +47,13 @@ fn combination(vertices: &[Vec<Rational>], point: &[Rational]) -> Option<Value> 
     };
     let target = Matrix::from_columns(point.len(), &[point.to_vec()]);
     for corners in corners {
-        let columns: Vec<Vec<Rational>> = corners.iter().map(|&k| vertices[k].clone()).collect();
+        let columns: Vec<Vec<E>> = corners.iter().map(|&k| vertices[k].clone()).collect();
         // All points have coordinate sum 1, so the weights add up to 1 by themselves.
         let Some(weights) = Matrix::from_columns(point.len(), &columns).solve(&target) else { continue };
         let weights = weights.column(0);
-        if weights.iter().all(|w| *w >= 0) {
-            let terms = corners.iter().zip(&weights).filter(|(_, w)| **w != 0);
-            return Some(terms.map(|(k, w)| json!({"vertex": k, "weight": number(w)})).collect());
+        if weights.iter().all(|w| w.sign() >= 0) {
+            let terms = corners.iter().zip(&weights).filter(|(_, w)| !w.is_zero());
+            return Some(terms.map(|(k, w)| json!({"vertex": k, "weight": w.value()})).collect());
         }
     }
     None

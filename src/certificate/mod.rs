@@ -6,6 +6,7 @@
 
 mod border;
 mod branch;
+mod components;
 mod confirm;
 mod everywhere;
 mod frames;
@@ -22,9 +23,10 @@ mod surface;
 mod top;
 mod tree;
 mod vertex;
+mod written;
 
 pub use border::border_certificate;
-pub use confirm::{Doubt, checked, confirm, confirm_orders};
+pub use confirm::{Doubt, checked, confirm, confirm_flat, confirm_orders};
 pub use joint::radius_certificate;
 pub use lattice::lattice_certificate;
 pub use region::region_certificate;
@@ -32,6 +34,7 @@ pub use region_curve::curve_region_certificate;
 pub use regularity::regularity_certificate;
 pub use solve::solve_certificate;
 pub use vertex::{confirm_vertices, vertex_certificate};
+pub use written::Written;
 
 use crate::arith::Rational;
 use crate::case::Case;
@@ -160,6 +163,15 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     if let Some(found_surface) = &found.surface {
         return surface::surface(case, found, found_surface);
     }
+    flat_certificate(case, found)
+}
+
+/// The same for a curve or a set, also over a number field.
+///
+/// # Errors
+/// As [`certificate`]; over a number field also where the entries do not generate the field of the roots and cosines of the text.
+pub fn flat_certificate<E: Written>(case: &Case<E>, found: &Certified<E>) -> Result<Certificate, Unsupported> {
+    let field = E::field(case)?;
     let radii = found.states.iter().map(|r| (r.state, &r.radius));
     let hulls = found.polygons.as_deref().map(|polygons| (polygons, found.polygon_weights.as_ref()));
     let states = contraction(&case.shape, &found.contraction, radii, hulls)?;
@@ -167,18 +179,22 @@ pub fn certificate(case: &Case, found: &Certified) -> Result<Certificate, Unsupp
     let mut left_out = Vec::new();
     let answers = answers(case, found, &points, &mut left_out)?;
     let listed: Value = points.listed.into_inner().into_iter().map(|(_, point)| point).collect();
-    let proof = json!({"contraction": states, "points": listed, "answers": answers});
+    let proof = match field {
+        None => json!({"contraction": states, "points": listed, "answers": answers}),
+        Some(field) => json!({"field": field, "contraction": states, "points": listed, "answers": answers}),
+    };
     Ok(Certificate::new("certify", &case.name, found.verdict.word(), proof).without(left_out))
 }
 
 /// Why a system contracts, and what encloses its attractors, by reachable state.
-fn contraction<'a>(
-    shape: &Shape,
+fn contraction<'a, E: Written>(
+    shape: &Shape<E>,
     found: &Contraction,
     radii: impl Iterator<Item = (usize, &'a Rational)>,
-    polygons: Option<(&[Vec<Vec<Rational>>], Option<&HullWeights>)>,
+    polygons: Option<(&[Vec<Vec<E>>], Option<&HullWeights>)>,
 ) -> Result<Value, Unsupported> {
     let mut states = Vec::new();
+    let simplex = E::simplex(shape);
     for (state, radius) in radii {
         let code = match found {
             Contraction::Proved(proof) => tree::code(shape, state, &proof.codes[state])?,
@@ -188,7 +204,10 @@ fn contraction<'a>(
         let hull = match polygons {
             Some((polygons, Some(weights))) => hull::with_weights(&polygons[state], &weights[state]),
             Some((polygons, None)) => hull::hull(shape, state, polygons)?,
-            None => Value::Null,
+            None => match &simplex {
+                Some(simplex) => simplex.clone(),
+                None => Value::Null,
+            },
         };
         states.push(json!({"state": state, "radius": number(radius), "code": code, "hull": hull}));
     }
@@ -214,7 +233,7 @@ fn address_json(address: &Address) -> Value {
     json!({"prefix": address.prefix, "cycle": address.cycle})
 }
 
-fn place_json(point: &PointReport) -> Value {
+fn place_json<E: Written>(point: &PointReport<E>) -> Value {
     match &point.role {
         Role::LeftEnd => json!({"at": "left end"}),
         Role::RightEnd => json!({"at": "right end"}),
@@ -228,14 +247,14 @@ fn place_json(point: &PointReport) -> Value {
 type Further = Result<Option<Value>, Unsupported>;
 
 /// The decided points that answer a question, each once: their places and what is written about them.
-struct Points<'a> {
-    case: &'a Case,
+struct Points<'a, E: Written> {
+    case: &'a Case<E>,
     listed: RefCell<Vec<(Value, Value)>>,
 }
 
-impl Points<'_> {
+impl<E: Written> Points<'_, E> {
     /// The index of a decided point, which is listed from now on.
-    fn index(&self, point: &PointReport) -> Result<usize, Unsupported> {
+    fn index(&self, point: &PointReport<E>) -> Result<usize, Unsupported> {
         if point.verdict == Verdict::Undetermined {
             return unsupported("a point that is not decided", branch::branch_name(&point.branches[0]));
         }
@@ -258,7 +277,11 @@ impl Points<'_> {
     }
 
     /// The indices of the decided points among those for which `wanted` holds.
-    fn indices(&self, found: &Certified, wanted: impl Fn(&PointReport) -> bool) -> Result<Vec<usize>, Unsupported> {
+    fn indices(
+        &self,
+        found: &Certified<E>,
+        wanted: impl Fn(&PointReport<E>) -> bool,
+    ) -> Result<Vec<usize>, Unsupported> {
         let decided = found.points.iter().filter(|p| wanted(p) && p.verdict != Verdict::Undetermined);
         let mut indices = decided.map(|p| self.index(p)).collect::<Result<Vec<_>, _>>()?;
         indices.sort_unstable();
@@ -269,10 +292,10 @@ impl Points<'_> {
 
 /// The answers to the questions of the case, in their order; what is no question of the case and has no rule is left out, and
 /// named.
-fn answers(
-    case: &Case,
-    found: &Certified,
-    points: &Points<'_>,
+fn answers<E: Written>(
+    case: &Case<E>,
+    found: &Certified<E>,
+    points: &Points<'_, E>,
     left_out: &mut Vec<Unsupported>,
 ) -> Result<Vec<Value>, Unsupported> {
     let shape = &case.shape;
@@ -320,7 +343,7 @@ fn answers(
         answers.push(json!({"question": "address", "address": address, "verdict": verdict.word(), "points": index}));
     }
     let before = points.listed.borrow().len();
-    let every = everywhere::answer(shape, found, |point| points.index(point));
+    let every = E::every(shape, found, &|point| points.index(point));
     for further in [not_killed(case, found), points.only_for(every, before)] {
         match further {
             Ok(answer) => answers.extend(answer),
@@ -328,16 +351,15 @@ fn answers(
         }
     }
     if let Some(similarities) = &found.similarities {
-        let gram = &similarities.gram;
-        let product: Value = (0..gram.rows()).map(|i| numbers(gram.row(i))).collect();
+        let product = written::matrix(&similarities.gram);
         answers.push(json!({"question": "any point", "verdict": "refuted", "products": [product]}));
     }
     Ok(answers)
 }
 
 /// The verdict on the joints: of those examined, and of a dense set where that is claimed.
-fn joints_verdict(found: &Certified) -> Verdict {
-    let refuted = |p: &PointReport| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted;
+fn joints_verdict<E: Written>(found: &Certified<E>) -> Verdict {
+    let refuted = |p: &PointReport<E>| matches!(p.role, Role::Joint { .. }) && p.verdict == Verdict::Refuted;
     if found.points.iter().any(refuted) {
         return Verdict::Refuted;
     }
@@ -345,7 +367,7 @@ fn joints_verdict(found: &Certified) -> Verdict {
     Verdict::all(claims.len(), claims)
 }
 
-fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, Unsupported> {
+fn joints<E: Written>(case: &Case<E>, found: &Certified<E>, points: &Points<'_, E>) -> Result<Value, Unsupported> {
     let verdict = joints_verdict(found);
     let listed = points.indices(found, |p| matches!(p.role, Role::Joint { .. }))?;
     let (theorem, upstairs) = match verdict {
@@ -362,14 +384,14 @@ fn joints(case: &Case, found: &Certified, points: &Points<'_>) -> Result<Value, 
 }
 
 /// The theorem on a dense set of joints, with what it needs of joints seen from their own states.
-fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupported> {
+fn dense<E: Written>(case: &Case<E>, found: &Certified<E>) -> Result<(&'static str, Value), Unsupported> {
     let Some(claim) = found.dense_claim() else { return unsupported("this theorem", JOINTS) };
     if claim.statement().is_some_and(|s| s.uses_frames()) {
         let Some(frames) = found.dense.as_ref().and_then(|d| d.frames.as_ref()) else {
             return unsupported("frames that are not there", JOINTS);
         };
         let theorem = if claim.what == Assertion::UnkilledJoints { "11'" } else { "11" };
-        return Ok((theorem, frames::frames(&case.shape, frames)?));
+        return Ok((theorem, E::frames(&case.shape, frames)?));
     }
     match claim.what {
         Assertion::DenseJoints => Ok(("5", json!([]))),
@@ -390,7 +412,7 @@ fn dense(case: &Case, found: &Certified) -> Result<(&'static str, Value), Unsupp
 }
 
 /// Theorem 5′ or 11′ beside joints that are not all proved.
-fn not_killed(case: &Case, found: &Certified) -> Result<Option<Value>, Unsupported> {
+fn not_killed<E: Written>(case: &Case<E>, found: &Certified<E>) -> Result<Option<Value>, Unsupported> {
     let proved = found.dense_claim().is_some_and(|c| c.verdict() == Verdict::Proved);
     if !proved || joints_verdict(found) == Verdict::Proved {
         return Ok(None);

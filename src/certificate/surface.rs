@@ -9,8 +9,8 @@ use crate::jordan::{Eigenvalue, Spectrum};
 use crate::linalg::Matrix;
 use crate::shape::{Address, Contraction, Shape};
 use crate::theorem::surface::{
-    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfacePoint,
-    SurfaceWitness,
+    EverySurfaceBreak, EverySurfaceProof, ProductFactor, Rank, Spot, Surface, SurfaceBranch, SurfaceForms,
+    SurfacePoint, SurfaceWitness,
 };
 use crate::theorem::{Assertion, Certified, Direction, Functional, PointReport, RingProof, Statement, Verdict};
 use serde_json::{Value, json};
@@ -69,6 +69,9 @@ pub fn surface(case: &Case, found: &Certified, surface: &Surface) -> Result<Cert
                 continue;
             }
             asked.push(address);
+        } else if claim.statement() == Some(Statement::PatchDerivative) {
+            // Planes at every point are planes at a dense set.
+            every_point(surface, &mut product)?;
         } else if matches!(claim.what, Assertion::DensePlanes { .. }) && claim.verdict() == Verdict::Proved {
             let vertices = surface.dense.iter().flat_map(|d| &d.vertices);
             dense = vertices.map(|(_, p)| point(shape, p, &mut product)).collect::<Result<_, _>>()?;
@@ -125,6 +128,10 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
             };
             json!({"by": "derivative", "verdict": "proved", "radius": radius, "length": length, "cells": cells})
         }
+        Answer::Proved(EverySurfaceProof::Forms(_)) if product.always => {
+            return unsupported("cones around planes where only a product contracts", "every point");
+        }
+        Answer::Proved(EverySurfaceProof::Forms(found)) => cones(found),
         Answer::Proved(EverySurfaceProof::Vertex { .. }) => {
             return unsupported("Theorem 7 beside a patch complex", "every point");
         }
@@ -133,6 +140,26 @@ fn every_point(surface: &Surface, product: &mut Product) -> Result<Option<Value>
             json!({"by": "product", "verdict": "refuted", "curves": product.every([of(0), of(1)])?})
         }
     }))
+}
+
+/// Stars with their children, forms (upper triangles, row after row) and ratios.
+fn cones(found: &SurfaceForms) -> Value {
+    let star = |s: usize| {
+        let cells = found.stars.list[s].cells.iter();
+        let cells: Value = cells.map(|(face, corners)| json!({"face": face, "corners": corners})).collect();
+        let children = found.stars.children[s].iter().enumerate();
+        let children: Value = children
+            .map(|(k, child)| {
+                let ratio = found.ratios[s].get(k).map_or(Value::Null, number);
+                json!({"star": child.star, "cells": child.cells, "ratio": ratio})
+            })
+            .collect();
+        let q = &found.forms[s];
+        let form: Value = (0..q.rows()).map(|i| numbers(&q.row(i)[i..])).collect();
+        json!({"cells": cells, "form": form, "children": children})
+    };
+    let stars: Value = (0..found.stars.list.len()).map(star).collect();
+    json!({"by": "cones", "verdict": "proved", "stars": stars})
 }
 
 fn name(b: &SurfaceBranch) -> String {
@@ -187,7 +214,7 @@ impl Product<'_> {
             let position = |point: &PointReport| me.borrow_mut().index(k, shape, point);
             answers.push(match curve {
                 None => Value::Null,
-                Some(found) => match super::everywhere::answer(shape, found, position)? {
+                Some(found) => match super::everywhere::answer(shape, found, &position)? {
                     Some(answer) => answer,
                     None => return unsupported("a curve of which nothing is decided", "every point"),
                 },
@@ -264,7 +291,7 @@ fn certified(shape: &Shape, b: &SurfaceBranch, exact: bool) -> Result<Value, Uns
     let mut orbits = Vec::new();
     if let Some(SurfaceWitness::Points(points)) = &b.outcome.witness {
         for (address, offset) in points {
-            let own = branch::orbit_top(&b.linear, offset, &name(b))?;
+            let own = branch::orbit_top(&b.linear, offset, &(), &name(b))?;
             orbits.push(json!({"address": address_json(address), "own": own}));
         }
     }
@@ -275,7 +302,7 @@ fn certified(shape: &Shape, b: &SurfaceBranch, exact: bool) -> Result<Value, Uns
         (None, Some((depth, proof))) => by_group(shape, b, proof, *depth)?,
         _ => return unsupported("this evidence", name(b)),
     };
-    Ok(json!({"top": top(&b.linear, &b.spectrum, lead, &name(b))?, "orbits": orbits, "bound": bound}))
+    Ok(json!({"top": top::<Rational>(&b.linear, &b.spectrum, lead, &name(b))?, "orbits": orbits, "bound": bound}))
 }
 
 /// The ring condition of the functionals that read leading coefficients.
@@ -306,7 +333,7 @@ fn by_group(shape: &Shape, b: &SurfaceBranch, proof: &RingProof, depth: usize) -
     let images = &space.rows * &b.linear;
     let k = space.pivots.len();
     let inner = Spectrum::of(&Matrix::from_fn(k, k, |i, j| images[(i, space.pivots[j])].clone()));
-    let Some(radius) = super::radius::below(&b.spectrum, depth, inner.char_poly.coeffs()) else {
+    let Some(radius) = super::radius::below::<Rational>(&b.spectrum, depth, inner.char_poly.coeffs()) else {
         return unsupported("moduli this close", name(b));
     };
     let rows: Value = rows.iter().map(|r| numbers(r)).collect();

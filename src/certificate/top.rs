@@ -1,9 +1,10 @@
 //! The part of a spectrum with the largest modulus, in a form that is checked without factorisation.
 
+use super::written::{Aligned, Written};
 use super::{Unsupported, number, numbers, radius, unsupported};
-use crate::algebraic::{Elem, Root};
+use crate::algebraic::Elem;
 use crate::arith::{Integer, Interval, Rational, abs};
-use crate::jordan::{Chain, Eigenvalue, Spectrum};
+use crate::jordan::{Chain, Eigenvalue, Spectral, Spectrum};
 use crate::linalg::Matrix;
 use crate::poly::Poly;
 use malachite_base::num::logic::traits::SignificantBits;
@@ -20,45 +21,49 @@ pub fn elements(v: &[Elem]) -> Value {
 }
 
 /// Evidence for the top of the spectrum of `linear`; `lead` is the eigenvalue whose root generates the field.
-pub fn top(linear: &Matrix, spectrum: &Spectrum, lead: Eigenvalue, place: &str) -> Result<Value, Unsupported> {
-    let Some(radius) = radius::between(spectrum) else { return unsupported("moduli this close", place) };
-    let members = &spectrum.classes[0].members;
-    if members.iter().all(|&m| spectrum.root(m).is_real()) {
-        let plus = members.iter().filter(|&&m| spectrum.root(m).same(spectrum.root(lead)));
-        let most = plus.map(|&m| spectrum.factor(m).blocks.len()).fold(0, usize::max);
-        let others = members.iter().map(|&m| spectrum.factor(m).blocks.len()).fold(0, usize::max);
+pub fn top<E: Written>(
+    linear: &Matrix<E>,
+    spectrum: &E::Spectrum,
+    lead: Eigenvalue,
+    place: &str,
+) -> Result<Value, Unsupported> {
+    let Some(radius) = radius::between::<E>(spectrum) else { return unsupported("moduli this close", place) };
+    let members = &spectrum.classes()[0].members;
+    let count = |m: &Eigenvalue| spectrum.part(m.factor).blocks.len();
+    if members.iter().all(|&m| spectrum.value(m).is_real()) {
+        let plus = members.iter().filter(|&&m| spectrum.value(m).same(spectrum.value(lead)));
+        let most = plus.map(count).fold(0, usize::max);
+        let others = members.iter().map(count).fold(0, usize::max);
         if most.max(others) <= 2 {
-            return Ok(real(spectrum, lead, &radius));
+            let Some(chains) = E::aligned(spectrum, lead) else {
+                return unsupported("two eigenvalues of one modulus over different fields", place);
+            };
+            return Ok(real::<E>(spectrum, lead, &radius, &chains));
         }
     }
-    let one_block = |m: &Eigenvalue| spectrum.factor(*m).blocks.len() == 1;
-    if members.len() == 2 && members.iter().all(one_block) && !spectrum.root(members[0]).is_real() {
-        return pair(spectrum, &radius, place);
+    if members.len() == 2 && members.iter().all(|m| count(m) == 1) && !spectrum.value(members[0]).is_real() {
+        return pair::<E>(spectrum, &radius, place);
     }
-    match conformal(linear, spectrum, &radius) {
+    match E::conformal(linear, spectrum, &radius) {
         Some(value) => Ok(value),
         None => unsupported("a group of equal moduli that is neither real, nor one pair, nor conformal", place),
     }
 }
 
-fn real(spectrum: &Spectrum, lead: Eigenvalue, radius: &Rational) -> Value {
-    let root = spectrum.root(lead);
+fn real<E: Written>(spectrum: &E::Spectrum, lead: Eigenvalue, radius: &Rational, chains: &[Aligned]) -> Value {
+    let part = spectrum.part(lead.factor);
     let bits = radius.denominator_ref().significant_bits();
-    let interval = root.enclosure(160 + bits).0;
-    let mut chains = Vec::new();
-    for &member in &spectrum.classes[0].members {
-        let same = spectrum.root(member).same(root);
-        for chain in &spectrum.factor(member).right {
-            let vectors: Value = chain.vectors.iter().map(|v| elements(&mirrored(v, same))).collect();
-            chains.push(json!({"sign": if same { "+" } else { "-" }, "vectors": vectors}));
-        }
-    }
+    let interval = part.places[lead.root].enclosure(E::PLACES + bits).0;
+    let chain = |(same, vectors): &Aligned| {
+        let vectors: Value = vectors.iter().map(|v| elements(v)).collect();
+        json!({"sign": if *same { "+" } else { "-" }, "vectors": vectors})
+    };
     json!({
         "top": "real",
         "radius": number(radius),
-        "polynomial": numbers(root.minpoly().coeffs()),
+        "polynomial": E::modulus(spectrum, lead.factor),
         "interval": [number(&interval.lo), number(&interval.hi)],
-        "chains": chains,
+        "chains": chains.iter().map(chain).collect::<Value>(),
     })
 }
 
@@ -71,22 +76,21 @@ pub fn mirrored(v: &[Elem], same: bool) -> Vec<Elem> {
     v.iter().map(|e| if same { e.clone() } else { flip(e) }).collect()
 }
 
-fn pair(spectrum: &Spectrum, radius: &Rational, place: &str) -> Result<Value, Unsupported> {
-    let members = &spectrum.classes[0].members;
-    let upper = |root: &&Root| root.enclosure(64).1.lo > 0;
-    let roots = [spectrum.root(members[0]), spectrum.root(members[1])];
-    let Some(root) = roots.into_iter().find(upper) else {
+fn pair<E: Written>(spectrum: &E::Spectrum, radius: &Rational, place: &str) -> Result<Value, Unsupported> {
+    let members = &spectrum.classes()[0].members;
+    let upper = |m: &&Eigenvalue| spectrum.value(**m).enclosure(64).1.lo > 0;
+    let Some(&lead) = members.iter().find(upper) else {
         return unsupported("a pair none of whose roots is seen above the real axis", place);
     };
-    let vectors: Value =
-        spectrum.factor(members[0]).right.iter().flat_map(|c| &c.vectors).map(|v| elements(v)).collect();
-    let (re, im) = root.enclosure(200);
+    let part = spectrum.part(lead.factor);
+    let vectors: Value = part.right.iter().flat_map(|c| &c.vectors).map(|v| elements(v)).collect();
+    let (re, im) = part.places[lead.root].enclosure(200);
     let centre = |x: &Interval| number(&Interval::point(x.mid()).outward(200).lo);
     let error = Rational::from(1) / Rational::from(Integer::from(1) << 120u64);
     Ok(json!({
         "top": "pair",
         "radius": number(radius),
-        "polynomial": numbers(root.minpoly().coeffs()),
+        "polynomial": E::modulus(spectrum, lead.factor),
         "centre": [centre(&re), centre(&im)],
         "error": number(&error),
         "vectors": vectors,
@@ -95,7 +99,7 @@ fn pair(spectrum: &Spectrum, radius: &Rational, place: &str) -> Result<Value, Un
 
 /// A rational invariant space with a scalar product that `L` stretches, where all eigenvalues are semisimple and the square
 /// of their modulus is rational.
-fn conformal(linear: &Matrix, spectrum: &Spectrum, radius: &Rational) -> Option<Value> {
+pub fn rational_conformal(linear: &Matrix, spectrum: &Spectrum, radius: &Rational) -> Option<Value> {
     let members = &spectrum.classes[0].members;
     let mut factors: Vec<usize> = members.iter().map(|m| m.factor).collect();
     factors.dedup();

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 /// JSON readers refuse deeper nesting.
 const MAX_DEPTH: usize = 100;
 
-fn grow(
-    shape: &Shape,
+fn grow<E>(
+    shape: &Shape<E>,
     state: usize,
     word: &mut Vec<usize>,
     depth: usize,
@@ -31,7 +31,7 @@ fn grow(
 }
 
 /// The contraction code of a state.
-pub fn code(shape: &Shape, state: usize, words: &[ContractingWord]) -> Result<Value, Unsupported> {
+pub fn code<E>(shape: &Shape<E>, state: usize, words: &[ContractingWord]) -> Result<Value, Unsupported> {
     let mut sorted: Vec<&[usize]> = words.iter().map(|w| w.word.as_slice()).collect();
     sorted.sort_unstable();
     let leaf = |word: &[usize]| sorted.binary_search(&word).is_ok().then(|| json!("."));
@@ -39,9 +39,9 @@ pub fn code(shape: &Shape, state: usize, words: &[ContractingWord]) -> Result<Va
 }
 
 /// The cover of the ring of a branch (or of one part of it) by discharged cells, piece by piece.
-pub fn cover(
-    shape: &Shape,
-    ring: &[RingPiece],
+pub fn cover<E>(
+    shape: &Shape<E>,
+    ring: &[RingPiece<E>],
     proof: &RingProof,
     part: Option<Position>,
 ) -> Result<Value, Unsupported> {

@@ -95,6 +95,12 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     if found.border.is_some() {
         return unsupported("a vertex on the border", format!("{n} faces"));
     }
+    if n < 3 {
+        return unsupported("a valence below 3", valence(n));
+    }
+    if case.rule.own().is_some() {
+        return unsupported("stencils of one's own", valence(n));
+    }
     let (Some(top), Some(ground), Some(vector)) = (&found.top, found.ground, &found.eigenvector) else {
         return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
     };
@@ -109,7 +115,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     }
     let rule = match ground {
         Ground::Regular => "theorem-7",
-        Ground::Winding => "theorem-8-winding",
+        Ground::Winding(_) => "theorem-8-winding",
         Ground::Fold => "theorem-8-fold",
         Ground::Line => "theorem-2",
         Ground::Path => "theorem-8-path",

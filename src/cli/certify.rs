@@ -95,10 +95,9 @@ fn one(path: &Path, args: &CertifyArgs) -> Result<Answered, Problem> {
 
 /// Says so where the verdict was not proved again, or a state plays no part.
 fn note(answered: &Answered) {
-    if let (Findings::OverField { .. }, Some(Err(unsupported))) = (&answered.findings, &answered.evidence) {
-        note_unconfirmed(&unsupported.to_string());
+    if matches!(answered.findings, Findings::Vertices { .. }) {
+        return;
     }
-    let Findings::Tangents { case, .. } = &answered.findings else { return };
     let mut why = match &answered.evidence {
         Some(Err(unsupported)) => vec![unsupported.to_string()],
         Some(Ok(certificate)) => certificate.left_out().iter().map(ToString::to_string).collect(),
@@ -110,7 +109,9 @@ fn note(answered: &Answered) {
     if !why.is_empty() {
         note_unconfirmed(&why.join("; "));
     }
-    note_dangling(case);
+    if let Findings::Tangents { case, .. } = &answered.findings {
+        note_dangling(case);
+    }
 }
 
 /// Says so where a state of the case plays no part.
@@ -222,11 +223,12 @@ fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
         write_file(path, &content)?;
     }
     if let Some((path, content)) = proof {
-        let case = match &answered.findings {
-            Findings::Tangents { case, .. } => Some(case),
-            Findings::OverField { .. } | Findings::Vertices { .. } => None,
+        let beside = match &answered.findings {
+            Findings::Tangents { case, .. } => case.beside(),
+            Findings::OverField { case, .. } => case.flat.clone(),
+            Findings::Vertices { .. } => None,
         };
-        write_certificate(path, content, case.and_then(|case| case.beside()))?;
+        write_certificate(path, content, beside)?;
     }
     if let Some((path, image)) = png {
         write_file(path, &image)?;

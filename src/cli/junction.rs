@@ -1,4 +1,4 @@
-//! `secant junction`: an intermediate curve between two schemes.
+//! `secant junction`: an intermediate curve between two schemes; with `--surface` see `junction_surface`.
 
 use super::certify::{json_text, known_format, rendered};
 use super::output::{print, settle, write_file};
@@ -23,7 +23,7 @@ pub struct JunctionArgs {
     /// Two curve schemes: names with parameters (bspline degree=2), masks, symbols or case files of a single state; also
     /// quadratic, cubic, quintic, chaikin and six-point.
     #[arg(required = true, value_name = "SCHEME")]
-    schemes: Vec<String>,
+    pub(super) schemes: Vec<String>,
     /// The pieces of the intermediate curve, as in a,I,b; by default the shortest that has room.
     #[arg(long, value_name = "PATTERN")]
     pattern: Option<String>,
@@ -36,62 +36,86 @@ pub struct JunctionArgs {
     /// A free row of your own, as in "0,1/4,3/16,1/2,1/16"; give as many as are free (needs --pattern).
     #[arg(long, value_name = "ROW", allow_hyphen_values = true)]
     row: Vec<String>,
-    /// Control points of the joined curve for the case that is written, as in "0,0; 1,2; 3,3".
+    /// Put the intermediate curve on the points of its pieces, so many times, which leaves more free rows to change.
+    #[arg(long, value_name = "STEPS", default_value_t = 0, conflicts_with = "surface")]
+    inside: usize,
+    /// Control points of the joined shape for the case that is written, as in "0,0; 1,2; 3,3".
     #[arg(long, value_name = "POINTS", allow_hyphen_values = true)]
-    control: Option<String>,
+    pub(super) control: Option<String>,
+    /// Join face schemes: doo-sabin, catmull-clark, products such as "quadratic x four-point" (the first across the border), or cases
+    /// of such products.
+    #[arg(long)]
+    pub(super) surface: bool,
+    /// Of a surface, take the stencils of least weighted norm instead of products of rows.
+    #[arg(long, requires = "surface", conflicts_with_all = ["row", "stencil"])]
+    pub(super) least: bool,
+    /// Of a surface, a free stencil of your own on the points of the edge across the border; give as many as are free (needs --pattern).
+    #[arg(long, value_name = "STENCIL", requires = "surface", allow_hyphen_values = true, conflicts_with = "row")]
+    pub(super) stencil: Vec<String>,
+    /// Of a surface, control points over its positions, by their heights, as in "0, 0, 1, …".
+    #[arg(long, value_name = "NUMBERS", requires = "surface", allow_hyphen_values = true, conflicts_with = "control")]
+    pub(super) heights: Option<String>,
     /// The name of the case.
     #[arg(long, default_value = "junction")]
-    name: String,
+    pub(super) name: String,
     /// Write the joined shape as a case.
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    pub(super) output: Option<PathBuf>,
     /// Certify the joined shape and write the proof: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
+    pub(super) report: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
     /// Print nothing but problems.
     #[arg(short, long, conflicts_with = "json")]
-    quiet: bool,
+    pub(super) quiet: bool,
 }
 
 /// Joins two schemes, prints the member that was found and writes its case.
 pub fn run(args: &JunctionArgs) -> u8 {
     let waiting = Waiting::with("joining …", args.quiet);
-    let found = joined(args);
+    let answer = if args.surface { super::junction_surface::answer } else { answer };
+    let done = args.report.as_deref().map_or(Ok(()), known_format).and_then(|()| answer(args));
     waiting.finish();
-    settle(found.map(|(found, sides)| {
-        if args.json {
-            print(&json_text(&data(&found, &sides), true));
-        } else if !args.quiet {
-            print(&text(&found, &sides));
+    settle(done.map(|(passes, shown)| {
+        if args.json || !args.quiet {
+            print(&shown);
         }
-        if found.member.is_some() { PROVED } else { REFUTED }
+        if passes { PROVED } else { REFUTED }
     }))
 }
 
-fn joined(args: &JunctionArgs) -> Result<(Found, [Side; 2]), Problem> {
-    args.report.as_deref().map_or(Ok(()), known_format)?;
-    let names = schemes(&args.schemes);
-    let [a, b] = names.as_slice() else {
-        let message = format!("{} schemes are given, but a junction has two", names.len());
-        return Err(Problem::new("secant::usage::junction", message).with_help(
-            "as in  secant junction bspline degree=2 four-point  or with quotation marks around each scheme",
-        ));
-    };
-    let sides = [side(a)?, side(b)?];
-    let found = search(&sides[0], &sides[1], &wish(args)?).map_err(|e| refused(&e))?;
-    if let Some(member) = &found.member {
-        let case = case(member, &names, args)?;
-        if let Some(path) = &args.report {
-            report(&case, path)?;
-        }
-        if let Some(path) = &args.output {
-            write_file(path, &case)?;
-        }
+/// Whether a member passes, and what is printed of it; its case and proof are written.
+fn answer(args: &JunctionArgs) -> Result<(bool, String), Problem> {
+    let example = "bspline degree=2 four-point  or with quotation marks around each scheme";
+    let names = both(&args.schemes, example)?;
+    let sides = [side(&names[0])?, side(&names[1])?];
+    let mut found = search(&sides[0], &sides[1], &wish(args)?).map_err(|e| refused(&e))?;
+    for _ in 0..args.inside {
+        found.member = found.member.map(|m| m.refined_inside()).transpose().map_err(|e| refused(&e))?;
     }
-    Ok((found, sides))
+    if let Some(member) = &found.member {
+        keep(&case(member, &names, args)?, args)?;
+    }
+    let shown = if args.json { json_text(&data(&found, &sides), true) } else { text(&found, &sides) };
+    Ok((found.member.is_some(), shown))
+}
+
+/// Writes the case and its proof where that was asked for.
+pub(super) fn keep(case: &str, args: &JunctionArgs) -> Result<(), Problem> {
+    if let Some(path) = &args.report {
+        report(case, path)?;
+    }
+    args.output.as_ref().map_or(Ok(()), |path| write_file(path, case))
+}
+
+/// The two schemes that are joined, each with the parameters behind it.
+pub(super) fn both(words: &[String], example: &str) -> Result<[String; 2], Problem> {
+    schemes(words).try_into().map_err(|names: Vec<String>| {
+        let message = format!("{} schemes are given, but a junction has two", names.len());
+        Problem::new("secant::usage::junction", message).with_help(format!("as in  secant junction {example}"))
+    })
 }
 
 /// The schemes, each with the parameters behind it.
@@ -110,7 +134,7 @@ fn schemes(words: &[String]) -> Vec<String> {
 }
 
 /// A side by what somebody writes for a scheme.
-fn side(text: &str) -> Result<Side, Problem> {
+pub(super) fn side(text: &str) -> Result<Side, Problem> {
     let meant = match text {
         "quadratic" | "chaikin" => "bspline degree=2",
         "cubic" => "bspline degree=3",
@@ -141,12 +165,14 @@ pub(super) fn refused(error: &JunctionError) -> Problem {
     Problem::new("secant::junction", error.to_string()).with_help(help)
 }
 
-fn wish(args: &JunctionArgs) -> Result<Wish, Problem> {
-    let number = |text: &str, what: &str| {
-        parse_rational(text.trim()).map_err(|e| {
-            Problem::new("secant::usage::number", format!("{what}: {e}")).with_help("write numbers as 1/10 or 0.1")
-        })
-    };
+/// A number of an option.
+pub(super) fn number(text: &str, what: &str) -> Result<Rational, Problem> {
+    parse_rational(text.trim()).map_err(|e| {
+        Problem::new("secant::usage::number", format!("{what}: {e}")).with_help("write numbers as 1/10 or 0.1")
+    })
+}
+
+pub(super) fn wish(args: &JunctionArgs) -> Result<Wish, Problem> {
     let setting = |text: &String| {
         let parts = text.split_once('=').ok_or_else(|| {
             Problem::new("secant::usage::set", format!("--set {text}: a slider gets its value by ="))
@@ -155,8 +181,11 @@ fn wish(args: &JunctionArgs) -> Result<Wish, Problem> {
         Ok((parts.0.trim().to_owned(), number(parts.1, &format!("--set {text}"))?))
     };
     let row = |text: &String| text.split(',').map(|x| number(x, &format!("--row {text}"))).collect();
+    // Faces may be written as D,I,C.
+    let pattern =
+        args.pattern.as_ref().map(|p| if args.surface { p.replace('D', "a").replace('C', "b") } else { p.clone() });
     Ok(Wish {
-        pattern: args.pattern.as_deref().map(Pattern::parse).transpose().map_err(|e| refused(&e))?,
+        pattern: pattern.as_deref().map(Pattern::parse).transpose().map_err(|e| refused(&e))?,
         points: args.points,
         rows: args.row.iter().map(row).collect::<Result<_, Problem>>()?,
         settings: args.set.iter().map(setting).collect::<Result<_, Problem>>()?,
@@ -180,12 +209,12 @@ fn case(member: &Member, names: &[String], args: &JunctionArgs) -> Result<String
     Ok(complex_text(&complex, &heading))
 }
 
-fn mistake(error: &dyn std::fmt::Display) -> Problem {
+pub(super) fn mistake(error: &dyn std::fmt::Display) -> Problem {
     Problem::new("secant::junction::mistake", format!("the joined shape does not satisfy its identities: {error}"))
         .with_help("this is a mistake in secant: please report it with the command")
 }
 
-fn control(text: &str, count: usize) -> Result<Matrix, Problem> {
+pub(super) fn control(text: &str, count: usize) -> Result<Matrix, Problem> {
     let wrong = |message: String| {
         Problem::new("secant::usage::control", message).with_help(format!(
             "write {count} points, their coordinates apart by commas and the points by semicolons: \"0,0; 1,2; …\""
@@ -202,7 +231,7 @@ fn control(text: &str, count: usize) -> Result<Matrix, Problem> {
     Ok(Matrix::from_columns(points[0].len(), &points))
 }
 
-fn report(case: &str, path: &Path) -> Result<(), Problem> {
+pub(super) fn report(case: &str, path: &Path) -> Result<(), Problem> {
     let question = Question::parse("junction", case)?;
     let findings = prove(&question, &Budget::default())?;
     write_file(path, rendered(path, &findings, Level::Proof))

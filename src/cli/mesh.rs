@@ -1,13 +1,13 @@
 //! `secant certify` of a mesh.
 
-use super::CertifyArgs;
 use super::certify::{exit_code, extension, json_text};
 use super::output::{self, say, to_stdout, write_file};
 use super::progress::Progress;
+use super::{CertifyArgs, Drawn};
 use crate::diagnostic::Problem;
 use crate::mesh::{Boundary, Found, Model, Scheme, certify};
 use crate::picture::mesh::{ply, svg};
-use crate::report::{html, latex, markdown, mesh as report};
+use crate::report::{findings, html, latex, markdown, mesh as report};
 use std::path::Path;
 
 /// Certifies one mesh, prints and writes what was asked for; the exit code.
@@ -43,7 +43,7 @@ pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
     if !args.quiet {
         say(&shown(&model, name, &found, args), piped);
     }
-    Ok(exit_code(found.regular()))
+    Ok(exit_code(args.require.at_vertices(found.smooth(), found.regular())))
 }
 
 fn check(args: &CertifyArgs) -> Result<(), Problem> {
@@ -55,6 +55,8 @@ fn check(args: &CertifyArgs) -> Result<(), Problem> {
         (args.size.is_some(), "--size", "the picture of a mesh has one size"),
         (args.approx, "--approx", "there is no quick look at a mesh"),
         (args.resume.is_some(), "--resume", "a mesh is certified anew"),
+        (args.coq.is_some(), "--coq", "no formal theorem of proofs/ covers the vertices of a mesh"),
+        (args.draw == Drawn::Cones, "--draw cones", "the picture of a mesh has its vertices coloured by verdict"),
     ];
     match strange.iter().find(|(given, _, _)| *given) {
         Some((_, option, help)) => {
@@ -68,7 +70,10 @@ fn shown(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Stri
     if args.json || args.jsonl {
         return json_text(&report::json(model, scheme, found), args.json);
     }
-    output::shown(&report::document(model, scheme, found, false))
+    let mut document = report::document(model, scheme, found, false);
+    let verdict = args.require.at_vertices(found.smooth(), found.regular());
+    document.blocks.extend(findings::of_vertices(&args.require, verdict));
+    output::shown(&document)
 }
 
 fn write(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Result<(), Problem> {

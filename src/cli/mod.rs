@@ -13,6 +13,7 @@ mod init;
 mod irrational;
 mod jsr;
 mod junction;
+mod junction_surface;
 mod manual;
 mod many;
 mod mesh;
@@ -176,7 +177,7 @@ struct CertifyArgs {
     /// or `0.5`.
     #[arg(long, visible_alias = "at", value_name = "ADDRESS")]
     address: Vec<String>,
-    /// For a case with a `[vertex]` table: the valences, from 3 to 256, as in `5`, `3..32`, `3,5,8` or `all`.
+    /// For a case with a `[vertex]` table: the valences, from 2 to 1024, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
     /// For a mesh (.obj, .off): the scheme of its limit surface, catmull-clark, loop or loop-warren.

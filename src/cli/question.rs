@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub fn question(path: &Path, args: &CertifyArgs) -> Result<Question, Problem> {
     let question = match args.valence.as_deref() {
         None => Question::ask(&path.to_string_lossy())?,
-        Some(text) => Question::at_valences(path, valences(text)?)?,
+        Some(text) => Question::at_valences(&path.to_string_lossy(), valences(text)?)?,
     };
     args.address.iter().try_fold(question, |question, text| question.with_address(text))
 }

@@ -6,7 +6,7 @@ use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
-use crate::ask::{Asked, DEPTH, Family};
+use crate::ask::{Asked, DEPTH, Family, MAX_DEPTH};
 use crate::budget::{Budget, Effort};
 use crate::case::{Valences, setting};
 use crate::diagnostic::Problem;
@@ -34,7 +34,7 @@ pub struct RegionArgs {
     /// The valences of a case about vertices, in the place of those of the file: 5, 3..12 or 3,5,8.
     #[arg(long, value_name = "LIST", value_parser = Valences::parse)]
     valence: Option<Valences>,
-    /// With two parameters: how often the plane is halved in both directions.
+    /// With two parameters: how often the plane is halved in both directions, at most 10; 7 without it.
     #[arg(long, value_name = "COUNT")]
     depth: Option<usize>,
     /// No progress bar.
@@ -93,7 +93,7 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
     }
     search.hulls = args.hulls.unwrap_or(search.hulls);
     let asked = Asked { order: args.order, valences: args.valence.clone(), depth: args.depth };
-    let bar = Progress::of(1 << (2 * args.depth.unwrap_or(DEPTH).min(10)), "boxes", args.quiet);
+    let bar = Progress::of(1 << (2 * args.depth.unwrap_or(DEPTH).min(MAX_DEPTH)), "boxes", args.quiet);
     let step = |count| bar.advance(count);
     let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort), &step);
     bar.finish();

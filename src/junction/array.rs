@@ -212,20 +212,23 @@ pub(super) fn inclusion(size: usize, from: usize, len: usize) -> Matrix {
     Matrix::from_fn(size, len, |i, j| Rational::from(u8::from(i == from + j)))
 }
 
-fn curve(name: &str, side: &Side, index: usize, vertex: usize) -> State {
+pub(super) fn curve(name: &str, side: &Side, index: usize, vertex: usize) -> State {
     let n = side.points();
-    let pieces = side.operators.iter().zip(&side.reversed);
+    let share = |i: usize| side.shares.as_ref().map(|all| all[i].clone());
+    let pieces = side.operators.iter().zip(&side.reversed).enumerate();
     State {
         name: name.to_owned(),
         kind: CellKind::Edge,
         dim: n,
-        pieces: pieces.map(|(op, r)| Piece { target: index, op: op.clone(), reversed: *r, share: None }).collect(),
+        pieces: pieces
+            .map(|(i, (op, r))| Piece { target: index, op: op.clone(), reversed: *r, share: share(i) })
+            .collect(),
         left: Some(Boundary { vertex, op: inclusion(n, 0, side.shared) }),
         right: Some(Boundary { vertex, op: inclusion(n, n - side.shared, side.shared) }),
     }
 }
 
-fn vertex(name: &str, side: &Side, index: usize) -> State {
+pub(super) fn vertex(name: &str, side: &Side, index: usize) -> State {
     let op = side.vertex().transpose();
     let pieces = vec![Piece { target: index, op, reversed: false, share: None }];
     State { name: name.to_owned(), kind: CellKind::Vertex, dim: side.shared, pieces, left: None, right: None }

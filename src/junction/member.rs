@@ -103,19 +103,29 @@ impl Member {
     }
 }
 
-/// The row `r = W Cᵀ (C W Cᵀ)⁻¹ t` of least `Σ r_i²/w_i` under `C r = t`, with weights that fall off with the distance from the
-/// new point.
-fn least(placed: &Placed, row: usize) -> Option<Vec<Rational>> {
-    let c = &placed.values;
+/// The row of least weighted norm for a new point, with weights that fall off with the distance from it.
+pub(super) fn least(placed: &Placed, row: usize) -> Option<Vec<Rational>> {
     let (positions, target) = (placed.positions(), &placed.targets[row]);
+    let weights: Vec<Rational> = positions.iter().map(|x| nearness(&[x - &target[1]])).collect();
+    if placed.values.rank() < placed.values.rows() {
+        return None;
+    }
+    least_weighted(&placed.values, &weights, target)
+}
+
+/// `1/(1/4 + |d|²)`.
+pub(super) fn nearness(away: &[Rational]) -> Rational {
     let quarter = Rational::from(1) / Rational::from(4);
-    let weight = |i: usize| {
-        let away = &positions[i] - &target[1];
-        Rational::from(1) / (&quarter + &away * &away)
-    };
-    let weighted = Matrix::from_fn(c.cols(), c.rows(), |i, d| &c[(d, i)] * weight(i));
-    let factors = (c * &weighted).inverse()?.apply(target);
-    Some(weighted.apply(&factors))
+    Rational::from(1) / away.iter().fold(quarter, |sum, d| sum + d * d)
+}
+
+/// The row `r = W Cᵀ (C W Cᵀ)⁻¹ t` of least `Σ r_i²/w_i` under `C r = t`; `None` where there is none.
+pub(super) fn least_weighted(c: &Matrix, weights: &[Rational], target: &[Rational]) -> Option<Vec<Rational>> {
+    let weighted = Matrix::from_fn(c.cols(), c.rows(), |i, d| &c[(d, i)] * &weights[i]);
+    let target = Matrix::from_columns(target.len(), &[target.to_vec()]);
+    let factors = (c * &weighted).solve(&target)?.column(0);
+    let row = weighted.apply(&factors);
+    (c.apply(&row) == target.column(0)).then_some(row)
 }
 
 /// For each free row the direction that comes nearest to its nearest point, where there is any.

@@ -1,5 +1,5 @@
 //! Junctions of two curves (thesis, §5.1): an intermediate curve `I -> a … a I b … b` that begins like one scheme and ends like
-//! another.
+//! another. Those of two surfaces are in [`surface`].
 //!
 //! All identities of such a curve are solved by one array of stencils ([`Junction`]): its forced rows are the rules of the two
 //! schemes at their ends, and its other rows are free. [`search()`] fills them in: positions that both schemes reproduce, the
@@ -8,11 +8,14 @@
 
 mod array;
 mod gaps;
+mod inside;
 mod member;
 mod place;
 mod refine;
+mod refine_face;
 mod search;
 mod side;
+pub mod surface;
 
 pub use crate::scheme::PointOrder;
 pub use array::{Junction, Pattern};
@@ -71,8 +74,8 @@ pub enum JunctionError {
         /// The sliders there are.
         known: String,
     },
-    /// A curve that cannot be refined.
-    #[error("this curve cannot be refined: {0}")]
+    /// A shape that cannot be refined.
+    #[error("this shape cannot be refined: {0}")]
     Refinement(String),
     /// The array would be too large.
     #[error("the pattern needs {0} new points, which is over the limit of {limit}", limit = MAX_ROWS)]

@@ -1,4 +1,5 @@
-//! Refinement of a curve (thesis, §5.1.3): its first-level cells on points of their own, glued where they meet.
+//! Refinement of a curve (thesis, §5.1.3) or of a surface (§5.2.4): the first-level cells on points of their own, glued where they
+//! meet.
 
 use super::JunctionError;
 use crate::arith::Rational;
@@ -12,22 +13,37 @@ pub struct Refined {
     pub complex: Complex,
     /// `E`: the points of the refined start state as combinations of those of the start state before.
     pub embedding: Matrix,
+    /// The word of the old start state whose cell each piece of the refined one is.
+    pub cells: Vec<[usize; 2]>,
 }
 
-/// A cell of the refined curve: its state, its operator from the old start state, whether it runs backwards.
-struct Cell {
-    target: usize,
-    op: Matrix,
-    reversed: bool,
+/// A cell of the refined shape: its state, its operator from the old start state, whether it runs backwards.
+pub(super) struct Cell {
+    pub word: [usize; 2],
+    pub target: usize,
+    pub op: Matrix,
+    pub reversed: bool,
     /// What it takes of the parameter.
-    share: Rational,
+    pub share: Rational,
 }
 
-/// Refines the start state of a curve once. With `E` the embedding, `E T'_{ij} = T_i T_j` for all cells `ij`, so that control points
+/// The cells of the first level of a state on common points: the points of each cell, and all points as combinations of the old ones.
+pub(super) struct Glued {
+    pub cells: Vec<Cell>,
+    pub places: Vec<Vec<usize>>,
+    pub embedding: Matrix,
+}
+
+pub(super) fn wrong(why: &str) -> JunctionError {
+    JunctionError::Refinement(why.to_owned())
+}
+
+/// Refines the start state of a curve or of a surface once. With `E` the embedding, `E T'_{ij} = T_i T_j` for all cells `ij`, so that control points
 /// `P E` give the same curve; other control points give a larger family, in which a point moves only the cells that use it.
 ///
 /// # Errors
-/// [`JunctionError::Refinement`] where the start is no curve, or it is not known on which points neighbouring cells meet.
+/// [`JunctionError::Refinement`] where the start is neither a curve nor a surface of quadrangles, or it is not known on which points
+/// neighbouring cells meet.
 ///
 /// # Examples
 /// ```
@@ -41,12 +57,24 @@ struct Cell {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn refine(complex: &Complex) -> Result<Refined, JunctionError> {
-    let shape = &complex.shape;
-    let wrong = |why: &str| JunctionError::Refinement(why.to_owned());
-    if shape.states[shape.start].kind != CellKind::Edge {
-        return Err(wrong("only curves are refined"));
+    let start = complex.shape.start;
+    match complex.shape.states[start].kind {
+        CellKind::Edge => {
+            let glued = glue_curve(complex, start)?;
+            let mut out = complex.clone();
+            let state = glued.state(&complex.shape.states[start], CellKind::Edge);
+            out.shape.start = put(&mut out, start, state, glued.pieces_lead_to(start));
+            out.shape.control = complex.shape.control.as_ref().map(|p| p * &glued.embedding);
+            Ok(glued.refined(out))
+        }
+        CellKind::Face => super::refine_face::refine_face(complex, start),
+        CellKind::Vertex | CellKind::Set => Err(wrong("only curves and surfaces are refined")),
     }
-    let cells = cells(complex);
+}
+
+/// The cells of an edge on common points.
+pub(super) fn glue_curve(complex: &Complex, edge: usize) -> Result<Glued, JunctionError> {
+    let cells = cells(complex, edge);
     let mut places: Vec<Vec<usize>> = Vec::new();
     let mut columns: Vec<Vec<Rational>> = Vec::new();
     for (k, cell) in cells.iter().enumerate() {
@@ -69,17 +97,18 @@ pub fn refine(complex: &Complex) -> Result<Refined, JunctionError> {
         }
         places.push(own.into_iter().flatten().collect());
     }
-    let embedding = Matrix::from_columns(shape.states[shape.start].dim, &columns);
-    Ok(Refined { complex: glued(complex, &cells, &places, &embedding), embedding })
+    let embedding = Matrix::from_columns(complex.shape.states[edge].dim, &columns);
+    Ok(Glued { cells, places, embedding })
 }
 
 /// The cells of the first level in the order of the parameter.
-fn cells(complex: &Complex) -> Vec<Cell> {
+fn cells(complex: &Complex, edge: usize) -> Vec<Cell> {
     let states = &complex.shape.states;
     let mut cells = Vec::new();
-    let start = &states[complex.shape.start];
+    let start = &states[edge];
     for (i, outer) in start.pieces.iter().enumerate() {
         let inner = states[outer.target].pieces.iter().enumerate().map(|(j, p)| Cell {
+            word: [i, j],
             target: p.target,
             op: &outer.op * &p.op,
             reversed: p.reversed != outer.reversed,
@@ -127,7 +156,7 @@ fn end_point(complex: &Complex, cell: &Cell, finish: bool) -> Option<Vec<Rationa
 }
 
 /// The coordinates that a boundary picks.
-fn picked(op: &Matrix) -> Option<Vec<usize>> {
+pub(super) fn picked(op: &Matrix) -> Option<Vec<usize>> {
     (0..op.cols())
         .map(|j| {
             let mut used = (0..op.rows()).filter(|&i| op[(i, j)] != 0);
@@ -137,37 +166,47 @@ fn picked(op: &Matrix) -> Option<Vec<usize>> {
         .collect()
 }
 
-/// The shape with a new start state in place of the old one, which stays only where another state leads to it.
-fn glued(complex: &Complex, cells: &[Cell], places: &[Vec<usize>], embedding: &Matrix) -> Complex {
-    let mut out = complex.clone();
-    let size = embedding.cols();
-    let select = |own: &[usize]| Matrix::from_fn(size, own.len(), |i, j| Rational::from(u8::from(own[j] == i)));
-    // The parameter stays that of the curve before.
-    let equal = cells.iter().all(|c| c.share == cells[0].share);
-    let share = |c: &Cell| (!equal).then(|| c.share.clone());
-    let pieces: Vec<Piece> = cells
-        .iter()
-        .zip(places)
-        .map(|(c, own)| Piece { target: c.target, op: select(own), reversed: c.reversed, share: share(c) })
-        .collect();
-    let (start, old) = (complex.shape.start, &complex.shape.states[complex.shape.start]);
-    let again =
-        complex.shape.states.iter().enumerate().any(|(k, s)| k != start && s.pieces.iter().any(|p| p.target == start))
-            || pieces.iter().any(|p| p.target == start);
-    let base = old.name.split_once('\'').map_or(old.name.as_str(), |(base, _)| base);
-    let mut name = format!("{}'", old.name);
-    while complex.shape.states.iter().any(|s| s.name == name) {
+impl Glued {
+    /// The state of the cells as pieces, by selections of its points; the parameter stays that of the shape before.
+    pub fn state(&self, old: &State, kind: CellKind) -> State {
+        let size = self.embedding.cols();
+        let select = |own: &[usize]| Matrix::from_fn(size, own.len(), |i, j| Rational::from(u8::from(own[j] == i)));
+        let equal = kind == CellKind::Face || self.cells.iter().all(|c| c.share == self.cells[0].share);
+        let share = |c: &Cell| (!equal).then(|| c.share.clone());
+        let piece = |(c, own): (&Cell, &Vec<usize>)| Piece {
+            target: c.target,
+            op: select(own),
+            reversed: c.reversed,
+            share: share(c),
+        };
+        let pieces: Vec<Piece> = self.cells.iter().zip(&self.places).map(piece).collect();
+        State { name: old.name.clone(), kind, dim: size, pieces, left: None, right: None }
+    }
+
+    pub fn pieces_lead_to(&self, state: usize) -> bool {
+        self.cells.iter().any(|c| c.target == state)
+    }
+
+    pub fn refined(self, complex: Complex) -> Refined {
+        Refined { complex, embedding: self.embedding, cells: self.cells.into_iter().map(|c| c.word).collect() }
+    }
+}
+
+/// Puts a state in place of an old one, which stays only where another state, or a new piece, leads to it; the number of the new one.
+pub(super) fn put(out: &mut Complex, old: usize, mut state: State, again: bool) -> usize {
+    let states = &out.shape.states;
+    let again = again || states.iter().enumerate().any(|(k, s)| k != old && s.pieces.iter().any(|p| p.target == old));
+    let base = states[old].name.split_once('\'').map_or(states[old].name.as_str(), |(base, _)| base);
+    let mut name = format!("{}'", states[old].name);
+    while states.iter().any(|s| s.name == name) {
         name = format!("{name}'");
     }
-    let name = if again { name } else { base.to_owned() };
-    let state = State { name, kind: CellKind::Edge, dim: size, pieces, left: None, right: None };
+    state.name = if again { name } else { base.to_owned() };
     if again {
         out.shape.states.push(state);
-        out.shape.start = out.shape.states.len() - 1;
-    } else {
-        out.reversals.remove(&start);
-        out.shape.states[start] = state;
+        return out.shape.states.len() - 1;
     }
-    out.shape.control = complex.shape.control.as_ref().map(|p| p * embedding);
-    out
+    out.reversals.remove(&old);
+    out.shape.states[old] = state;
+    old
 }

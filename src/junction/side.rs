@@ -17,6 +17,8 @@ pub struct Side {
     pub operators: Vec<Matrix>,
     /// Which pieces run backwards.
     pub reversed: Vec<bool>,
+    /// What the pieces take of the parameter, where these are no equal parts.
+    pub shares: Option<Vec<Rational>>,
     /// The number of points at each end on which the end point depends.
     pub shared: usize,
     /// Where the points come from.
@@ -39,11 +41,6 @@ impl Side {
             return Err(JunctionError::NotOneCurve(name.to_owned()));
         }
         let wrong = |why: String| JunctionError::NoCurve { name: name.to_owned(), why };
-        if shape.has_shares() {
-            return Err(wrong(
-                "its pieces have their own shares of the parameter, which a junction does not keep".to_owned(),
-            ));
-        }
         let contracts = contraction_of(shape).map_err(|e| wrong(e.to_string()))?;
         if !contracts.is_proved() {
             return Err(wrong("it was not proved that the scheme contracts".to_owned()));
@@ -52,7 +49,9 @@ impl Side {
         let reversed: Vec<bool> = state.pieces.iter().map(|p| p.reversed).collect();
         let found = ordered(shape).ok_or_else(|| wrong("the curve is a single point".to_owned()))?;
         let (operators, shared, order) = (found.operators, found.shared, found.order);
-        Ok(Self { name: name.to_owned(), operators, reversed, shared, order })
+        let shares: Vec<Rational> = (0..operators.len()).map(|i| state.share(i)).collect();
+        let shares = shares.iter().any(|s| *s != shares[0]).then_some(shares);
+        Ok(Self { name: name.to_owned(), operators, reversed, shares, shared, order })
     }
 
     /// The number of points.
@@ -83,21 +82,26 @@ impl Side {
         if self.reversed.contains(&true) || pieces > MAX_ARITY || steps == 0 {
             return None;
         }
-        let mut operators = self.operators.clone();
+        let (mut operators, mut shares) = (self.operators.clone(), self.shares.clone());
         for _ in 1..steps {
             operators = operators.iter().flat_map(|a| self.operators.iter().map(move |b| a * b)).collect();
+            shares = shares
+                .zip(self.shares.as_ref())
+                .map(|(all, own)| all.iter().flat_map(|a: &Rational| own.iter().map(move |b| a * b)).collect());
         }
-        Some(Self { reversed: vec![false; pieces], operators, ..self.clone() })
+        Some(Self { reversed: vec![false; pieces], operators, shares, ..self.clone() })
     }
 
     /// Rows `1, q_1, q_2, …` with `q_d T_j = Σ_i C(d,i) s^i c^(d−i) q_i`, the substitution `x ↦ s x + c` of piece `j` on powers,
-    /// `s = ±1/N`: the values by which the scheme reproduces powers, as many as there are.
+    /// `s = ±1/N`: the values by which the scheme reproduces powers, as many as there are. With other shares than `1/N` only the
+    /// constants count: the two ends would have to shrink by one factor, and the intermediate curve with them.
     #[must_use]
     pub fn powers(&self) -> Vec<Vec<Rational>> {
         let n = self.points();
         let mut found = vec![vec![Rational::from(1); n]];
         let share = Rational::from(1) / Rational::from(self.arity());
-        for d in 1..=MAX_POWER {
+        let most = if self.shares.is_some() { 0 } else { MAX_POWER };
+        for d in 1..=most {
             let mut left = Matrix::zero(0, n);
             let mut right = Matrix::zero(0, 1);
             for (j, op) in self.operators.iter().enumerate() {

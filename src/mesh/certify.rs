@@ -129,11 +129,7 @@ impl Work<'_> {
         let key = |b: &Bad| (b.face, b.level);
         patches.bad.sort_by_key(key);
         let (part, parts) = self.model.topology.parts();
-        let curvature = valences
-            .iter()
-            .filter(|(_, a)| a.smooth == Verdict::Proved && a.frequency == Some(1))
-            .filter_map(|(n, _)| Some((*n, super::curvature::curvature(self.scheme, *n)?)))
-            .collect();
+        let curvature = valences.iter().filter_map(|(n, a)| Some((*n, a.curvature.clone()?))).collect();
         Found {
             valences,
             curvature,

@@ -1,6 +1,5 @@
 //! What is found of a mesh: C¹ at every vertex of these points, and the regularity of the whole limit surface.
 
-use super::curvature::Curvature;
 use super::fan::Ground;
 use super::limit::Limit;
 use super::patch::Regular;
@@ -10,7 +9,7 @@ use super::tail::Rings;
 use crate::answer::Verdict;
 use crate::scheme::MAX_VALENCE;
 use crate::statement::Statement;
-use crate::vertex::AtValence;
+use crate::vertex::{AtValence, Curvature};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A point of the limit surface that belongs to a vertex or to a face of the file.

@@ -16,7 +16,6 @@
 
 mod border;
 mod certify;
-mod curvature;
 mod disc;
 mod fan;
 mod found;
@@ -37,7 +36,6 @@ mod vertices;
 
 pub use border::{BorderStencil, Fan, Points};
 pub use certify::certify;
-pub use curvature::{Curvature, Second, Size, curvature};
 pub use disc::immersed_disc;
 pub use fan::{Ground, Row};
 pub use found::{AtVertex, Bad, Found, Patches, Reason, Spot};

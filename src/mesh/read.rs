@@ -120,7 +120,9 @@ impl<'a> Reader<'a> {
     /// The lines with their words, comments left out.
     fn lines(&self) -> impl Iterator<Item = (Range<usize>, Vec<Word<'a>>)> + use<'a> {
         let text: &'a str = &self.source.text;
-        let mut at = 0;
+        // A byte order mark begins the first word.
+        let text = text.trim_start_matches('\u{feff}');
+        let mut at = self.source.text.len() - text.len();
         text.split_inclusive('\n').filter_map(move |line| {
             let start = at;
             at += line.len();

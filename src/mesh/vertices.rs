@@ -14,7 +14,7 @@ use crate::vertex::{AtValence, every};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The largest valence that is examined.
-const LARGEST: usize = 512;
+const LARGEST: usize = MAX_VALENCE;
 
 /// What is the same at all vertices of one kind.
 struct Known<'a> {

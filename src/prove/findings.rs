@@ -45,13 +45,16 @@ impl Findings {
         self.verdict_on(&Required::default())
     }
 
-    /// The verdict on the claims that are required; at the vertices of a mesh on all claims.
+    /// The verdict on the claims that are required.
     #[must_use]
     pub fn verdict_on(&self, required: &Required) -> Verdict {
         match self {
             Self::Tangents { found, .. } => required.verdict(&found.claims),
             Self::OverField { found, .. } => required.verdict(&found.claims),
-            Self::Vertices { found, every, .. } => overall(found, every.as_ref()),
+            Self::Vertices { found, every, .. } => {
+                let overall = overall(found, every.as_ref());
+                required.at_vertices(overall, overall)
+            }
         }
     }
 
@@ -121,7 +124,7 @@ impl Findings {
 pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
     match findings {
         Findings::Tangents { case, found } => certificate::confirm(case, found),
-        Findings::OverField { case, .. } => Err(over_a_field(&case.name).into()),
+        Findings::OverField { case, found } => certificate::confirm_flat(case, found),
         Findings::Vertices { case, found, every } => {
             Ok(certificate::confirm_vertices(case, found)?.without(all_at_once(every.as_ref())))
         }
@@ -135,16 +138,11 @@ pub fn confirm(findings: &mut Findings) -> Result<Certificate, Doubt> {
 pub fn unconfirmed(findings: &Findings) -> Result<Certificate, Unsupported> {
     match findings {
         Findings::Tangents { case, found } => certificate::certificate(case, found),
-        Findings::OverField { case, .. } => Err(over_a_field(&case.name)),
+        Findings::OverField { case, found } => certificate::flat_certificate(case, found),
         Findings::Vertices { case, found, every } => {
             Ok(certificate::vertex_certificate(case, found)?.without(all_at_once(every.as_ref())))
         }
     }
-}
-
-/// Entries in a number field, for which there are no rules.
-fn over_a_field(name: &str) -> Unsupported {
-    Unsupported { what: "irrational entries".to_owned(), place: name.to_owned() }
 }
 
 /// The proof for all valences at once, which has no rule.

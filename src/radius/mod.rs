@@ -44,7 +44,7 @@ pub use exact::LeadingVector;
 pub use grow::Origin;
 pub use leading::{Eigenvector, Leading, Lower, root_floor, square_root};
 pub use polytope::{Inclusion, Point, Polytope};
-pub use quadratic::Quadratic;
+pub use quadratic::{Quadratic, definite};
 pub use simplex::Body;
 pub(crate) use simplex::{ConeBasis, InCone, cone_combination, in_cone, tells_apart};
 pub use system::{Arrow, System, SystemError};

@@ -120,7 +120,7 @@ fn preserved(system: &System, square: &Rational, arrows: &[usize]) -> Option<Vec
 /// Whether a symmetric matrix is positive definite (or, not `strict`, positive semidefinite), by exact elimination without
 /// fractions.
 #[must_use]
-pub(super) fn definite(m: &Matrix, strict: bool) -> bool {
+pub fn definite(m: &Matrix, strict: bool) -> bool {
     let n = m.rows();
     let whole = m.cleared().1;
     let mut a: Vec<Vec<Integer>> = (0..n).map(|i| whole.row(i).to_vec()).collect();

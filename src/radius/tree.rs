@@ -287,6 +287,26 @@ mod tests {
     use super::*;
     use crate::arith::ratio;
 
+    /// A word is missing, or there is one more behind another: no code.
+    #[test]
+    fn codes_that_are_not_complete_prove_nothing() {
+        let half = Matrix::identity(1).scale(&ratio(1, 2));
+        let system = System::plain(&[half.clone(), half]).unwrap();
+        let bound =
+            |code: &[Vec<usize>]| Tree { codes: vec![code.to_vec()], weights: vec![vec![ratio(1, 1)]] }.bound(&system);
+        assert!(bound(&[vec![0], vec![1]]).is_some_and(|b| b >= ratio(1, 2) && b < ratio(51, 100)));
+        let codes = [
+            vec![],
+            vec![vec![0]],
+            vec![vec![0], vec![0, 1]],
+            vec![vec![0], vec![1], vec![0, 1]],
+            vec![vec![], vec![0], vec![1]],
+        ];
+        for code in &codes {
+            assert_eq!(bound(code), None, "{code:?}");
+        }
+    }
+
     /// The bound for matrices near the system's holds for the farthest of them, and is the plain one where none may differ.
     #[test]
     fn bounds_for_matrices_nearby() {

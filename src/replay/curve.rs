@@ -5,7 +5,7 @@ use super::refuted::undone;
 use super::{Model, NoTheorem, place};
 use crate::arith::{Rational, sign};
 use crate::linalg::Matrix;
-use crate::shape::{CellKind, End};
+use crate::shape::End;
 use crate::theorem::{BranchReport, Certified, Kind, PointReport, Role, Verdict, primitive};
 
 /// A first-level joint of a state in that state's own space.
@@ -51,10 +51,13 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
     if found.dense_claim().is_none_or(|c| c.verdict() != Verdict::Proved) {
         return Err(none("joints that are not all proved to have tangents"));
     }
-    let net = undone(&model.net).ok_or_else(|| none("control points that are not injective"))?;
-    let of = |e: &usize| model.shape.states[*e].pieces.iter().map(|p| undone(&p.op)).collect::<Option<Vec<_>>>();
+    let basis = |e: usize| &model.spaces.of(e).basis;
+    let net = undone(&model.net, basis(model.shape.start));
+    let net = net.ok_or_else(|| none("control points that are not injective"))?;
+    let pieces = |e: &usize| model.shape.states[*e].pieces.iter();
+    let of = |e: &usize| pieces(e).map(|p| undone(&p.op, basis(p.target))).collect::<Option<Vec<_>>>();
     let inverses = model.states.iter().map(of).collect::<Option<Vec<_>>>();
-    let inverses = inverses.ok_or_else(|| none("operators that are not injective on the vectors of sum 0"))?;
+    let inverses = inverses.ok_or_else(|| none("operators that are not injective"))?;
     if dense.joints.is_empty() {
         return Err(none("a curve without joints"));
     }
@@ -74,7 +77,7 @@ fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
     let side = |b: &BranchReport| -> Result<(Own, Vec<Rational>), NoTheorem> {
         let prefix = b.address.prefix.strip_prefix(&path[..]).ok_or_else(|| none("an address outside its state"))?;
         let (transport, _) = model.shape.product(*state, prefix);
-        let (evidence, direction) = evidence::in_its_state(model.shape, &model.balls, b, &transport)
+        let (evidence, direction) = evidence::in_its_state(model.given(), b, &transport)
             .map_err(|what| NoTheorem { what, place: place.clone() })?;
         let at = transport.apply(&b.fixed);
         Ok((Own { prefix: prefix.to_vec(), cycle: b.address.cycle.clone(), direction, evidence }, at))
@@ -95,10 +98,7 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     if cone.window != 1 || !cone.slow.is_empty() {
         return Err(none("cones that shrink slowly"));
     }
-    let plain = |e: &usize| {
-        model.shape.states[*e].kind == CellKind::Edge && model.shape.states[*e].pieces.iter().all(|p| !p.reversed)
-    };
-    if !model.states.iter().all(plain) {
+    if !model.forward() {
         return Err(none("pieces that run backwards"));
     }
     let missing = || none("a state without a cone");

@@ -1,16 +1,37 @@
-//! The numbers from which Coq computes the hypotheses of a theorem at a branch: eigenvectors and functionals on the vectors
-//! of sum 0, a power that shrinks their complement, and a lower bound of the functional on the ring.
+//! The numbers from which Coq computes the hypotheses of a theorem at a branch: a chart of the germ, eigenvectors and
+//! functionals in it, a power that shrinks their complement, and a bound of the functional on the ring.
 
 use super::curve::reduced;
 use crate::arith::{Rational, abs, sign};
 use crate::linalg::{Matrix, dot};
-use crate::shape::{Shape, dobrushin, oscillation};
-use crate::theorem::{BranchReport, Outcome};
+use crate::shape::{Shape, Spaces, oscillation};
+use crate::theorem::{BranchReport, Outcome, Quotient};
 
 /// Balls of the 1-norm that hold the attractors, by state.
 pub(super) struct Balls {
     pub centre: Vec<Vec<Rational>>,
     pub radius: Vec<Rational>,
+}
+
+/// Coordinates of a germ, one turn in them, and what is seen of them.
+pub(super) struct Chart {
+    pub coordinates: Matrix,
+    pub turn: Matrix,
+    pub seen: Matrix,
+}
+
+impl Chart {
+    /// What is seen through `view` of the space with this basis and these coordinates.
+    pub fn new(basis: &Matrix, coordinates: &Matrix, operator: &Matrix, view: &Matrix) -> Self {
+        let on_space = view * basis;
+        let linear = coordinates * &(operator * basis);
+        let quotient = Quotient::new(&on_space, &linear);
+        Self {
+            coordinates: &quotient.chart * coordinates,
+            turn: &(&quotient.chart * &linear) * &quotient.lift,
+            seen: &on_space * &quotient.lift,
+        }
+    }
 }
 
 /// The top of the spectrum: a functional with its vector, and for a block of length 2 the pair that completes the chain.
@@ -22,9 +43,21 @@ pub(super) struct Top {
     pub chain: Option<(Vec<Rational>, Vec<Rational>)>,
 }
 
+/// Where the functional lies on the ring, against its value at the point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// Above it.
+    Above,
+    /// Above or below it.
+    Apart,
+    /// Above it after the point, below it before the point.
+    Sides,
+}
+
 /// What a replay hands over for a branch; see `proofs/theories/Replay.v`.
 pub(super) struct Evidence {
     pub point: Vec<Rational>,
+    pub chart: Chart,
     pub top: Top,
     pub power: usize,
     pub rate: Rational,
@@ -35,41 +68,58 @@ pub(super) struct Evidence {
 }
 
 /// The largest power of an operator that is tried, and the most cells of a ring.
-pub(super) const MAX_POWER: usize = 48;
+pub(super) const MAX_POWER: usize = 64;
 const MAX_CELLS: usize = 4000;
-const MAX_DEPTH: usize = 40;
+const MAX_DEPTH: usize = 60;
+
+/// Shapes, balls and spaces: what all branches share.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a> {
+    pub shape: &'a Shape,
+    pub balls: &'a Balls,
+    pub spaces: &'a Spaces,
+}
 
 /// The evidence for a branch whose secants tend to multiples of `direction`, or what is missing.
 pub(super) fn of(
-    shape: &Shape,
-    balls: &Balls,
+    given: Given<'_>,
     branch: &BranchReport,
     direction: &[Rational],
+    mode: Mode,
 ) -> Result<Evidence, String> {
-    let mut evidence = without_scale(shape, balls, branch)?;
-    evidence.scale = quotient(&branch.transport.apply(&evidence.top.vector), direction)
-        .ok_or("an eigenvector that is not on the tangent line")?;
-    Ok(evidence)
+    let (chart, mut top) = leading(given, branch, &branch.transport)?;
+    let along = |top: &Top| quotient(&chart.seen.apply(&top.vector), direction);
+    let missing = "an eigenvector that is not on the tangent line";
+    if mode != Mode::Apart && sign(&along(&top).ok_or(missing)?) < 0 {
+        top.turn();
+    }
+    let scale = along(&top).ok_or(missing)?;
+    finished(given, branch, chart, top, mode, scale)
 }
 
 /// The same in the space of a state from which `transport` leads to the cycle, with the ray of a positive eigenvalue there.
 pub(super) fn in_its_state(
-    shape: &Shape,
-    balls: &Balls,
+    given: Given<'_>,
     branch: &BranchReport,
     transport: &Matrix,
 ) -> Result<(Evidence, Vec<Rational>), String> {
-    let mut evidence = without_scale(shape, balls, branch)?;
-    let (direction, scale) =
-        reduced(&transport.apply(&evidence.top.vector)).ok_or("an eigenvector that an operator kills")?;
-    if sign(&evidence.top.value) < 0 {
+    let (chart, mut top) = leading(given, branch, transport)?;
+    let exit = exit(given.shape, branch).ok_or("a cycle that nothing leaves")?;
+    let (inside, end) = given.shape.product(branch.state, &exit);
+    let functional = chart.coordinates.apply_left(&top.row);
+    let sample = dot(&functional, &inside.apply(&given.balls.centre[end])) - dot(&functional, &branch.fixed);
+    if sign(&sample) < 0 {
+        top.turn();
+    }
+    let (direction, scale) = reduced(&chart.seen.apply(&top.vector)).ok_or("an eigenvector that an operator kills")?;
+    if sign(&top.value) < 0 {
         return Err("a negative eigenvalue".to_owned());
     }
-    evidence.scale = scale;
-    Ok((evidence, direction))
+    Ok((finished(given, branch, chart, top, Mode::Above, scale)?, direction))
 }
 
-fn without_scale(shape: &Shape, balls: &Balls, branch: &BranchReport) -> Result<Evidence, String> {
+/// The chart of a branch that is seen through `transport`, and the top of the spectrum in it.
+fn leading(given: Given<'_>, branch: &BranchReport, transport: &Matrix) -> Result<(Chart, Top), String> {
     let Outcome::Line { eigenvalue, block, .. } = &branch.outcome else {
         return Err("a branch without a tangent line".to_owned());
     };
@@ -78,21 +128,29 @@ fn without_scale(shape: &Shape, balls: &Balls, branch: &BranchReport) -> Result<
         return Err("an irrational eigenvalue".to_owned());
     };
     let value = -(constant / leading);
-    let operator = &branch.cycle_operator;
-    let mut top = match block {
-        1 => simple(operator, value),
-        2 => chain(operator, value),
+    let space = given.spaces.of(branch.state);
+    let chart = Chart::new(&space.basis, &space.coordinates, &branch.cycle_operator, transport);
+    let top = match block {
+        1 => simple(&chart.turn, value),
+        2 => chain(&chart.turn, value),
         _ => Err(format!("a Jordan block of length {block}")),
     }?;
-    let exit = exit(shape, branch).ok_or("a cycle that nothing leaves")?;
-    let (inside, end) = shape.product(branch.state, &exit);
-    let sample = dot(&top.row, &inside.apply(&balls.centre[end])) - dot(&top.row, &branch.fixed);
-    if sign(&sample) < 0 {
-        top.turn();
-    }
-    let (power, rate) = gap(operator, &top)?;
-    let (low, depth) = ring(shape, balls, branch, &top.row).ok_or("a ring condition that takes too many cells")?;
-    Ok(Evidence { point: branch.fixed.clone(), top, power, rate, low, depth, exit, scale: Rational::from(1) })
+    Ok((chart, top))
+}
+
+fn finished(
+    given: Given<'_>,
+    branch: &BranchReport,
+    chart: Chart,
+    top: Top,
+    mode: Mode,
+    scale: Rational,
+) -> Result<Evidence, String> {
+    let exit = exit(given.shape, branch).ok_or("a cycle that nothing leaves")?;
+    let (power, rate) = gap(&chart.turn, &top)?;
+    let functional = chart.coordinates.apply_left(&top.row);
+    let (low, depth) = ring(given, branch, &functional, mode).ok_or("a ring condition that takes too many cells")?;
+    Ok(Evidence { point: branch.fixed.clone(), chart, top, power, rate, low, depth, exit, scale })
 }
 
 impl Top {
@@ -108,22 +166,11 @@ impl Top {
     }
 }
 
-/// The operator on vectors of sum 0 in the coordinates 1, 2, …, minus the number.
+/// The operator minus the number.
 pub(super) fn shifted(operator: &Matrix, value: &Rational) -> Matrix {
-    let n = operator.rows() - 1;
-    Matrix::from_fn(n, n, |i, j| {
-        let entry = &operator[(i + 1, j + 1)] - &operator[(i + 1, 0)];
-        if i == j { entry - value } else { entry }
+    Matrix::from_fn(operator.rows(), operator.cols(), |i, j| {
+        if i == j { &operator[(i, j)] - value } else { operator[(i, j)].clone() }
     })
-}
-
-pub(super) fn vector(y: &[Rational]) -> Vec<Rational> {
-    let first = y.iter().fold(Rational::from(0), |sum, x| sum - x);
-    std::iter::once(first).chain(y.iter().cloned()).collect()
-}
-
-fn row(y: &[Rational]) -> Vec<Rational> {
-    std::iter::once(Rational::from(0)).chain(y.iter().cloned()).collect()
 }
 
 fn scaled(v: &[Rational], factor: &Rational) -> Vec<Rational> {
@@ -133,7 +180,7 @@ fn scaled(v: &[Rational], factor: &Rational) -> Vec<Rational> {
 fn simple(operator: &Matrix, value: Rational) -> Result<Top, String> {
     let l = shifted(operator, &value);
     let (right, left) = (l.kernel(), l.transpose().kernel());
-    let several = || "an eigenvalue that is not simple on the vectors of sum 0".to_owned();
+    let several = || "an eigenvalue that is not simple".to_owned();
     if right.cols() != 1 || left.cols() != 1 {
         return Err(several());
     }
@@ -143,7 +190,7 @@ fn simple(operator: &Matrix, value: Rational) -> Result<Top, String> {
         return Err(several());
     }
     let g = scaled(&g, &(Rational::from(1) / product));
-    Ok(Top { value, row: row(&g), vector: vector(&y), chain: None })
+    Ok(Top { value, row: g, vector: y, chain: None })
 }
 
 /// A block of length 2: `L y2 = λ y2 + y1`, with the functionals dual to the two vectors.
@@ -151,7 +198,7 @@ fn chain(operator: &Matrix, value: Rational) -> Result<Top, String> {
     let l = shifted(operator, &value);
     let square = &l * &l;
     let (right, left) = (square.kernel(), square.transpose().kernel());
-    let several = || "more than one Jordan block of the dominant eigenvalue on the vectors of sum 0".to_owned();
+    let several = || "more than one Jordan block of the dominant eigenvalue".to_owned();
     if right.cols() != 2 || left.cols() != 2 {
         return Err(several());
     }
@@ -167,10 +214,10 @@ fn chain(operator: &Matrix, value: Rational) -> Result<Top, String> {
     let (g1, g2) = (scaled(&g1, &unit), scaled(&g2, &unit));
     let off = dot(&g1, &y2);
     let g1: Vec<Rational> = g1.iter().zip(&g2).map(|(a, b)| a - &off * b).collect();
-    Ok(Top { value, row: row(&g2), vector: vector(&y1), chain: Some((row(&g1), vector(&y2))) })
+    Ok(Top { value, row: g2, vector: y1, chain: Some((g1, y2)) })
 }
 
-/// A power whose coefficient, after the top has been taken off, is below that power of the eigenvalue.
+/// A power whose norm, after the top has been taken off, is below that power of the eigenvalue.
 fn gap(operator: &Matrix, top: &Top) -> Result<(usize, Rational), String> {
     let mut power = Matrix::identity(operator.rows());
     let mut bound = Rational::from(1);
@@ -185,12 +232,18 @@ fn gap(operator: &Matrix, top: &Top) -> Result<(usize, Rational), String> {
         let rest = Matrix::from_fn(power.rows(), power.cols(), |i, j| {
             pairs.iter().fold(power[(i, j)].clone(), |x, (g, v)| x - &v[i] * &g[j])
         });
-        let tau = dobrushin(&rest);
-        if tau < bound {
-            return Ok((k, tau));
+        let norm = column(&rest);
+        if norm < bound {
+            return Ok((k, norm));
         }
     }
-    Err("an eigenvalue that does not dominate on all vectors of sum 0".to_owned())
+    Err("an eigenvalue that dominates too slowly".to_owned())
+}
+
+/// The largest sum of absolute values in a column.
+pub(super) fn column(m: &Matrix) -> Rational {
+    let sums = (0..m.cols()).map(|j| (0..m.rows()).fold(Rational::from(0), |s, i| s + abs(&m[(i, j)])));
+    sums.fold(Rational::from(0), Rational::max)
 }
 
 /// A word as long as the cycle that leaves it.
@@ -207,19 +260,30 @@ fn exit(shape: &Shape, branch: &BranchReport) -> Option<Vec<usize>> {
     (word != branch.address.cycle).then_some(word)
 }
 
-/// A positive lower bound, a power of 1/2, of the functional on the ring above its value at the point, and the length of the
+/// A positive bound, a power of 1/2, of the functional on the ring against its value at the point, and the length of the
 /// longest word that shows it.
-fn ring(shape: &Shape, balls: &Balls, branch: &BranchReport, functional: &[Rational]) -> Option<(Rational, usize)> {
+fn ring(given: Given<'_>, branch: &BranchReport, functional: &[Rational], mode: Mode) -> Option<(Rational, usize)> {
+    /// The side of a cell that has left the cycle of a point with two sides: after it or before it.
+    type Side = Option<bool>;
+    let Given { shape, balls, .. } = given;
     let floor = dot(functional, &branch.fixed);
-    let mut open = vec![(branch.state, functional.to_vec(), Some(&branch.address.cycle[..]), 0)];
+    let cycle = &branch.address.cycle[..];
+    let mut open: Vec<(usize, Vec<Rational>, Option<&[usize]>, Side, usize)> =
+        vec![(branch.state, functional.to_vec(), Some(cycle), None, 0)];
     let (mut least, mut depth, mut cells): (Option<Rational>, usize, usize) = (None, 0, 0);
-    while let Some((state, h, rest, length)) = open.pop() {
+    while let Some((state, h, rest, side, length)) = open.pop() {
         if rest == Some(&[]) {
             continue;
         }
         cells += 1;
-        let half = oscillation(&h) / Rational::from(2);
-        let bound = dot(&h, &balls.centre[state]) - half * &balls.radius[state] - &floor;
+        let width = oscillation(&h) / Rational::from(2) * &balls.radius[state];
+        let middle = dot(&h, &balls.centre[state]) - &floor;
+        let bound = match (mode, side) {
+            (Mode::Above, _) | (Mode::Sides, Some(true)) => middle - width,
+            (Mode::Sides, Some(false)) => -middle - width,
+            (Mode::Apart, _) => abs(&middle) - width,
+            (Mode::Sides, None) => Rational::from(0),
+        };
         if bound > 0 {
             least = Some(least.map_or_else(|| bound.clone(), |l| l.min(bound.clone())));
             depth = depth.max(length);
@@ -230,7 +294,8 @@ fn ring(shape: &Shape, balls: &Balls, branch: &BranchReport, functional: &[Ratio
         }
         for (i, piece) in shape.states[state].pieces.iter().enumerate() {
             let next = rest.and_then(|r| (r[0] == i).then(|| &r[1..]));
-            open.push((piece.target, piece.op.apply_left(&h), next, length + 1));
+            let left = rest.filter(|r| r[0] != i).map(|r| i > r[0]);
+            open.push((piece.target, piece.op.apply_left(&h), next, side.or(left), length + 1));
         }
     }
     let least = least?;
@@ -239,7 +304,7 @@ fn ring(shape: &Shape, balls: &Balls, branch: &BranchReport, functional: &[Ratio
         low /= Rational::from(2);
     }
     // Words that are cut off by the cycle are longer than those of cells.
-    Some((low, depth.max(branch.address.cycle.len())))
+    Some((low, depth.max(cycle.len())))
 }
 
 /// The number by which one vector is a multiple of the other.

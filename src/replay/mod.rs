@@ -11,9 +11,9 @@ mod write;
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
-use crate::shape::{Address, CellKind, Contraction, Shape, word_text};
+use crate::shape::{Address, CellKind, Contraction, Shape, Spaces, word_text};
 use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict, primitive};
-use evidence::{Balls, Evidence, independent};
+use evidence::{Balls, Evidence, Given, Mode, independent};
 use refuted::Refuted;
 use thiserror::Error;
 
@@ -35,7 +35,9 @@ fn none<T>(what: impl Into<String>, place: impl Into<String>) -> Result<T, NoThe
 enum Statement {
     /// One ray.
     Ray { branch: Replayed },
-    /// One line, both of whose rays occur.
+    /// One ray on each side of a point inside a cell, in opposite directions.
+    Passes { branch: Replayed },
+    /// One line, of whose rays no more is said.
     Line { branch: Replayed },
     /// Rays on both sides: opposite, equal, or on two lines with a minor that is not 0.
     Joint { kind: Kind, before: Replayed, after: Replayed, minor: (usize, usize) },
@@ -72,6 +74,8 @@ struct Model<'a> {
     /// The reachable states; the number in the file is the position in this list.
     states: Vec<usize>,
     balls: Balls,
+    /// The spaces of the differences of the attractors.
+    spaces: Spaces,
     /// The control points, or the identity.
     net: Matrix,
     /// Coordinates that are enough for all.
@@ -97,10 +101,24 @@ impl<'a> Model<'a> {
             balls.centre[s.state].clone_from(&s.base);
             balls.radius[s.state].clone_from(&s.radius);
         }
+        let Some(spaces) = Spaces::new(shape) else { return none("base points that are not unique", "contraction") };
         let net = shape.control.clone().unwrap_or_else(|| Matrix::identity(shape.states[shape.start].dim));
         let dims = states.iter().map(|e| shape.states[*e].dim);
         let ambient = dims.chain([net.rows()]).max().unwrap_or(0);
-        Ok(Self { shape, states, balls, net, ambient, constant: code.constant.clone(), length: code.length })
+        Ok(Self { shape, states, balls, spaces, net, ambient, constant: code.constant.clone(), length: code.length })
+    }
+
+    fn given(&self) -> Given<'_> {
+        Given { shape: self.shape, balls: &self.balls, spaces: &self.spaces }
+    }
+
+    /// Whether no piece runs backwards, so that the order of addresses is that of the curve.
+    fn forward(&self) -> bool {
+        let plain = |e: &usize| {
+            let state = &self.shape.states[*e];
+            state.kind == CellKind::Edge && state.pieces.iter().all(|p| !p.reversed)
+        };
+        self.states.iter().all(plain)
     }
 
     fn number(&self, state: usize) -> usize {
@@ -174,22 +192,35 @@ fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated
             _ => none("a side with several rays", &*place),
         }
     };
+    let line = || -> Result<Vec<Rational>, NoTheorem> {
+        match point.tangent.as_ref().and_then(Direction::rational) {
+            Some(coords) => Ok(primitive(&coords)),
+            None => none("a direction with irrational coordinates", &*place),
+        }
+    };
     let statement = match (point.kind, &point.branches[..]) {
         (Kind::SmoothEnd | Kind::HalfTangent, [branch]) => {
             let rays = if point.left.is_empty() { &point.right } else { &point.left };
-            Statement::Ray { branch: replayed(model, branch, ray(rays)?, &place)? }
+            Statement::Ray { branch: replayed(model, branch, ray(rays)?, Mode::Above, &place)? }
         }
-        (Kind::Oscillating, [branch]) if matches!(point.role, Role::LeftEnd | Role::RightEnd) => {
-            let Some(coords) = point.tangent.as_ref().and_then(Direction::rational) else {
-                return none("a direction with irrational coordinates", &*place);
-            };
-            Statement::Line { branch: replayed(model, branch, primitive(&coords), &place)? }
+        (Kind::Cusp, [branch]) => {
+            let (left, right) = (ray(&point.left)?, ray(&point.right)?);
+            if left != right {
+                return none("rays that do not fit their kind", &*place);
+            }
+            Statement::Ray { branch: replayed(model, branch, right, Mode::Above, &place)? }
+        }
+        (Kind::Regular, [branch]) if model.forward() => {
+            Statement::Passes { branch: replayed(model, branch, ray(&point.right)?, Mode::Sides, &place)? }
+        }
+        (Kind::Regular | Kind::Oscillating | Kind::Line, [branch]) => {
+            Statement::Line { branch: replayed(model, branch, line()?, Mode::Apart, &place)? }
         }
         (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
             let minor = independent(&left, &right);
-            let before = replayed(model, before, left, &place)?;
-            let after = replayed(model, after, right, &place)?;
+            let before = replayed(model, before, left, Mode::Above, &place)?;
+            let after = replayed(model, after, right, Mode::Above, &place)?;
             if (point.kind == Kind::Corner) != minor.is_some() {
                 return none("rays that do not fit their kind", &*place);
             }
@@ -218,9 +249,10 @@ fn replayed(
     model: &Model<'_>,
     branch: &BranchReport,
     direction: Vec<Rational>,
+    mode: Mode,
     place: &str,
 ) -> Result<Replayed, NoTheorem> {
-    let evidence = evidence::of(model.shape, &model.balls, branch, &direction)
+    let evidence = evidence::of(model.given(), branch, &direction, mode)
         .map_err(|what| NoTheorem { what, place: format!("{place}, branch {}", branch.address) })?;
     let (prefix, cycle) = (branch.address.prefix.clone(), branch.address.cycle.clone());
     Ok(Replayed { prefix, cycle, direction, evidence })

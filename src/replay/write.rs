@@ -1,8 +1,8 @@
 //! The text of the file.
 
 use super::curve::{Cones, Levels, Own, OwnJoint};
-use super::evidence::{Evidence, Top};
-use super::refuted::Refuted;
+use super::evidence::{Chart, Evidence, Top};
+use super::refuted::{Limit, Refuted, Spiral};
 use super::{Model, Replayed, Stated, Statement, Whole};
 use crate::arith::Rational;
 use crate::case::Case;
@@ -42,7 +42,7 @@ fn plain(text: &str) -> String {
 }
 
 const ABOUT: &str = "(automaton_of case) (qm net) start";
-const GIVEN: &str = "case centres radii net start";
+const GIVEN: &str = "case centres radii spaces net start";
 const BY_COMPUTATION: &str = "[exact contracts|vm_compute; reflexivity]";
 
 /// The file: definitions, theorems, and one theorem that holds them all.
@@ -93,7 +93,7 @@ fn heading(out: &mut String, case: &Case, found: &Certified, whole: &Whole) {
         plain(&cones),
     );
     out.push_str(
-        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
+        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
     );
 }
 
@@ -116,11 +116,18 @@ fn definitions(out: &mut String, model: &Model<'_>) {
     let _ = writeln!(out, "(* Balls that hold the attractors, and contraction by words (Lemma 1). *)");
     let centres = list(&model.states, |e| vector(&model.balls.centre[*e]));
     let radii = list(&model.states, |e| number(&model.balls.radius[*e]));
+    let space = |e: &usize| &model.spaces.of(*e).basis * &model.spaces.of(*e).coordinates;
+    let spaces = list(&model.states, |e| matrix(&space(e)));
     let _ = writeln!(out, "Definition centres : list qvec := {centres}.\nDefinition radii : list Q := {radii}.");
-    let _ = writeln!(out, "Lemma contracts : controlled case centres radii.");
     let _ = writeln!(
         out,
-        "Proof. apply (controlled_ok case centres radii ({}) {}); vm_compute; reflexivity. Qed.\n",
+        "(* Spaces of the differences of the attractors: the vectors that these matrices do not change. *)"
+    );
+    let _ = writeln!(out, "Definition spaces : list qmat := {spaces}.");
+    let _ = writeln!(out, "Lemma contracts : controlled case centres radii spaces.");
+    let _ = writeln!(
+        out,
+        "Proof. apply (controlled_ok case centres radii spaces ({}) {}); vm_compute; reflexivity. Qed.\n",
         number(&model.constant),
         model.length
     );
@@ -134,11 +141,17 @@ fn top(t: &Top) -> String {
     }
 }
 
+fn chart(c: &Chart) -> String {
+    let [coordinates, turn, seen] = [&c.coordinates, &c.turn, &c.seen].map(matrix);
+    format!("{{| coordinates := {coordinates}; turn := {turn}; seen := {seen} |}}")
+}
+
 fn evidence(out: &mut String, name: &str, e: &Evidence) {
     let _ = writeln!(
         out,
-        "Definition {name} : evidence := {{| value := {}; lead := {}; power := {}; rate := {}; low := {}; depth := {}; exit := {}; scale := {} |}}.",
+        "Definition {name} : evidence := {{| value := {}; view := {}; lead := {}; power := {}; rate := {}; low := {}; depth := {}; exit := {}; scale := {} |}}.",
         vector(&e.point),
+        chart(&e.chart),
         top(&e.top),
         e.power,
         number(&e.rate),
@@ -174,6 +187,15 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
             (
                 format!("{claim}half_tangent {ABOUT} {of} (qv {d})"),
                 format!("{proof}apply (half_tangent_ok {GIVEN} _ {name}_evidence); {cells}."),
+            )
+        }
+        Statement::Passes { branch: b } => {
+            let ((claim, proof), of, d) =
+                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
+            let cells = "[exact contracts|vm_compute; reflexivity..]";
+            (
+                format!("{claim}passes {ABOUT} {of} (qv {d})"),
+                format!("{proof}apply (passes_ok {GIVEN} _ {name}_evidence); {cells}."),
             )
         }
         Statement::Line { branch: b } => {
@@ -223,31 +245,59 @@ fn no_tangent(
     refuted: &Refuted,
     at: &At<'_>,
 ) -> (String, String) {
-    for (k, limit) in refuted.limits.iter().enumerate() {
-        let _ = writeln!(
-            out,
-            "Definition {name}_limit_{k} : direction_evidence := {{| tail := {}; tail_value := {}; space := {}; proj := {}; eigen := {}; turns_power := {}; turns_rate := {}; multiple := {} |}}.",
-            branch(&limit.tail.prefix, &limit.tail.cycle),
-            vector(&limit.value),
-            matrix(&refuted.space),
-            matrix(&refuted.projection),
-            number(&refuted.eigenvalue),
-            refuted.power,
-            number(&refuted.rate),
-            number(&limit.multiple),
-        );
-    }
     let of = branch(&address.prefix, &address.cycle);
     let q = vector(point);
     let (claim, proof) = at(&of, &q);
-    let [d1, d2] = [&refuted.limits[0], &refuted.limits[1]].map(|l| vector(&l.direction));
-    let (i, j) = refuted.minor;
-    (
-        format!("{claim}no_tangent {ABOUT} {of}"),
-        format!(
-            "{proof}apply (no_tangent_ok {GIVEN} _ {q} {name}_limit_0 {name}_limit_1 {d1} {d2} {i} {j}); {BY_COMPUTATION}."
-        ),
-    )
+    let applied = match refuted {
+        Refuted::Lines { limits, minor } => {
+            for (k, l) in limits.iter().enumerate() {
+                limit(out, &format!("{name}_limit_{k}"), l);
+            }
+            let [d1, d2] = [0, 1].map(|k| vector(&limits[k].direction));
+            let [r1, r2] = [0, 1].map(|k| limits[k].turns);
+            let (i, j) = minor;
+            format!("(no_tangent_ok {GIVEN} _ {q} {r1} {r2} {name}_limit_0 {name}_limit_1 {d1} {d2} {i} {j})")
+        }
+        Refuted::Spiral(s) => {
+            spiral(out, &format!("{name}_spiral"), s);
+            format!("(spiral_ok {GIVEN} _ {q} {name}_spiral)")
+        }
+    };
+    (format!("{claim}no_tangent {ABOUT} {of}"), format!("{proof}apply {applied}; {BY_COMPUTATION}."))
+}
+
+fn limit(out: &mut String, name: &str, limit: &Limit) {
+    let _ = writeln!(
+        out,
+        "Definition {name} : direction_evidence := {{| tail := {}; tail_value := {}; stays := {}; along := {}; proj := {}; eigen := {}; turns_power := {}; turns_rate := {}; multiple := {} |}}.",
+        branch(&limit.tail.prefix, &limit.tail.cycle),
+        vector(&limit.value),
+        matrix(&limit.stays),
+        chart(&limit.chart),
+        matrix(&limit.top.matrix),
+        number(&limit.top.eigenvalue),
+        limit.top.power,
+        number(&limit.top.rate),
+        number(&limit.multiple),
+    );
+}
+
+fn spiral(out: &mut String, name: &str, s: &Spiral) {
+    let _ = writeln!(
+        out,
+        "Definition {name} : spiral_evidence := {{| around := {}; around_value := {}; around_stays := {}; around_chart := {}; plane := {}; trace := {}; norm := {}; plane_power := {}; plane_rate := {}; minor_of := ({}%nat, {}%nat) |}}.",
+        branch(&s.tail.prefix, &s.tail.cycle),
+        vector(&s.value),
+        matrix(&s.stays),
+        chart(&s.chart),
+        matrix(&s.plane),
+        number(&s.trace),
+        number(&s.norm),
+        s.power,
+        number(&s.rate),
+        s.minor.0,
+        s.minor.1,
+    );
 }
 
 /// Theorem 5: every joint in its own state, and in all copies of the state.
@@ -270,7 +320,7 @@ fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut 
             "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u (qv {d})))"
         );
         let proof = format!(
-            "refine ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values} _ _ _ _); [exact contracts|vm_compute; reflexivity|].\n  apply ({word}_ok case centres radii (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
+            "refine ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values} _ _ _ _); [exact contracts|vm_compute; reflexivity|].\n  apply ({word}_ok case centres radii spaces (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
             vector(point)
         );
         finished(out, &name, &claim, &proof);
@@ -294,6 +344,6 @@ fn every_point(out: &mut String, cones: &Cones) {
         vector(&cones.seen_by),
     );
     let claim = format!("tangent_at_every_address {ABOUT}");
-    let proof = format!("apply (cones_ok case centres radii common net start); {BY_COMPUTATION}.");
+    let proof = format!("apply (cones_ok case centres radii spaces common net start); {BY_COMPUTATION}.");
     finished(out, "every_point", &claim, &proof);
 }

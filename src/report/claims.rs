@@ -121,7 +121,6 @@ pub fn parameter(over: Measure) -> &'static str {
 #[must_use]
 pub fn label(what: &Assertion) -> String {
     match (what, what.topic()) {
-        (Assertion::Polynomial(_), _) => "C^k for all k".to_owned(),
         (Assertion::PlaneAtVertices, _) => "vertices".to_owned(),
         (Assertion::SomePoint, _) => "some point".to_owned(),
         (Assertion::DenseJoints | Assertion::SeenJoints, _) => "joints (dense)".to_owned(),
@@ -133,6 +132,7 @@ pub fn label(what: &Assertion) -> String {
         (_, Some(Topic::Joints)) => "joints".to_owned(),
         (_, Some(Topic::Dense)) => "dense set".to_owned(),
         (_, Some(Topic::G1 | Topic::Inside)) => "every point (G¹)".to_owned(),
+        (_, Some(Topic::Polynomial)) => "C^k for all k".to_owned(),
         (_, Some(Topic::C(order))) => format!("C^{order}"),
         (_, Some(Topic::Exponent)) => "Hölder exponent".to_owned(),
         (_, Some(Topic::Points)) => match what.asked() {

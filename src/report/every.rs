@@ -123,8 +123,8 @@ fn components(case: &Case, found: &Components) -> Line {
         Component::Transient { state, .. } => format!("{} is passed once", name(*state)),
     };
     let mut text = format!("{} (Theorem 13)", listed(&found.parts.iter().map(part).collect::<Vec<_>>()));
-    if let Some(code) = found.code {
-        text += &format!("; nothing is lost in the projection, by functionals behind {}", count(code, "word"));
+    if let Some((_, code)) = &found.sight {
+        text += &format!("; nothing is lost in the projection, by functionals behind {}", count(code.len(), "word"));
     }
     words(text)
 }

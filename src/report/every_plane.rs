@@ -3,7 +3,7 @@
 use super::document::{Line, words};
 use super::radius::decimal;
 use super::reasons;
-use super::words::{listed, mark};
+use super::words::{count, listed, mark};
 use crate::answer::Answer;
 use crate::statement::Statement;
 use crate::theorem::Certified;
@@ -26,6 +26,12 @@ fn proof(surface: &Surface) -> Option<String> {
             Statement::PatchDerivative.short_name(),
             decimal(&d.enclosure.hi, true, 6),
             d.share
+        )),
+        Answer::Proved(EverySurfaceProof::Forms(f)) => Some(format!(
+            "quadratic forms of signature (2, ·) on {} of cells, which their operators expand, make cones around planes that shrink to the \
+             tangent planes ({})",
+            count(f.forms.len() - 1, "star"),
+            Statement::SurfaceCones.short_name()
         )),
         Answer::Proved(EverySurfaceProof::Vertex { valence, rings: Some(rings) }) => Some(format!(
             "Theorem 7 holds at valence {valence}, and all rings of the disc are immersed: {rings} were tested patch by patch, the \
@@ -68,6 +74,7 @@ pub fn value(surface: &Surface) -> Value {
             json!("product")
         }
         Answer::Proved(EverySurfaceProof::Derivative(_)) => json!("derivative"),
+        Answer::Proved(EverySurfaceProof::Forms(_)) => json!("cones"),
         Answer::Proved(EverySurfaceProof::Vertex { .. }) => json!("vertex"),
         Answer::Refuted(EverySurfaceBreak::Point(_)) => json!("point"),
         Answer::Open(_) => Value::Null,

@@ -162,6 +162,7 @@ pub fn refusal(name: &str, problem: &Problem) -> Value {
     json!({
         "version": VERSION,
         "case": name,
+        "path": name,
         "verdict": Value::Null,
         "error": {
             "code": problem.id(),

@@ -1,12 +1,11 @@
 //! Reports on meshes: what holds of the limit surface, by valence, and the bad vertices with their lines.
 
+use super::curvature;
 use super::document::{Block, Document, Inline, Line, Table, code, words};
 use super::vertex_reasons;
 use super::words::{count, mark};
 use crate::answer::Verdict;
-use crate::mesh::{
-    AtVertex, Bad, Boundary, Curvature, Found, Ground, Kind, Model, Number, Reason, Regular, Rings, Second, Size, Spot,
-};
+use crate::mesh::{AtVertex, Bad, Boundary, Found, Ground, Kind, Model, Number, Reason, Regular, Rings, Spot};
 use crate::picture::mesh::svg;
 use crate::vertex::decimal;
 use serde_json::{Value, json};
@@ -262,7 +261,7 @@ fn table(found: &Found) -> Table {
         let mut cells = vec![words(inside.map_or_else(|| kind(*own), |n| n.to_string()))];
         cells.extend([all.len().to_string(), lambda, of(Verdict::Proved).to_string()].map(words));
         cells.extend([of(Verdict::Refuted).to_string(), of(Verdict::Undetermined).to_string(), rings].map(words));
-        cells.push(words(inside.and_then(|n| found.curvature.get(&n)).map_or_else(|| "–".to_owned(), curved)));
+        cells.push(words(inside.and_then(|n| found.curvature.get(&n)).map_or_else(|| "–".to_owned(), curvature::size)));
         cells
     };
     let header = ["valence", "vertices", "λ", "C¹ proved", "refuted", "open", "rings immersed", "curvature"];
@@ -271,19 +270,6 @@ fn table(found: &Found) -> Table {
          coefficients (Size of the curvature).",
     );
     Table { caption, header: header.map(words).to_vec(), rows: by.iter().map(row).collect() }
-}
-
-/// The curvature of almost all points at a valence.
-fn curved(c: &Curvature) -> String {
-    match (c.size, c.second, c.exponent) {
-        (_, Second::Flat, _) => "tends to 0; C², flat".to_owned(),
-        (_, Second::Regular, _) => "bounded; C² (regular)".to_owned(),
-        (Size::Unbounded, _, Some(p)) => format!("unbounded, p* = {p:.3}"),
-        (Size::Unbounded, ..) => "unbounded".to_owned(),
-        (Size::Bounded, Second::No, _) => "bounded, not C²".to_owned(),
-        (Size::Bounded, ..) => "bounded; C² not decided".to_owned(),
-        (Size::Vanishing, ..) => "tends to 0".to_owned(),
-    }
 }
 
 fn limits(found: &Found, most: usize) -> Table {
@@ -360,9 +346,9 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
         "numbers": "t = 2cos(2π/n) at valence n, n = 2k at a border vertex with k faces; a is the positive root of a² = (2 + t)a + 8 + 4t",
         "curvature": found.curvature.iter().map(|(n, c)| json!({
             "valence": n,
-            "almost_all": curved(c),
-            "ratio": c.ratio.mid(),
-            "exponent": c.exponent,
+            "almost_all": curvature::size(c),
+            "ratio": crate::arith::to_f64(&c.ratio.mid()),
+            "exponent": c.exponent.filter(|p| p.is_finite()),
         })).collect::<Vec<_>>(),
         "vertices": found.vertices.iter().map(vertex).collect::<Vec<_>>(),
     })

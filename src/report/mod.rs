@@ -2,6 +2,7 @@
 
 pub mod border;
 pub mod claims;
+mod curvature;
 pub mod document;
 pub mod every;
 mod every_plane;

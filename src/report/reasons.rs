@@ -195,7 +195,9 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
             format!("it is not decided whether {} curve of the product is G¹", ordinal(curve))
         }
         EverySurfaceGap::Large => "there are too many coordinates for the derivative in the parameters".to_owned(),
-        EverySurfaceGap::Unequal => "not all faces are divided into the same number of parts along every side".to_owned(),
+        EverySurfaceGap::Unequal => {
+            "in the parameters, not all pieces that lead back to their face have one size along both sides".to_owned()
+        }
         EverySurfaceGap::Radius => {
             "the joint spectral radius on the differences of the derivative is not seen to be below the size of the pieces"
                 .to_owned()
@@ -205,6 +207,17 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
         }
         EverySurfaceGap::Rank => {
             "the derivative in the parameters is continuous, but the control points are not seen to keep its rank".to_owned()
+        }
+        EverySurfaceGap::LargeStars => "there are too many stars of cells, or coordinates, for cones around planes".to_owned(),
+        EverySurfaceGap::NoForms => {
+            "no quadratic forms of signature (2, ·) were found that all stars of cells expand from their children".to_owned()
+        }
+        EverySurfaceGap::Secants => {
+            "the quadratic forms that were found are not seen to be positive on all secants between cells that do not meet"
+                .to_owned()
+        }
+        EverySurfaceGap::Folds => {
+            "there are cones around planes at every point, but the control points are not seen to keep them".to_owned()
         }
         EverySurfaceGap::Contradiction => {
             "the proof for every point and the tangent subspace of a point disagree: a mistake in secant"

@@ -45,6 +45,69 @@ pub(super) fn definition(end: &Root, parameter: &str) -> Option<String> {
     })
 }
 
+/// A part by its ends: a point, or an open interval.
+pub(super) fn place(from: &Root, to: &Root) -> String {
+    if from.same(to) { end_text(from) } else { format!("({}, {})", end_text(from), end_text(to)) }
+}
+
+/// What the irrational ends of parts are, each once, under a heading; nothing where there are none.
+pub(super) fn ends<'a>(
+    parts: impl Iterator<Item = (&'a Root, &'a Root)>,
+    heading: &str,
+    parameter: &str,
+) -> Vec<Block> {
+    let mut ends: Vec<&Root> = Vec::new();
+    for end in parts.flat_map(|(from, to)| [from, to]) {
+        if end.rational().is_none() && !ends.iter().any(|e| e.same(end)) {
+            ends.push(end);
+        }
+    }
+    let list: Vec<Line> = ends.iter().filter_map(|e| definition(e, parameter)).map(words).collect();
+    if list.is_empty() {
+        return Vec::new();
+    }
+    vec![Block::Heading(2, words(heading)), Block::List(list)]
+}
+
+/// The tables with a picture, in which every one of `rows` is a bar, and with the statements that are applied, each once.
+pub(super) fn complete(
+    mut document: Document,
+    picture: Option<(String, String)>,
+    (rows, parameter): (&str, &str),
+    statements: impl IntoIterator<Item = Statement>,
+) -> Document {
+    if let Some((svg, tikz)) = picture {
+        let alt = format!("For each {rows} a bar over the range of {parameter}, coloured by verdict.");
+        let caption = words("Green: proved. Red: refuted. Violet: undetermined. A vertical line is a single point.");
+        document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
+    }
+    let mut own: Vec<Statement> = Vec::new();
+    for statement in statements {
+        if !own.contains(&statement) {
+            own.push(statement);
+        }
+    }
+    document.blocks.push(Block::Heading(2, words("Statements")));
+    document.blocks.extend(own.into_iter().map(Block::Statement));
+    document
+}
+
+/// A part as data: its place, by what it is called, the verdict and why.
+pub(super) fn part_data(
+    (from, to): (&Root, &Root),
+    gap: bool,
+    verdict: Verdict,
+    because: String,
+) -> serde_json::Map<String, Value> {
+    let (name, place) = match (from.same(to), gap) {
+        (true, _) => ("point", end_data(from)),
+        (false, true) => ("gap", json!([end_data(from), end_data(to)])),
+        (false, false) => ("interval", json!([end_data(from), end_data(to)])),
+    };
+    let said = [(name, place), ("verdict", json!(verdict.word())), ("because", json!(because))];
+    said.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
 /// The verdict of a finding.
 #[must_use]
 pub fn verdict(finding: &Finding) -> Verdict {
@@ -196,7 +259,6 @@ pub fn document(case: &MaskFamilyCase, family: &MaskFamily, orders: &[OrderRegio
         fact("sum rules", format!("{} for every {p}", family.sum_rules)),
         fact("factor b", factor.join(", ")),
     ])];
-    let mut ends: Vec<&Root> = Vec::new();
     for order in orders {
         let name = if order.order == 0 { "Convergence".to_owned() } else { format!("C^{}", order.order) };
         blocks.push(Block::Heading(2, words(name)));
@@ -212,33 +274,17 @@ pub fn document(case: &MaskFamilyCase, family: &MaskFamily, orders: &[OrderRegio
         if order.order == 1 && order.parts.iter().any(|part| part.finding.answer() == Some(true)) {
             blocks.push(Block::Paragraph(words(GRAPH)));
         }
-        for end in order.parts.iter().flat_map(|part| [&part.from, &part.to]) {
-            if end.rational().is_none() && !ends.iter().any(|e| e.same(end)) {
-                ends.push(end);
-            }
-        }
     }
-    let list: Vec<Line> = ends.iter().filter_map(|e| definition(e, p)).map(words).collect();
-    if !list.is_empty() {
-        blocks.push(Block::Heading(2, words("Ends")));
-        blocks.push(Block::List(list));
-    }
+    let parts = orders.iter().flat_map(|o| &o.parts).map(|part| (&part.from, &part.to));
+    blocks.extend(ends(parts, "Ends", p));
     Document { title: format!("Regions of {}", case.name), blocks }
 }
 
 /// The document with the statements and the picture, for a file.
 #[must_use]
 pub fn report(case: &MaskFamilyCase, family: &MaskFamily, orders: &[OrderRegion]) -> Document {
-    let mut document = document(case, family, orders);
-    if let Some((svg, tikz)) = picture(case, orders) {
-        let alt = format!("For each order a bar over the range of {}, coloured by verdict.", case.parameter);
-        let caption = words("Green: proved. Red: refuted. Violet: undetermined. A vertical line is a single point.");
-        document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
-    }
-    document.blocks.push(Block::Heading(2, words("Statements")));
     let own = [Statement::FamilyWords, Statement::FamilyHulls, Statement::Graph];
-    document.blocks.extend(own.map(Block::Statement));
-    document
+    complete(document(case, family, orders), picture(case, orders), ("order", &case.parameter), own)
 }
 
 /// A bar for each order, as SVG and TikZ.
@@ -274,16 +320,9 @@ fn hulls(radius: Option<&Below>, part: &Part) -> Value {
     Value::Array(touching.map(one).collect())
 }
 
-fn part_data(family: &MaskFamily, order: &OrderRegion, part: &Part) -> Value {
-    let mut data = serde_json::Map::new();
-    let both = json!([end_data(&part.from), end_data(&part.to)]);
-    match (part.is_point(), &part.finding) {
-        (true, _) => data.insert("point".to_owned(), end_data(&part.from)),
-        (false, Finding::Gap) => data.insert("gap".to_owned(), both),
-        (false, _) => data.insert("interval".to_owned(), both),
-    };
-    data.insert("verdict".to_owned(), json!(verdict(&part.finding).word()));
-    data.insert("because".to_owned(), json!(because(family, order, part)));
+fn finding_data(family: &MaskFamily, order: &OrderRegion, part: &Part) -> Value {
+    let gap = part.finding == Finding::Gap;
+    let mut data = part_data((&part.from, &part.to), gap, verdict(&part.finding), because(family, order, part));
     match &part.finding {
         Finding::Proved(_) => {
             data.insert("statement".to_owned(), json!(Statement::FamilyHulls.id()));
@@ -303,7 +342,7 @@ fn part_data(family: &MaskFamily, order: &OrderRegion, part: &Part) -> Value {
 #[must_use]
 pub fn data(case: &MaskFamilyCase, family: &MaskFamily, orders: &[OrderRegion]) -> Value {
     let table = |o: &OrderRegion| {
-        let parts: Vec<Value> = o.parts.iter().map(|part| part_data(family, o, part)).collect();
+        let parts: Vec<Value> = o.parts.iter().map(|part| finding_data(family, o, part)).collect();
         let implies = (o.order == 1).then(|| Statement::Graph.id());
         json!({"order": o.order, "statement": claim(o.order), "implies": implies, "table": parts})
     };

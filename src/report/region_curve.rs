@@ -1,8 +1,7 @@
 //! The answers of `secant region` about curves as a document and as data.
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
-use super::region::{definition, end_data, end_text, gap, tone, word_reason};
-use crate::algebraic::Root;
+use super::region::{complete, ends, gap, part_data, place, tone, word_reason};
 use crate::case::CurveFamilyCase;
 use crate::linalg::Matrix;
 use crate::picture::bar;
@@ -11,6 +10,7 @@ use crate::shape::word_text;
 use crate::statement::Statement;
 use crate::theorem::region::{Basis, CurveClaim, CurveEnd, CurvePart, CurveRegions, CurveTable, Subject, Why};
 use serde_json::{Value, json};
+use std::iter;
 
 /// What a table claims.
 fn claim(subject: Subject) -> &'static str {
@@ -77,6 +77,7 @@ pub(super) fn argument(why: &Why) -> String {
         Why::Spiral(end) => format!("{}: the leading eigenvalues are not real", end_name(*end)),
         Why::Alternates(end) => format!("{}: the leading eigenvalue is negative, two rays", end_name(*end)),
         Why::Cusp(k) => format!("the joint between the pieces {k} and {}: both sides have one ray", k + 1),
+        Why::Segment => "all pieces lie on one line and go forwards".to_owned(),
         Why::Jumps(word) => format!("the tangents of joints do not tend to that of ({})", word_text(word)),
     }
 }
@@ -94,7 +95,7 @@ fn statement(basis: &Basis) -> Option<Statement> {
 pub(super) fn argument_statement(why: &Why) -> Statement {
     match why {
         Why::InCone => Statement::ConeEnds,
-        Why::Cones { slow: false } => Statement::Theorem6,
+        Why::Cones { slow: false } | Why::Segment => Statement::Theorem6,
         Why::Cones { slow: true } => Statement::Theorem6Slow,
         Why::Corner(_) => Statement::LowerBounds,
         Why::Spiral(_) | Why::Alternates(_) | Why::Cusp(_) => Statement::Corollary,
@@ -102,16 +103,22 @@ pub(super) fn argument_statement(why: &Why) -> Statement {
     }
 }
 
-fn place(part: &CurvePart) -> String {
-    if part.is_point() {
-        return end_text(&part.from);
-    }
-    format!("({}, {})", end_text(&part.from), end_text(&part.to))
-}
-
 fn rows(m: &Matrix<Poly>, parameter: &str) -> String {
     let row = |i: usize| m.row(i).iter().map(|f| f.display(parameter)).collect::<Vec<_>>().join(", ");
     (0..m.rows()).map(row).collect::<Vec<_>>().join("; ")
+}
+
+/// A table in print.
+pub(super) fn table_block(found: &CurveRegions, table: &CurveTable, parameter: &str) -> Block {
+    let row = |part: &CurvePart| {
+        let mark: Line = vec![Inline::Mark(tone(part.verdict), part.verdict.word().to_owned())];
+        vec![code(place(&part.from, &part.to)), mark, words(because(found, part))]
+    };
+    Block::Table(Table {
+        caption: words(format!("For which {parameter} {}", claim(table.subject))),
+        header: vec![code(parameter), words("verdict"), words("because")],
+        rows: table.parts.iter().map(row).collect(),
+    })
 }
 
 /// All tables as a document.
@@ -126,51 +133,25 @@ pub fn document(case: &CurveFamilyCase, found: &CurveRegions) -> Document {
         facts.push(fact(format!("piece {k}"), format!("{}{turned}", rows(m, p))));
     }
     let mut blocks = vec![Block::Facts(facts)];
-    let mut ends: Vec<&Root> = Vec::new();
     for table in &found.tables {
         blocks.push(Block::Heading(2, words(heading(table.subject))));
-        let row = |part: &CurvePart| {
-            let mark: Line = vec![Inline::Mark(tone(part.verdict), part.verdict.word().to_owned())];
-            vec![code(place(part)), mark, words(because(found, part))]
-        };
-        blocks.push(Block::Table(Table {
-            caption: words(format!("For which {p} {}", claim(table.subject))),
-            header: vec![code(p), words("verdict"), words("because")],
-            rows: table.parts.iter().map(row).collect(),
-        }));
-        for end in table.parts.iter().flat_map(|part| [&part.from, &part.to]) {
-            if end.rational().is_none() && !ends.iter().any(|e| e.same(end)) {
-                ends.push(end);
-            }
-        }
+        blocks.push(table_block(found, table, p));
     }
-    let list: Vec<Line> = ends.iter().filter_map(|e| definition(e, p)).map(words).collect();
-    if !list.is_empty() {
-        blocks.push(Block::Heading(2, words("Ends of intervals")));
-        blocks.push(Block::List(list));
-    }
+    let parts = found.tables.iter().flat_map(|t| &t.parts).map(|part| (&part.from, &part.to));
+    blocks.extend(ends(parts, "Ends of intervals", p));
     Document { title: format!("Regions of {}", case.name), blocks }
+}
+
+/// The statements that are applied.
+pub(super) fn statements(found: &CurveRegions) -> impl Iterator<Item = Statement> {
+    found.tables.iter().flat_map(|t| &t.parts).filter_map(|part| statement(&part.basis))
 }
 
 /// The document with the statements and the picture, for a file.
 #[must_use]
 pub fn report(case: &CurveFamilyCase, found: &CurveRegions) -> Document {
-    let mut document = document(case, found);
-    if let Some((svg, tikz)) = picture(case, found) {
-        let alt = format!("For each claim a bar over the range of {}, coloured by verdict.", case.parameter);
-        let caption = words("Green: proved. Red: refuted. Violet: undetermined. A vertical line is a single point.");
-        document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
-    }
-    let mut own = vec![Statement::FamilyCurves];
-    let all = found.tables.iter().flat_map(|t| &t.parts).filter_map(|part| statement(&part.basis));
-    all.for_each(|s| {
-        if !own.contains(&s) {
-            own.push(s);
-        }
-    });
-    document.blocks.push(Block::Heading(2, words("Statements")));
-    document.blocks.extend(own.into_iter().map(Block::Statement));
-    document
+    let own = iter::once(Statement::FamilyCurves).chain(statements(found));
+    complete(document(case, found), picture(case, found), ("claim", &case.parameter), own)
 }
 
 /// A bar for each claim, as SVG and TikZ.
@@ -183,16 +164,9 @@ pub fn picture(case: &CurveFamilyCase, found: &CurveRegions) -> Option<(String, 
     bar::bars(&case.parameter, &bars)
 }
 
-fn part_data(found: &CurveRegions, part: &CurvePart) -> Value {
-    let mut data = serde_json::Map::new();
-    let both = json!([end_data(&part.from), end_data(&part.to)]);
-    match (part.is_point(), &part.basis) {
-        (true, _) => data.insert("point".to_owned(), end_data(&part.from)),
-        (false, Basis::Gap | Basis::Search) => data.insert("gap".to_owned(), both),
-        (false, _) => data.insert("interval".to_owned(), both),
-    };
-    data.insert("verdict".to_owned(), json!(part.verdict.word()));
-    data.insert("because".to_owned(), json!(because(found, part)));
+fn basis_data(found: &CurveRegions, part: &CurvePart) -> Value {
+    let gap = matches!(part.basis, Basis::Gap | Basis::Search);
+    let mut data = part_data((&part.from, &part.to), gap, part.verdict, because(found, part));
     if let Some(statement) = statement(&part.basis) {
         data.insert("statement".to_owned(), json!(statement.id()));
     }
@@ -202,13 +176,18 @@ fn part_data(found: &CurveRegions, part: &CurvePart) -> Value {
     Value::Object(data)
 }
 
-/// All tables as data.
-#[must_use]
-pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
+/// The tables as data.
+pub(super) fn claims(found: &CurveRegions) -> Value {
     let table = |t: &CurveTable| {
-        let parts: Vec<Value> = t.parts.iter().map(|part| part_data(found, part)).collect();
+        let parts: Vec<Value> = t.parts.iter().map(|part| basis_data(found, part)).collect();
         json!({"claim": id(t.subject), "statement": claim(t.subject), "table": parts})
     };
+    found.tables.iter().map(table).collect()
+}
+
+/// All tables with what they are about, as data.
+#[must_use]
+pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
     let operator = |m: &Matrix<Poly>| -> Vec<Vec<String>> {
         (0..m.rows()).map(|i| m.row(i).iter().map(|f| f.display(&case.parameter)).collect()).collect()
     };
@@ -219,7 +198,7 @@ pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
         "range": [case.range.0.to_string(), case.range.1.to_string()],
         "pieces": case.operators.iter().map(operator).collect::<Vec<_>>(),
         "reversed": case.reversed,
-        "claims": found.tables.iter().map(table).collect::<Vec<_>>(),
+        "claims": claims(found),
         "left_out": [],
     })
 }

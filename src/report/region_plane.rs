@@ -2,7 +2,7 @@
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
 use super::region::tone;
-use super::region_curve::{argument, argument_statement};
+use super::region_curve::{argument, argument_statement, claims, statements, table_block};
 use crate::answer::Verdict;
 use crate::arith::{Rational, to_f64};
 use crate::case::PlaneFamilyCase;
@@ -10,25 +10,26 @@ use crate::picture::plane;
 use crate::radius::Ended;
 use crate::shape::word_text;
 use crate::statement::Statement;
-use crate::theorem::region::{Known, PlaneBox, PlaneRegion};
+use crate::theorem::region::{CurveClaim, CurveTable, Known, LineRegion, PlaneBox, PlaneLine, PlaneRegion, Subject};
 use serde_json::{Value, json};
 
 /// What is claimed.
-const CLAIM: &str = "the system contracts, and the curve is G¹: a tangent at every point, which turns continuously";
-
-fn verdict(known: &Known) -> Verdict {
-    match known {
-        Known::Curve(verdict, _) => *verdict,
-        Known::Expands(_) | Known::Open => Verdict::Undetermined,
-    }
-}
+const CLAIM: &str = "the curve is G¹: a tangent at every point, which turns continuously";
 
 /// What is said of a box, in a word.
 fn word(known: &Known) -> &'static str {
     match known {
         Known::Curve(verdict, _) => verdict.word(),
         Known::Expands(_) => "no contraction",
-        Known::Open => "undetermined",
+        Known::Contracts | Known::Open => "undetermined",
+    }
+}
+
+fn contraction(known: &Known) -> Verdict {
+    match known {
+        Known::Curve(..) | Known::Contracts => Verdict::Proved,
+        Known::Expands(_) => Verdict::Refuted,
+        Known::Open => Verdict::Undetermined,
     }
 }
 
@@ -36,14 +37,15 @@ fn because(known: &Known) -> String {
     match known {
         Known::Curve(_, why) => argument(why),
         Known::Expands(word) => format!("word {}: an eigenvalue outside the unit disc", word_text(word)),
-        Known::Open => "a polynomial changes its sign in the box, or nothing was found".to_owned(),
+        Known::Contracts => "contracts; no argument about G¹ was found that holds on the whole box".to_owned(),
+        Known::Open => "contraction is neither shown nor refuted on the whole box".to_owned(),
     }
 }
 
 fn ended(ended: Ended) -> &'static str {
     match ended {
         Ended::Done => "every box is decided",
-        Ended::Exhausted => "boxes on borders are as small as --effort allows; --effort hard divides them further",
+        Ended::Exhausted => "boxes that are left are as small as --depth allows; a larger one divides them further",
         Ended::Work => "the work set aside is spent; --effort hard divides further",
         Ended::Clock => "the time is over; a larger --time divides further",
     }
@@ -56,7 +58,7 @@ fn shares(found: &PlaneRegion) -> Vec<(String, String, String, Rational)> {
     let mut all: Vec<(String, String, String, Rational)> = Vec::new();
     for b in &found.boxes {
         let (says, why) = (word(&b.known).to_owned(), because(&b.known));
-        let tone = verdict(&b.known).word().to_owned();
+        let tone = b.known.verdict().word().to_owned();
         let own = area(b) / &whole;
         match all.iter_mut().find(|(s, _, w, _)| *s == says && *w == why) {
             Some(row) => row.3 += own,
@@ -99,11 +101,26 @@ pub fn document(case: &PlaneFamilyCase, found: &PlaneRegion) -> Document {
         let list = found.borders.iter().map(|f| code(format!("{} = 0", f.display([p, q]))));
         blocks.push(Block::List(list.collect()));
     }
+    for own in &found.lines {
+        let (runs, other) = along(case, &own.line);
+        blocks.push(Block::Heading(
+            2,
+            words(format!("On the line {other}, {} ≤ {runs} ≤ {}", own.line.range.0, own.line.range.1)),
+        ));
+        let told = |t: &&CurveTable| matches!(t.subject, Subject::Contraction | Subject::Curve(CurveClaim::G1));
+        blocks.extend(own.found.tables.iter().filter(told).map(|t| table_block(&own.found, t, runs)));
+    }
     blocks.push(Block::Paragraph(words(
-        "A box holds its edges. Nothing is said of the boxes that are left, nor on these curves: ask a line through them, with a \
-         value for one parameter. There is no certificate format for regions in the plane.",
+        "What is said of a box is said of all its points, edges and corners among them. Nothing is said of the boxes that are left, but \
+         on the lines above. There is no certificate format for regions in the plane.",
     )));
     Document { title: format!("Regions of {}", case.name), blocks }
+}
+
+/// The parameter that runs along a line, and what the other one is.
+fn along<'a>(case: &'a PlaneFamilyCase, line: &PlaneLine) -> (&'a str, String) {
+    let (runs, other) = (&case.parameters[line.runs], &case.parameters[1 - line.runs]);
+    (runs, format!("{other} = {}", line.other.display(runs)))
 }
 
 /// The document with the statements and the picture, for a file.
@@ -114,13 +131,19 @@ pub fn report(case: &PlaneFamilyCase, found: &PlaneRegion) -> Document {
     let alt = format!("The plane of {} and {}, coloured by verdict.", case.parameters[0], case.parameters[1]);
     let caption = words("Green: proved. Red: refuted. Grey: no contraction. Violet: undetermined.");
     document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
+    let of_box = |b: &PlaneBox| match &b.known {
+        Known::Curve(_, why) => Some(argument_statement(why)),
+        Known::Expands(_) | Known::Contracts | Known::Open => None,
+    };
     let mut own = vec![Statement::FamilyPlane];
-    for b in &found.boxes {
-        let statement = match &b.known {
-            Known::Curve(_, why) => Some(argument_statement(why)),
-            Known::Expands(_) | Known::Open => None,
-        };
-        own.extend(statement.filter(|s| !own.contains(s)));
+    if !found.lines.is_empty() {
+        own.push(Statement::FamilyCurves);
+    }
+    let all = found.boxes.iter().filter_map(of_box).chain(found.lines.iter().flat_map(|l| statements(&l.found)));
+    for statement in all {
+        if !own.contains(&statement) {
+            own.push(statement);
+        }
     }
     document.blocks.push(Block::Heading(2, words("Statements")));
     document.blocks.extend(own.into_iter().map(Block::Statement));
@@ -137,7 +160,7 @@ pub fn picture(case: &PlaneFamilyCase, found: &PlaneRegion) -> (String, String) 
         second: float(&b.area.second),
         class: match &b.known {
             Known::Expands(_) => "outside",
-            known => verdict(known).word(),
+            known => known.verdict().word(),
         },
     };
     let tiles: Vec<plane::Tile> = found.boxes.iter().map(tile).collect();
@@ -152,17 +175,23 @@ pub fn data(case: &PlaneFamilyCase, found: &PlaneRegion) -> Value {
     let entry = |b: &PlaneBox| {
         let mut data = serde_json::Map::new();
         data.insert("box".to_owned(), json!([range(&b.area.first), range(&b.area.second)]));
-        data.insert("verdict".to_owned(), json!(verdict(&b.known).word()));
+        data.insert("verdict".to_owned(), json!(b.known.verdict().word()));
+        data.insert("contraction".to_owned(), json!(contraction(&b.known).word()));
         data.insert("because".to_owned(), json!(because(&b.known)));
         match &b.known {
             Known::Curve(_, why) => data.insert("statement".to_owned(), json!(argument_statement(why).id())),
             Known::Expands(word) => data.insert("expands".to_owned(), json!(word_text(word))),
-            Known::Open => None,
+            Known::Contracts | Known::Open => None,
         };
         Value::Object(data)
     };
     let operator = |m: &crate::linalg::Matrix<crate::poly::Two>| -> Vec<Vec<String>> {
         (0..m.rows()).map(|i| m.row(i).iter().map(|f| f.display([p, q])).collect()).collect()
+    };
+    let line = |own: &LineRegion| {
+        let (runs, other) = along(case, &own.line);
+        json!({"polynomial": own.line.border.display([p, q]), "parameter": runs, "other": other, "range": range(&own.line.range),
+               "claims": claims(&own.found)})
     };
     json!({
         "kind": "region",
@@ -174,6 +203,7 @@ pub fn data(case: &PlaneFamilyCase, found: &PlaneRegion) -> Value {
         "statement": CLAIM,
         "boxes": found.boxes.iter().map(entry).collect::<Vec<_>>(),
         "borders": found.borders.iter().map(|f| f.display([p, q])).collect::<Vec<_>>(),
+        "lines": found.lines.iter().map(line).collect::<Vec<_>>(),
         "ended": ended(found.ended),
     })
 }

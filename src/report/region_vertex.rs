@@ -1,13 +1,14 @@
 //! The answers of `secant region` about vertices of meshes as a document and as data.
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
-use super::region::{definition, end_data, end_text, tone};
-use crate::algebraic::Root;
+use super::region::{complete, ends, part_data, place, tone};
 use crate::case::VertexFamilyCase;
 use crate::picture::bar;
 use crate::statement::Statement;
+use crate::vertex::Ground;
 use crate::vertex::region::{Finding, Gap, Part, VertexRegion};
 use serde_json::{Value, json};
+use std::iter;
 
 /// What a table claims.
 const CLAIM: &str = "the surface is C¹ at the vertex for almost all control points";
@@ -18,21 +19,24 @@ const NO_CERTIFICATE: &str = "There is no certificate format for regions at vert
 
 /// Why, in a few words.
 fn because(finding: Finding) -> String {
-    match finding {
-        Finding::Regular => "the characteristic map is regular and winds once".to_owned(),
-        Finding::Winding(k) => format!("eigenvectors of block {k} lead: the ring winds {k} times"),
-        Finding::Fold => "the characteristic map folds: its Jacobian determinant changes its sign".to_owned(),
-        Finding::Line => "one eigenvector leads, and its function has no zero on the ring".to_owned(),
-        Finding::Path => {
+    let ground = match finding {
+        Finding::By(ground) => ground,
+        Finding::Open(gap) => return open(gap).to_owned(),
+    };
+    match ground {
+        Ground::Regular => "the characteristic map is regular and winds once".to_owned(),
+        Ground::Winding(k) => format!("simple eigenvectors of block {k} lead, and not those of block 1"),
+        Ground::Fold => "the characteristic map folds: its Jacobian determinant changes its sign".to_owned(),
+        Ground::Line => "one eigenvector leads, and its function has no zero on the ring".to_owned(),
+        Ground::Path => {
             "one eigenvector of block 0 leads, and its function has no zero on a closed path around the vertex"
                 .to_owned()
         }
-        Finding::Sectors => {
+        Ground::Sectors => {
             "the two leading eigenvectors are the same in every sector, or in every second one".to_owned()
         }
-        Finding::Span => "the leading eigenvectors span three dimensions or more".to_owned(),
-        Finding::NoLimit => "besides 1 an eigenvalue has modulus 1 or more: the rings do not shrink".to_owned(),
-        Finding::Open(gap) => open(gap).to_owned(),
+        Ground::Span => "the leading eigenvectors span three dimensions or more".to_owned(),
+        Ground::NoLimit => "besides 1 an eigenvalue has modulus 1 or more: the rings do not shrink".to_owned(),
     }
 }
 
@@ -47,13 +51,6 @@ fn open(gap: Gap) -> &'static str {
         Gap::Work => "the work set aside is spent; --effort hard, or --time 600, divides the range further",
         Gap::Clock => "the time is over; a larger --time divides the range further",
     }
-}
-
-fn place(part: &Part) -> String {
-    if part.is_point() {
-        return end_text(&part.from);
-    }
-    format!("({}, {})", end_text(&part.from), end_text(&part.to))
 }
 
 fn weights(case: &VertexFamilyCase) -> String {
@@ -72,30 +69,21 @@ pub fn document(case: &VertexFamilyCase, found: &[VertexRegion]) -> Document {
         facts.insert(1, fact("weights", weights(case)));
     }
     let mut blocks = vec![Block::Facts(facts)];
-    let mut ends: Vec<&Root> = Vec::new();
     for region in found {
         blocks.push(Block::Heading(2, words(format!("Valence {}", region.valence))));
         let row = |part: &Part| {
             let verdict = part.finding.verdict();
             let mark: Line = vec![Inline::Mark(tone(verdict), verdict.word().to_owned())];
-            vec![code(place(part)), mark, words(because(part.finding))]
+            vec![code(place(&part.from, &part.to)), mark, words(because(part.finding))]
         };
         blocks.push(Block::Table(Table {
             caption: words(format!("For which {p} {CLAIM}")),
             header: vec![code(p), words("verdict"), words("because")],
             rows: region.parts.iter().map(row).collect(),
         }));
-        for end in region.parts.iter().flat_map(|part| [&part.from, &part.to]) {
-            if end.rational().is_none() && !ends.iter().any(|e| e.same(end)) {
-                ends.push(end);
-            }
-        }
     }
-    let list: Vec<Line> = ends.iter().filter_map(|e| definition(e, p)).map(words).collect();
-    if !list.is_empty() {
-        blocks.push(Block::Heading(2, words("Ends of intervals")));
-        blocks.push(Block::List(list));
-    }
+    let parts = found.iter().flat_map(|r| &r.parts).map(|part| (&part.from, &part.to));
+    blocks.extend(ends(parts, "Ends of intervals", p));
     blocks.push(Block::Paragraph(words(NO_CERTIFICATE)));
     Document { title: format!("Regions of {}", case.name), blocks }
 }
@@ -103,21 +91,9 @@ pub fn document(case: &VertexFamilyCase, found: &[VertexRegion]) -> Document {
 /// The document with the statements and the picture, for a file.
 #[must_use]
 pub fn report(case: &VertexFamilyCase, found: &[VertexRegion]) -> Document {
-    let mut document = document(case, found);
-    if let Some((svg, tikz)) = picture(case, found) {
-        let alt = format!("For each valence a bar over the range of {}, coloured by verdict.", case.parameter);
-        let caption = words("Green: proved. Red: refuted. Violet: undetermined. A vertical line is a single point.");
-        document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
-    }
-    let mut own = vec![Statement::FamilyVertex];
-    for statement in found.iter().flat_map(|r| &r.parts).filter_map(|part| part.finding.statement()) {
-        if !own.contains(&statement) {
-            own.push(statement);
-        }
-    }
-    document.blocks.push(Block::Heading(2, words("Statements")));
-    document.blocks.extend(own.into_iter().map(Block::Statement));
-    document
+    let parts = found.iter().flat_map(|r| &r.parts);
+    let own = iter::once(Statement::FamilyVertex).chain(parts.filter_map(|part| part.finding.statement()));
+    complete(document(case, found), picture(case, found), ("valence", &case.parameter), own)
 }
 
 /// A bar for each valence, as SVG and TikZ.
@@ -130,16 +106,9 @@ pub fn picture(case: &VertexFamilyCase, found: &[VertexRegion]) -> Option<(Strin
     bar::bars(&case.parameter, &bars)
 }
 
-fn part_data(part: &Part) -> Value {
-    let mut data = serde_json::Map::new();
-    let both = json!([end_data(&part.from), end_data(&part.to)]);
-    match (part.is_point(), part.finding) {
-        (true, _) => data.insert("point".to_owned(), end_data(&part.from)),
-        (false, Finding::Open(_)) => data.insert("gap".to_owned(), both),
-        (false, _) => data.insert("interval".to_owned(), both),
-    };
-    data.insert("verdict".to_owned(), json!(part.finding.verdict().word()));
-    data.insert("because".to_owned(), json!(because(part.finding)));
+fn finding_data(part: &Part) -> Value {
+    let gap = matches!(part.finding, Finding::Open(_));
+    let mut data = part_data((&part.from, &part.to), gap, part.finding.verdict(), because(part.finding));
     if let Some(statement) = part.finding.statement() {
         data.insert("statement".to_owned(), json!(statement.id()));
     }
@@ -150,7 +119,7 @@ fn part_data(part: &Part) -> Value {
 #[must_use]
 pub fn data(case: &VertexFamilyCase, found: &[VertexRegion]) -> Value {
     let table = |r: &VertexRegion| {
-        let parts: Vec<Value> = r.parts.iter().map(part_data).collect();
+        let parts: Vec<Value> = r.parts.iter().map(finding_data).collect();
         json!({"valence": r.valence, "statement": CLAIM, "table": parts})
     };
     let weights: serde_json::Map<String, Value> = case.weights.iter().map(|(k, f)| (k.clone(), json!(f))).collect();

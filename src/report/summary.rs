@@ -77,8 +77,16 @@ pub fn brief<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requi
     Document { title: case.name.clone(), blocks }
 }
 
-/// The mask that was understood.
+/// The mask that was understood, or the symmetries.
 pub(super) fn mask_line<E>(case: &Case<E>) -> Option<Line> {
+    if let Some(Origin::Symmetric { maps, group }) = &case.scheme {
+        let listed = super::words::listed(&maps.iter().map(ToString::to_string).collect::<Vec<_>>());
+        let pieces = count(case.shape.states[case.shape.start].pieces.len(), "map");
+        return Some(words(format!(
+            "symmetries: some power of map {listed} is the identity; the set is that of the {pieces} g f, g one of the {group} products \
+             of these, f another map"
+        )));
+    }
     let mask = case.mask()?;
     let arity = if mask.arity() == 2 { String::new() } else { format!(" of arity {}", mask.arity()) };
     let mut out = line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]);
@@ -111,14 +119,24 @@ fn points_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Blo
         return None;
     }
     let row = |point: &PointReport<E>| {
-        let parameter = point.branches.first().and_then(|b| parameter(&case.shape, &b.address));
+        // Where the curve pauses the branches of a point have different parameters.
+        let mut parameters: Vec<_> = point.branches.iter().filter_map(|b| parameter(&case.shape, &b.address)).collect();
+        parameters.sort();
+        parameters.dedup();
+        let mut shown = if parameters.is_empty() { words("–") } else { Line::new() };
+        for (k, t) in parameters.iter().enumerate() {
+            if k > 0 {
+                shown.extend(words(", "));
+            }
+            shown.extend(formula(Math::number(t)));
+        }
         let decimals = point
             .tangent
             .as_ref()
             .map_or_else(|| words("–"), |d| vec![Inline::Math(decimals_math(&direction_decimals(d)))]);
         vec![
             code(addresses(point).join(" = ")),
-            parameter.map_or_else(|| words("–"), |t| formula(Math::number(&t))),
+            shown,
             vec![Inline::Mark(tone(point.verdict), point.kind.word().to_owned())],
             point.tangent.as_ref().map_or_else(|| words("–"), direction),
             decimals,
@@ -142,12 +160,7 @@ pub fn overall_line<E: Reported>(found: &Certified<E>, required: &Required) -> L
         (!labels.is_empty()).then(|| listed(&labels))
     };
     let verdict = required.verdict(&found.claims);
-    let deciding: Vec<String> = found
-        .claims
-        .iter()
-        .filter(|c| c.verdict() == verdict && required.counts(c))
-        .map(|c| claims::label(&c.what))
-        .collect();
+    let deciding: Vec<String> = required.deciding(&found.claims).into_iter().map(|c| claims::label(&c.what)).collect();
     let mut out = vec![mark(verdict)];
     out.extend(words(match (verdict, deciding.as_slice()) {
         (_, []) => ", as what is required is not claimed of this shape.".to_owned(),

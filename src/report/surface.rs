@@ -163,6 +163,9 @@ pub fn summary(surface: &Surface, verbose: bool) -> Vec<Block> {
         }
         if let Some(space) = point.tangent.as_ref().filter(|s| !s.generators.is_empty()) {
             facts.push((tangent_name(space).to_owned(), span(space)));
+            if let Some(normal) = space.normal() {
+                facts.push(("normal".to_owned(), vec![Inline::Math(Math::vector(&normal))]));
+            }
         }
         let mut shown: Vec<&SurfaceBranch> = Vec::new();
         for branch in &point.branches {

@@ -99,10 +99,10 @@ fn shown(found: &AtValence) -> Line {
 
 /// What an irrational eigenvalue is exactly: the root of an equation, whose coefficients may be in Q(c).
 fn exact(found: &AtValence) -> Option<String> {
-    found.top.as_ref().filter(|top| top.rational.is_none())?;
+    let top = found.top.as_ref().filter(|top| top.rational.is_none())?;
     let text = equation(found)?;
-    let angle = found.frequency.map_or_else(|| "2kπ/n".to_owned(), |k| format!("{}π/n", 2 * k));
-    let with_cosine = found.top.as_ref()?.poly.iter().any(|p| p.degree().is_some_and(|d| d > 0));
+    let angle = format!("{}π/n", 2 * top.angle);
+    let with_cosine = top.poly.iter().any(|p| p.degree().is_some_and(|d| d > 0));
     Some(if with_cosine { format!("{text} = 0, c = cos({angle})") } else { format!("{text} = 0") })
 }
 
@@ -167,6 +167,7 @@ pub(super) fn summary_by_valence(case: &VertexCase, found: &[AtValence], every: 
     if !found.is_empty() {
         blocks.push(Block::Table(table(case, found)));
     }
+    blocks.extend(super::curvature::table(found).map(Block::Table));
     let equations = equations(found);
     if !equations.is_empty() {
         blocks.push(Block::List(equations));
@@ -423,6 +424,7 @@ fn valence_json(case: &VertexCase, f: &AtValence) -> Value {
             "negative": place(&s.negative),
             "zero": place(&s.zero),
         })),
+        "curvature": f.curvature.as_ref().map(super::curvature::data),
         "checked": f.again == Again::Proved,
     })
 }

@@ -42,6 +42,14 @@ pub enum SchemeError {
         /// Their sum.
         sum: Rational,
     },
+    /// Points on too few rings around a vertex depend on points farther out.
+    #[error("{rule}: {rings} ring(s) do not determine their successors; take {}", rings + 1)]
+    Rings {
+        /// The rule.
+        rule: &'static str,
+        /// The rings.
+        rings: usize,
+    },
     /// The eigenvalues of a rule around a vertex are not real.
     #[error("{rule}: the weights have no mirror symmetry, and the eigenvalues are not real")]
     Asymmetric {

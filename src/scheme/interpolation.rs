@@ -3,7 +3,7 @@
 use super::SchemeError;
 use crate::arith::{Rational, abs};
 use crate::linalg::Matrix;
-use crate::shape::{CellKind, Frame, Shape};
+use crate::shape::{Boundary, CellKind, Complex, End, Frame, Piece, Shape, State};
 
 /// Most coordinates of a shape that interpolates: the powers of the abscissa and the values.
 pub const MAX_INTERPOLATION: usize = 16;
@@ -181,6 +181,24 @@ impl Interpolation {
         Ok(shape)
     }
 
+    /// [`Interpolation::shape`] with its end points as vertices of one point, as a side of a tensor product needs them.
+    ///
+    /// # Errors
+    /// As [`Interpolation::shape`].
+    pub fn with_vertices(&self) -> Result<Shape, SchemeError> {
+        let mut shape = self.shape()?;
+        let ends = [End::Start, End::Finish].map(|end| shape.end_point(0, end));
+        let [Some(start), Some(finish)] = ends else {
+            return Err(SchemeError::Divergent("an end is not one point".to_owned()));
+        };
+        let boundary = |x: Vec<Rational>| Some(Boundary { vertex: 1, op: Matrix::from_columns(x.len(), &[x]) });
+        (shape.states[0].left, shape.states[0].right) = (boundary(start), boundary(finish));
+        let pieces = vec![Piece { target: 1, op: Matrix::identity(1), reversed: false, share: None }];
+        let name = "v".to_owned();
+        shape.states.push(State { name, kind: CellKind::Vertex, dim: 1, pieces, left: None, right: None });
+        Ok(shape)
+    }
+
     /// Affine maps of `(x, y)`.
     fn affine_maps(&self) -> (Shape, Vec<Rational>) {
         let (dim, shares) = (self.values[0].len(), self.shares());
@@ -236,6 +254,40 @@ impl Interpolation {
         }));
         (shape, shares)
     }
+}
+
+/// The surface `(x, y, f(x) g(y))` over the product of two intervals, of two functions with one value each: the tensor product of
+/// their graphs, seen through the coordinates `x`, `y` and the product of the values.
+///
+/// # Errors
+/// [`SchemeError::Value`] where a function has several values, and as [`Interpolation::shape`].
+///
+/// ```
+/// use secant::{arith::ratio, linalg::Matrix, scheme::{Interpolation, product_surface}};
+/// let points = [[0, 0], [1, 1], [2, 0]].map(|p| p.map(|x| ratio(x, 1)).to_vec());
+/// let half = Matrix::from_rows(1, vec![vec![ratio(1, 2)]]);
+/// let takagi = Interpolation::affine(&points, vec![half.clone(), half])?;
+/// let surface = product_surface(&takagi, &takagi)?;
+/// assert_eq!((surface.shape.states[0].dim, surface.shape.control.unwrap().rows()), (9, 3));
+/// # Ok::<(), secant::scheme::SchemeError>(())
+/// ```
+pub fn product_surface(first: &Interpolation, second: &Interpolation) -> Result<Complex, SchemeError> {
+    let (a, b) = (first.with_vertices()?, second.with_vertices()?);
+    let (Some(p), Some(q)) = (&a.control, &b.control) else {
+        return Err(SchemeError::value("tensor", &"a graph", "coordinates of its points are needed"));
+    };
+    if let Some(more) = [p, q].into_iter().find(|m| m.rows() != 2) {
+        let expected = "functions of one value are multiplied";
+        return Err(SchemeError::value("tensor", &format!("{} values", more.rows() - 1), expected));
+    }
+    let ones = |n: usize| Matrix::from_rows(n, vec![vec![Rational::from(1); n]]);
+    let row = |m: &Matrix, i: usize| Matrix::from_rows(m.cols(), vec![m.row(i).to_vec()]);
+    let x = super::tensor::kronecker(&row(p, 0), &ones(q.cols()));
+    let y = super::tensor::kronecker(&ones(p.cols()), &row(q, 0));
+    let z = super::tensor::kronecker(&row(p, 1), &row(q, 1));
+    let mut complex = super::tensor::tensor(&a, &b)?;
+    complex.shape.control = Some(x.stack(&y).stack(&z));
+    Ok(complex)
 }
 
 /// What Theorem 10 compares in one order `k`.

@@ -4,7 +4,7 @@ use crate::arith::Rational;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A control point as a combination of earlier ones.
-pub(super) type Row = BTreeMap<usize, Rational>;
+pub(super) type Row<W = Rational> = BTreeMap<usize, W>;
 
 /// What the points of a local mesh lie around.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

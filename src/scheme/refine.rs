@@ -4,11 +4,12 @@ use super::SchemeError;
 use super::mesh::{Centre, Mesh, Row};
 use super::rule::{Corners, Edge, MeshRule, Split};
 use crate::arith::{Rational, ratio};
+use crate::poly::Poly;
 use std::collections::BTreeMap;
 
 /// A point of the refined mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Key {
+pub(super) enum Key {
     Vertex(usize),
     Edge(usize, usize),
     Face(usize),
@@ -16,17 +17,17 @@ enum Key {
 }
 
 /// A refined mesh, its centre, and its points in terms of the old ones.
-pub(super) struct Refined {
+pub(super) struct Refined<W = Rational> {
     pub mesh: Mesh,
     pub centre: Centre,
-    pub rows: Vec<Row>,
+    pub rows: Vec<Row<W>>,
 }
 
 fn count(n: usize) -> Rational {
     Rational::from(n as u64)
 }
 
-fn edge(a: usize, b: usize) -> Key {
+pub(super) fn edge(a: usize, b: usize) -> Key {
     Key::Edge(a.min(b), a.max(b))
 }
 
@@ -42,63 +43,115 @@ fn mean(vertices: &[usize]) -> Row {
     row
 }
 
+impl Refined<Poly> {
+    /// The same with rational weights; `None` where they are not.
+    fn rational(self) -> Option<Refined> {
+        let number = |(v, w): (usize, Poly)| w.degree().is_none_or(|d| d == 0).then(|| (v, w.coeff(0)));
+        let row = |row: Row<Poly>| row.into_iter().map(number).collect::<Option<Row>>();
+        let rows = self.rows.into_iter().map(row).collect::<Option<_>>()?;
+        Some(Refined { mesh: self.mesh, centre: self.centre, rows })
+    }
+}
+
 impl MeshRule {
     /// One step; `turn` counts the steps, so that two of a turning scheme end in the old directions.
     pub(super) fn refine(&self, mesh: &Mesh, centre: Centre, turn: usize) -> Result<Refined, SchemeError> {
+        if let Some(own) = self.own() {
+            let valence = if let Centre::Vertex(v, _) = centre { mesh.star(v, None).map_or(0, |s| s.len()) } else { 0 };
+            let rational = self.refine_own(own, mesh, centre, turn)?.rational();
+            return rational.ok_or_else(|| self.irrational(valence));
+        }
         let mut draft = Draft { rows: BTreeMap::new(), faces: Vec::new() };
-        let fresh = match (self.info().split, centre) {
-            (Split::Corners, Centre::Face(f, first)) => {
-                self.shrink(mesh, f, &mut draft)?;
-                (Key::Face(f), Key::Corner(f, first))
+        match (self.info().split, centre) {
+            (Split::Corners, Centre::Face(f, _)) => self.shrink(mesh, f, &mut draft)?,
+            (_, Centre::Vertex(v, _)) => {
+                self.divided(mesh, &mut draft)?;
+                self.points(mesh, v, &mut draft)?;
             }
-            (Split::Corners, Centre::Vertex(..)) | (_, Centre::Face(..) | Centre::Edge(..) | Centre::Across(..)) => {
-                return Err(self.error("the centre must be a face for a dual scheme and a vertex for the others"));
-            }
-            (Split::TurnedTriangles | Split::TurnedQuads, Centre::Vertex(v, first)) => {
-                self.turned(mesh, v, &mut draft)?;
-                let side = if turn.is_multiple_of(2) { mesh.left(v, first) } else { mesh.left(first, v) };
-                (Key::Vertex(v), Key::Face(side.ok_or_else(|| self.error("the mesh is too small"))?))
-            }
-            (Split::Quads | Split::Triangles | Split::Averaged, Centre::Vertex(v, first)) => {
-                self.split(mesh, v, &mut draft)?;
-                (Key::Vertex(v), edge(v, first))
-            }
-        };
+            _ => {}
+        }
         let too_small = || self.error("the mesh is too small");
-        draft.finish(fresh).ok_or_else(too_small)
+        draft.finish(self.fresh(mesh, centre, turn)?).ok_or_else(too_small)
     }
 
-    /// Schemes that keep vertices and edges and divide every face in four.
-    fn split(&self, mesh: &Mesh, centre: usize, draft: &mut Draft) -> Result<(), SchemeError> {
-        let (quads, triangles) = (self.info().split == Split::Quads, self.info().split == Split::Triangles);
+    /// The centre of the refined mesh, and the point with which its order begins.
+    pub(super) fn fresh(&self, mesh: &Mesh, centre: Centre, turn: usize) -> Result<(Key, Key), SchemeError> {
+        match (self.info().split, centre) {
+            (Split::Corners, Centre::Face(f, first)) => Ok((Key::Face(f), Key::Corner(f, first))),
+            (Split::Corners, Centre::Vertex(..)) | (_, Centre::Face(..) | Centre::Edge(..) | Centre::Across(..)) => {
+                Err(self.error("the centre must be a face for a dual scheme and a vertex for the others"))
+            }
+            (Split::TurnedTriangles | Split::TurnedQuads, Centre::Vertex(v, first)) => {
+                let side = if turn.is_multiple_of(2) { mesh.left(v, first) } else { mesh.left(first, v) };
+                Ok((Key::Vertex(v), Key::Face(side.ok_or_else(|| self.error("the mesh is too small"))?)))
+            }
+            (Split::Quads | Split::Triangles | Split::Averaged, Centre::Vertex(v, first)) => {
+                Ok((Key::Vertex(v), edge(v, first)))
+            }
+        }
+    }
+
+    /// The faces of the refined mesh, for schemes that keep the vertices.
+    pub(super) fn divided<W>(&self, mesh: &Mesh, draft: &mut Draft<W>) -> Result<(), SchemeError> {
+        let split = self.info().split;
+        let turned = matches!(split, Split::TurnedTriangles | Split::TurnedQuads);
+        let (quads, triangles) = (
+            matches!(split, Split::Quads | Split::TurnedQuads),
+            matches!(split, Split::Triangles | Split::TurnedTriangles),
+        );
         for (f, face) in mesh.faces.iter().enumerate() {
             match *face.as_slice() {
                 [a, b, c, d] if !triangles => {
-                    draft.rows.insert(Key::Face(f), mean(face));
-                    for (before, at, after) in [(d, a, b), (a, b, c), (b, c, d), (c, d, a)] {
+                    for (before, at, after) in
+                        [(d, a, b), (a, b, c), (b, c, d), (c, d, a)].into_iter().filter(|_| !turned)
+                    {
                         draft.faces.push(vec![Key::Vertex(at), edge(at, after), Key::Face(f), edge(before, at)]);
                     }
                 }
                 [a, b, c] if !quads => {
-                    for (before, at, after) in [(c, a, b), (a, b, c), (b, c, a)] {
+                    for (before, at, after) in [(c, a, b), (a, b, c), (b, c, a)].into_iter().filter(|_| !turned) {
                         draft.faces.push(vec![Key::Vertex(at), edge(at, after), edge(before, at)]);
                     }
-                    draft.faces.push(vec![edge(a, b), edge(b, c), edge(c, a)]);
+                    draft.faces.extend((!turned).then(|| vec![edge(a, b), edge(b, c), edge(c, a)]));
                 }
                 _ => return Err(self.error("the mesh has a face with a number of sides that the rule does not divide")),
             }
         }
-        if self.info().split == Split::Averaged {
+        for (a, b) in mesh.inner_edges().filter(|_| turned) {
+            let (Some(left), Some(right)) = (mesh.left(a, b), mesh.left(b, a)) else { continue };
+            let (left, right) = (Key::Face(left), Key::Face(right));
+            if quads {
+                draft.faces.push(vec![Key::Vertex(a), right, Key::Vertex(b), left]);
+            } else {
+                draft.faces.push(vec![Key::Vertex(a), right, left]);
+                draft.faces.push(vec![right, Key::Vertex(b), left]);
+            }
+        }
+        Ok(())
+    }
+
+    /// The new points of schemes that keep the vertices.
+    fn points(&self, mesh: &Mesh, centre: usize, draft: &mut Draft) -> Result<(), SchemeError> {
+        let split = self.info().split;
+        if split == Split::Averaged {
+            for (f, face) in mesh.faces.iter().enumerate().filter(|(_, face)| face.len() == 4) {
+                draft.rows.insert(Key::Face(f), mean(face));
+            }
             return self.average(mesh, draft);
+        }
+        if split != Split::Triangles {
+            draft.rows.extend(mesh.faces.iter().enumerate().map(|(f, face)| (Key::Face(f), mean(face))));
         }
         for v in mesh.vertices() {
             if let Some(row) = self.vertex_row(mesh, v, v == centre)? {
                 draft.rows.insert(Key::Vertex(v), row);
             }
         }
-        for (a, b) in mesh.inner_edges() {
-            if let Some(row) = self.edge_row(mesh, a, b, centre)? {
-                draft.rows.insert(edge(a, b), row);
+        if matches!(split, Split::Quads | Split::Triangles) {
+            for (a, b) in mesh.inner_edges() {
+                if let Some(row) = self.edge_row(mesh, a, b, centre)? {
+                    draft.rows.insert(edge(a, b), row);
+                }
             }
         }
         Ok(())
@@ -179,33 +232,6 @@ impl MeshRule {
         Ok(())
     }
 
-    /// Schemes that put a point into every face and join it across the edges.
-    fn turned(&self, mesh: &Mesh, centre: usize, draft: &mut Draft) -> Result<(), SchemeError> {
-        let size = if self.info().split == Split::TurnedQuads { 4 } else { 3 };
-        for (f, face) in mesh.faces.iter().enumerate() {
-            if face.len() != size {
-                return Err(self.error("the mesh has a face with a number of sides that the rule does not divide"));
-            }
-            draft.rows.insert(Key::Face(f), mean(face));
-        }
-        for v in mesh.vertices() {
-            if let Some(row) = self.vertex_row(mesh, v, v == centre)? {
-                draft.rows.insert(Key::Vertex(v), row);
-            }
-        }
-        for (a, b) in mesh.inner_edges() {
-            let (Some(left), Some(right)) = (mesh.left(a, b), mesh.left(b, a)) else { continue };
-            let (left, right) = (Key::Face(left), Key::Face(right));
-            if size == 4 {
-                draft.faces.push(vec![Key::Vertex(a), right, Key::Vertex(b), left]);
-            } else {
-                draft.faces.push(vec![Key::Vertex(a), right, left]);
-                draft.faces.push(vec![right, Key::Vertex(b), left]);
-            }
-        }
-        Ok(())
-    }
-
     /// Dual schemes: a smaller copy of every face, joined across edges and vertices.
     fn shrink(&self, mesh: &Mesh, centre: usize, draft: &mut Draft) -> Result<(), SchemeError> {
         for (f, face) in mesh.faces.iter().enumerate() {
@@ -266,14 +292,14 @@ fn regular_edge(weights: &Edge, mesh: &Mesh, a: usize, b: usize) -> Option<Row> 
 }
 
 /// A refined mesh while it is built.
-struct Draft {
-    rows: BTreeMap<Key, Row>,
-    faces: Vec<Vec<Key>>,
+pub(super) struct Draft<W = Rational> {
+    pub rows: BTreeMap<Key, Row<W>>,
+    pub faces: Vec<Vec<Key>>,
 }
 
-impl Draft {
+impl<W> Draft<W> {
     /// Keeps the faces all of whose points are known. The centre is a face where its key is one and no vertex has it.
-    fn finish(self, (centre, first): (Key, Key)) -> Option<Refined> {
+    pub fn finish(self, (centre, first): (Key, Key)) -> Option<Refined<W>> {
         let keys: Vec<Key> = self.rows.keys().copied().collect();
         let number = |key: &Key| keys.binary_search(key).ok();
         let faces: Vec<Vec<usize>> = self.faces.iter().filter_map(|f| f.iter().map(number).collect()).collect();

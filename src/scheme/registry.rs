@@ -56,6 +56,10 @@ struct Family {
 pub(super) struct Values(BTreeMap<&'static str, Rational>);
 
 impl Values {
+    pub(super) fn none() -> Self {
+        Self(BTreeMap::new())
+    }
+
     pub(super) fn number(&self, name: &str) -> &Rational {
         &self.0[name]
     }

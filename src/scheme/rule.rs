@@ -5,9 +5,11 @@
 
 use super::SchemeError;
 use super::mesh::Sector;
+use super::own::OwnRule;
 use super::registry::{Parameter, Values};
 use crate::arith::{Rational, ratio};
 use crate::poly::Poly;
+use std::sync::Arc;
 
 /// How a step divides the faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -182,7 +184,7 @@ pub(crate) enum Corners {
 }
 
 /// How faces are divided, and the weights of new points at vertices, on edges and in corners where all is regular.
-pub(crate) type Lattice = (Split, Option<Star>, Option<Edge>, Option<Corners>);
+pub(crate) type Lattice = (Split, Option<Star>, Option<Edge>, Option<Corners>, Option<OwnRule>);
 
 pub(super) type StarOf = fn(&Values, usize) -> Star;
 pub(super) type WheelOf = fn(&Values, usize) -> Wheel;
@@ -196,6 +198,8 @@ pub(super) enum Points {
     Corners { wheel: WheelOf, centre: Option<WheelOf> },
     /// Of [`Split::Averaged`].
     Averaged,
+    /// Given by stencils beside the row.
+    Own,
 }
 
 /// The characteristic map at all valences: a parameter that covers `t = 2cos(2π/n)` of every valence from some valence on
@@ -284,11 +288,13 @@ pub struct MeshRule {
     info: &'static RuleInfo,
     given: Values,
     centre: Centre,
+    own: Option<Arc<OwnRule>>,
 }
 
 impl PartialEq for MeshRule {
     fn eq(&self, other: &Self) -> bool {
-        (self.info.name, &self.given, &self.centre) == (other.info.name, &other.given, &other.centre)
+        let parts = |r: &Self| (r.info.name, r.given.clone(), r.centre.clone(), r.own.clone());
+        parts(self) == parts(other)
     }
 }
 
@@ -297,7 +303,28 @@ impl Eq for MeshRule {}
 impl MeshRule {
     pub(super) fn new(info: &'static RuleInfo, given: Values) -> Result<Self, SchemeError> {
         (info.check)(&given)?;
-        Ok(Self { info, given, centre: Centre::Row })
+        Ok(Self { info, given, centre: Centre::Row, own: None })
+    }
+
+    /// A rule by stencils of one's own.
+    ///
+    /// # Errors
+    /// [`SchemeError::Mesh`] where a stencil is missing or its weights do not add up to 1. Those of the centre are looked at for
+    /// each valence ([`MeshRule::check_at`]).
+    pub fn of_stencils(own: OwnRule) -> Result<Self, SchemeError> {
+        let info = own.row()?;
+        Ok(Self { info, given: Values::none(), centre: Centre::Row, own: Some(Arc::new(own)) })
+    }
+
+    pub(super) fn own_stencils(&self) -> Option<&Arc<OwnRule>> {
+        self.own.as_ref()
+    }
+
+    /// The least distance from the centre, in faces of the mesh, from which on the rule is its spline: 1, or 2 where points on the
+    /// edges or in the faces at the centre have stencils of their own.
+    #[must_use]
+    pub fn regular_from(&self) -> i64 {
+        if self.own.as_ref().is_some_and(|own| own.widened()) { 2 } else { 1 }
     }
 
     /// The row of the table.
@@ -316,6 +343,9 @@ impl MeshRule {
     /// The weights that the rule was given, by the names of the parameters; none of a rule with fixed weights.
     #[must_use]
     pub fn weights(&self) -> Vec<(&'static str, String)> {
+        if let Some(own) = &self.own {
+            return vec![("stencils", own.describe())];
+        }
         if let (Centre::List(list), Some(name)) = (&self.centre, self.info.list) {
             return vec![(name, list.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "))];
         }
@@ -362,14 +392,16 @@ impl MeshRule {
 
     /// The rule of all places but the centre.
     pub(crate) fn regular(&self) -> Self {
-        Self { centre: Centre::Usual, ..self.clone() }
+        let own = self.own.as_ref().map(|own| Arc::new(own.without_centre()));
+        Self { centre: Centre::Usual, own, ..self.clone() }
     }
 
     /// What the rule does away from the centre: rules that agree in this have the same regular meshes.
     pub(crate) fn lattice(&self) -> Lattice {
         let regular = self.regular();
         let n = self.regular_valence();
-        (self.info.split, regular.star(n, false), regular.edge(), regular.corners(n, false))
+        let own = self.own.as_ref().map(|own| own.without_centre());
+        (self.info.split, regular.star(n, false), regular.edge(), regular.corners(n, false), own)
     }
 
     fn regular_valence(&self) -> usize {
@@ -392,12 +424,22 @@ impl MeshRule {
             Points::Kept { centre, spokes, .. } => centre.is_some() || spokes.is_some(),
             Points::Corners { centre, .. } => centre.is_some(),
             Points::Averaged => false,
+            Points::Own => true,
         };
         match self.centre {
             Centre::Row => own,
             Centre::Usual => false,
             Centre::Near(_) | Centre::List(_) => true,
         }
+    }
+
+    /// Whether all is regular at a centre of a valence.
+    pub(crate) fn regular_at(&self, n: usize) -> bool {
+        let own = match &self.own {
+            Some(own) => own.has_centre(n),
+            None => self.own_weights(),
+        };
+        n == self.regular_valence() && !own
     }
 
     /// The weights of the new point at a vertex of `n` faces; `None` where a row has none.
@@ -414,7 +456,7 @@ impl MeshRule {
     pub(crate) fn edge(&self) -> Option<Edge> {
         match self.info.points {
             Points::Kept { edge, .. } => edge.map(|edge| edge(&self.given)),
-            Points::Corners { .. } | Points::Averaged => None,
+            Points::Corners { .. } | Points::Averaged | Points::Own => None,
         }
     }
 
@@ -434,8 +476,14 @@ impl MeshRule {
         })
     }
 
-    /// Whether the weights of the corners of the central face add up to 1 at a valence.
-    pub(crate) fn check_at(&self, n: usize) -> Result<(), SchemeError> {
+    /// Whether the weights at the centre add up to 1 at a valence, and stencils of one's own are symmetric there.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn check_at(&self, n: usize) -> Result<(), SchemeError> {
+        if let Some(own) = &self.own {
+            return own.elements().iter().try_for_each(|element| own.central(*element, n).map(|_| ()));
+        }
         match self.corners(n, true) {
             Some(Corners::Wheel(wheel)) if wheel.total() != 1 => {
                 let expected = "weights of a frequency that is a multiple of the valence do not add up to 1";

@@ -244,6 +244,25 @@ const SQRT3: RuleInfo = RuleInfo {
     ..BLANK
 };
 
+/// Rows of rules by stencils, which have no name in the table.
+const OWN: RuleInfo =
+    RuleInfo { name: "own", family: "own", points: Points::Own, summary: "stencils of one's own", ..BLANK };
+
+const OWN_ROWS: [RuleInfo; 6] = [
+    OWN,
+    RuleInfo { spline: Some(Spline::Bicubic), ..OWN },
+    RuleInfo { split: Split::Triangles, ..OWN },
+    RuleInfo { split: Split::Triangles, spline: Some(Spline::Quartic), ..OWN },
+    RuleInfo { split: Split::TurnedQuads, ..OWN },
+    RuleInfo { split: Split::TurnedTriangles, ..OWN },
+];
+
+/// The row of a rule by stencils.
+pub(super) fn own_row(split: Split, spline: Option<Spline>) -> &'static RuleInfo {
+    static ROWS: [RuleInfo; 6] = OWN_ROWS;
+    ROWS.iter().find(|r| r.split == split && r.spline == spline).unwrap_or(&ROWS[0])
+}
+
 fn poly(coefficients: &[(i64, i64)]) -> Poly {
     Poly::new(coefficients.iter().map(|(p, q)| ratio(*p, *q)).collect())
 }

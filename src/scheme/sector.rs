@@ -4,27 +4,74 @@
 //! next one. A rule that looks the same from every sector is known when the new points of sector 0 are.
 
 use super::mesh::{Centre, Mesh, Row, Sector};
+use super::refine::Refined;
 use super::{MeshRule, SchemeError};
+use crate::algebraic::field::cosine_polynomial;
 use crate::arith::Rational;
+use crate::poly::Poly;
 use std::collections::BTreeMap;
 
 /// A place in the lattice of a sector.
 pub type Place = (usize, usize);
 
 /// A weight of an old point: its orbit, how many sectors it lies ahead, and the weight.
-pub type Weight = (usize, i64, Rational);
+pub type Weight<W = Rational> = (usize, i64, W);
+
+/// What weights of stencils offer: rational numbers, and polynomials in `2cos(2π/n)`.
+pub(super) trait Number: Clone {
+    fn zero() -> Self;
+    fn is_zero(&self) -> bool;
+    fn plus(&self, other: &Self) -> Self;
+    fn times(&self, other: &Self) -> Self;
+}
+
+impl Number for Rational {
+    fn zero() -> Self {
+        Self::from(0)
+    }
+
+    fn is_zero(&self) -> bool {
+        *self == 0
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+impl Number for Poly {
+    fn zero() -> Self {
+        Self::zero()
+    }
+
+    fn is_zero(&self) -> bool {
+        Self::is_zero(self)
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        self + other
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        self * other
+    }
+}
 
 /// The new points of one sector in terms of old ones.
 #[derive(Debug, Clone)]
-pub struct SectorStencils {
+pub struct SectorStencils<W = Rational> {
     /// The places of the points of a sector, one for each orbit of the rotation.
     pub places: Vec<Place>,
     /// The weights of each new point of sector 0, apart from that of the centre.
-    pub rows: Vec<Vec<Weight>>,
+    pub rows: Vec<Vec<Weight<W>>>,
     /// The weight of the centre in each of them (dual schemes have no central point).
-    pub from_centre: Vec<Rational>,
+    pub from_centre: Vec<W>,
     /// The weight of the old centre in the new one, and the weight of a whole orbit; `None` for dual schemes.
-    pub centre: Option<(Rational, Vec<Rational>)>,
+    pub centre: Option<(W, Vec<W>)>,
     /// The faces of a sector.
     pub sector: Sector,
     /// Steps of the scheme that the stencils stand for.
@@ -36,27 +83,61 @@ pub struct SectorStencils {
 /// # Errors
 /// As for [`super::local_matrix`].
 pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<SectorStencils, SchemeError> {
+    gathered(rule, valence, rings, |mesh, centre, turn| rule.refine(mesh, centre, turn))
+}
+
+/// The same of a rule by stencils of one's own, with weights that are polynomials in `2cos(2π/n)`; `None` for other rules.
+///
+/// # Errors
+/// As for [`sector_stencils`].
+pub fn cosine_stencils(
+    rule: &MeshRule,
+    valence: usize,
+    rings: usize,
+) -> Result<Option<SectorStencils<Poly>>, SchemeError> {
+    let Some(own) = rule.own() else { return Ok(None) };
+    let mut found = gathered(rule, valence, rings, |mesh, centre, turn| rule.refine_own(own, mesh, centre, turn))?;
+    let modulus = cosine_polynomial(valence);
+    let reduce = |w: &mut Poly| *w = w.div_rem(&modulus).1;
+    found.rows.iter_mut().flatten().for_each(|(_, _, w)| reduce(w));
+    found.from_centre.iter_mut().for_each(reduce);
+    if let Some((own, sums)) = &mut found.centre {
+        reduce(own);
+        sums.iter_mut().for_each(reduce);
+    }
+    Ok(Some(found))
+}
+
+fn gathered<W: Number>(
+    rule: &MeshRule,
+    valence: usize,
+    rings: usize,
+    refine: impl Fn(&Mesh, Centre, usize) -> Result<Refined<W>, SchemeError>,
+) -> Result<SectorStencils<W>, SchemeError> {
     let sector = rule.sector();
     if valence > super::MAX_VALENCE {
         return Err(SchemeError::Large { what: "valence", size: valence, limit: super::MAX_VALENCE });
     }
-    if valence < 3 {
-        return Err(SchemeError::value("valence", &valence, "a vertex inside a mesh has at least 3 neighbours"));
+    // Two triangles, or two corners of a face, have both their edges in common: no mesh tells these apart.
+    let least = if sector == Sector::Quads && !rule.dual() { 2 } else { 3 };
+    if valence < least {
+        let expected = format!("this rule has a meaning from valence {least} on");
+        return Err(SchemeError::value("valence", &valence, &expected));
     }
     let too_small = || SchemeError::Mesh { rule: rule.name().to_owned(), message: "the mesh is too small".to_owned() };
     let disc = Mesh::disc(&vec![sector; valence], rings + 3);
     let (mesh, centre) =
         if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
-    let mut current = rule.refine(&mesh, centre, 0)?;
-    let mut earlier: Vec<Vec<Row>> = Vec::new();
+    let mut current = refine(&mesh, centre, 0)?;
+    let mut earlier: Vec<Vec<Row<W>>> = Vec::new();
     for turn in 1..rule.steps() {
-        let next = rule.refine(&current.mesh, current.centre, turn)?;
+        let next = refine(&current.mesh, current.centre, turn)?;
         earlier.push(std::mem::replace(&mut current, next).rows);
     }
     // Of all steps together only the rows of the new points of one sector are formed.
     let whole = |v: usize| {
         let own = current.rows[v].clone();
-        earlier.iter().rev().fold(own, |row, points| super::vertex::substitute(&row, points))
+        earlier.iter().rev().fold(own, |row, points| substitute(&row, points))
     };
     let places = places(sector, rule.dual(), rings);
     let mut old: BTreeMap<usize, (usize, i64)> = BTreeMap::new();
@@ -71,7 +152,7 @@ pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<
         Centre::Vertex(v, _) => Some(v),
         _ => None,
     };
-    let sort = |row: &Row| sort(rule, row, &old, middle, rings);
+    let sort = |row: &Row<W>| sort(rule, row, &old, middle, rings);
     let mut rows = Vec::new();
     let mut from_centre = Vec::new();
     for place in &places {
@@ -83,8 +164,8 @@ pub fn sector_stencils(rule: &MeshRule, valence: usize, rings: usize) -> Result<
     let centre = match current.centre {
         Centre::Vertex(v, _) => {
             let (weights, own) = sort(&whole(v))?;
-            let mut sums = vec![Rational::from(0); places.len()];
-            weights.iter().for_each(|(orbit, _, w)| sums[*orbit] += w);
+            let mut sums = vec![W::zero(); places.len()];
+            weights.iter().for_each(|(orbit, _, w)| sums[*orbit] = sums[*orbit].plus(w));
             Some((own, sums))
         }
         _ => None,
@@ -143,7 +224,7 @@ fn places(sector: Sector, dual: bool, rings: usize) -> Vec<Place> {
 }
 
 /// The centre as seen from each sector.
-fn views(mesh: &Mesh, centre: Centre) -> Option<Vec<Centre>> {
+pub(super) fn views(mesh: &Mesh, centre: Centre) -> Option<Vec<Centre>> {
     match centre {
         Centre::Vertex(v, first) => {
             Some(mesh.star(v, Some(first))?.into_iter().map(|w| Centre::Vertex(v, w)).collect())
@@ -158,7 +239,7 @@ fn views(mesh: &Mesh, centre: Centre) -> Option<Vec<Centre>> {
 }
 
 /// The point at a place of the sector that a centre is seen from.
-fn locate(mesh: &Mesh, centre: Centre, sector: Sector, (i, j): Place) -> Option<usize> {
+pub(super) fn locate(mesh: &Mesh, centre: Centre, sector: Sector, (i, j): Place) -> Option<usize> {
     let (mut v, mut ahead) = centre.start(mesh)?;
     let (straight, left) = sector.turns();
     for k in 0..i {
@@ -178,24 +259,35 @@ fn locate(mesh: &Mesh, centre: Centre, sector: Sector, (i, j): Place) -> Option<
     Some(v)
 }
 
+/// A combination of points that are combinations themselves.
+pub(super) fn substitute<W: Number>(row: &Row<W>, points: &[Row<W>]) -> Row<W> {
+    let mut result = Row::new();
+    for (v, weight) in row {
+        for (old, c) in &points[*v] {
+            let sum = result.entry(*old).or_insert_with(W::zero);
+            *sum = sum.plus(&c.times(weight));
+        }
+    }
+    result
+}
+
 /// The weights of a new point by orbit and sector, and that of the centre.
-fn sort(
+fn sort<W: Number>(
     rule: &MeshRule,
-    row: &Row,
+    row: &Row<W>,
     old: &BTreeMap<usize, (usize, i64)>,
     middle: Option<usize>,
     rings: usize,
-) -> Result<(Vec<Weight>, Rational), SchemeError> {
+) -> Result<(Vec<Weight<W>>, W), SchemeError> {
     let mut weights = Vec::new();
-    let mut own = Rational::from(0);
-    for (v, weight) in row.iter().filter(|(_, w)| **w != 0) {
+    let mut own = W::zero();
+    for (v, weight) in row.iter().filter(|(_, w)| !w.is_zero()) {
         if Some(*v) == middle {
-            own += weight;
+            own = own.plus(weight);
         } else if let Some((orbit, shift)) = old.get(v) {
             weights.push((*orbit, *shift, weight.clone()));
         } else {
-            let message = format!("{rings} ring(s) do not determine their successors; take {}", rings + 1);
-            return Err(SchemeError::Mesh { rule: rule.name().to_owned(), message });
+            return Err(SchemeError::Rings { rule: rule.name(), rings });
         }
     }
     Ok((weights, own))

@@ -73,12 +73,14 @@ impl Product {
         for q in &y.pieces {
             for p in &x.pieces {
                 let op = kronecker(&p.op, &q.op);
-                pieces.push(Piece {
-                    target: self.index(p.target, q.target),
-                    op,
-                    reversed: p.reversed || q.reversed,
-                    share: None,
-                });
+                // The parameters of a face are divided as its sides are.
+                let share = match (x.kind, y.kind) {
+                    (CellKind::Edge, CellKind::Vertex) => p.share.clone(),
+                    (CellKind::Vertex, CellKind::Edge) => q.share.clone(),
+                    _ => None,
+                };
+                let target = self.index(p.target, q.target);
+                pieces.push(Piece { target, op, reversed: p.reversed || q.reversed, share });
             }
         }
         let kind = match (x.kind, y.kind) {

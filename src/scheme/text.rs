@@ -1,8 +1,7 @@
 //! Shapes written as case files, so that what a scheme or a solution gives can be read, changed, certified and checked like
 //! any other case.
 
-use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Entry, Matrix};
 use crate::shape::{Address, CellKind, Complex, Frame, Layout, Shape, State};
 use std::fmt::Write;
 
@@ -22,22 +21,27 @@ pub struct Heading {
 /// The shape as a case file (`docs/case-format.md`). Faces are written as sets, without their boundaries; affine maps
 /// are written as such.
 #[must_use]
-pub fn case_text(shape: &Shape, heading: &Heading) -> String {
-    complex_text(&Complex::of_curves(shape.clone()), heading)
+pub fn case_text<E: Entry>(shape: &Shape<E>, heading: &Heading) -> String {
+    written(shape, None, heading)
 }
 
 /// The complex as a case file, with the boundaries of its faces and its reversals; a face without boundaries is written as a
 /// set.
 #[must_use]
 pub fn complex_text(complex: &Complex, heading: &Heading) -> String {
-    let shape = &complex.shape;
+    written(&complex.shape, Some(complex), heading)
+}
+
+/// The shape, with the boundaries of faces and the reversals that stand beside it.
+fn written<E: Entry>(shape: &Shape<E>, complex: Option<&Complex>, heading: &Heading) -> String {
     let mut out = String::new();
     for (key, value) in [("name", &heading.name), ("title", &heading.title), ("source", &heading.source)] {
         if !value.is_empty() {
             let _ = writeln!(out, "{key} = {}", quoted(value));
         }
     }
-    let single = shape.states.len() == 1 && complex.reversals.is_empty() && complex.faces.is_empty();
+    let alone = complex.is_none_or(|c| c.reversals.is_empty() && c.faces.is_empty());
+    let single = shape.states.len() == 1 && alone;
     if single && shape.states[shape.start].kind != CellKind::Edge {
         out.push_str("kind = \"set\"\n");
     }
@@ -57,7 +61,7 @@ pub fn complex_text(complex: &Complex, heading: &Heading) -> String {
         let _ = writeln!(out, "control = {}", matrix(&control.transpose(), ""));
     }
     if !single {
-        (0..shape.states.len()).for_each(|state| table(&mut out, complex, state));
+        (0..shape.states.len()).for_each(|state| table(&mut out, shape, complex, state));
     }
     examined(&mut out, heading);
     if shape.frame == Frame::Affine {
@@ -73,17 +77,17 @@ fn examined(out: &mut String, heading: &Heading) {
 }
 
 /// Whether a shape of one state is one of affine maps, seen where they act.
-fn is_affine(shape: &Shape) -> bool {
+fn is_affine<E: Entry>(shape: &Shape<E>) -> bool {
     let dim = shape.states[0].dim;
     let plain = shape.states[0].left.is_none() && shape.states[0].right.is_none();
     shape.frame == Frame::Affine && plain && shape.control.as_ref() == Some(&Shape::affine_control(dim - 1))
 }
 
 /// The pieces as maps `x -> linear x + shift`: the columns of an operator are the images of the corners `0, e_1, …, e_d`.
-fn maps(out: &mut String, state: &State) {
+fn maps<E: Entry>(out: &mut String, state: &State<E>) {
     for piece in &state.pieces {
         let (op, d) = (&piece.op, state.dim - 1);
-        let linear = Matrix::from_fn(d, d, |i, j| &op[(i + 1, j + 1)] - &op[(i + 1, 0)]);
+        let linear = Matrix::from_fn(d, d, |i, j| op[(i + 1, j + 1)].minus(&op[(i + 1, 0)]));
         let shift = Matrix::from_fn(1, d, |_, i| op[(i + 1, 0)].clone());
         let shift = matrix(&shift, "");
         let _ = writeln!(out, "\n[[map]]\nlinear = {}\nshift = {}", matrix(&linear, ""), &shift[1..shift.len() - 1]);
@@ -96,7 +100,7 @@ fn maps(out: &mut String, state: &State) {
     }
 }
 
-fn pieces(out: &mut String, state: &State) {
+fn pieces<E: Entry>(out: &mut String, state: &State<E>) {
     out.push_str("pieces = [\n");
     for piece in &state.pieces {
         let _ = writeln!(out, "    {},", matrix(&piece.op, "     "));
@@ -113,10 +117,10 @@ fn pieces(out: &mut String, state: &State) {
     }
 }
 
-fn table(out: &mut String, complex: &Complex, index: usize) {
-    let states = &complex.shape.states;
+fn table<E: Entry>(out: &mut String, shape: &Shape<E>, complex: Option<&Complex>, index: usize) {
+    let states = &shape.states;
     let state = &states[index];
-    let face = complex.faces.get(&index);
+    let face = complex.and_then(|c| c.faces.get(&index));
     let kind = match (state.kind, face) {
         (CellKind::Edge, _) => "edge",
         (CellKind::Vertex, _) => "vertex",
@@ -130,7 +134,7 @@ fn table(out: &mut String, complex: &Complex, index: usize) {
             let _ = writeln!(out, "{side} = {{ vertex = {}, {} }}", name(b.vertex), part(&b.op));
         }
     }
-    if let Some(reversal) = complex.reversals.get(&index) {
+    if let Some(reversal) = complex.and_then(|c| c.reversals.get(&index)) {
         let _ = writeln!(out, "reversal = {{ edge = {}, {} }}", name(reversal.edge), part(&reversal.op));
     }
     if let Some(face) = face {
@@ -159,10 +163,10 @@ fn table(out: &mut String, complex: &Complex, index: usize) {
 }
 
 /// The operator of a boundary: the coordinates that it picks, where it is an inclusion.
-fn part(op: &Matrix) -> String {
+fn part<E: Entry>(op: &Matrix<E>) -> String {
     let unit = |j: usize| {
-        let mut column = (0..op.rows()).filter(|&i| op[(i, j)] != 0);
-        let at = column.next().filter(|&i| op[(i, j)] == 1)?;
+        let mut column = (0..op.rows()).filter(|&i| !op[(i, j)].is_zero());
+        let at = column.next().filter(|&i| op[(i, j)] == E::integer(1))?;
         column.next().is_none().then(|| at.to_string())
     };
     match (0..op.cols()).map(unit).collect::<Option<Vec<String>>>() {
@@ -171,13 +175,14 @@ fn part(op: &Matrix) -> String {
     }
 }
 
-fn entry(x: &Rational) -> String {
-    if *x.denominator_ref() == 1 { x.to_string() } else { format!("\"{x}\"") }
+fn entry<E: Entry>(x: &E) -> String {
+    let whole = x.rational().is_some_and(|q| *q.denominator_ref() == 1);
+    if whole { x.to_string() } else { format!("\"{x}\"") }
 }
 
 /// The rows on lines of their own behind `indent`, or on one line where there is none.
-fn matrix(m: &Matrix, indent: &str) -> String {
-    let row = |i: usize| format!("[{}]", m.row(i).iter().map(entry).collect::<Vec<_>>().join(", "));
+fn matrix<E: Entry>(m: &Matrix<E>, indent: &str) -> String {
+    let row = |i: usize| format!("[{}]", m.row(i).iter().map(|x| entry(x)).collect::<Vec<_>>().join(", "));
     let separator = if indent.is_empty() { ", ".to_owned() } else { format!(",\n{indent}") };
     format!("[{}]", (0..m.rows()).map(row).collect::<Vec<_>>().join(&separator))
 }

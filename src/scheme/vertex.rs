@@ -1,6 +1,7 @@
 //! Subdivision matrices at an extraordinary vertex or face, built from the mesh rule by combinatorics.
 
 use super::mesh::{Centre, Mesh, Row, Sector};
+use super::sector::substitute;
 use super::{MeshRule, SchemeError};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
@@ -9,7 +10,7 @@ use std::collections::BTreeMap;
 /// Largest number of points of a local matrix.
 pub const MAX_POINTS: usize = 2048;
 /// Largest valence.
-pub const MAX_VALENCE: usize = 256;
+pub const MAX_VALENCE: usize = 1024;
 
 /// The subdivision matrix of the points around a vertex or face.
 #[derive(Debug, Clone)]
@@ -81,17 +82,6 @@ pub fn local_matrix_of(rule: &MeshRule, sectors: &[Sector], rings: usize) -> Res
     Ok(LocalMatrix { matrix, rings: old.ends, steps: rule.steps() })
 }
 
-/// A combination of points that are combinations themselves.
-pub(super) fn substitute(row: &Row, points: &[Row]) -> Row {
-    let mut result = Row::new();
-    for (v, weight) in row {
-        for (old, c) in &points[*v] {
-            *result.entry(*old).or_default() += c * weight;
-        }
-    }
-    result
-}
-
 fn assemble<'a>(
     rule: &MeshRule,
     old: &[usize],
@@ -105,7 +95,7 @@ fn assemble<'a>(
         let mut line = vec![Rational::from(0); old.len()];
         for (v, weight) in row.iter().filter(|(_, weight)| **weight != 0) {
             let Some(k) = column.get(v) else {
-                return Err(error(format!("{rings} ring(s) do not determine their successors; take {}", rings + 1)));
+                return Err(SchemeError::Rings { rule: rule.name(), rings });
             };
             line[*k] += weight;
         }

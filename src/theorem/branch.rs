@@ -48,7 +48,7 @@ impl<E: Scalar> Context<'_, E> {
 }
 
 /// The largest `L`-invariant subspace in the kernel of `view`, divided out.
-struct Quotient<E> {
+pub struct Quotient<E> {
     /// `Y <- V`, reduced echelon form.
     pub chart: Matrix<E>,
     /// `V <- Y`, a right inverse.
@@ -56,6 +56,8 @@ struct Quotient<E> {
 }
 
 impl<E: Scalar> Quotient<E> {
+    /// Of a space on which `linear` acts and that is seen through `view`.
+    #[must_use]
     pub fn new(view: &Matrix<E>, linear: &Matrix<E>) -> Self {
         let rows = view.closure(&[linear]).echelon();
         let lift = Matrix::from_fn(linear.rows(), rows.pivots.len(), |i, k| E::integer(i64::from(rows.pivots[k] == i)));

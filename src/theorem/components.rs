@@ -2,7 +2,7 @@
 //! their fixed point along one eigenvector, and states that are passed once.
 
 use super::branch::Context;
-use super::cone::{CommonCone, ConeAnswer, common_cone, cone_in_sight};
+use super::cone::{Code, CommonCone, ConeAnswer, common_cone, cone_in_sight};
 use super::frames::{MAX_CODE, MAX_CODE_LENGTH};
 use super::point;
 use super::slow::SlowCycle;
@@ -51,6 +51,17 @@ impl Component {
             Self::Cones { state, .. } | Self::Loop { state, .. } | Self::Transient { state, .. } => *state,
         }
     }
+
+    /// Whether it shows that a state is G¹: its own, or one that a state with cones reaches.
+    fn covers(&self, e: usize) -> bool {
+        self.state() == e || self.rays(e).is_some()
+    }
+
+    /// The rays of a state that has cones here.
+    fn rays(&self, e: usize) -> Option<&Matrix> {
+        let Self::Cones { cone, .. } = self else { return None };
+        cone.cones.iter().find(|c| c.state == e).map(|c| &c.rays)
+    }
 }
 
 /// Why a whole curve is G¹.
@@ -58,8 +69,8 @@ impl Component {
 pub struct Components {
     /// The states, each behind those that it needs, the start last.
     pub parts: Vec<Component>,
-    /// Words of the code by which no tangent is lost in the projection; `None` without control points.
-    pub code: Option<usize>,
+    /// Cones of all states, with the code by which no tangent is lost in the projection; `None` without control points.
+    pub sight: Option<(CommonCone, Code)>,
 }
 
 /// Looks for a proof; `None` where some hypothesis is not proved. `cones_tried` says that there are no cones of all states together.
@@ -68,19 +79,18 @@ pub struct Components {
 /// A search of cones for some states, spectra of the loops, and the points.
 #[must_use]
 pub fn components(cx: &Context, cones_tried: bool) -> Option<Components> {
-    let mut found = Components { parts: Vec::new(), code: None };
+    let mut found = Components { parts: Vec::new(), sight: None };
     part(cx, (cx.shape.start, cones_tried), &mut found.parts)?;
     if let Some(control) = &cx.shape.control {
         let limits = (MAX_CODE_LENGTH, MAX_CODE, cx.budget.cone_steps);
-        let (_, code) = cone_in_sight(cx.shape, cx.spaces, cx.shape.start, control, limits)?;
-        found.code = Some(code.len());
+        found.sight = Some(cone_in_sight(cx.shape, cx.spaces, cx.shape.start, control, limits)?);
     }
     Some(found)
 }
 
 /// Proves a state after those that it leads to.
 fn part(cx: &Context, (state, cones_tried): (usize, bool), parts: &mut Vec<Component>) -> Option<()> {
-    if parts.iter().any(|p| p.state() == state) {
+    if parts.iter().any(|p| p.covers(state)) {
         return Some(());
     }
     let pieces = &cx.shape.states[state].pieces;
@@ -151,11 +161,7 @@ fn turning(cx: &Context, state: usize, letter: usize, parts: &[Component]) -> Op
     let power = (0..n).fold(Matrix::identity(n), |p, _| &p * &linear);
     let mut images = Matrix::zero(n, 0);
     for piece in pieces.iter().filter(|p| p.target != state) {
-        let cones = parts.iter().find_map(|p| match p {
-            Component::Cones { state, cone, .. } if *state == piece.target => Some(cone),
-            _ => None,
-        })?;
-        let rays = &cones.cones.iter().find(|c| c.state == piece.target)?.rays;
+        let rays = parts.iter().find_map(|p| p.rays(piece.target))?;
         let inner = cx.spaces.linear(&piece.op, state, piece.target);
         if (&power * &inner).rank() < inner.cols() {
             return None;

@@ -5,32 +5,40 @@ use super::cone::{Cone, ConeAnswer, ConeMap, common_cone};
 use super::dense::first_level_joint;
 use super::point::joint_pairs;
 use super::provable::Provable;
-use super::verdict::{Kind, Verdict};
+use super::verdict::{Kind, PointReport, Verdict};
 use crate::arith::Rational;
+use crate::jordan::Scalar;
 use crate::linalg::Matrix;
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 
 /// The certificate of Theorem 6 with entries in a number field.
 #[derive(Debug, Clone)]
-pub struct ConesOver<E> {
+pub struct ConesOver<E: Scalar> {
     /// One cone for every reachable state.
     pub cones: Vec<Cone<E>>,
     /// One map for every piece of a reachable state, with positive entries.
     pub maps: Vec<ConeMap<E>>,
     /// `h` with `h P G > 0` for the start state, where control points are given.
     pub view: Option<Vec<E>>,
+    /// The first-level joints of all reachable states in their visible quotients, which are regular.
+    pub joints: Vec<PointReport<E>>,
 }
 
 /// Whether a curve is G¹ by Theorem 6: cones that the control points, if any, see, and regular first-level joints. `near` is the
 /// curve with rational entries nearby.
 pub fn cones_over<E: Provable>(cx: &Context<E>, near: &Shape) -> Option<ConesOver<E>> {
     let edges = cx.shape.reachable().into_iter().all(|e| cx.shape.states[e].kind == CellKind::Edge);
-    let found = if edges { proposed(cx, near)? } else { return None };
-    let regular = |state: usize, pair: (usize, usize)| {
-        first_level_joint(cx, state, pair).is_some_and(|p| (p.verdict, p.kind) == (Verdict::Proved, Kind::Regular))
-    };
-    let agree = cx.shape.reachable().into_iter().all(|e| joint_pairs(cx, e).into_iter().all(|pair| regular(e, pair)));
-    agree.then_some(found)
+    let mut found = if edges { proposed(cx, near)? } else { return None };
+    for e in cx.shape.reachable() {
+        for pair in joint_pairs(cx, e) {
+            let joint = first_level_joint(cx, e, pair)?;
+            if (joint.verdict, joint.kind) != (Verdict::Proved, Kind::Regular) {
+                return None;
+            }
+            found.joints.push(joint);
+        }
+    }
+    Some(found)
 }
 
 fn proposed<E: Provable>(cx: &Context<E>, near: &Shape) -> Option<ConesOver<E>> {
@@ -81,7 +89,7 @@ fn proposed<E: Provable>(cx: &Context<E>, near: &Shape) -> Option<ConesOver<E>> 
             Some(if seen { h } else { return None })
         }
     };
-    Some(ConesOver { cones, maps, view })
+    Some(ConesOver { cones, maps, view, joints: Vec::new() })
 }
 
 fn column(v: &[Rational]) -> Matrix {

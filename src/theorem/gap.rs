@@ -105,7 +105,8 @@ pub enum EverySurfaceGap {
     Curve(usize),
     /// There are too many coordinates for the derivative in the parameters.
     Large,
-    /// Not all faces are divided into the same number of parts along every side.
+    /// Not all pieces that lead back to their face are of one size in the parameters, or two faces are divided differently along an
+    /// edge that they share.
     Unequal,
     /// The joint spectral radius on the differences of the derivative is not seen to be below that size.
     Radius,
@@ -118,6 +119,14 @@ pub enum EverySurfaceGap {
     },
     /// The derivative is not seen to keep its rank under the control points.
     Rank,
+    /// There are too many stars for cones around planes, or too many coordinates.
+    LargeStars,
+    /// No forms of signature (2, ·) were found that all stars expand from their children.
+    NoForms,
+    /// The forms that were found are not seen to be positive on all secants between parts that do not meet.
+    Secants,
+    /// The control points, or the coordinates of the face, are not seen to keep the cones apart from 0.
+    Folds,
     /// It is proved, and at a point there is no tangent plane.
     Contradiction,
 }
@@ -179,6 +188,11 @@ pub enum NoChart {
     },
     /// The cells of a face do not shrink in both directions.
     Shrinking {
+        /// Its state.
+        state: usize,
+    },
+    /// Opposite sides of a face are divided by different shares, or it has turned pieces beside sides that are divided by shares.
+    Shares {
         /// Its state.
         state: usize,
     },

@@ -37,6 +37,8 @@ pub enum Turn {
 /// A curve that is made of polynomial arcs, and what its derivative says.
 #[derive(Debug, Clone)]
 pub struct Hodograph {
+    /// By state, the coordinates of its arc, where it has one.
+    pub polynomials: Vec<Option<Vec<Poly>>>,
     /// The arcs, in the order of the parameter.
     pub spans: Vec<Span>,
     /// Cusps and corners.
@@ -71,7 +73,7 @@ pub fn hodograph(cx: &Context) -> Option<Hodograph> {
             turns.push(Turn::Between(k));
         }
     }
-    Some(Hodograph { spans, turns })
+    Some(Hodograph { polynomials, spans, turns })
 }
 
 /// Whether a real root lies strictly between 0 and 1; `None` where that is not seen.

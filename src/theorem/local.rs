@@ -10,6 +10,8 @@ use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
 
 /// Largest order that is compared with an integer.
 const MAX_INTEGER: i64 = 24;
+/// Largest order up to which a band is computed: its powers have as many digits.
+const MAX_BAND: u32 = 64;
 /// Most cells on which the quotient is enclosed, on each side.
 const MAX_CELLS: usize = 160;
 
@@ -40,7 +42,7 @@ pub enum LocalLimit {
         /// Encloses its supremum.
         most: Interval,
     },
-    /// There is none, and the eigenvalue is irrational, for which no band is computed.
+    /// There is none, and no band is computed: the eigenvalue is irrational, or the order above 64.
     None,
     /// The size of the quotient grows like `m^power` after `m` turns of the cycle.
     Diverges(usize),
@@ -148,6 +150,7 @@ fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -
         let Some(constant) = constant else { continue };
         let limit = match constant {
             Some(c) => LocalLimit::Value(seen.iter().map(|x| x * &c).collect()),
+            None if order.hi > MAX_BAND => LocalLimit::None,
             None => {
                 let (least, most) = germ.band(cells, &order)?;
                 // The direction in which the quotient points.

@@ -38,7 +38,7 @@ mod viewpoint;
 pub mod wavelet;
 
 pub use crate::statement::Statement;
-pub use branch::{Context, krylov, restrict};
+pub use branch::{Context, Quotient, krylov, restrict};
 pub use claim::{AboutPlane, Assertion, Claim, Limit, Measure, Reason, Seen};
 pub use components::{Component, Components};
 pub use cone_over::ConesOver;

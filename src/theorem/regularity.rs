@@ -349,6 +349,27 @@ mod tests {
         assert!(r.smoothness_is_exact());
     }
 
+    /// An enclosure that may hold an integer claims nothing; with one matrix coefficient left the exponent is that of a number.
+    #[test]
+    fn what_growth_says_of_the_exponent() {
+        let system = System::plain(&[Matrix::identity(1)]).unwrap();
+        let mut radius = joint_radius(&system, &Options::default()).unwrap();
+        let between = |a: i64, b: i64| Some(Interval::new(ratio(a, 4), ratio(b, 4)));
+        let of = |radius: &JointRadius, exponent: Option<Interval>| attained(radius, exponent.as_ref(), 2);
+        radius.growth = Growth::Bounded;
+        assert_eq!(of(&radius, between(8, 8)), Attained::Zygmund);
+        assert_eq!(of(&radius, between(5, 7)), Attained::Yes);
+        for (a, b) in [(7, 9), (8, 9), (7, 8), (3, 9)] {
+            assert_eq!(of(&radius, between(a, b)), Attained::Unknown, "{a}/4, {b}/4");
+        }
+        assert_eq!(of(&radius, None), Attained::Unknown);
+        radius.growth = Growth::Unknown;
+        assert_eq!(of(&radius, between(5, 7)), Attained::Unknown);
+        radius.growth = Growth::Unbounded(2);
+        assert_eq!(of(&radius, between(5, 7)), Attained::No);
+        assert_eq!(attained(&radius, between(5, 7).as_ref(), 1), Attained::Yes);
+    }
+
     #[test]
     fn six_points() {
         let r = regularity(&mask(&[3, 0, -25, 0, 150, 256, 150, 0, -25, 0, 3], 256), 2, &Options::default()).unwrap();

@@ -21,6 +21,8 @@ pub enum Topic {
     G1,
     /// `C^k` in the parameter.
     C(usize),
+    /// `C^k` in the parameter for every k.
+    Polynomial,
     /// The Hölder exponent, about which nothing can be required.
     Exponent,
     /// The points that were asked for.
@@ -55,6 +57,7 @@ impl fmt::Display for Topic {
             Self::Inside => f.write_str("inside"),
             Self::G1 => f.write_str("g1"),
             Self::C(k) => write!(f, "c{k}"),
+            Self::Polynomial => f.write_str("polynomial"),
             Self::Exponent => f.write_str("exponent"),
             Self::Points => f.write_str("points"),
         }
@@ -81,8 +84,7 @@ impl Assertion {
             | Self::DensePlanes { .. } => Topic::Dense,
             Self::G1 | Self::PlaneEverywhere => Topic::G1,
             Self::Smooth { order, .. } => Topic::C(*order),
-            // Every order is smaller than this one.
-            Self::Polynomial(_) => Topic::C(usize::MAX),
+            Self::Polynomial(_) => Topic::Polynomial,
             Self::TangentAt { .. } | Self::PlaneAt { .. } | Self::SomePoint => Topic::Points,
             Self::Exponent(..) => Topic::Exponent,
         })
@@ -112,28 +114,37 @@ pub struct UnknownTopic(String);
 /// The claims that decide about a case, and with it about the exit code.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Required {
-    topics: Vec<(Topic, bool)>,
+    topics: Vec<Wanted>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Wanted {
+    topic: Topic,
+    /// Whether it must be proved; otherwise it only decides where it is refuted.
+    strict: bool,
+    /// Whether it was named, so that it must be claimed of the shape; otherwise it decides as far as a shape has it.
     named: bool,
 }
+
+/// What `tangents` stands for.
+const TANGENTS: [Topic; 4] = [Topic::Ends, Topic::Joints, Topic::Dense, Topic::Points];
 
 impl Default for Required {
     /// The tangents at the ends, the joints, a dense set and the points asked for, as far as a shape has them; and a cusp or a
     /// corner inside, of which none of these claims speaks.
     fn default() -> Self {
-        let topics = vec![
-            (Topic::Ends, true),
-            (Topic::Joints, true),
-            (Topic::Dense, true),
-            (Topic::Points, true),
-            (Topic::Inside, false),
-        ];
-        Self { topics, named: false }
+        let inside = Wanted { topic: Topic::Inside, strict: false, named: false };
+        Self { topics: tangents().chain([inside]).collect() }
     }
+}
+
+fn tangents() -> impl Iterator<Item = Wanted> {
+    TANGENTS.into_iter().map(|topic| Wanted { topic, strict: true, named: false })
 }
 
 impl Required {
     /// Reads a list such as `ends,dense,g1,c2`; a topic with `?` behind it decides only where it is refuted, and `tangents`
-    /// stands for `ends,joints,dense,points` as far as a shape has them.
+    /// stands for `ends,joints,dense,points` as far as a shape has them. Where all four are named they mean the same.
     ///
     /// # Errors
     /// The word that is not known.
@@ -141,61 +152,96 @@ impl Required {
     /// ```
     /// use secant::theorem::Required;
     /// assert_eq!(Required::parse("ends,g1?")?.to_string(), "ends,g1?");
+    /// assert_eq!(Required::parse("tangents")?, Required::parse("points,ends,joints,dense")?);
     /// assert!(Required::parse("smooth").is_err() && Required::parse("").is_err());
     /// # Ok::<(), secant::theorem::UnknownTopic>(())
     /// ```
     pub fn parse(text: &str) -> Result<Self, UnknownTopic> {
-        if text.trim() == Self::default().to_string() {
-            return Ok(Self::default());
-        }
-        if text.trim() == "tangents" {
-            let mut topics = Self::default().topics;
-            topics.retain(|(topic, _)| *topic != Topic::Inside);
-            return Ok(Self { topics, named: false });
-        }
-        let mut topics = Vec::new();
+        let mut named: Vec<Wanted> = Vec::new();
+        let mut all = false;
         for word in text.split(',').map(str::trim) {
             let (name, strict) = word.strip_suffix('?').map_or((word, true), |name| (name, false));
+            if name == "tangents" && strict {
+                all = true;
+                continue;
+            }
             let topic = Topic::parse(&name.to_lowercase()).ok_or_else(|| UnknownTopic(word.to_owned()))?;
-            topics.push((topic, strict));
+            let again = named.iter_mut().find(|w| w.topic == topic);
+            match again {
+                Some(wanted) => wanted.strict |= strict,
+                None => named.push(Wanted { topic, strict, named: true }),
+            }
         }
-        Ok(Self { topics, named: true })
+        all |= TANGENTS.iter().all(|t| named.iter().any(|w| w.topic == *t && w.strict));
+        if !all {
+            return Ok(Self { topics: named });
+        }
+        named.retain(|w| !TANGENTS.contains(&w.topic));
+        // Beside them this is the default.
+        named.iter_mut().for_each(|w| w.named = w.strict || w.topic != Topic::Inside);
+        Ok(Self { topics: tangents().chain(named).collect() })
     }
 
     /// The verdict on all that is required: refuted if one of it is refuted, proved if all of it is proved. What was named and
     /// is not claimed of the shape is undetermined; so is a list of which nothing is claimed.
     #[must_use]
     pub fn verdict(&self, claims: &[Claim]) -> Verdict {
-        let mut verdicts: Vec<Verdict> =
-            claims.iter().filter(|c| c.what.topic().is_none()).map(Claim::verdict).collect();
-        for (topic, strict) in &self.topics {
-            let found = about(claims, *topic);
-            match found {
-                Some(Verdict::Undetermined) if !strict => {}
+        let all = claims.iter().filter(|c| c.what.topic().is_none()).map(Claim::verdict);
+        self.judged(all.collect(), |topic| about(claims, topic).map(|found| found.0))
+    }
+
+    /// The verdict where nothing is claimed but that the surface is C¹ at the vertices of a mesh, and that it is regular and C¹
+    /// at every point. An order above 1 is refuted with C¹, and never proved.
+    #[must_use]
+    pub fn at_vertices(&self, vertices: Verdict, every: Verdict) -> Verdict {
+        if self.is_of_all_tangents() {
+            return every;
+        }
+        let found = |topic| match topic {
+            Topic::Joints => Some(vertices),
+            Topic::G1 | Topic::C(1) => Some(every),
+            Topic::C(0) if every == Verdict::Proved => Some(every),
+            Topic::C(k) if k > 1 && every == Verdict::Refuted => Some(every),
+            _ => None,
+        };
+        self.judged(Vec::new(), found)
+    }
+
+    /// Whether nothing is named but what a shape has anyway.
+    #[must_use]
+    pub fn is_of_all_tangents(&self) -> bool {
+        self.topics.iter().all(|w| !w.named)
+    }
+
+    fn judged(&self, mut verdicts: Vec<Verdict>, found: impl Fn(Topic) -> Option<Verdict>) -> Verdict {
+        for wanted in &self.topics {
+            match found(wanted.topic) {
+                Some(Verdict::Undetermined) if !wanted.strict => {}
                 Some(verdict) => verdicts.push(verdict),
-                None if self.named && *strict => verdicts.push(Verdict::Undetermined),
+                None if wanted.named && wanted.strict => verdicts.push(Verdict::Undetermined),
                 None => {}
             }
         }
         Verdict::all(verdicts.len(), verdicts)
     }
 
-    /// Whether a claim is one of those that decide.
+    /// The claims from which the verdict follows: those of it, of all that decide.
     #[must_use]
-    pub fn counts(&self, claim: &Claim) -> bool {
-        let topic = claim.what.topic();
-        topic.is_none()
-            || self.topics.iter().any(|(t, strict)| {
-                let same = Some(*t) == topic
-                    || *t == Topic::Joints && topic == Some(Topic::Dense)
-                    || *t == Topic::Inside && topic == Some(Topic::G1) && breaks_inside(claim);
-                same && (*strict || claim.verdict() == Verdict::Refuted)
-            })
+    pub fn deciding<'a>(&self, claims: &'a [Claim]) -> Vec<&'a Claim> {
+        let verdict = self.verdict(claims);
+        let mut chosen: Vec<usize> = (0..claims.len()).filter(|k| claims[*k].what.topic().is_none()).collect();
+        for wanted in &self.topics {
+            let open = verdict == Verdict::Undetermined && !wanted.strict;
+            let found = about(claims, wanted.topic).filter(|found| found.0 == verdict && !open);
+            chosen.extend(found.into_iter().flat_map(|found| found.1));
+        }
+        let decides = |(k, c): &(usize, &Claim)| chosen.contains(k) && c.verdict() == verdict;
+        claims.iter().enumerate().filter(decides).map(|(_, c)| c).collect()
     }
 }
 
-/// What is found about a topic; `None` where nothing is claimed.
-fn about(claims: &[Claim], topic: Topic) -> Option<Verdict> {
+/// What is found about a topic, and by which claims; `None` where nothing is claimed.
+fn about(claims: &[Claim], topic: Topic) -> Option<(Verdict, Vec<usize>)> {
     if let Topic::C(order) = topic {
         return of_order(claims, order);
     }
@@ -203,52 +249,47 @@ fn about(claims: &[Claim], topic: Topic) -> Option<Verdict> {
         return of_inside(claims);
     }
     let of = |wanted: Topic| {
-        let own: Vec<Verdict> = claims.iter().filter(|c| c.what.topic() == Some(wanted)).map(Claim::verdict).collect();
-        (!own.is_empty()).then(|| Verdict::all(own.len(), own))
+        let own: Vec<usize> = (0..claims.len()).filter(|k| claims[*k].what.topic() == Some(wanted)).collect();
+        (!own.is_empty()).then(|| (Verdict::all(own.len(), own.iter().map(|k| claims[*k].verdict())), own))
     };
     // Where all joints are decided together, they are the dense set.
     of(topic).or_else(|| if topic == Topic::Joints { of(Topic::Dense) } else { None })
 }
 
-/// Whether a claim refutes G¹ at a point that is neither an end nor a joint.
-fn breaks_inside(claim: &Claim) -> bool {
-    claim.verdict() == Verdict::Refuted && claim.reason() == Some(&Reason::InsidePoint)
-}
-
 /// What is known of the points that are neither ends nor joints: refuted at one of them, or G¹ at all.
-fn of_inside(claims: &[Claim]) -> Option<Verdict> {
-    let claim = claims.iter().find(|c| c.what == Assertion::G1)?;
-    Some(match claim.verdict() {
+fn of_inside(claims: &[Claim]) -> Option<(Verdict, Vec<usize>)> {
+    let k = claims.iter().position(|c| c.what == Assertion::G1)?;
+    let verdict = match claims[k].verdict() {
         Verdict::Proved => Verdict::Proved,
-        Verdict::Refuted if breaks_inside(claim) => Verdict::Refuted,
+        Verdict::Refuted if claims[k].reason() == Some(&Reason::InsidePoint) => Verdict::Refuted,
         _ => Verdict::Undetermined,
-    })
+    };
+    Some((verdict, vec![k]))
 }
 
 /// Whether the curve is `C^order`, by what is claimed of smaller and larger orders.
-fn of_order(claims: &[Claim], order: usize) -> Option<Verdict> {
-    let mut known = None;
-    for claim in claims {
+fn of_order(claims: &[Claim], order: usize) -> Option<(Verdict, Vec<usize>)> {
+    let mut open = Vec::new();
+    for (k, claim) in claims.iter().enumerate() {
         let at = match claim.what {
             Assertion::Smooth { order, .. } => order,
             Assertion::Polynomial(_) => usize::MAX,
             _ => continue,
         };
-        known = known.or(Some(Verdict::Undetermined));
         match claim.verdict() {
-            Verdict::Proved if at >= order => return Some(Verdict::Proved),
-            Verdict::Refuted if at <= order => return Some(Verdict::Refuted),
-            _ => {}
+            Verdict::Proved if at >= order => return Some((Verdict::Proved, vec![k])),
+            Verdict::Refuted if at <= order => return Some((Verdict::Refuted, vec![k])),
+            _ => open.push(k),
         }
     }
-    known
+    (!open.is_empty()).then_some((Verdict::Undetermined, open))
 }
 
 impl fmt::Display for Required {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (k, (topic, strict)) in self.topics.iter().enumerate() {
+        for (k, wanted) in self.topics.iter().enumerate() {
             let comma = if k > 0 { "," } else { "" };
-            write!(f, "{comma}{topic}{}", if *strict { "" } else { "?" })?;
+            write!(f, "{comma}{}{}", wanted.topic, if wanted.strict { "" } else { "?" })?;
         }
         Ok(())
     }
@@ -282,6 +323,10 @@ mod tests {
         for (list, expected) in [
             ("ends,joints,dense", Proved),
             ("tangents", Proved),
+            ("inside?,points,ends,dense,joints", Proved),
+            ("points,ends,dense,joints", Proved),
+            ("g1,tangents", Undetermined),
+            ("c2,tangents", Refuted),
             ("g1", Undetermined),
             ("ends,g1?", Proved),
             ("c1", Proved),
@@ -299,6 +344,48 @@ mod tests {
         ];
         assert_eq!((verdict("c2", &open), verdict("c3", &open)), (Undetermined, Undetermined));
         assert_eq!(verdict("c9", &[Claim::proved(Assertion::Polynomial(Measure::Uniform), None)]), Proved);
+    }
+
+    #[test]
+    fn what_decides_is_what_the_verdict_follows_from() {
+        let all = claims();
+        let deciding = |list: &str| {
+            let required = Required::parse(list).unwrap_or_else(|e| panic!("{e}"));
+            required.deciding(&all).iter().map(|c| c.what.topic()).collect::<Vec<_>>()
+        };
+        assert_eq!(deciding("c0"), [Some(Topic::C(1))]);
+        assert_eq!(deciding("c7,ends"), [Some(Topic::C(2))]);
+        assert_eq!(deciding("joints"), [Some(Topic::Dense)]);
+        assert_eq!(deciding("points"), []);
+        // Of a cusp at a joint `inside?` says nothing.
+        let cusp = [
+            Claim::refuted(Assertion::DenseJoints, None, Reason::EveryPoint),
+            Claim::refuted(Assertion::G1, None, Reason::EveryPoint),
+        ];
+        let decided = Required::default().deciding(&cusp).iter().map(|c| c.what.topic()).collect::<Vec<_>>();
+        assert_eq!(decided, [Some(Topic::Dense)]);
+        let every = [Claim::proved(Assertion::G1, None), Claim::proved(Assertion::Polynomial(Measure::Uniform), None)];
+        let required = Required::parse("inside,c7").unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(required.deciding(&every).len(), 2);
+    }
+
+    #[test]
+    fn of_vertices_only_c1_is_claimed() {
+        use Verdict::{Proved, Refuted, Undetermined};
+        let at = |list: &str, every| Required::parse(list).map(|r| r.at_vertices(Proved, every));
+        for (list, proved, refuted) in [
+            ("ends,joints,dense,points,inside?", Proved, Refuted),
+            ("tangents", Proved, Refuted),
+            ("c1", Proved, Refuted),
+            ("g1,c0", Proved, Refuted),
+            ("c0", Proved, Undetermined),
+            ("joints", Proved, Proved),
+            ("c2", Undetermined, Refuted),
+            ("c1,dense", Undetermined, Refuted),
+            ("c2?", Undetermined, Refuted),
+        ] {
+            assert_eq!((at(list, Proved), at(list, Refuted)), (Ok(proved), Ok(refuted)), "{list}");
+        }
     }
 
     #[test]

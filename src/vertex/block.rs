@@ -5,11 +5,16 @@
 //! values do not change from sector to sector and the centre joins them; entries may there depend on `cos(2π/n)`.
 
 use super::cosine::{gcd, minimal_polynomial};
+use super::ring::RINGS;
 use super::turning::Symbol;
 use crate::arith::{Rational, ratio};
 use crate::linalg::{Matrix, strong_components};
 use crate::poly::Poly;
-use crate::scheme::{Corners, MeshRule, SchemeError, SectorStencils, sector_stencils};
+use crate::scheme::{Corners, MeshRule, SchemeError, SectorStencils, Weight, cosine_stencils, sector_stencils};
+use std::ops::Add;
+
+/// So many rings more are tried for a rule by stencils of one's own, until they determine themselves.
+const MORE_RINGS: usize = 4;
 
 /// A scheme at a vertex (for dual schemes: in a face) of one valence.
 #[derive(Debug, Clone)]
@@ -22,6 +27,8 @@ pub struct Vertex {
     pub rings: usize,
     /// The stencils; where weights at the centre are irrational, those of a rational stand-in.
     pub stencils: SectorStencils,
+    /// The stencils of a rule by stencils of one's own where some are irrational, with weights in `t = 2cos(2π/n)`.
+    irrational: Option<SectorStencils<Poly>>,
 }
 
 /// One Fourier block. Index 0 is the centre in the block 0 of a scheme that has one; then come the orbits.
@@ -29,7 +36,8 @@ pub struct Vertex {
 pub struct Block {
     /// The frequency.
     pub frequency: usize,
-    /// The angle of `t = 2 cos θ` in the entries, as a multiple of `2π/n`: the frequency, and 1 in the block 0.
+    /// The angle of `t = 2 cos θ` and `ω` in the entries, as a multiple of `2π/n`: the frequency; 1 in the block 0, and in all
+    /// blocks where weights at the centre are irrational.
     pub angle: usize,
     /// The entries.
     pub entries: Vec<Vec<Symbol>>,
@@ -55,14 +63,69 @@ impl Vertex {
     /// As for [`crate::scheme::local_matrix`], but for the weights that may be irrational.
     pub fn new(rule: &MeshRule, valence: usize, rings: usize) -> Result<Self, SchemeError> {
         rule.check_at(valence)?;
-        let stencils = sector_stencils(&stand_in(rule, valence, 0), valence, rings)?;
-        let vertex = Self { rule: rule.clone(), valence, rings, stencils };
+        let (stencils, irrational) = match cosine_stencils(rule, valence, rings)? {
+            Some(found) => match rational_stencils(&found) {
+                (stencils, true) => (stencils, None),
+                (stencils, false) => (stencils, Some(found)),
+            },
+            None => (sector_stencils(&stand_in(rule, valence, 0), valence, rings)?, None),
+        };
+        let vertex = Self { rule: rule.clone(), valence, rings, stencils, irrational };
         vertex.check()?;
         Ok(vertex)
     }
 
+    /// The scheme on as few rings as determine themselves and hold what decides the ring of patches, or of cells.
+    ///
+    /// # Errors
+    /// As for [`Vertex::new`].
+    pub fn examined(rule: &MeshRule, valence: usize) -> Result<Self, SchemeError> {
+        let least = match rule.info().spline {
+            Some(_) => RINGS * rule.regular_from() as usize - (rule.regular_from() as usize - 1),
+            None => RINGS,
+        };
+        if rule.own().is_none() {
+            return Self::new(rule, valence, least);
+        }
+        for rings in least..least + MORE_RINGS {
+            match Self::new(rule, valence, rings) {
+                Err(SchemeError::Rings { .. }) => {}
+                found => return found,
+            }
+        }
+        Self::new(rule, valence, least + MORE_RINGS)
+    }
+
+    /// The weights of the new points of an orbit and that of the centre in them, where they are rational.
+    #[must_use]
+    pub fn rational_row(&self, orbit: usize) -> Option<(&[Weight], &Rational)> {
+        let plain = |p: &Poly| p.degree().is_none_or(|d| d == 0);
+        let known = self
+            .irrational
+            .as_ref()
+            .is_none_or(|s| s.rows[orbit].iter().all(|(_, _, w)| plain(w)) && plain(&s.from_centre[orbit]));
+        known.then(|| (self.stencils.rows[orbit].as_slice(), &self.stencils.from_centre[orbit]))
+    }
+
+    /// Whether some weights are irrational that stencils of one's own give.
+    #[must_use]
+    pub fn is_irrational(&self) -> bool {
+        self.irrational.is_some()
+    }
+
     /// The weights of new points add up to 1.
     fn check(&self) -> Result<(), SchemeError> {
+        if let Some(s) = &self.irrational {
+            let modulus = minimal_polynomial(self.valence);
+            let one = Poly::constant(ratio(1, 1));
+            for (row, own) in s.rows.iter().zip(&s.from_centre) {
+                let sum = row.iter().fold(own.clone(), |sum, (_, _, w)| &sum + w).div_rem(&modulus).1;
+                if sum != one {
+                    return Err(SchemeError::Weights { rule: self.rule.name(), sum: sum.coeff(0) });
+                }
+            }
+            return Ok(());
+        }
         let s = &self.stencils;
         for (row, own) in s.rows.iter().zip(&s.from_centre) {
             let sum = row.iter().fold(own.clone(), |sum, (_, _, w)| sum + w);
@@ -103,7 +166,12 @@ impl Vertex {
 
     /// The entries of a block, how many indices stand before the orbits, and the angle of `t` in the entries.
     pub(super) fn entries(&self, frequency: usize) -> Result<(Vec<Vec<Symbol>>, usize, usize), SchemeError> {
-        if frequency == 0 { self.still() } else { Ok((self.turning(frequency), 0, frequency)) }
+        match (&self.irrational, frequency) {
+            (Some(s), 0) => Ok(still_over(s)),
+            (Some(s), k) => Ok((self.turning_over(s, k), 0, 1)),
+            (None, 0) => self.still(),
+            (None, k) => Ok((self.turning(k), 0, k)),
+        }
     }
 
     /// The characteristic polynomial of the entries among some indices.
@@ -115,12 +183,32 @@ impl Vertex {
     ) -> Result<Vec<Poly>, SchemeError> {
         let inner: Vec<Vec<Symbol>> =
             indices.iter().map(|i| indices.iter().map(|j| entries[*i][*j].clone()).collect()).collect();
-        let coefficients = characteristic(&inner);
+        let modulus = self.is_irrational().then(|| minimal_polynomial(self.valence));
+        let coefficients = characteristic(&inner, modulus.as_ref());
         let angle_polynomial = minimal_polynomial(self.valence / gcd(angle, self.valence));
         if coefficients.iter().any(|c| !c.y.div_rem(&angle_polynomial).1.is_zero()) {
             return Err(SchemeError::Asymmetric { rule: self.rule.name() });
         }
         Ok(coefficients.into_iter().map(|c| c.x).collect())
+    }
+
+    /// A block of a frequency other than 0 over `Q(2cos(2π/n))`.
+    fn turning_over(&self, s: &SectorStencils<Poly>, k: usize) -> Vec<Vec<Symbol>> {
+        let modulus = minimal_polynomial(self.valence);
+        let n = self.valence as i64;
+        let mut powers = vec![Symbol::constant(&ratio(1, 1))];
+        for _ in 1..n {
+            powers.push(powers[powers.len() - 1].mul(&Symbol::power(1, &ratio(1, 1))).reduced(&modulus));
+        }
+        let size = s.rows.len();
+        let mut entries = vec![vec![Symbol::constant(&ratio(0, 1)); size]; size];
+        for (own, weights) in entries.iter_mut().zip(&s.rows) {
+            for (orbit, shift, weight) in weights {
+                let power = &powers[(shift * k as i64).rem_euclid(n) as usize];
+                own[*orbit] = own[*orbit].add(&power.mul(&Symbol::real(weight.clone())).reduced(&modulus));
+            }
+        }
+        entries
     }
 
     /// A block of a frequency other than 0.
@@ -186,21 +274,7 @@ impl Vertex {
 
     fn still_rational(&self, s: &SectorStencils) -> Vec<Vec<Rational>> {
         let before = usize::from(s.centre.is_some());
-        let size = s.rows.len() + before;
-        let mut entries = vec![vec![ratio(0, 1); size]; size];
-        if let Some((own, sums)) = &s.centre {
-            // The stencil of the centre has every sector's weights already.
-            entries[0][0].clone_from(own);
-            entries[0][1..].clone_from_slice(sums);
-        }
-        for (i, weights) in s.rows.iter().enumerate() {
-            if before == 1 {
-                entries[i + 1][0].clone_from(&s.from_centre[i]);
-            }
-            for (orbit, _, weight) in weights {
-                entries[i + before][orbit + before] += weight;
-            }
-        }
+        let mut entries = summed(s, &ratio(0, 1));
         if let Some((orbit, weight)) = self.central(0) {
             let own = weight.x.coeff(0);
             entries[orbit + before].fill(ratio(0, 1));
@@ -211,6 +285,59 @@ impl Vertex {
         }
         entries
     }
+}
+
+/// The block 0 over `Q(2cos(2π/n))`.
+fn still_over(s: &SectorStencils<Poly>) -> (Vec<Vec<Symbol>>, usize, usize) {
+    let entries = summed(s, &Poly::zero());
+    let before = usize::from(s.centre.is_some());
+    (entries.into_iter().map(|row| row.into_iter().map(Symbol::real).collect()).collect(), before, 1)
+}
+
+/// The entries of block 0: the weights of an orbit in all sectors together, the centre first where it is a point.
+fn summed<W: Clone>(s: &SectorStencils<W>, zero: &W) -> Vec<Vec<W>>
+where
+    for<'a> &'a W: Add<Output = W>,
+{
+    let before = usize::from(s.centre.is_some());
+    let size = s.rows.len() + before;
+    let mut entries = vec![vec![zero.clone(); size]; size];
+    if let Some((own, sums)) = &s.centre {
+        // The stencil of the centre has every sector's weights already.
+        entries[0][0].clone_from(own);
+        entries[0][1..].clone_from_slice(sums);
+    }
+    for (i, weights) in s.rows.iter().enumerate() {
+        if before == 1 {
+            entries[i + 1][0].clone_from(&s.from_centre[i]);
+        }
+        for (orbit, _, weight) in weights {
+            let entry = &mut entries[i + before][orbit + before];
+            *entry = &*entry + weight;
+        }
+    }
+    entries
+}
+
+/// The stencils with their rational weights, and whether that is all of them; a row with others is left empty.
+fn rational_stencils(s: &SectorStencils<Poly>) -> (SectorStencils, bool) {
+    let number = |w: &Poly| w.degree().is_none_or(|d| d == 0).then(|| w.coeff(0));
+    let mut all = true;
+    let (mut rows, mut from_centre) = (Vec::new(), Vec::new());
+    for (row, own) in s.rows.iter().zip(&s.from_centre) {
+        let plain: Option<Vec<Weight>> = row.iter().map(|(o, shift, w)| Some((*o, *shift, number(w)?))).collect();
+        let found = plain.zip(number(own));
+        all &= found.is_some();
+        let (row, own) = found.unwrap_or_else(|| (Vec::new(), ratio(0, 1)));
+        rows.push(row);
+        from_centre.push(own);
+    }
+    let centre = s.centre.as_ref().map(|(own, sums)| {
+        let found = number(own).zip(sums.iter().map(number).collect::<Option<Vec<_>>>());
+        all &= found.is_some();
+        found.unwrap_or_else(|| (ratio(0, 1), vec![ratio(0, 1); sums.len()]))
+    });
+    (SectorStencils { places: s.places.clone(), rows, from_centre, centre, sector: s.sector, steps: s.steps }, all)
 }
 
 /// The irrational weight at the centre as a polynomial in `t = 2cos(2π/n)`: the weight of all neighbours together.
@@ -255,8 +382,9 @@ pub(super) fn strong_parts(size: usize, entry: impl Fn(usize, usize) -> bool) ->
     strong_components(&Matrix::from_fn(size, size, |i, j| ratio(i64::from(entry(i, j)), 1)))
 }
 
-/// The characteristic polynomial, from the constant coefficient up (Faddeev and LeVerrier).
-fn characteristic(a: &[Vec<Symbol>]) -> Vec<Symbol> {
+/// The characteristic polynomial, from the constant coefficient up (Faddeev and LeVerrier); with coordinates modulo a polynomial,
+/// where one is given.
+fn characteristic(a: &[Vec<Symbol>], modulus: Option<&Poly>) -> Vec<Symbol> {
     let n = a.len();
     let zero = || Symbol::constant(&ratio(0, 1));
     let mut coefficients = vec![Symbol::constant(&ratio(1, 1))];
@@ -269,6 +397,9 @@ fn characteristic(a: &[Vec<Symbol>]) -> Vec<Symbol> {
             for (j, entry) in row.iter_mut().enumerate() {
                 for (l, inner) in m.iter().enumerate() {
                     *entry = entry.add(&a[i][l].mul(&inner[j]));
+                }
+                if let Some(modulus) = modulus {
+                    *entry = entry.reduced(modulus);
                 }
             }
         }

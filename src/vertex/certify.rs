@@ -2,6 +2,7 @@
 
 use super::block::{Block, Vertex};
 use super::cosine::{gcd, minimal_polynomial};
+use super::curvature::{Curvature, curvature};
 use super::field::{Enclosures, Field, Fixed};
 use super::limit::{self, Ring};
 use super::net::{Net, Signs};
@@ -27,20 +28,38 @@ const DISPLAY_DEGREE: usize = 24;
 pub enum Ground {
     /// Theorem 7: the characteristic map is regular and winds once.
     Regular,
-    /// Theorem 8 (a): the leading eigenvectors live in blocks other than 1 and `n − 1`.
-    Winding,
+    /// Theorem 8 (a): the leading eigenvectors live in this block, other than 1 and `n − 1`.
+    Winding(usize),
     /// Theorem 8 (c): the Jacobian determinant changes its sign.
     Fold,
-    /// Theorem 2 or 3: one leading eigenvector, whose function on the ring has no zero.
+    /// Theorem 2 or 3, with Theorem 8 (e): one leading eigenvector, whose function on the ring has no zero.
     Line,
     /// Theorem 8 (e): the same on a closed path only.
     Path,
-    /// Theorem 8 (b): both leading eigenvectors are the same in every second sector.
+    /// Theorem 8 (b): the leading eigenvectors are the same in every second sector.
     Sectors,
     /// Theorem 8 (d): the leading eigenvectors span three dimensions or more.
     Span,
     /// An eigenvalue besides 1 is not smaller than 1 in modulus, so that the rings do not shrink.
     NoLimit,
+}
+
+impl Ground {
+    /// The verdict on C¹ for almost all control points.
+    #[must_use]
+    pub fn verdict(self) -> Verdict {
+        if self == Self::Regular { Verdict::Proved } else { Verdict::Refuted }
+    }
+
+    /// The statement about C¹.
+    #[must_use]
+    pub fn statement(self) -> Statement {
+        match self {
+            Self::Regular => Statement::Theorem7,
+            Self::NoLimit => Statement::NoLimit,
+            _ => Statement::Theorem8,
+        }
+    }
 }
 
 /// Enclosures of the leading eigenvector, as middles: with `ω = e^(2πik/n)`, a point of sector `s` has the value `ω^s (x + y ω)`.
@@ -96,6 +115,8 @@ pub struct AtValence {
     pub ground: Option<Ground>,
     /// That eigenvector.
     pub eigenvector: Option<Eigenvector>,
+    /// The curvature for almost all control points, where the surface is C¹ for them and the ring has Bézier patches.
+    pub curvature: Option<Curvature>,
     /// What the independent checker says of the verdicts.
     pub again: Again,
     /// The patches of sector 0 as floats `x, y`, for pictures: nets of points in the true plane.
@@ -119,6 +140,7 @@ impl AtValence {
             reason: VertexReason::Unexamined,
             ground: None,
             eigenvector: None,
+            curvature: None,
             again: Again::NotAsked,
             outline: Vec::new(),
         }
@@ -151,7 +173,7 @@ impl AtValence {
             Some(Ground::Regular) => vec![Statement::Lemma3, Statement::Theorem7],
             Some(Ground::Span) => vec![Statement::Corollary, Statement::Theorem8],
             Some(Ground::Line) => vec![simple, Statement::Theorem8],
-            Some(Ground::Winding | Ground::Fold | Ground::Path | Ground::Sectors) => vec![Statement::Theorem8],
+            Some(Ground::Winding(_) | Ground::Fold | Ground::Path | Ground::Sectors) => vec![Statement::Theorem8],
             None => Vec::new(),
         };
         if self.plane == Verdict::Proved {
@@ -160,6 +182,7 @@ impl AtValence {
         if !self.polynomial && (self.jacobian.is_some() || self.half_plane.is_some() || self.ground.is_some()) {
             out.push(Statement::Lemma4);
         }
+        out.extend(self.curvature.as_ref().map(|_| Statement::CurvatureSize));
         out.sort_unstable();
         out.dedup();
         out
@@ -227,7 +250,7 @@ pub fn at_valence(rule: &MeshRule, valence: usize) -> Result<AtValence, SchemeEr
 pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Result<AtValence, SchemeError> {
     let mut found = AtValence::new(valence);
     found.polynomial = rule.info().spline.is_some();
-    let vertex = Vertex::new(rule, valence, ring::RINGS)?;
+    let vertex = Vertex::examined(rule, valence)?;
     let blocks: Vec<Block> = match vertex.frequencies().map(|k| vertex.block(k)).collect() {
         Ok(blocks) => blocks,
         Err(error @ (SchemeError::Mesh { .. } | SchemeError::Asymmetric { .. })) => {
@@ -246,6 +269,9 @@ pub fn at_valence_within(rule: &MeshRule, valence: usize, budget: &Budget) -> Re
     };
     found.minimal = minimal(&vertex, &top);
     Judge { vertex: &vertex, blocks: &blocks, top: &top, found: &mut found, budget }.judge();
+    if found.smooth == Verdict::Proved && found.ground == Some(Ground::Regular) {
+        found.curvature = curvature(&vertex, &blocks, &top);
+    }
     found.top = Some(top);
     Ok(found)
 }
@@ -376,7 +402,7 @@ impl Judge<'_> {
             return;
         }
         if k != 1 {
-            self.found.ground = Some(Ground::Winding);
+            self.found.ground = Some(Ground::Winding(k));
             self.found.smooth = Verdict::Refuted;
             self.found.reason = VertexReason::Winding { length, block: k, times: self.found.winding };
             return;
@@ -444,9 +470,7 @@ fn minimal(vertex: &Vertex, top: &Top) -> Option<Poly> {
     if let Some(q) = &top.rational {
         return Some(Poly::linear(q));
     }
-    let frequency = top.members.first()?.frequency;
-    let angle = if frequency == 0 { 1 } else { frequency };
-    let modulus = minimal_polynomial(vertex.valence / gcd(angle, vertex.valence));
+    let modulus = minimal_polynomial(vertex.valence / gcd(top.angle, vertex.valence));
     let degree = modulus.degree()?;
     if top.poly.iter().any(|c| c.degree().is_some_and(|d| d > 1)) || degree * (top.poly.len() - 1) > DISPLAY_DEGREE {
         return None;

@@ -1,8 +1,8 @@
 //! The ring of a scheme without Bézier patches: enclosures of the limit and its derivatives on cells that are divided until
 //! signs are certain (docs/theory.md, Lemma 4).
 //!
-//! The ring of a sector are the cells at distances `r` to `N r` from the centre; their points lie at distance 1 and more,
-//! where the mesh is regular.
+//! The ring of a sector are the cells at distances `r` to `N r` from the centre, `r` at least 3 and so large that their points lie at
+//! distance 1 and more, where the mesh is regular.
 
 use super::block::Vertex;
 use super::field::{Enclosures, Fixed};
@@ -17,10 +17,8 @@ use malachite_base::num::logic::traits::SignificantBits;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// The inner radius of the ring.
+/// The least inner radius of the ring.
 const RADIUS: i64 = 3;
-/// Rings of points beyond the ring of cells.
-const REACH: i64 = 3;
 /// Binary places of the largest value: with bounds below `2^10` (see [`Regular`]) no product below leaves 128 bits.
 const BITS: u64 = 48;
 /// How often a cell is divided at most.
@@ -48,20 +46,36 @@ pub struct Ring {
     pieces: Vec<Piece>,
 }
 
+/// How far a place is from the centre, in faces.
+fn distance(triangles: bool, (i, j): Place) -> i64 {
+    if triangles { i.abs().max(j.abs()).max((i + j).abs()) } else { i.abs().max(j.abs()) }
+}
+
+/// The inner radius of the ring of cells that have these points: all of them lie at distance 1 and more.
+pub(super) fn radius(triangles: bool, factor: i64, points: &[Place]) -> i64 {
+    let apart = |cell: &Cell| points.iter().all(|p| distance(triangles, place(cell, *p)) >= 1);
+    let most = points.iter().map(|p| distance(triangles, *p)).fold(RADIUS, i64::max) + 1;
+    (RADIUS..most).find(|r| cells_between(triangles, *r, factor * r).iter().all(apart)).map_or(most, |r| r)
+}
+
 /// The cells of the ring of a sector.
-pub(super) fn ring_cells(triangles: bool, factor: i64) -> Vec<Cell> {
-    let outer = factor * RADIUS;
+pub(super) fn ring_cells(regular: &Regular) -> Vec<Cell> {
+    cells_between(regular.triangles, regular.radius, regular.factor * regular.radius)
+}
+
+/// The cells of a sector between two distances.
+pub(super) fn cells_between(triangles: bool, inner: i64, outer: i64) -> Vec<Cell> {
     let mut all = Vec::new();
     for i in 0..outer {
         for j in 0..outer {
             if triangles {
-                if i + j >= RADIUS && i + j < outer {
+                if i + j >= inner && i + j < outer {
                     all.push(((i, j), 1));
                 }
-                if i + j + 1 >= RADIUS && i + j + 2 <= outer {
+                if i + j + 1 >= inner && i + j + 2 <= outer {
                     all.push(((i + 1, j + 1), -1));
                 }
-            } else if i.max(j) >= RADIUS {
+            } else if i.max(j) >= inner {
                 all.push(((i, j), 1));
             }
         }
@@ -73,9 +87,36 @@ pub(super) fn ring_cells(triangles: bool, factor: i64) -> Vec<Cell> {
 #[must_use]
 pub fn lattice_point(rule: &MeshRule, cell: usize, spot: &Spot) -> Option<(Rational, Rational)> {
     let regular = Regular::of(rule)?;
-    let (corner, sign) = *ring_cells(regular.triangles, regular.factor).get(cell)?;
+    let (corner, sign) = *ring_cells(&regular).get(cell)?;
     let along = |c: i64, x: &Rational| ratio(c, 1) + ratio(sign, 1) * x;
     Some((along(corner.0, &spot.0), along(corner.1, &spot.1)))
+}
+
+/// Whether all new points of the parts of cells of the ring follow from their neighbours as in a regular mesh: looked at on the known
+/// rings, and beyond them stencils do not come near the centre.
+fn regular_beyond(wide: &Vertex, regular: &Regular) -> bool {
+    let distance = |p: Place| distance(regular.triangles, p);
+    let usual = if regular.triangles { 6 } else { 4 };
+    let Ok(there) = Vertex::new(&wide.rule.regular(), usual, wide.rings) else { return false };
+    let mut nearest = i64::MAX;
+    for (corner, sign) in ring_cells(regular) {
+        let finer = ((regular.factor * corner.0, regular.factor * corner.1), sign);
+        for part in &regular.parts {
+            let at = (place(&finer, part.0), sign * part.1);
+            nearest = regular.points.iter().map(|p| distance(place(&at, *p))).fold(nearest, i64::min);
+        }
+    }
+    let row = |vertex: &Vertex, orbit: usize| {
+        let (weights, own) = vertex.rational_row(orbit)?;
+        let mut weights = weights.to_vec();
+        weights.sort();
+        Some((weights, own.clone()))
+    };
+    nearest >= 1
+        && wide.stencils.places.iter().enumerate().all(|(orbit, (i, j))| {
+            distance((*i as i64, *j as i64)) < nearest
+                || row(wide, orbit).is_some_and(|own| row(&there, orbit) == Some(own))
+        })
 }
 
 /// The values of an eigenvector farther out: a point beyond the known ones follows from them by its stencil, divided by the
@@ -97,8 +138,9 @@ fn continued(
         if wide.stencils.sector == Sector::Triangles { a + b } else { a.max(b) }
     });
     for orbit in order {
-        let mut sum = rotation.scale(&values.centre, &wide.stencils.from_centre[orbit]);
-        for (old, shift, weight) in &wide.stencils.rows[orbit] {
+        let (weights, from_centre) = wide.rational_row(orbit)?;
+        let mut sum = rotation.scale(&values.centre, from_centre);
+        for (old, shift, weight) in weights {
             let turned = rotation.turn(known[*old].as_ref()?, *shift);
             sum = rotation.add(&sum, &rotation.scale(&turned, weight));
         }
@@ -126,12 +168,18 @@ impl Ring {
         most: usize,
     ) -> Option<Self> {
         let regular = Regular::of(&vertex.rule)?;
-        let rings = usize::try_from(regular.factor * RADIUS + REACH).ok()?;
+        let all = ring_cells(&regular);
+        let points = |cell: &Cell| regular.points.iter().map(|p| place(cell, *p)).collect::<Vec<_>>();
+        let rings = all.iter().flat_map(points).map(|p| distance(regular.triangles, p)).max()?;
+        let rings = usize::try_from(rings).ok()?.max(vertex.rings);
         let wide = Vertex::new(&vertex.rule, vertex.valence, rings).ok()?;
+        if vertex.rule.own().is_some() && !regular_beyond(&wide, &regular) {
+            return None;
+        }
         let far = continued(&wide, vertex, field, values, eigenvalue)?;
         let control = Control { vertex: &wide, field, values: &far };
         let mut nets = Vec::new();
-        for cell in ring_cells(regular.triangles, regular.factor) {
+        for cell in all {
             let at = |p: &Place| {
                 let (i, j) = place(&cell, *p);
                 control.at(i, j)
@@ -240,11 +288,11 @@ impl Ring {
     pub fn functional(&self, (a, b): (i128, i128), innermost: bool) -> Signs {
         let r = &self.regular;
         let (_, scale) = r.scales();
-        let cells = ring_cells(r.triangles, r.factor);
+        let cells = ring_cells(r);
         let near = |p: &&Piece| {
             let ((i, j), sign) = cells[p.cell];
             let distance = |(i, j): Place| if r.triangles { i + j } else { i.max(j) };
-            distance((i, j)).min(distance((i + sign, j))).min(distance((i, j + sign))) == RADIUS
+            distance((i, j)).min(distance((i + sign, j))).min(distance((i, j + sign))) == r.radius
         };
         let chosen = self.pieces.iter().filter(|p| !innermost || near(p)).cloned().collect();
         self.explore(chosen, |piece| {

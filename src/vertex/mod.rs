@@ -5,6 +5,7 @@
 pub mod block;
 mod certify;
 pub mod cosine;
+mod curvature;
 mod every;
 mod factored;
 pub mod field;
@@ -20,6 +21,7 @@ pub mod top;
 pub mod turning;
 
 pub use certify::{Again, AtValence, Eigenvector, Ground, at_valence, at_valence_within, decimal};
+pub use curvature::{Curvature, Second, Size};
 pub use every::{Condition, Every, every, strict_sign};
 pub use reason::{BorderGround, Requirement, VertexReason};
 

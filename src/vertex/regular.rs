@@ -48,6 +48,8 @@ pub struct Regular {
     pub factor: i64,
     /// The points of the cell with corners (0,0), (1,0), (0,1), and (1,1) for squares.
     pub points: Vec<Place>,
+    /// The inner radius of the ring around a centre: its cells have no points there.
+    pub radius: i64,
     /// The parts of the cell after a step, in the finer lattice.
     pub parts: Vec<Cell>,
     /// The common denominator of all weights.
@@ -150,6 +152,7 @@ impl Regular {
         let mut regular = Self {
             triangles,
             factor,
+            radius: super::limit::radius(triangles, factor, &points),
             points,
             parts,
             denominator,
@@ -359,6 +362,8 @@ struct Bounds<'a> {
     /// A matrix that gives the values there from the second differences of nets that are 0 at the three corners, times
     /// `2^PLACES` and rounded.
     inverse: Vec<Vec<i128>>,
+    /// The sums of the absolute entries of its rows.
+    sums: Vec<i128>,
 }
 
 impl<'a> Bounds<'a> {
@@ -381,7 +386,8 @@ impl<'a> Bounds<'a> {
         let rounded = |x: &Rational| i128::try_from(&Integer::rounding_from(x * &unit, RoundingMode::Nearest).0).ok();
         let inverse =
             (0..exact.rows()).map(|i| exact.row(i).iter().map(rounded).collect()).collect::<Option<Vec<_>>>()?;
-        Some(Self { regular, others, inverse })
+        let sums = inverse.iter().map(|row: &Vec<i128>| row.iter().map(|x| x.abs()).sum()).collect();
+        Some(Self { regular, others, inverse, sums })
     }
 
     /// A bound of the sum of absolute coefficients of a functional that is 0 on linear functions, written in the second
@@ -404,8 +410,23 @@ impl<'a> Bounds<'a> {
         Some(total + Integer::from(size) * Integer::from(count as u64))
     }
 
-    fn worst(&self, rows: impl IntoIterator<Item = Vec<i128>>) -> Option<Integer> {
-        rows.into_iter().try_fold(Integer::from(0), |worst, row| Some(worst.max(self.norm(&row)?)))
+    /// The largest of a bound and of [`Self::norm`] of some functionals.
+    fn worst(&self, least: Integer, rows: impl IntoIterator<Item = Vec<i128>>) -> Option<Integer> {
+        let count = self.regular.differences.len() as i128;
+        rows.into_iter().try_fold(least, |worst, row| {
+            // Row by row of the inverse the sum is no smaller: most functionals need no more than this.
+            let fits = self.others.iter().all(|i| row[*i].unsigned_abs() >> MAX_BITS == 0);
+            let term = |(i, sum): (&usize, &i128)| row[*i].abs().checked_mul(sum.checked_add(count)?);
+            let coarse = if fits {
+                self.others.iter().zip(&self.sums).try_fold(0_i128, |s, t| s.checked_add(term(t)?))
+            } else {
+                None
+            };
+            match coarse {
+                Some(coarse) if coarse <= worst => Some(worst),
+                _ => Some(worst.max(self.norm(&row)?)),
+            }
+        })
     }
 
     fn first(&self) -> Word {
@@ -470,7 +491,7 @@ impl<'a> Bounds<'a> {
                 change(&Self::along(word, |v| r.fit(v)), &old, 1),
             ];
             for (worst, rows) in worst.iter_mut().zip(sets) {
-                *worst = self.worst(rows)?.max(worst.clone());
+                *worst = self.worst(worst.clone(), rows)?;
             }
         }
         Some(worst)
@@ -690,7 +711,7 @@ mod tests {
             assert_eq!(span.rows(), rank, "{rule:?}");
             let null = span.kernel();
             assert!(steps.iter().all(|t| (t * &null).is_zero()));
-            for cell in ring_cells(r.triangles, r.factor) {
+            for cell in ring_cells(&r) {
                 let distance = |p: &Place| {
                     let (i, j) = place(&cell, *p);
                     if r.triangles { i.abs().max(j.abs()).max((i + j).abs()) } else { i.abs().max(j.abs()) }

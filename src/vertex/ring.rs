@@ -26,6 +26,20 @@ pub const RINGS: usize = 3;
 /// The faces of the ring of a sector of quadrangles, by their lower left corner.
 pub(crate) const CELLS: [(i64, i64); 3] = [(1, 0), (1, 1), (0, 1)];
 
+/// The faces of the ring of a sector of quadrangles from some distance to twice that, row by row; [`CELLS`] at distance 1.
+fn cells(radius: i64) -> Vec<(i64, i64)> {
+    if radius == 1 {
+        return CELLS.to_vec();
+    }
+    let outer = 2 * radius;
+    (0..outer).flat_map(|i| (0..outer).map(move |j| (i, j))).filter(|(i, j)| *i.max(j) >= radius).collect()
+}
+
+/// The triangles of the ring of a sector from some distance to twice that; [`TRIANGLES`] at distance 1.
+fn triangles(radius: i64) -> Vec<((i64, i64), i64)> {
+    if radius == 1 { TRIANGLES.to_vec() } else { super::limit::cells_between(true, radius, 2 * radius) }
+}
+
 /// The triangles of the ring of a sector: a corner, and the lattice vectors to the next two.
 pub(crate) const TRIANGLES: [((i64, i64), i64); 3] = [((1, 0), 1), ((1, 1), -1), ((0, 1), 1)];
 
@@ -141,16 +155,17 @@ impl<F: Field> Control<'_, F> {
 #[must_use]
 pub fn patches<F: Field>(vertex: &Vertex, field: &F, values: &Values<F::E>) -> Option<Vec<Net<Turning<F::E>>>> {
     let control = Control { vertex, field, values };
+    let radius = vertex.rule.regular_from();
     match vertex.rule.info().spline? {
         Spline::Bicubic => {
             let masks: [&[i64]; 4] = [&[1, 4, 1, 0], &[0, 4, 2, 0], &[0, 2, 4, 0], &[0, 1, 4, 1]];
-            CELLS.iter().map(|c| control.tensor(*c, &masks, 6)).collect()
+            cells(radius).iter().map(|c| control.tensor(*c, &masks, 6)).collect()
         }
         Spline::Biquadratic => {
             let masks: [&[i64]; 3] = [&[1, 1, 0], &[0, 2, 0], &[0, 1, 1]];
             CELLS.iter().map(|c| control.tensor(*c, &masks, 2)).collect()
         }
-        Spline::Quartic => TRIANGLES.iter().map(|(a, sign)| control.quartic(*a, *sign)).collect(),
+        Spline::Quartic => triangles(radius).iter().map(|(a, sign)| control.quartic(*a, *sign)).collect(),
         Spline::Quadratic => {
             let nets: Option<Vec<Vec<_>>> = CELLS.iter().map(|c| control.quadratic(*c)).collect();
             Some(nets?.into_iter().flatten().collect())
@@ -164,6 +179,10 @@ pub fn boundary<E: Clone>(rule: &MeshRule, patches: &[Net<E>]) -> Option<Vec<Net
     let last = |net: &Net<E>| net.rows.iter().map(|row| row[row.len() - 1].clone()).collect::<Vec<E>>();
     let top = |net: &Net<E>| net.rows[net.rows.len() - 1].clone();
     let first = |net: &Net<E>| net.rows[0].clone();
+    let radius = rule.regular_from();
+    if radius > 1 {
+        return wide_boundary(rule.info().spline?, radius, patches);
+    }
     let curves = match (rule.info().spline?, patches) {
         (Spline::Bicubic | Spline::Biquadratic, [a, b, c]) => vec![last(a), last(b), top(b), top(c)],
         // The last points of the rows of a triangle lie on the edge from the second corner to the third.
@@ -172,6 +191,27 @@ pub fn boundary<E: Clone>(rule: &MeshRule, patches: &[Net<E>]) -> Option<Vec<Net
             vec![first(&all[1]), first(&all[5]), first(&all[6]), first(&all[10])]
         }
         _ => return None,
+    };
+    Some(curves.into_iter().map(|row| Net { triangle: false, rows: vec![row] }).collect())
+}
+
+/// The outer boundary of a ring from a distance other than 1.
+fn wide_boundary<E: Clone>(spline: Spline, radius: i64, patches: &[Net<E>]) -> Option<Vec<Net<E>>> {
+    let last = |net: &Net<E>| net.rows.iter().map(|row| row[row.len() - 1].clone()).collect::<Vec<E>>();
+    let top = |net: &Net<E>| net.rows[net.rows.len() - 1].clone();
+    let outer = 2 * radius - 1;
+    let curves: Vec<Vec<E>> = match spline {
+        Spline::Bicubic => {
+            let at = |p: (i64, i64)| cells(radius).iter().position(|c| *c == p).and_then(|index| patches.get(index));
+            let right = (0..=outer).map(|j| at((outer, j)).map(last));
+            let above = (0..=outer).rev().map(|i| at((i, outer)).map(top));
+            right.chain(above).collect::<Option<_>>()?
+        }
+        Spline::Quartic => {
+            let all = triangles(radius).into_iter().zip(patches);
+            all.filter(|(((i, j), sign), _)| *sign == 1 && i + j == outer).map(|(_, net)| last(net)).collect()
+        }
+        Spline::Biquadratic | Spline::Quadratic => return None,
     };
     Some(curves.into_iter().map(|row| Net { triangle: false, rows: vec![row] }).collect())
 }
@@ -189,11 +229,11 @@ pub fn lattice_point(rule: &MeshRule, patch: usize, spot: &(Rational, Rational))
     let integer = |x: i64| Rational::from(x);
     match rule.info().spline? {
         Spline::Bicubic | Spline::Biquadratic => {
-            let (i, j) = *CELLS.get(patch)?;
+            let (i, j) = *cells(rule.regular_from()).get(patch)?;
             Some((integer(i) + &spot.0, integer(j) + &spot.1))
         }
         Spline::Quartic => {
-            let ((i, j), sign) = *TRIANGLES.get(patch)?;
+            let ((i, j), sign) = *triangles(rule.regular_from()).get(patch)?;
             Some((integer(i) + integer(sign) * &spot.0, integer(j) + integer(sign) * &spot.1))
         }
         Spline::Quadratic => {

@@ -34,8 +34,11 @@ pub struct Top {
     pub rational: Option<Rational>,
     /// An enclosure.
     pub enclosure: Interval,
-    /// The polynomial that has it as a root: coefficients from the constant one up, in `t = 2cos(2πk/n)`.
+    /// The polynomial that has it as a root: coefficients from the constant one up, in `t = 2cos(2πk/n)`, `k` being
+    /// [`Top::angle`].
     pub poly: Vec<Poly>,
+    /// The `k` of the angle in the polynomial.
+    pub angle: usize,
     /// The blocks with this eigenvalue or its negative.
     pub members: Vec<Member>,
     /// A bound that all other eigenvalues but 1 stay strictly below.
@@ -60,18 +63,18 @@ impl From<SchemeError> for TopError {
 }
 
 /// A factor of the characteristic polynomials, without the eigenvalue 1.
-struct Piece {
-    block: usize,
-    part: usize,
-    poly: Vec<Poly>,
+pub(super) struct Piece {
+    pub block: usize,
+    pub part: usize,
+    pub poly: Vec<Poly>,
 }
 
 /// An eigenvalue in floating point.
-struct Guess {
-    piece: usize,
-    re: f64,
-    im: f64,
-    modulus: f64,
+pub(super) struct Guess {
+    pub piece: usize,
+    pub re: f64,
+    pub im: f64,
+    pub modulus: f64,
 }
 
 impl Top {
@@ -112,7 +115,7 @@ pub fn top(vertex: &Vertex, blocks: &[Block], bits: u64) -> Result<Top, TopError
 }
 
 /// The parts of all blocks; the eigenvalue 1 of the block 0 is divided out once.
-fn pieces(blocks: &[Block]) -> Vec<Piece> {
+pub(super) fn pieces(blocks: &[Block]) -> Vec<Piece> {
     let mut all = Vec::new();
     let mut divided = false;
     for (b, block) in blocks.iter().enumerate() {
@@ -148,7 +151,7 @@ fn deflate_one(poly: &[Poly]) -> Vec<Poly> {
     clippy::cast_precision_loss,
     reason = "proposes eigenvalues; each is proved afterwards"
 )]
-fn guess(vertex: &Vertex, blocks: &[Block], pieces: &[Piece]) -> Vec<Guess> {
+pub(super) fn guess(vertex: &Vertex, blocks: &[Block], pieces: &[Piece]) -> Vec<Guess> {
     let mut all = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let angle = std::f64::consts::TAU * blocks[piece.block].angle as f64 / vertex.valence as f64;
@@ -205,11 +208,11 @@ pub(super) fn from_float(x: f64) -> Rational {
     Rational::try_from(x).unwrap_or_else(|_| Rational::from(0))
 }
 
-fn field_of(vertex: &Vertex, block: &Block, bits: u64) -> Enclosures {
+pub(super) fn field_of(vertex: &Vertex, block: &Block, bits: u64) -> Enclosures {
     Enclosures::of_angle(block.angle, vertex.valence, bits)
 }
 
-fn coefficients(field: &Enclosures, poly: &[Poly]) -> Vec<Fixed> {
+pub(super) fn coefficients(field: &Enclosures, poly: &[Poly]) -> Vec<Fixed> {
     poly.iter().map(|c| field.eval(c, &field.twice_cosine())).collect()
 }
 
@@ -242,11 +245,11 @@ fn simple(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], first: &Guess, ne
     let place = (own.block, Some(own.part));
     let modulus = minimal_polynomial(vertex.valence / gcd(block.angle, vertex.valence));
     let poly = own.poly.iter().map(|c| c.div_rem(&modulus).1).collect();
-    Some(Top { rational, enclosure, poly, members, others, place })
+    Some(Top { rational, enclosure, poly, angle: block.angle, members, others, place })
 }
 
 /// A short interval around a number.
-fn around(near: &Rational) -> Interval {
+pub(super) fn around(near: &Rational) -> Interval {
     Interval::new(near - ratio(1, 1 << 24), near + ratio(1, 1 << 24))
 }
 
@@ -378,10 +381,10 @@ fn tied(vertex: &Vertex, blocks: &[Block], pieces: &[Piece], guesses: &[Guess], 
     let Some(place) = place else { return Err(open()) };
     let enclosure = Interval::point(value.clone());
     let poly = vec![Poly::constant(-&value), Poly::constant(ratio(1, 1))];
-    Ok(Top { rational: Some(value), enclosure, poly, members, others, place })
+    Ok(Top { rational: Some(value), enclosure, poly, angle: 1, members, others, place })
 }
 
-fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
+pub(super) fn evaluate<F: Field>(field: &F, poly: &[F::E], x: &F::E) -> F::E {
     poly.iter().rev().fold(field.zero(), |v, c| field.add(&field.mul(&v, x), c))
 }
 
@@ -423,17 +426,41 @@ pub fn leading_values(
 ) -> Option<Values<Fixed>> {
     let block = blocks.iter().find(|b| b.frequency == frequency)?;
     let enclosures = field_of(vertex, block, bits);
-    if let (_, Some(part)) = top.place {
+    let found = if let (_, Some(part)) = top.place {
         let value = leading_value(vertex, blocks, top, frequency, bits)?;
-        return eigenvector(&enclosures, block, part, &value);
+        eigenvector(&enclosures, block, part, &value)?
+    } else {
+        let field = number_field(vertex, block);
+        let exact = leading_vector(&field, block, top.rational.as_ref()?)?;
+        convert(&field, &enclosures, &exact)
+    };
+    if frequency == 0 || block.angle == frequency {
+        return Some(found);
     }
-    let field = number_field(vertex, block);
-    let exact = leading_vector(&field, block, top.rational.as_ref()?)?;
-    Some(convert(&field, &enclosures, &exact))
+    turned(vertex, &found, frequency, bits)
+}
+
+/// Numbers `x + y ω` with `ω = e^(2πi/n)` in the same form with `e^(2πik/n)`; of the frequency `n/2` they are real.
+pub(super) fn turned(vertex: &Vertex, values: &Values<Fixed>, k: usize, bits: u64) -> Option<Values<Fixed>> {
+    if 2 * k == vertex.valence {
+        return Some(values.clone());
+    }
+    let one = Enclosures::of_angle(1, vertex.valence, bits);
+    let (t, turned) = (one.twice_cosine(), Enclosures::of_angle(k, vertex.valence, bits).twice_cosine());
+    // sin(kθ)/sin(θ) by U_0 = 1, U_1 = t, U_(j+1) = t U_j − U_(j−1).
+    let (mut before, mut now) = (one.zero(), one.one());
+    for _ in 1..k {
+        (before, now) = (now.clone(), one.sub(&one.mul(&t, &now), &before));
+    }
+    // ω = a + b ω^k.
+    let b = one.inv(&now)?;
+    let a = one.scale(&one.sub(&t, &one.mul(&b, &turned)), &ratio(1, 2));
+    let convert = |v: &Turning<Fixed>| Turning { x: one.add(&v.x, &one.mul(&a, &v.y)), y: one.mul(&b, &v.y) };
+    Some(Values { centre: convert(&values.centre), orbits: values.orbits.iter().map(convert).collect() })
 }
 
 /// Exact values as enclosures.
-fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
+pub(super) fn convert(field: &NumberField, enclosures: &Enclosures, exact: &Values<Elem>) -> Values<Fixed> {
     let one = |v: &Turning<Elem>| Turning { x: enclose(field, enclosures, &v.x), y: enclose(field, enclosures, &v.y) };
     Values { centre: one(&exact.centre), orbits: exact.orbits.iter().map(one).collect() }
 }
@@ -461,5 +488,9 @@ mod tests {
         assert!(all_below(&f, &p(&[6, -7, 0, 1]), &ratio(31, 10)));
         assert!(!all_below(&f, &p(&[6, -7, 0, 1]), &ratio(29, 10)));
         assert!(!all_below(&f, &p(&[6, -7, 0, 1]), &ratio(3, 2)));
+        // The last step decides about x − 2, alone and beside a root 0.
+        for x_minus_2 in [p(&[-2, 1]), p(&[0, -2, 1])] {
+            assert!(all_below(&f, &x_minus_2, &ratio(21, 10)) && !all_below(&f, &x_minus_2, &ratio(19, 10)));
+        }
     }
 }

@@ -147,6 +147,12 @@ impl Symbol {
     pub fn scale(&self, q: &Rational) -> Self {
         Self { x: self.x.scale(q), y: self.y.scale(q) }
     }
+
+    /// The same at the roots of a polynomial.
+    #[must_use]
+    pub fn reduced(&self, modulus: &Poly) -> Self {
+        Self { x: self.x.div_rem(modulus).1, y: self.y.div_rem(modulus).1 }
+    }
 }
 
 /// The polynomial `t`.

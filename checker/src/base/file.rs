@@ -1,11 +1,14 @@
 //! TOML files: cases, whose numbers are decimals and fractions.
 
 use super::number::decimal_fraction;
-use super::{Checked, Json, Matrix, Node, Q, Rejected, bits, spend};
+use super::{Checked, Json, Matrix, Node, Q, Rejected, Whole, bits, spend};
 use toml::de::{DeTable, DeValue};
 
+/// The rule about the numbers that a certificate lists for the roots and cosines of a case.
+pub const NUMBERS: &str = "numbers";
+
 /// Most coordinates of a state.
-pub const MAX_COORDINATES: usize = 64;
+pub const MAX_COORDINATES: usize = 96;
 
 /// A value of a TOML file: numbers keep the text in which they are written.
 fn tree(value: &DeValue<'_>) -> Json {
@@ -35,7 +38,9 @@ pub fn file<T>(source: &str, keys: &str, read: impl FnOnce(&Node<'_>) -> Checked
     let parsed = DeTable::parse(source).map_err(|e| unreadable(String::new(), format!("not TOML: {}", e.message())))?;
     let value = fields(parsed.get_ref());
     let node = Node { value: &value, place: "case".to_owned() };
-    node.known(keys).and_then(|()| read(&node)).map_err(|r| unreadable(r.place, r.why))
+    // What a certificate does not say of the numbers of a case is no mistake of the case.
+    let named = |r: Rejected| if r.rule == NUMBERS { r } else { unreadable(r.place, r.why) };
+    node.known(keys).and_then(|()| read(&node)).map_err(named)
 }
 
 /// A whole number of a TOML file below a bound.
@@ -78,13 +83,13 @@ pub fn number(node: &Node<'_>) -> Checked<Q> {
     Ok(number)
 }
 
-/// Reads a matrix of 1 to 64 rows and columns.
-pub fn matrix(node: &Node<'_>) -> Checked<Matrix> {
-    let rows = node.each(|row| row.each(|x| number(x)))?;
+/// Reads a matrix of 1 to 96 rows and columns.
+pub fn matrix<T: Whole>(node: &Node<'_>, ground: &T::Ground) -> Checked<Matrix<T>> {
+    let rows = node.each(|row| row.each(|x| T::given(x, ground)))?;
     node.need(!rows.is_empty(), "case", "a matrix without rows")?;
     let cols = rows[0].len();
     let fits = |n: usize| (1..=MAX_COORDINATES).contains(&n);
     let regular = fits(rows.len()) && fits(cols) && rows.iter().all(|r| r.len() == cols);
     node.need(regular, "case", format_args!("not a matrix of 1 to {MAX_COORDINATES} rows and columns"))?;
-    Ok(Matrix::from_rows(cols, &rows))
+    Ok(Matrix::fractions(rows.len(), cols, &rows.concat()))
 }

@@ -1,7 +1,7 @@
 //! A strict JSON reader: no floats, no negative integers, no repeated keys, and the fields of every object in their order.
 
 use super::number::canonical;
-use super::{Checked, MAX_LETTERS, MAX_PIECES, Matrix, Q, Rejected, charge, need, reject, some};
+use super::{Checked, MAX_LETTERS, MAX_PIECES, Matrix, Q, Rejected, Whole, charge, need, reject, some};
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, SeqAccess, Visitor};
 use std::fmt::{Display, Formatter};
 
@@ -214,6 +214,25 @@ impl<'a> Node<'a> {
     /// A matrix as a list of its rows, of which each has `cols` entries.
     pub fn matrix(&self, cols: usize) -> Checked<Matrix> {
         Ok(Matrix::from_rows(cols, &self.each(|row| row.vector(cols))?))
+    }
+
+    /// A list of exactly `count` numbers of the field of a case, as a column.
+    pub fn column<T: Whole>(&self, count: usize, ground: &T::Ground) -> Checked<Matrix<T>> {
+        let numbers =
+            self.exactly(count, "format")?.iter().map(|n| T::entry(n, ground)).collect::<Checked<Vec<_>>>()?;
+        Ok(Matrix::fractions(count, 1, &numbers))
+    }
+
+    /// The same for a matrix as a list of its rows, of which each has `cols` entries.
+    pub fn entries<T: Whole>(&self, cols: usize, ground: &T::Ground) -> Checked<Matrix<T>> {
+        let rows = self.list()?;
+        let mut all = Vec::new();
+        for row in &rows {
+            for number in row.exactly(cols, "format")? {
+                all.push(T::entry(&number, ground)?);
+            }
+        }
+        Ok(Matrix::fractions(rows.len(), cols, &all))
     }
 
     /// A word: a list of at most 1000 letters below 64.

@@ -1,6 +1,8 @@
-//! Exact matrices over the rational numbers: integers over one denominator, so that products need no reduction.
+//! Exact matrices over the rational numbers or a real number field: integers, or elements with integer coefficients, over one
+//! denominator, so that products need no reduction.
 
-use super::number::{gcd, lcm, longest, ratio};
+use super::number::{gcd, lcm, ratio};
+use super::whole::{Fraction, Whole, absolute, content};
 use super::{Checked, Q, charge, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
@@ -8,20 +10,20 @@ use std::ops::Range;
 
 /// A matrix, stored by rows; a point is a matrix with one column.
 #[derive(Debug, Clone)]
-pub struct Matrix {
+pub struct Matrix<T = BigInt> {
     /// Number of rows.
     pub rows: usize,
     /// Number of columns.
     pub cols: usize,
     /// The entries times the denominator.
-    pub data: Vec<BigInt>,
+    pub data: Vec<T>,
     /// The denominator, positive.
     pub den: BigInt,
 }
 
-impl PartialEq for Matrix {
+impl<T: Whole> PartialEq for Matrix<T> {
     fn eq(&self, other: &Self) -> bool {
-        let same = |(a, b): (&BigInt, &BigInt)| a * &other.den == b * &self.den;
+        let same = |(a, b): (&T, &T)| a.multiple(&other.den).minus(&b.multiple(&self.den)).vanishes();
         (self.rows, self.cols) == (other.rows, other.cols) && self.data.iter().zip(&other.data).all(same)
     }
 }
@@ -39,9 +41,34 @@ impl Matrix {
         Self::new(rows.len(), cols, &rows.concat())
     }
 
+    /// The entry in row `i` and column `j`.
+    pub fn at(&self, i: usize, j: usize) -> Q {
+        ratio(self.data[i * self.cols + j].clone(), self.den.clone())
+    }
+
+    /// The sum of the absolute values of all entries.
+    pub fn norm(&self) -> Q {
+        ratio(self.data.iter().map(Signed::abs).sum(), self.den.clone())
+    }
+}
+
+impl<T: Whole> Matrix<T> {
+    /// The matrix with the given entries over positive denominators, row after row.
+    pub fn fractions(rows: usize, cols: usize, entries: &[Fraction<T>]) -> Self {
+        let den = entries.iter().fold(BigInt::one(), |l, x| if charge(1, l.bits()) { lcm(&l, &x.1) } else { l });
+        charge(entries.len(), den.bits());
+        Self { rows, cols, data: entries.iter().map(|(x, d)| x.multiple(&(&den / d))).collect(), den }
+    }
+
+    /// The same matrix over a larger ring.
+    pub fn lifted(matrix: &Matrix) -> Self {
+        let data = matrix.data.iter().map(|x| T::integer(x.clone())).collect();
+        Self { rows: matrix.rows, cols: matrix.cols, data, den: matrix.den.clone() }
+    }
+
     /// The matrix with 1 where `f(row, column)` holds and 0 elsewhere.
     pub fn ones(rows: usize, cols: usize, f: impl Fn(usize, usize) -> bool) -> Self {
-        let entry = |k: usize| BigInt::from(u8::from(f(k / cols, k % cols)));
+        let entry = |k: usize| T::integer(BigInt::from(u8::from(f(k / cols, k % cols))));
         Self { rows, cols, data: (0..rows * cols).map(entry).collect(), den: BigInt::one() }
     }
 
@@ -65,13 +92,8 @@ impl Matrix {
         Self::zeros(0, cols)
     }
 
-    /// The entry in row `i` and column `j`.
-    pub fn at(&self, i: usize, j: usize) -> Q {
-        ratio(self.data[i * self.cols + j].clone(), self.den.clone())
-    }
-
-    /// The integers of row `i`.
-    pub fn integers(&self, i: usize) -> &[BigInt] {
+    /// The numerators of row `i`.
+    pub fn integers(&self, i: usize) -> &[T] {
         &self.data[i * self.cols..(i + 1) * self.cols]
     }
 
@@ -98,30 +120,36 @@ impl Matrix {
         Self { rows: rows.len(), cols: cols.len(), data, den: self.den.clone() }
     }
 
-    /// The sum of the absolute values of all entries.
-    pub fn norm(&self) -> Q {
-        ratio(self.data.iter().map(Signed::abs).sum(), self.den.clone())
-    }
-
     /// Whether every column adds up to 1.
     pub fn is_affine(&self) -> bool {
-        let sum = |j: usize| (0..self.rows).map(|i| &self.data[i * self.cols + j]).sum::<BigInt>();
-        (0..self.cols).all(|j| sum(j) == self.den)
+        let one = T::integer(self.den.clone());
+        let rest = |j: usize| (0..self.rows).fold(one.clone(), |rest, i| rest.minus(&self.data[i * self.cols + j]));
+        (0..self.cols).all(|j| rest(j).vanishes())
     }
 
     /// Whether some entry is negative.
     pub fn has_negative(&self) -> bool {
-        self.data.iter().any(Signed::is_negative)
+        self.data.iter().any(|x| x.sgn() < 0)
+    }
+
+    /// Whether all entries are positive.
+    pub fn all_positive(&self) -> bool {
+        self.data.iter().all(|x| x.sgn() > 0)
     }
 
     /// Whether all entries are 0.
     pub fn is_zero(&self) -> bool {
-        self.data.iter().all(Zero::is_zero)
+        self.data.iter().all(T::vanishes)
     }
 
     /// The largest size of the integers in bits.
     pub fn bits(&self) -> u64 {
-        longest(&self.data).max(self.den.bits())
+        widest(&self.data).max(self.den.bits())
+    }
+
+    /// The sum of the absolute values of all entries, over the denominator.
+    pub fn size(&self) -> T {
+        self.data.iter().fold(T::integer(BigInt::zero()), |sum, x| sum.plus(&absolute(x)))
     }
 
     /// The product.
@@ -131,11 +159,9 @@ impl Matrix {
         for i in 0..self.rows {
             let row = self.integers(i);
             for j in 0..other.cols {
-                let mut sum = BigInt::zero();
+                let mut sum = T::integer(BigInt::zero());
                 for (a, b) in row.iter().zip(other.data.iter().skip(j).step_by(other.cols)) {
-                    if !a.is_zero() && !b.is_zero() {
-                        sum += a * b;
-                    }
+                    sum.add_product(a, b);
                 }
                 data.push(sum);
             }
@@ -149,7 +175,7 @@ impl Matrix {
         let den = lcm(&own, &self.den);
         charge(self.data.len(), den.bits());
         let (a, b) = (&den / &self.den, &den / &own * factor.numer());
-        let data = self.data.iter().zip(&other.data).map(|(x, y)| x * &a + y * &b).collect();
+        let data = self.data.iter().zip(&other.data).map(|(x, y)| x.multiple(&a).plus(&y.multiple(&b))).collect();
         Self { rows: self.rows, cols: self.cols, data, den }
     }
 
@@ -160,15 +186,22 @@ impl Matrix {
 
     /// The multiple by a number.
     pub fn scaled(&self, factor: &Q) -> Self {
-        let data = self.data.iter().map(|x| x * factor.numer()).collect();
+        let data = self.data.iter().map(|x| x.multiple(factor.numer())).collect();
         Self { data, den: &self.den * factor.denom(), ..*self }
+    }
+
+    /// The multiple by the only entry of a matrix.
+    pub fn multiple(&self, number: &Self) -> Self {
+        let data = self.data.iter().flat_map(|x| number.data.iter().map(|y| x.times(y))).collect();
+        Self { data, den: &self.den * &number.den, ..*self }
     }
 
     /// The rows of `self` followed by those of `below`.
     pub fn stack(&self, below: &Self) -> Self {
         let den = lcm(&self.den, &below.den);
         let (a, b) = (&den / &self.den, &den / &below.den);
-        let data = self.data.iter().map(|x| x * &a).chain(below.data.iter().map(|x| x * &b)).collect();
+        let own = self.data.iter().map(|x| x.multiple(&a));
+        let data = own.chain(below.data.iter().map(|x| x.multiple(&b))).collect();
         Self { rows: self.rows + below.rows, cols: self.cols, data, den }
     }
 
@@ -182,42 +215,49 @@ impl Matrix {
     pub fn is_positive(&self, strictly: bool) -> Checked<bool> {
         let mut a = self.data.clone();
         for n in (1..=self.rows).rev() {
-            spend(2 * n * n, longest(&a))?;
-            if a[0].is_negative() || a[0].is_zero() && (strictly || a[..n].iter().any(|x| !x.is_zero())) {
+            spend(2 * n * n, widest(&a))?;
+            let sign = a[0].sgn();
+            if sign < 0 || sign == 0 && (strictly || a[..n].iter().any(|x| !x.vanishes())) {
                 return Ok(false);
             }
             // The row and the column of a pivot 0 are 0.
-            let pivot = if a[0].is_zero() { BigInt::one() } else { a[0].clone() };
+            let pivot = if sign == 0 { T::integer(BigInt::one()) } else { a[0].clone() };
             let rest = (1..n).flat_map(|i| (1..n).map(move |j| (i, j)));
-            a = primitive(rest.map(|(i, j)| &pivot * &a[i * n + j] - &a[i * n] * &a[j]).collect());
+            let schur = |(i, j): (usize, usize)| pivot.times(&a[i * n + j]).minus(&a[i * n].times(&a[j]));
+            a = T::short(rest.map(schur).collect())?;
         }
         Ok(true)
     }
 
     /// The nonzero rows of the reduced row echelon form, and the columns of their leading ones.
     pub fn echelon(&self) -> Checked<(Self, Vec<usize>)> {
-        let mut rows: Vec<Vec<BigInt>> = (0..self.rows).map(|i| primitive(self.integers(i).to_vec())).collect();
+        let short = |i: usize| T::short(self.integers(i).to_vec());
+        let mut rows = (0..self.rows).map(short).collect::<Checked<Vec<Vec<T>>>>()?;
         let mut pivots = Vec::new();
         for j in 0..self.cols {
             let top = pivots.len();
-            let Some(found) = (top..rows.len()).find(|&i| !rows[i][j].is_zero()) else { continue };
+            let Some(found) = (top..rows.len()).find(|&i| !rows[i][j].vanishes()) else { continue };
             rows.swap(top, found);
-            let bits = longest(rows.iter().flatten());
+            let bits = widest(rows.iter().flatten());
             spend(rows.len() * self.cols, bits)?;
             let pivot = rows[top].clone();
             for (i, row) in rows.iter_mut().enumerate() {
-                if i != top && !row[j].is_zero() {
+                if i != top && !row[j].vanishes() {
                     let factor = row[j].clone();
-                    row.iter_mut().zip(&pivot).for_each(|(x, p)| *x = &*x * &pivot[j] - &factor * p);
-                    *row = primitive(std::mem::take(row));
+                    let entries = row.iter().zip(&pivot).map(|(x, p)| x.times(&pivot[j]).minus(&factor.times(p)));
+                    *row = T::short(entries.collect())?;
                 }
             }
             pivots.push(j);
         }
-        let den = pivots.iter().zip(&rows).fold(BigInt::one(), |l, (&j, row)| lcm(&l, &row[j].abs()));
-        let scaled = pivots.iter().zip(&rows).flat_map(|(&j, row)| {
-            let factor = &den / &row[j];
-            row.iter().map(move |x| x * &factor)
+        let mut inverses = Vec::new();
+        for (&j, row) in pivots.iter().zip(&rows) {
+            inverses.push(row[j].reciprocal()?);
+        }
+        let den = inverses.iter().fold(BigInt::one(), |l, (_, size)| lcm(&l, size));
+        let scaled = inverses.iter().zip(&rows).flat_map(|((inverse, size), row)| {
+            let factor = inverse.multiple(&(&den / size));
+            row.iter().map(move |x| x.times(&factor))
         });
         Ok((Self { rows: pivots.len(), cols: self.cols, data: scaled.collect(), den }, pivots))
     }
@@ -241,7 +281,7 @@ impl Matrix {
     pub fn joined(&self, others: &Self) -> Checked<Option<(Self, Vec<usize>)>> {
         // No row of an echelon form is 0.
         let pivots: Vec<usize> =
-            (0..self.rows).flat_map(|i| self.integers(i).iter().position(|x| !x.is_zero())).collect();
+            (0..self.rows).flat_map(|i| self.integers(i).iter().position(|x| !x.vanishes())).collect();
         if pivots.len() == self.cols || others.columns(&pivots).times(self)? == *others {
             return Ok(None);
         }
@@ -257,11 +297,11 @@ impl Matrix {
     pub fn kernel(&self) -> Checked<Self> {
         let (rows, pivots) = self.echelon()?;
         let free: Vec<usize> = (0..self.cols).filter(|j| !pivots.contains(j)).collect();
-        let mut data = vec![BigInt::zero(); free.len() * self.cols];
+        let mut data = vec![T::integer(BigInt::zero()); free.len() * self.cols];
         for (k, &j) in free.iter().enumerate() {
-            data[k * self.cols + j].clone_from(&rows.den);
+            data[k * self.cols + j] = T::integer(rows.den.clone());
             for (i, &p) in pivots.iter().enumerate() {
-                data[k * self.cols + p] = -rows.data[i * self.cols + j].clone();
+                data[k * self.cols + p] = rows.data[i * self.cols + j].multiple(&-BigInt::one());
             }
         }
         Ok(Self { rows: free.len(), cols: self.cols, data, den: rows.den })
@@ -282,38 +322,39 @@ impl Matrix {
     }
 
     /// The same matrix over its least denominator.
-    fn reduced(mut self) -> Self {
+    pub fn reduced(mut self) -> Self {
         let common = gcd(&content(&self.data), &self.den);
-        self.data.iter_mut().for_each(|x| *x /= &common);
+        self.data.iter_mut().for_each(|x| *x = x.over(&common));
         Self { den: self.den / common, ..self }
     }
 
     /// The coefficients of the characteristic polynomial `det(x − self)` as a row, lowest first (Faddeev and LeVerrier).
     pub fn characteristic(&self) -> Checked<Self> {
         let n = self.rows;
-        let (mut coefficients, mut m) = (vec![Q::one()], Self::identity(n));
+        let (mut coefficients, mut m) = (vec![(T::integer(BigInt::one()), BigInt::one())], Self::identity(n));
         for k in 1..=n {
             m = self.times(&m)?;
-            let trace: BigInt = (0..n).map(|i| &m.data[i * n + i]).sum();
-            coefficients.push(ratio(-trace, &m.den * k));
+            let zero = T::integer(BigInt::zero());
+            let rest = (0..n).fold(zero, |rest, i| rest.minus(&m.data[i * n + i]));
             // The trace is a multiple of k, so that the denominator stays that of the power.
-            let diagonal = coefficients[k].numer() * (&m.den / coefficients[k].denom());
-            (0..n).for_each(|i| m.data[i * n + i] += &diagonal);
+            let coefficient = rest.over(&BigInt::from(k));
+            (0..n).for_each(|i| m.data[i * n + i] = m.data[i * n + i].plus(&coefficient));
+            coefficients.push((coefficient, m.den.clone()));
         }
         coefficients.reverse();
-        Ok(Self::new(1, n + 1, &coefficients))
+        Ok(Self::fractions(1, n + 1, &coefficients).reduced())
     }
 }
 
-/// The greatest common divisor of a list.
-fn content(numbers: &[BigInt]) -> BigInt {
-    numbers.iter().fold(BigInt::zero(), |g, x| if g.is_one() { g } else { gcd(&g, x) })
+/// The size of the longest of some numbers in bits; that of no numbers is 0.
+fn widest<'a, T: Whole + 'a>(numbers: impl IntoIterator<Item = &'a T>) -> u64 {
+    numbers.into_iter().fold(0, |most, x| most.max(x.bits()))
 }
 
 /// The numbers without their common divisor.
 pub fn primitive(mut numbers: Vec<BigInt>) -> Vec<BigInt> {
     let common = content(&numbers);
-    if !common.is_zero() && !common.is_one() {
+    if !Zero::is_zero(&common) && !common.is_one() {
         numbers.iter_mut().for_each(|x| *x /= &common);
     }
     numbers
@@ -348,6 +389,6 @@ mod tests {
     fn fixed_points() {
         let m = matrix(&[&[1, 0], &[1, 2]]).scaled(&Q::new(1.into(), 2.into()));
         assert_eq!(m.fixed_point().unwrap().unwrap(), matrix(&[&[0], &[1]]));
-        assert!(Matrix::identity(2).fixed_point().unwrap().is_none());
+        assert!(Matrix::<BigInt>::identity(2).fixed_point().unwrap().is_none());
     }
 }

@@ -1,6 +1,7 @@
 //! Real number fields with a chosen embedding, interval enclosures, and the count of roots in a disc.
 
-use super::{Checked, Matrix, Node, Q, longest, primitive, spend};
+use super::whole::{Whole, absolute};
+use super::{Checked, Matrix, Node, Q, some, spend};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
@@ -106,7 +107,7 @@ fn derivative(p: &Matrix) -> Matrix {
 /// Whether a polynomial of degree `n ≥ 1` (a row) is seen to have a root within `error ≥ 0` of a point `z` of the plane: some root
 /// is nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`. A polynomial of degree 0 has no root: its sum is empty.
 pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Checked<bool> {
-    if p.cols < 2 || p.data[p.cols - 1].is_zero() || error.is_negative() {
+    if p.cols < 2 || p.data[p.cols - 1].vanishes() || error.is_negative() {
         return Ok(false);
     }
     let [re, im] = values(&p.stack(&derivative(p)), &point(&z[0]), &point(&z[1]))?;
@@ -124,12 +125,23 @@ pub struct Field {
     pub interval: Interval,
     /// A row of coefficients times this matrix is that of the element times `θ`.
     pub by_root: Matrix,
+    /// Where the number lies for which the field is made, such as an eigenvalue; it is `θ` where nothing else is said.
+    pub value: Interval,
+    /// The same for the multiplication by this number.
+    pub by_value: Matrix,
+    /// The same for the generator of the field of the case, where that is not the field of the rational numbers.
+    pub by_alpha: Option<Matrix>,
 }
 
 impl Field {
     /// The rational numbers, `θ` being the number given.
     pub fn rational(x: &Q) -> Self {
-        Self { interval: point(x), by_root: Matrix::new(1, 1, std::slice::from_ref(x)) }
+        Self::of(Matrix::new(1, 1, std::slice::from_ref(x)), point(x))
+    }
+
+    /// The field in which rows are multiplied by the root, which lies in an interval, by a matrix.
+    pub fn of(by_root: Matrix, interval: Interval) -> Self {
+        Self { value: interval.clone(), by_value: by_root.clone(), interval, by_root, by_alpha: None }
     }
 
     /// Reads `polynomial` (monic; it need not be irreducible) and `interval` and checks that there is one root in it.
@@ -146,7 +158,7 @@ impl Field {
         interval.need(changes, "field", "the polynomial does not change sign on the interval")?;
         let monotone = Self::real(&derivative(&row), &place)?.is_nonzero();
         interval.need(monotone, "field", "the interval is too wide to hold one root only")?;
-        Ok(Self { interval: place, by_root: Self::companion(&m) })
+        Ok(Self::of(Self::companion(&m), place))
     }
 
     /// Reads a monic polynomial of a degree from 1 on, lowest coefficient first.
@@ -180,7 +192,8 @@ impl Field {
         Ok(Matrix::from_rows(degree, &entries))
     }
 
-    fn coefficients(degree: usize, node: &Node<'_>) -> Checked<Vec<Q>> {
+    /// Reads the coefficients of an element, one for each power below `degree`.
+    pub fn coefficients(degree: usize, node: &Node<'_>) -> Checked<Vec<Q>> {
         let mut element = node.each(Node::rational)?;
         let fits = element.len() <= degree && element.last().is_none_or(|c| !c.is_zero());
         node.need(fits, "format", "an element is a polynomial of lower degree without leading zeros")?;
@@ -193,23 +206,67 @@ impl Field {
         Ok(Matrix::new(1, self.degree(), &Self::coefficients(self.degree(), node)?))
     }
 
-    /// Whether an element is the root by which another number is generated: a root of its polynomial, in its interval.
-    pub fn is_root(&self, number: &Self, x: &Matrix) -> Checked<bool> {
-        let (d, one) = (number.degree(), self.embedded(&Matrix::identity(1)));
+    /// The polynomial of another field at an element.
+    pub fn substituted(&self, number: &Self, x: &Matrix) -> Checked<Matrix> {
+        let (d, one) = (number.degree(), self.one());
         // The last row of the companion matrix holds the coefficients but for the sign.
         let mut value = one.clone();
         for k in (0..d).rev() {
             value = self.dot(&value, x)?.plus(&-number.by_root.at(d - 1, k), &one);
         }
+        Ok(value)
+    }
+
+    /// Whether an element is the root by which another number is generated: a root of its polynomial, in its interval.
+    pub fn is_root(&self, number: &Self, x: &Matrix) -> Checked<bool> {
         let ([lo, hi], at) = (&number.interval, self.enclose(x)?);
         let inside = *lo <= at.lo.at(0, 0) && at.hi.at(0, 0) <= *hi;
         // Of a polynomial of degree 1 there is no other root.
-        Ok(value.is_zero() && (inside || d == 1))
+        Ok(self.substituted(number, x)?.is_zero() && (inside || number.degree() == 1))
     }
 
-    /// The vector of these rational numbers (a column) in the field.
-    pub fn embedded(&self, column: &Matrix) -> Matrix {
-        column.beside(&Matrix::zeros(column.rows, self.degree() - 1))
+    /// Whether no other complex root of the polynomial lies in a rectangle: on the smallest rectangle that holds it and the interval,
+    /// which is convex, the derivative takes values of a convex set without 0, so that the polynomial is injective there.
+    pub fn is_alone(&self, [re, im]: &[Interval; 2]) -> Checked<bool> {
+        let (d, zero) = (self.degree(), Q::zero());
+        let hull = |[a, b]: &Interval, [c, e]: [&Q; 2]| [a.min(c).clone(), b.max(e).clone()];
+        let (re, im) = (hull(re, [&self.interval[0], &self.interval[1]]), hull(im, [&zero, &zero]));
+        let m = self.by_root.row(d - 1).scaled(&-Q::one()).beside(&Matrix::identity(1));
+        let [x, y] = values(&derivative(&m), &re, &im)?;
+        Ok(x.is_nonzero() || y.is_nonzero())
+    }
+
+    /// The number 1.
+    pub fn one(&self) -> Matrix {
+        Matrix::ones(1, self.degree(), |_, j| j == 0)
+    }
+
+    /// The matrix by which a row of coefficients is multiplied by an element.
+    pub fn multiplication(&self, x: &Matrix) -> Checked<Matrix> {
+        let (mut rows, mut power) = (x.clone(), x.clone());
+        for _ in 1..self.degree() {
+            power = power.times(&self.by_root)?;
+            rows = rows.stack(&power);
+        }
+        Ok(rows)
+    }
+
+    /// The product of a matrix over the field of the case and a vector.
+    pub fn applied<T: Whole>(&self, matrix: &Matrix<T>, vector: &Matrix) -> Checked<Matrix> {
+        let mut layers = T::layers(matrix).into_iter();
+        let first = some(layers.next(), "field", "a matrix without coefficients")?;
+        let (mut sum, mut image) = (first.times(vector)?, vector.clone());
+        for layer in layers {
+            let by_alpha = some(self.by_alpha.as_ref(), "field", "the field does not hold that of the case")?;
+            image = image.times(by_alpha)?;
+            sum = sum.plus(&Q::one(), &layer.times(&image)?);
+        }
+        Ok(sum)
+    }
+
+    /// The vector of these numbers (a column) in the field.
+    pub fn embedded<T: Whole>(&self, column: &Matrix<T>) -> Checked<Matrix> {
+        self.applied(column, &self.one())
     }
 
     /// The element `Σ a_k b_k`.
@@ -237,9 +294,9 @@ impl Field {
         Ok(re)
     }
 
-    /// The sign of `θ`, 0 where it is not seen.
-    pub fn root_sign(&self) -> i32 {
-        sign_between(&self.interval[0], &self.interval[1])
+    /// The sign of the number for which the field is made, 0 where it is not seen.
+    pub fn value_sign(&self) -> i32 {
+        sign_between(&self.value[0], &self.value[1])
     }
 
     /// The sign of an element at `θ`, 0 where it is not seen.
@@ -250,20 +307,20 @@ impl Field {
 
 /// The number of roots of `p` in the open unit disc, with multiplicity, where the recursion of Schur and Cohn is regular;
 /// then no root lies on the circle. `None` where it is not.
-pub fn roots_in_disc(p: &[BigInt]) -> Checked<Option<usize>> {
+pub fn roots_in_disc<T: Whole>(p: &[T]) -> Checked<Option<usize>> {
     let (Some(low), Some(high)) = (p.first(), p.last()) else { return Ok(None) };
     let n = p.len() - 1;
     if n == 0 {
-        return Ok(if low.is_zero() { None } else { Some(0) });
+        return Ok(if low.vanishes() { None } else { Some(0) });
     }
-    spend(4 * n, longest(p))?;
-    let grows = low.abs() > high.abs();
-    if low.abs() == high.abs() {
+    spend(4 * n, p.iter().fold(0, |most, x| most.max(x.bits())))?;
+    let order = absolute(low).minus(&absolute(high)).sgn();
+    if order == 0 {
         return Ok(None);
     }
     // A constant factor moves no root.
-    let next = primitive((0..n).map(|k| low * &p[k] - high * &p[n - k]).collect());
-    Ok(roots_in_disc(&next)?.map(|inside| if grows { inside } else { n - inside }))
+    let next = T::short((0..n).map(|k| low.times(&p[k]).minus(&high.times(&p[n - k]))).collect())?;
+    Ok(roots_in_disc(&next)?.map(|inside| if order > 0 { inside } else { n - inside }))
 }
 
 #[cfg(test)]

@@ -2,8 +2,10 @@
 
 use super::{Address, End, Kind, Op, Piece, Shape, State, scheme};
 use crate::base::{
-    Checked, Json, MAX_COORDINATES, MAX_PIECES, Matrix, Node, Q, file, flag, index, items, matrix, need, number, word,
+    Checked, Fraction, Json, MAX_COORDINATES, MAX_PIECES, Matrix, Node, Q, Whole, file, flag, index, items, matrix,
+    need, number, word,
 };
+use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use std::cell::RefCell;
 
@@ -13,11 +15,11 @@ pub const MAX_STATES: usize = 64;
 const MAX_HOLES: usize = 4_096;
 
 /// A case: its name, its shape, and the addresses it asks about.
-pub struct Case {
+pub struct Case<T = BigInt> {
     /// The name.
     pub name: String,
     /// The shape; unknown entries are 0.
-    pub shape: Shape,
+    pub shape: Shape<T>,
     /// The addresses under `[[examine]]`, in their normal form.
     pub examine: Vec<Address>,
     /// The unknown entries: by state, first the pieces, then the two boundaries; in each operator by rows.
@@ -37,8 +39,7 @@ pub struct Hole {
 }
 
 /// The keys of a case, and of a state; those of the boundaries of faces and of reversals are not read.
-const CASE: &str =
-    "name title source kind convention pieces reversed shares map scheme start state control examine expect";
+const CASE: &str = "name title source kind convention pieces reversed shares map scheme interpolate start state control examine expect";
 const STATE: &str = "name kind dimension left right piece reversal layout bottom top side01 side12 side02";
 
 /// What must be known of all states before their pieces are read.
@@ -56,17 +57,17 @@ fn state_named(node: &Node<'_>, heads: &[Head<'_>]) -> Checked<usize> {
 }
 
 /// Reads the operators of a case; where entries may be unknown, their places and names are collected.
-#[derive(Default)]
-struct Reader {
+struct Reader<'g, T: Whole> {
+    ground: &'g T::Ground,
     by_rows: bool,
     open: bool,
     holes: RefCell<Vec<(Hole, String)>>,
 }
 
-impl Reader {
+impl<T: Whole> Reader<'_, T> {
     /// An operator on columns of barycentric coordinates of the given size, all of whose columns sum to 1. Where entries may be
     /// unknown (`"?"` or `"?name"`, or `"?"` for all), these are noted and 0.
-    fn operator(&self, node: &Node<'_>, size: (usize, usize), op: Op) -> Checked<Matrix> {
+    fn operator(&self, node: &Node<'_>, size: (usize, usize), op: Op) -> Checked<Matrix<T>> {
         let name = |n: &Node<'_>| match n.value {
             Json::Text(text) if self.open => text.strip_prefix('?').map(str::to_owned),
             _ => None,
@@ -76,12 +77,12 @@ impl Reader {
         let written = if self.by_rows { (size.1, size.0) } else { size };
         let fits = all || (rows.len() == written.0 && rows.iter().all(|r| r.len() == written.1));
         node.need(fits, "case", "the operator has the wrong size")?;
-        let mut entries = Vec::new();
+        let mut entries: Vec<Fraction<T>> = Vec::new();
         for (row, col) in (0..size.0).flat_map(|i| (0..size.1).map(move |j| (i, j))) {
             let (i, j) = if self.by_rows { (col, row) } else { (row, col) };
             let at = if all { node } else { &rows[i][j] };
             let Some(name) = name(at) else {
-                entries.push(number(at)?);
+                entries.push(T::given(at, self.ground)?);
                 continue;
             };
             let mut holes = self.holes.borrow_mut();
@@ -92,31 +93,31 @@ impl Reader {
                 None => holes.iter().fold(0, |next, (h, _)| next.max(h.unknown + 1)),
             };
             holes.push((Hole { op, row, col, unknown }, name));
-            entries.push(Q::zero());
+            entries.push((T::integer(BigInt::zero()), BigInt::one()));
         }
-        let matrix = Matrix::new(size.0, size.1, &entries);
+        let matrix = Matrix::fractions(size.0, size.1, &entries);
         let affine = self.holes.borrow().len() > noted || matrix.is_affine();
         node.need(affine, "case", "a column of an operator does not sum to 1")?;
         Ok(matrix)
     }
 
     /// The operator on the simplex `0, e_1, …, e_d` of `x -> linear x + shift`.
-    fn affine(&self, map: &Node<'_>) -> Checked<Matrix> {
+    fn affine(&self, map: &Node<'_>) -> Checked<Matrix<T>> {
         map.known("linear shift reversed share")?;
-        let linear = matrix(&map.field("linear")?)?;
-        let shift = map.field("shift")?.each(|x| number(x))?;
+        let linear: Matrix<T> = matrix(&map.field("linear")?, self.ground)?;
+        let shift = map.field("shift")?.each(|x| T::given(x, self.ground))?;
         let d = shift.len();
         let fits = d < MAX_COORDINATES && (linear.rows, linear.cols) == (d, d);
         map.need(fits, "case", "`linear` and `shift` do not fit")?;
         // Column j is the image of e_j; its first entry makes the sum 1.
-        let shift = Matrix::new(d, 1, &shift);
+        let shift = Matrix::fractions(d, 1, &shift);
         let images = shift.beside(&linear.plus(&Q::one(), &shift.times(&Matrix::row_of_ones(d))?));
         let first = Matrix::row_of_ones(d + 1).minus(&Matrix::row_of_ones(d).times(&images)?);
         Ok(first.stack(&images))
     }
 
     /// The pieces of a state: affine maps, plain operators (of the only state), or tables that name their targets.
-    fn pieces(&self, e: usize, heads: &[Head<'_>], form: Form) -> Checked<Vec<Piece>> {
+    fn pieces(&self, e: usize, heads: &[Head<'_>], form: Form) -> Checked<Vec<Piece<T>>> {
         let Head { kind, dim, pieces, .. } = &heads[e];
         let mut read = Vec::new();
         for (k, piece) in pieces.iter().enumerate() {
@@ -143,6 +144,9 @@ impl Reader {
     }
 
     fn head<'a>(&self, table: &Node<'a>, default: Kind) -> Checked<Head<'a>> {
+        let built = ["chain", "scheme"].iter().find(|key| table.get(key).is_some());
+        let what = "a state that is a chain or names a scheme is not built here";
+        table.need(built.is_none(), "scheme", format_args!("{what}: {}", scheme::ELSEWHERE))?;
         table.known(STATE)?;
         let pieces = table.field("piece")?.list()?;
         let kind = match word(table, "kind")? {
@@ -175,7 +179,13 @@ impl Reader {
     }
 
     /// A boundary operator of an edge, where the state has it.
-    fn boundary(&self, e: usize, heads: &[Head<'_>], table: &Node<'_>, end: End) -> Checked<Option<(usize, Matrix)>> {
+    fn boundary(
+        &self,
+        e: usize,
+        heads: &[Head<'_>],
+        table: &Node<'_>,
+        end: End,
+    ) -> Checked<Option<(usize, Matrix<T>)>> {
         let key = if end == End::Start { "left" } else { "right" };
         let kind = heads[e].kind;
         let Some(b) = table.get(key).filter(|b| kind != Kind::Set || b.get("edge").is_none()) else { return Ok(None) };
@@ -186,7 +196,7 @@ impl Reader {
     }
 
     /// What a state has of another one: the state named under a key, and the operator from its coordinates.
-    fn part(&self, e: usize, heads: &[Head<'_>], b: &Node<'_>, key: &str, op: Op) -> Checked<(usize, Matrix)> {
+    fn part(&self, e: usize, heads: &[Head<'_>], b: &Node<'_>, key: &str, op: Op) -> Checked<(usize, Matrix<T>)> {
         b.known(&format!("{key} matrix points"))?;
         let from = state_named(&b.field(key)?, heads)?;
         let (rows, cols) = (heads[e].dim, heads[from].dim);
@@ -216,7 +226,7 @@ impl Reader {
         Ok(())
     }
 
-    fn shape(&self, case: &Node<'_>) -> Checked<Shape> {
+    fn shape(&self, case: &Node<'_>) -> Checked<Shape<T>> {
         let kind = match word(case, "kind")? {
             None | Some("curve") => Kind::Edge,
             Some("set") => Kind::Set,
@@ -269,17 +279,20 @@ impl Reader {
         let start = case.some(start.or((states.len() == 1).then_some(0)), "case", "the key `start` is missing")?;
         let dim = states[start].dim;
         let view = match case.get("control") {
-            Some(points) => matrix(&points)?.transpose(),
+            Some(points) => matrix(&points, self.ground)?.transpose(),
             None if form == Form::Maps => Matrix::ones(dim - 1, dim, |i, j| i + 1 == j),
             None => Matrix::identity(dim),
         };
-        case.need(view.cols == dim, "case", "a wrong number of control points")?;
+        let (given, elsewhere) = (view.cols, scheme::ELSEWHERE);
+        let why =
+            format_args!("{given} control points for {dim} coordinates (a polygon of several spans: {elsewhere})");
+        case.need(given == dim, "case", why)?;
         Ok(Shape::new(states, start, view))
     }
 }
 
 /// Whether shares, where there are any, are those of all pieces of a curve, positive and of sum 1.
-fn divides(state: &State) -> bool {
+fn divides<T>(state: &State<T>) -> bool {
     let shares: Vec<&Q> = state.pieces.iter().flat_map(|p| &p.share).collect();
     let own = state.kind == Kind::Edge && shares.len() == state.pieces.len();
     let whole = || shares.iter().fold(Q::zero(), |sum, s| sum + *s) == Q::one();
@@ -302,21 +315,29 @@ pub fn states<T>(source: &str, read: impl FnOnce(&[Node<'_>]) -> Checked<T>) -> 
 /// Reads a case file by a function, which sees what a `[scheme]` stands for in its place.
 fn opened<T>(source: &str, read: impl FnOnce(&Node<'_>) -> Checked<T>) -> Checked<T> {
     file(source, CASE, |case| {
-        let Some(table) = case.get("scheme") else { return read(case) };
+        let (key, table) = match (case.get("scheme"), case.get("interpolate")) {
+            (None, None) => return read(case),
+            (Some(table), None) => ("scheme", table),
+            (None, Some(table)) => ("interpolate", table),
+            _ => return case.reject("format", "`scheme` and `interpolate` exclude each other"),
+        };
         let Json::Object(keys) = case.value else { return case.reject("format", "a table is needed here") };
         let others =
             "pieces reversed shares map state start kind convention".split(' ').all(|key| case.get(key).is_none());
-        case.need(others, "format", "`scheme` stands in place of the operators")?;
+        case.need(others, "format", format_args!("`{key}` stands in place of the operators"))?;
+        let data = key == "interpolate" || table.get("interpolate").is_some();
+        case.need(!data || case.get("control").is_none(), "format", "the data say where the curve is seen")?;
+        let built = if key == "scheme" { scheme::expanded(&table) } else { scheme::interpolated(&table) }?;
         // Control points of the case are those of the curve that is built.
-        let built = scheme::expanded(&table)?.into_iter().filter(|(key, _)| case.get(key).is_none());
-        let keys = keys.iter().filter(|(key, _)| key != "scheme").cloned().chain(built).collect();
+        let built = built.into_iter().filter(|(key, _)| case.get(key).is_none());
+        let keys = keys.iter().filter(|(name, _)| name != key).cloned().chain(built).collect();
         read(&Node { value: &Json::Object(keys), place: case.place.clone() })
     })
 }
 
 /// Reads the shape of a case that is written on columns.
 pub fn shape(case: &Node<'_>) -> Checked<Shape> {
-    Reader::default().shape(case)
+    Reader { ground: &(), by_rows: false, open: false, holes: RefCell::default() }.shape(case)
 }
 
 /// Reads a case file; with `open`, entries may be unknown, and faces and reversals are refused, because the identities of both
@@ -325,6 +346,14 @@ pub fn shape(case: &Node<'_>) -> Checked<Shape> {
 /// # Errors
 /// What is wrong, and where; `unreadable` is set.
 pub fn read(source: &str, open: bool) -> Checked<Case> {
+    over(source, open, &())
+}
+
+/// The same for a case with entries in a field.
+///
+/// # Errors
+/// What is wrong, and where; `unreadable` is set.
+pub fn over<T: Whole>(source: &str, open: bool, ground: &T::Ground) -> Checked<Case<T>> {
     opened(source, |case| {
         let by_rows = match word(case, "convention")? {
             Some("rows") if case.get("map").is_none() => true,
@@ -339,7 +368,7 @@ pub fn read(source: &str, open: bool) -> Checked<Case> {
             let beyond = face || sides.iter().any(|key| state.get(key).is_some());
             state.need(!beyond, "case", "the identities of faces and reversals are not read")?;
         }
-        let reader = Reader { by_rows, open, ..Reader::default() };
+        let reader = Reader { ground, by_rows, open, holes: RefCell::default() };
         let shape = reader.shape(case)?;
         let mut examine = Vec::new();
         for entry in items(case, "examine")? {

@@ -1,10 +1,10 @@
 //! The whole certificate: contraction, points, answers, and the verdict that follows from them.
 
 use super::{Address, Case, End, Germ, Kind, Model, Piece, Place, Point, Root, Way};
-use super::{close, complete, everywhere, frames, positive_definite, read_address};
-use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
+use super::{arcs, close, complete, components, everywhere, frames, positive_definite, read_address};
+use crate::base::{Accepted, Checked, Matrix, Node, Surd, Verdict, Whole, need, together};
 use crate::claim::{Claim, Decided, Joints, Subject};
-use num_traits::Signed;
+use num_bigint::BigInt;
 
 /// The question whether the curve is G¹, answered by cones or by a point.
 const EVERY: &str = "every point";
@@ -12,16 +12,60 @@ const EVERY: &str = "every point";
 const DERIVATIVE: &str = "every point by its derivative";
 /// The same in a parameter of which the pieces take given shares.
 const SHARES: &str = "every point by its derivative in shares";
+/// The same, answered by Theorem 6″.
+const ARCS: &str = "every point by polynomials";
+/// The same, answered by Theorem 13.
+const COMPONENTS: &str = "every point by components";
+/// All of these.
+const TURNS: [&str; 5] = [EVERY, DERIVATIVE, SHARES, ARCS, COMPONENTS];
 
 /// The question about the joints whose lines are not killed, beside joints that are not all proved.
 const NOT_KILLED: &str = "joints not killed";
+
+/// Entries over which the derivatives of a curve are checked, or refused.
+pub trait Derived: Whole {
+    /// Theorem 12 in the uniform parameter, or in one with given shares.
+    fn graph(model: &Model<'_, Self>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()>;
+    /// Theorem 6″.
+    fn arcs(model: &Model<'_, Self>, degree: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict>;
+    /// Theorem 13.
+    fn components(model: &Model<'_, Self>, parts: &Node<'_>, seen: &Node<'_>) -> Checked<()>;
+}
+
+impl Derived for BigInt {
+    fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
+        crate::regularity::graph(model, shares, radius)
+    }
+
+    fn arcs(model: &Model<'_>, degree: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict> {
+        arcs::check(model, degree, arcs)
+    }
+
+    fn components(model: &Model<'_>, parts: &Node<'_>, seen: &Node<'_>) -> Checked<()> {
+        components::check(model, parts, seen)
+    }
+}
+
+impl Derived for Surd {
+    fn graph(_: &Model<'_, Self>, _: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
+        radius.reject("graph", "derivatives are checked over the rational numbers only")
+    }
+
+    fn arcs(_: &Model<'_, Self>, _: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict> {
+        arcs.reject("arc", "arcs are checked over the rational numbers only")
+    }
+
+    fn components(_: &Model<'_, Self>, parts: &Node<'_>, _: &Node<'_>) -> Checked<()> {
+        parts.reject("components", "components are checked over the rational numbers only")
+    }
+}
 
 /// What a case asks: `ends`, `joints`, `address` (with the address), `every point` or `any point`.
 type Question = (&'static str, Option<Address>);
 
 /// The questions of a case: of a curve its end points and its joints, of a set the fixed points of the maps of the start state
 /// to itself; then the addresses to examine, each once.
-fn questions(case: &Case) -> Vec<Question> {
+fn questions<T: Whole>(case: &Case<T>) -> Vec<Question> {
     let start = &case.shape.states[case.shape.start];
     let mut questions = Vec::new();
     if start.kind == Kind::Edge {
@@ -40,18 +84,19 @@ fn questions(case: &Case) -> Vec<Question> {
 }
 
 /// A question that the certificate adds: another address in its normal form, or, at the end, whether any point has a tangent.
-fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
+fn further<T: Whole>(case: &Case<T>, item: &Node<'_>, asked: &[Question], last: bool) -> Checked<Question> {
     match item.tag("question")? {
         "any point" if last => return Ok(("any point", None)),
-        DERIVATIVE if asked.iter().all(|(what, _)| *what != DERIVATIVE) => return Ok((DERIVATIVE, None)),
-        SHARES if asked.iter().all(|(what, _)| *what != SHARES) => return Ok((SHARES, None)),
         NOT_KILLED
             if asked.iter().any(|(what, _)| *what == "joints") && asked.iter().all(|(what, _)| *what != NOT_KILLED) =>
         {
             return Ok((NOT_KILLED, None));
         }
-        EVERY if asked.iter().all(|(what, _)| *what != EVERY) => return Ok((EVERY, None)),
-        _ => {}
+        tag => {
+            if let Some(turns) = TURNS.into_iter().find(|t| *t == tag && asked.iter().all(|(what, _)| what != t)) {
+                return Ok((turns, None));
+            }
+        }
     }
     let [_, of, _, _] = item.fields("question address verdict points")?;
     let address = read_address(&of)?;
@@ -63,21 +108,31 @@ fn further(case: &Case, item: &Node<'_>, asked: &[Question], last: bool) -> Chec
 }
 
 /// The answer to one of the questions whether a curve is G¹.
-fn every_point(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<everywhere::Answer> {
-    let (radius, shares) = match node.tag("question")? {
+fn every_point<T: Derived>(model: &Model<'_, T>, points: &[Point<T>], node: &Node<'_>) -> Checked<everywhere::Answer> {
+    let verdict = match node.tag("question")? {
         EVERY => return everywhere::check(model, points, node),
         DERIVATIVE => {
             let [_, _, radius] = node.fields("question verdict radius")?;
-            (radius, None)
+            radius.at(T::graph(model, None, &radius))?;
+            Verdict::Proved
         }
         SHARES => {
             let [_, _, shares, radius] = node.fields("question verdict shares radius")?;
-            (radius, Some(shares))
+            radius.at(T::graph(model, Some(&shares), &radius))?;
+            Verdict::Proved
+        }
+        ARCS => {
+            let [_, _, degree, arcs] = node.fields("question verdict degree arcs")?;
+            arcs.at(T::arcs(model, &degree, &arcs))?
+        }
+        COMPONENTS => {
+            let [_, _, parts, seen] = node.fields("question verdict parts seen")?;
+            parts.at(T::components(model, &parts, &seen))?;
+            Verdict::Proved
         }
         _ => return node.reject("answers", "this is no question about every point of a curve"),
     };
-    radius.at(crate::regularity::graph(model, shares.as_ref(), &radius))?;
-    let claims = vec![Claim::TangentTurns { rate: None }.is(Verdict::Proved)];
+    let claims = vec![Claim::TangentTurns { rate: None }.is(verdict)];
     Ok(everywhere::Answer { witness: None, claims })
 }
 
@@ -91,12 +146,12 @@ pub fn turns(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<Ve
 }
 
 /// Checks the proof of a certificate of the kind `certify`.
-pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
-    let [contraction, points, answers] = node.fields("contraction points answers")?;
-    let model = Model::read(&case.shape, &contraction)?;
+pub fn check<T: Derived>(case: &Case<T>, ground: &T::Ground, proof: [&Node<'_>; 3]) -> Checked<Accepted> {
+    let [contraction, points, answers] = proof;
+    let model = Model::read(&case.shape, ground, contraction)?;
     contraction.at(case.shape.check_curves())?;
     let root = Root { state: case.shape.start, view: case.shape.view.clone() };
-    let mut checked: Vec<Point> = Vec::new();
+    let mut checked: Vec<Point<T>> = Vec::new();
     for item in points.list()? {
         let point = Point::check(&model, &root, &item)?;
         item.need(checked.iter().all(|p| p.place != point.place), "points", "the same point twice")?;
@@ -111,17 +166,17 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
     let mut found = Vec::new();
     for (item, question) in items.iter().zip(&asked) {
         let verdict = item.at(claims.answer(item, question))?;
-        found.extend((!matches!(question.0, EVERY | DERIVATIVE | SHARES | NOT_KILLED)).then_some(verdict));
+        found.extend((question.0 != NOT_KILLED && !TURNS.contains(&question.0)).then_some(verdict));
     }
     points.need(claims.used.iter().all(|used| *used), "points", "a point answers no question")?;
-    let line = |p: &Point| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
+    let line = |p: &Point<T>| Claim::Point { place: p.place.clone(), kind: p.kind }.is(p.verdict);
     let points = checked.iter().map(line).collect();
     // A set none of whose maps leads back to it asks nothing; then nothing is proved.
     Ok(Accepted { case: case.name.clone(), verdict: together(found), claims: claims.found, points })
 }
 
 /// All operators are injective on the visible quotients; whether the map into the space where the shape is looked at is, too.
-pub fn injective(model: &Model<'_>, rule: &str) -> Checked<bool> {
+pub fn injective<T: Whole>(model: &Model<'_, T>, rule: &str) -> Checked<bool> {
     let Model { shape, spaces, .. } = model;
     for (e, piece) in shape.pieces() {
         let map = spaces.on_visible(e, piece)?;
@@ -131,14 +186,14 @@ pub fn injective(model: &Model<'_>, rule: &str) -> Checked<bool> {
     Ok(shape.view.times(&start.basis)?.rank()? == start.visible.rows)
 }
 
-struct Claims<'a> {
-    model: &'a Model<'a>,
-    points: &'a [Point],
+struct Claims<'a, T: Whole> {
+    model: &'a Model<'a, T>,
+    points: &'a [Point<T>],
     used: Vec<bool>,
     found: Vec<Decided>,
 }
 
-impl<'a> Claims<'a> {
+impl<'a, T: Derived> Claims<'a, T> {
     /// Checks the answer to a question.
     fn answer(&mut self, node: &Node<'_>, question: &Question) -> Checked<Verdict> {
         let mut more = Vec::new();
@@ -151,7 +206,7 @@ impl<'a> Claims<'a> {
             (_, Some(address)) => {
                 let [_, of, stated, points] = node.fields("question address verdict points")?;
                 of.need(read_address(&of)? == *address, "answers", "the case asks for another address here")?;
-                let found = self.all(&points, &[Place::of_address(self.model, address)?])?;
+                let found = self.all(&points, &[Place::of_address(self.model, self.model.shape.start, address)?])?;
                 (stated, found, Claim::TangentAt { address: address.clone(), of: self.subject(address, found)? })
             }
             ("joints", _) => {
@@ -164,7 +219,7 @@ impl<'a> Claims<'a> {
                 self.not_killed(&theorem, &upstairs)?;
                 (stated, Verdict::Proved, Claim::TangentAtJoints(Joints::OnlyNotKilled))
             }
-            (what, None) if matches!(*what, EVERY | DERIVATIVE | SHARES) => {
+            (what, None) if TURNS.contains(what) => {
                 let mut found = every_point(self.model, self.points, node)?;
                 found.witness.into_iter().for_each(|k| self.used[k] = true);
                 more = found.claims.split_off(1);
@@ -205,7 +260,7 @@ impl<'a> Claims<'a> {
     }
 
     /// The points with the indices given.
-    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<&'a Point>> {
+    fn select(&mut self, node: &Node<'_>) -> Checked<Vec<&'a Point<T>>> {
         let indices = node.indices(self.points.len())?;
         node.need(indices.windows(2).all(|w| w[0] < w[1]), "answers", "indices must ascend")?;
         indices.iter().for_each(|&k| self.used[k] = true);
@@ -298,7 +353,7 @@ impl<'a> Claims<'a> {
             spans[e] = point.common.iter().fold(spans[e].clone(), |span, vector| span.stack(&vector.transpose()));
         }
         complete(self.model, &listed, node, "joints")?;
-        let image = |e, p: &Piece, span: &Matrix| span.times(&spaces.on_visible(e, p)?.transpose());
+        let image = |e, p: &Piece<T>, span: &Matrix<T>| span.times(&spaces.on_visible(e, p)?.transpose());
         let spans = close(shape, spans, Way::Up, image)?;
         let all = shape.reachable.iter().all(|&e| spans[e].rows == spans[e].cols);
         node.need(all, "joints", "the tangent lines are not seen to span the visible quotients")
@@ -311,14 +366,15 @@ impl<'a> Claims<'a> {
         for (e, item) in self.model.for_states(node, "similarities")? {
             let n = spaces.of(e)?.basis.cols;
             item.need(n >= 2, "similarities", "the relevant space has fewer than 2 dimensions")?;
-            products[e] = positive_definite(&item, n)?;
+            products[e] = positive_definite(&item, n, &self.model.ground)?;
         }
         for (e, piece) in shape.pieces() {
             let linear = spaces.linear(&piece.op, e, piece.target)?;
             let pulled = linear.transpose().times(&products[e])?.times(&linear)?;
             let own = &products[piece.target];
-            let ratio = pulled.at(0, 0) / own.at(0, 0);
-            let similar = ratio.is_positive() && pulled == own.scaled(&ratio);
+            // The first entry of a scalar product is positive.
+            let (image, first) = (pulled.part(0..1, 0..1), own.part(0..1, 0..1));
+            let similar = image.all_positive() && pulled.multiple(&first) == own.multiple(&image);
             node.need(similar, "similarities", format_args!("a map of state {e} is no similarity"))?;
         }
         let start = spaces.of(shape.start)?;

@@ -3,12 +3,12 @@
 
 use super::rate::Bounds;
 use super::{End, Kind, Leading, Line, Model, Place, Point, complete};
-use crate::base::{Checked, Matrix, Node, Q, Verdict, disjoint_cycles, list, need, some, whole};
+use crate::base::{Checked, Matrix, Node, Q, Verdict, Whole, disjoint_cycles, list, need, some, whole};
 use crate::claim::{Claim, Decided};
-use num_traits::Signed;
+use num_bigint::BigInt;
 
 /// Longest window, and most words of one window without a positive factor.
-const MAX_WINDOW: usize = 8;
+pub const MAX_WINDOW: usize = 8;
 const MAX_WORDS: usize = 1_000;
 /// Longest words and most products from which a rate is computed.
 const MAX_RATE: (usize, usize) = (12, 5_000);
@@ -21,17 +21,18 @@ pub struct Answer {
     pub claims: Vec<Decided>,
 }
 
-/// The cones of all reachable states, breadth first, and the matrices of the images of their rays.
-pub struct Cones<'a> {
-    model: &'a Model<'a>,
+/// The cones of states that no piece leaves, breadth first, and the matrices of the images of their rays.
+pub struct Cones<'a, T: Whole = BigInt> {
+    model: &'a Model<'a, T>,
+    states: Vec<usize>,
     /// By state: the rays, one a row.
-    pub rays: Vec<Matrix>,
+    pub rays: Vec<Matrix<T>>,
     /// By state and letter.
-    maps: Vec<Vec<Matrix>>,
+    maps: Vec<Vec<Matrix<T>>>,
 }
 
 /// Checks `{"question": "every point", …}`.
-pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<Answer> {
+pub fn check<T: Whole>(model: &Model<'_, T>, points: &[Point<T>], node: &Node<'_>) -> Checked<Answer> {
     let [_, _, cones, maps, view, window, slow, rate, together, witness] =
         node.fields("question verdict cones maps view window slow rate joints witness")?;
     let start = &model.shape.states[model.shape.start];
@@ -66,7 +67,7 @@ pub fn check(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<An
 }
 
 /// The index of a point at which the tangent does not exist or does not turn continuously.
-fn refuting(points: &[Point], node: &Node<'_>) -> Checked<Option<usize>> {
+fn refuting<T: Whole>(points: &[Point<T>], node: &Node<'_>) -> Checked<Option<usize>> {
     let listed = node.indices(points.len())?;
     node.need(listed.len() <= 1, "format", "at most one point is needed here")?;
     let broken = |&k: &usize| points[k].verdict == Verdict::Refuted || matches!(points[k].kind, "cusp" | "oscillating");
@@ -77,7 +78,7 @@ fn refuting(points: &[Point], node: &Node<'_>) -> Checked<Option<usize>> {
 
 /// Every first-level joint of every reachable state is regular, seen in the visible quotient of its own state, or as a listed
 /// point through a map that is injective on that quotient.
-fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Checked<()> {
+fn regular_joints<T: Whole>(model: &Model<'_, T>, points: &[Point<T>], node: &Node<'_>) -> Checked<()> {
     let mut listed = Vec::new();
     for item in node.list()? {
         let own;
@@ -100,7 +101,7 @@ fn regular_joints(model: &Model<'_>, points: &[Point], node: &Node<'_>) -> Check
 }
 
 /// Whether a point is a joint of a state, and the map along its path to where it is looked at is injective on the quotient.
-fn injective(model: &Model<'_>, point: &Point, e: usize) -> Checked<bool> {
+fn injective<T: Whole>(model: &Model<'_, T>, point: &Point<T>, e: usize) -> Checked<bool> {
     let Place::Joint { path, .. } = &point.place else { return Ok(false) };
     let (op, end) = model.shape.product(model.shape.start, path)?;
     let space = model.spaces.of(e)?;
@@ -108,10 +109,10 @@ fn injective(model: &Model<'_>, point: &Point, e: usize) -> Checked<bool> {
     Ok(end == e && seen.times(&space.basis)?.rank()? == space.visible.rows)
 }
 
-impl<'a> Cones<'a> {
+impl<'a, T: Whole> Cones<'a, T> {
     /// The cones of some states, which no piece leaves, are pointed, span the relevant spaces, hold the chords, and are mapped
     /// into each other.
-    pub fn read(model: &'a Model<'a>, states: &[usize], cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
+    pub fn read(model: &'a Model<'a, T>, states: &[usize], cones: &Node<'_>, maps: &Node<'_>) -> Checked<Self> {
         let shape = model.shape;
         let own = states.iter().copied().zip(cones.exactly(states.len(), "cone")?);
         let images = states.iter().copied().zip(maps.exactly(states.len(), "format")?);
@@ -119,11 +120,11 @@ impl<'a> Cones<'a> {
         for (e, item) in own {
             rays[e] = item.at(Self::cone(model, e, &item))?;
         }
-        let mut all: Vec<Vec<Matrix>> = shape.states.iter().map(|_| Vec::new()).collect();
+        let mut all: Vec<Vec<Matrix<T>>> = shape.states.iter().map(|_| Vec::new()).collect();
         for (e, list) in images {
             let pieces = &shape.states[e].pieces;
             for (item, piece) in list.exactly(pieces.len(), "format")?.iter().zip(pieces) {
-                let b = item.matrix(rays[piece.target].rows)?;
+                let b: Matrix<T> = item.entries(rays[piece.target].rows, &model.ground)?;
                 item.need(b.rows == rays[e].rows, "format", "one row for each ray is needed here")?;
                 let fits = !b.has_negative() && (0..b.cols).all(|j| !b.columns(&[j]).is_zero());
                 item.need(fits, "cone", "coefficients are not negative, and no column is 0")?;
@@ -134,20 +135,20 @@ impl<'a> Cones<'a> {
                 all[e].push(b);
             }
         }
-        Ok(Self { model, rays, maps: all })
+        Ok(Self { model, states: states.to_vec(), rays, maps: all })
     }
 
-    fn cone(model: &Model<'_>, e: usize, node: &Node<'_>) -> Checked<Matrix> {
+    fn cone(model: &Model<'_, T>, e: usize, node: &Node<'_>) -> Checked<Matrix<T>> {
         let [rays, functional, chord] = node.fields("rays functional chord")?;
         let (state, space) = (&model.shape.states[e], model.spaces.of(e)?);
         let curve = state.kind == Kind::Edge && space.basis.cols > 0;
         node.need(curve, "cone", "only curves that are more than a point have cones")?;
-        let rows = rays.matrix(state.dim)?;
+        let rows: Matrix<T> = rays.entries(state.dim, &model.ground)?;
         let held = space.basis.times(&space.reading.times(&rows.transpose())?)? == rows.transpose();
         rays.need(held && rows.rank()? == space.basis.cols, "cone", "the rays do not span the relevant space")?;
-        let values = rows.times(&Matrix::new(state.dim, 1, &functional.vector(state.dim)?))?;
-        functional.need(all_positive(&values), "cone", "the functional is not positive on every ray")?;
-        let y = Matrix::new(rows.rows, 1, &chord.vector(rows.rows)?);
+        let values = rows.times(&functional.column(state.dim, &model.ground)?)?;
+        functional.need(values.all_positive(), "cone", "the functional is not positive on every ray")?;
+        let y: Matrix<T> = chord.column(rows.rows, &model.ground)?;
         let difference = model.shape.end_point(e, End::Finish)?.minus(&model.shape.end_point(e, End::Start)?);
         let combines = !y.is_zero() && !y.has_negative() && rows.transpose().times(&y)? == difference;
         chord.need(combines, "cone", "the chord is no such combination of the rays")?;
@@ -160,8 +161,9 @@ impl<'a> Cones<'a> {
             return Ok(false);
         }
         let images = self.model.shape.view.times(&self.rays[self.model.shape.start].transpose())?;
-        let values = Matrix::new(1, images.rows, &view.vector(images.rows)?).times(&images)?;
-        cones.need(all_positive(&values), "cone", "the functional of the view is not positive on every ray")?;
+        let row: Matrix<T> = view.column(images.rows, &self.model.ground)?;
+        let values = row.transpose().times(&images)?;
+        cones.need(values.all_positive(), "cone", "the functional of the view is not positive on every ray")?;
         Ok(true)
     }
 
@@ -169,16 +171,16 @@ impl<'a> Cones<'a> {
     fn idle_words(&self, length: usize) -> Checked<Vec<(usize, Vec<usize>)>> {
         // With each word where it ends, and where the products of its ends are positive.
         let none = |&e: &usize| (e, e, Vec::new(), Vec::new());
-        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> =
-            self.model.shape.reachable.iter().map(none).collect();
+        let mut words: Vec<(usize, usize, Vec<usize>, Vec<Matrix>)> = self.states.iter().map(none).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (from, to, word, ends) in words {
                 for (letter, piece) in self.model.shape.states[to].pieces.iter().enumerate() {
                     let step = pattern(&self.maps[to][letter]);
-                    let next = ends.iter().map(|end| Ok(pattern(&end.times(&step)?))).chain([Ok(step.clone())]);
+                    let next =
+                        ends.iter().map(|end: &Matrix| Ok(pattern(&end.times(&step)?))).chain([Ok(step.clone())]);
                     let next = next.collect::<Checked<Vec<_>>>()?;
-                    if !next.iter().any(all_positive) {
+                    if !next.iter().any(Matrix::all_positive) {
                         longer.push((from, piece.target, [word.as_slice(), &[letter]].concat(), next));
                     }
                 }
@@ -190,7 +192,7 @@ impl<'a> Cones<'a> {
     }
 
     /// Every address meets positive products again and again, or ends in one of the listed cycles, which pull to a ray.
-    fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
+    pub fn shrink(&self, window: usize, slow: &Node<'_>) -> Checked<()> {
         slow.need(window > 0, "slow", "the window must be positive")?;
         let cycles = self.idle_cycles(&self.idle_words(window)?)?;
         for (item, (e, word)) in slow.exactly(cycles.len(), "slow")?.iter().zip(&cycles) {
@@ -222,17 +224,17 @@ impl<'a> Cones<'a> {
         let (product, _) = model.shape.product(e, word)?;
         let turn = whole(i64::from(model.shape.orientation(e, word)?));
         let linear = model.spaces.linear(&product, e, e)?.scaled(&turn);
-        let leading = Leading::read(&top, &linear)?;
+        let leading = Leading::read(&top, &linear, &model.ground)?;
         top.need(leading.eigenvalue_sign() > 0, "slow", "the leading eigenvalue must be positive")?;
         let (row, pairing) = leading.row(&linear, &functional)?;
         let (field, v) = (&leading.field, &leading.vectors[0]);
         let rays = self.rays[e].times(&model.spaces.of(e)?.reading.transpose())?;
         for k in 0..rays.rows {
             let ray = rays.row(k);
-            if field.sign(&ray.times(&row)?)? <= 0 {
+            if field.sign(&field.applied(&ray, &row)?)? <= 0 {
                 // The others tend to this ray, and this one must be it already.
                 let limit = Line::new(field, v.scaled(&whole(i64::from(pairing))))?;
-                let there = limit.along(&field.embedded(&ray.transpose()))? == Some(1);
+                let there = limit.along(&field.embedded(&ray.transpose())?)? == Some(1);
                 functional.need(there, "slow", format_args!("ray {k} is not pulled to the ray of the cycle"))?;
             }
         }
@@ -248,8 +250,8 @@ impl<'a> Cones<'a> {
         let (length, most) = (length.index(MAX_RATE.0 + 1)?, bound.rational()?);
         bound.need(most >= whole(1), "rate", "no cross-ratio is smaller than 1 together with its inverse")?;
         let rounded: Vec<Vec<Bounds>> = self.maps.iter().map(|maps| maps.iter().map(Bounds::of).collect()).collect();
-        let identity = |&e: &usize| (e, Bounds::of(&Matrix::identity(self.rays[e].rows)));
-        let mut layer: Vec<(usize, Bounds)> = self.model.shape.reachable.iter().map(identity).collect();
+        let identity = |&e: &usize| (e, Bounds::of(&Matrix::<T>::identity(self.rays[e].rows)));
+        let mut layer: Vec<(usize, Bounds)> = self.states.iter().map(identity).collect();
         for _ in 0..length {
             let mut longer = Vec::new();
             for (e, product) in &layer {
@@ -268,11 +270,7 @@ impl<'a> Cones<'a> {
     }
 }
 
-pub fn all_positive(m: &Matrix) -> bool {
-    m.data.iter().all(Signed::is_positive)
-}
-
 /// 1 where an entry is positive, otherwise 0.
-fn pattern(m: &Matrix) -> Matrix {
-    Matrix::ones(m.rows, m.cols, |i, j| m.data[i * m.cols + j].is_positive())
+fn pattern<T: Whole>(m: &Matrix<T>) -> Matrix {
+    Matrix::ones(m.rows, m.cols, |i, j| m.data[i * m.cols + j].sgn() > 0)
 }

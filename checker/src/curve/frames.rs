@@ -1,22 +1,28 @@
 //! Joints of shapes that start somewhere: frames, all joints or a dense set of them (Theorems 11, 11′ and 11″).
 
-use super::everywhere::{Cones, all_positive};
+use super::everywhere::Cones;
 use super::{Kind, Model, Place, Point, Root};
-use crate::base::{Checked, Matrix, Node, Verdict, need, some, spend};
+use crate::base::{Checked, Matrix, Node, Verdict, Whole, need, some, spend};
 
 /// Most frames.
 const MAX_FRAMES: usize = 200;
 
 /// A state, and rows on the coordinates of its relevant space in reduced echelon form, whose kernel is what is not seen.
-#[derive(Clone, PartialEq)]
-struct Frame {
+#[derive(Clone)]
+struct Frame<T: Whole> {
     state: usize,
-    rows: Matrix,
+    rows: Matrix<T>,
+}
+
+impl<T: Whole> PartialEq for Frame<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.state == other.state && self.rows == other.rows
+    }
 }
 
 /// Checks one FRAME for each frame, in the order in which they are found; of folded frames with cones alone where `every` joint
 /// is claimed. Says whether some cell is a single point where it is looked at.
-pub fn check(model: &Model<'_>, node: &Node<'_>, every: bool) -> Checked<bool> {
+pub fn check<T: Whole>(model: &Model<'_, T>, node: &Node<'_>, every: bool) -> Checked<bool> {
     let shape = model.shape;
     let curves = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
     node.need(curves, "frames", "only curves have joints")?;
@@ -43,34 +49,21 @@ pub fn check(model: &Model<'_>, node: &Node<'_>, every: bool) -> Checked<bool> {
     Ok(constant)
 }
 
-/// What can be reached from a state by at least one piece.
-fn below(model: &Model<'_>, from: usize) -> Vec<usize> {
-    let targets = |e: usize| model.shape.states[e].pieces.iter().map(|p| p.target).collect::<Vec<_>>();
-    let (mut found, mut open) = (Vec::new(), targets(from));
-    while let Some(e) = open.pop() {
-        if !found.contains(&e) {
-            found.push(e);
-            open.extend(targets(e));
-        }
-    }
-    found
-}
-
 /// The states in an order that does not depend on the frame: breadth first from the start.
-fn ordered(model: &Model<'_>, states: &[usize]) -> Vec<usize> {
+pub fn ordered<T: Whole>(model: &Model<'_, T>, states: &[usize]) -> Vec<usize> {
     model.shape.reachable.iter().copied().filter(|e| states.contains(e)).collect()
 }
 
-impl Frame {
+impl<T: Whole> Frame<T> {
     /// The frame behind a piece.
-    fn behind(&self, model: &Model<'_>, letter: usize) -> Checked<Self> {
+    fn behind(&self, model: &Model<'_, T>, letter: usize) -> Checked<Self> {
         let piece = &model.shape.states[self.state].pieces[letter];
         let linear = model.spaces.linear(&piece.op, self.state, piece.target)?;
         Ok(Self { state: piece.target, rows: self.rows.times(&linear)?.echelon()?.0 })
     }
 
     /// The frame behind a word.
-    fn along(&self, model: &Model<'_>, word: &[usize]) -> Checked<Self> {
+    fn along(&self, model: &Model<'_, T>, word: &[usize]) -> Checked<Self> {
         let mut at = self.clone();
         for &letter in word {
             let exists = letter < model.shape.states[at.state].pieces.len();
@@ -81,7 +74,7 @@ impl Frame {
     }
 
     /// The joints of the state, as pairs of neighbours among the pieces that are more than a point where they are looked at.
-    fn joints(&self, model: &Model<'_>) -> Checked<Vec<(usize, usize)>> {
+    fn joints(&self, model: &Model<'_, T>) -> Checked<Vec<(usize, usize)>> {
         let mut kept = Vec::new();
         for letter in 0..model.shape.states[self.state].pieces.len() {
             if self.behind(model, letter)?.rows.rows > 0 {
@@ -92,7 +85,7 @@ impl Frame {
     }
 
     /// The smallest family with these rows that is carried along the pieces between the states.
-    fn family(&self, model: &Model<'_>, states: &[usize]) -> Checked<Vec<Self>> {
+    fn family(&self, model: &Model<'_, T>, states: &[usize]) -> Checked<Vec<Self>> {
         let none = |&state: &usize| Ok(Self { state, rows: Matrix::empty(model.spaces.of(state)?.basis.cols) });
         let mut family = states.iter().map(none).collect::<Checked<Vec<_>>>()?;
         let own = family.iter_mut().find(|f| f.state == self.state);
@@ -114,7 +107,7 @@ impl Frame {
     }
 
     /// A component is seen through its own quotient, and its operators are injective there.
-    fn is_good(&self, model: &Model<'_>, family: &[Self]) -> Checked<bool> {
+    fn is_good(&self, model: &Model<'_, T>, family: &[Self]) -> Checked<bool> {
         let of = |state: usize| family.iter().find(|f| f.state == state);
         if of(self.state).is_none_or(|own| own.rows.rows != self.rows.rows) {
             return Ok(false);
@@ -131,15 +124,15 @@ impl Frame {
     }
 
     /// Checks `{"state", "joints", "cones"}`: how many joints there are, and the frames behind this one.
-    fn check(&self, model: &Model<'_>, node: &Node<'_>, every: bool) -> Checked<(usize, Vec<Self>)> {
+    fn check(&self, model: &Model<'_, T>, node: &Node<'_>, every: bool) -> Checked<(usize, Vec<Self>)> {
         let [state, joints, cones] = node.fields("state joints cones")?;
         let shape = model.shape;
         let same = state.index(shape.states.len())? == self.state;
         state.need(same, "frames", format_args!("the frame of state {} is expected here", self.state))?;
-        let ahead = below(model, self.state);
+        let ahead = model.shape.below(self.state);
         let mut own = Vec::new();
         for &e in &ahead {
-            if below(model, e).contains(&self.state) {
+            if model.shape.below(e).contains(&self.state) {
                 own.push(e);
             }
         }
@@ -171,29 +164,11 @@ impl Frame {
     }
 
     /// Theorem 11″: cones that hold all chords, a complete prefix code below which they are seen, and the joints above it.
-    fn in_sight(&self, model: &Model<'_>, states: &[usize], node: &Node<'_>) -> Checked<()> {
+    fn in_sight(&self, model: &Model<'_, T>, states: &[usize], node: &Node<'_>) -> Checked<()> {
         let [cones, maps, code, above] = node.fields("cones maps code above")?;
         let found = cones.at(Cones::read(model, states, &cones, &maps))?;
-        let mut words = Vec::new();
-        for item in code.list()? {
-            let [word, functional] = item.fields("word functional")?;
-            words.push((word.word()?, functional));
-        }
-        let (mut inner, mut open, mut leaves) = (Vec::new(), vec![Vec::new()], 0);
-        while let Some(word) = open.pop() {
-            let end = self.along(model, &word)?.state;
-            if let Some((_, functional)) = words.iter().find(|(w, _)| *w == word) {
-                functional.at(self.sees(model, &found, (&word, end), functional))?;
-                leaves += 1;
-                continue;
-            }
-            let longer = words.iter().any(|(w, _)| w.len() > word.len() && w.starts_with(&word));
-            code.need(longer, "frames", format_args!("no word of the code begins like {word:?}, or is its beginning"))?;
-            open.extend((0..model.shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
-            inner.push(word);
-        }
-        code.need(leaves == words.len(), "frames", "a word of the code goes on behind another one")?;
         let root = Root { state: self.state, view: self.rows.times(&model.spaces.of(self.state)?.reading)? };
+        let inner = sight(model, (self.state, &root.view), &found, &code)?;
         let mut listed = Vec::new();
         for item in above.list()? {
             let [point] = item.fields("point")?;
@@ -216,32 +191,50 @@ impl Frame {
         }
         Ok(())
     }
+}
 
-    /// The functional is positive on the cone behind a word as it is seen.
-    fn sees(
-        &self,
-        model: &Model<'_>,
-        cones: &Cones<'_>,
-        (word, end): (&[usize], usize),
-        row: &Node<'_>,
-    ) -> Checked<()> {
-        let (product, _) = model.shape.product(self.state, word)?;
-        let seen = self.rows.times(&model.spaces.of(self.state)?.reading)?.times(&product)?;
-        let images = seen.times(&cones.rays[end].transpose())?;
-        let values = Matrix::new(1, images.rows, &row.vector(images.rows)?).times(&images)?;
-        let positive = values.cols > 0 && all_positive(&values);
-        row.need(positive, "frames", format_args!("the functional is not positive on the cone of {word:?}"))
+/// A complete prefix code of words from a state, each with a functional that is positive on the cone of its state as it is seen
+/// through the view: the words that have longer ones in the code.
+pub fn sight<T: Whole>(
+    model: &Model<'_, T>,
+    (from, view): (usize, &Matrix<T>),
+    cones: &Cones<'_, T>,
+    node: &Node<'_>,
+) -> Checked<Vec<Vec<usize>>> {
+    let mut words = Vec::new();
+    for item in node.list()? {
+        let [word, functional] = item.fields("word functional")?;
+        words.push((word.word()?, functional));
     }
+    let (mut inner, mut open, mut leaves) = (Vec::new(), vec![Vec::new()], 0);
+    while let Some(word) = open.pop() {
+        let (product, end) = model.shape.product(from, &word)?;
+        if let Some((_, row)) = words.iter().find(|(w, _)| *w == word) {
+            let images = view.times(&product)?.times(&cones.rays[end].transpose())?;
+            let functional: Matrix<T> = row.column(images.rows, &model.ground)?;
+            let values = functional.transpose().times(&images)?;
+            let positive = values.cols > 0 && values.all_positive();
+            row.need(positive, "frames", format_args!("the functional is not positive on the cone of {word:?}"))?;
+            leaves += 1;
+            continue;
+        }
+        let longer = words.iter().any(|(w, _)| w.len() > word.len() && w.starts_with(&word));
+        node.need(longer, "frames", format_args!("no word of the code begins like {word:?}, or is its beginning"))?;
+        open.extend((0..model.shape.states[end].pieces.len()).map(|letter| [word.as_slice(), &[letter]].concat()));
+        inner.push(word);
+    }
+    node.need(leaves == words.len(), "frames", "a word of the code goes on behind another one")?;
+    Ok(inner)
 }
 
 /// Every first-level joint of each member is proved, once, in its own state seen through the rows: how many there are, and by
 /// member their rational lines.
-fn examined(model: &Model<'_>, family: &[Frame], node: &Node<'_>) -> Checked<(usize, Vec<Matrix>)> {
+fn examined<T: Whole>(model: &Model<'_, T>, family: &[Frame<T>], node: &Node<'_>) -> Checked<(usize, Vec<Matrix<T>>)> {
     let mut wanted = Vec::new();
     for frame in family {
         wanted.extend(frame.joints(model)?.into_iter().map(|(left, right)| (frame.state, left, right)));
     }
-    let mut lines: Vec<Matrix> = family.iter().map(|f| Matrix::empty(f.rows.rows)).collect();
+    let mut lines: Vec<Matrix<T>> = family.iter().map(|f| Matrix::empty(f.rows.rows)).collect();
     for (item, &(e, left, right)) in node.exactly(wanted.len(), "frames")?.iter().zip(&wanted) {
         let [state, point] = item.fields("state point")?;
         let k = some(family.iter().position(|f| f.state == e), "frames", "another state")?;
@@ -263,7 +256,7 @@ fn examined(model: &Model<'_>, family: &[Frame], node: &Node<'_>) -> Checked<(us
 }
 
 /// The lines and their images span all quotients.
-fn spans(model: &Model<'_>, family: &[Frame], lines: Vec<Matrix>) -> Checked<()> {
+fn spans<T: Whole>(model: &Model<'_, T>, family: &[Frame<T>], lines: Vec<Matrix<T>>) -> Checked<()> {
     let mut spans = lines.iter().map(|m| Ok(m.echelon()?.0)).collect::<Checked<Vec<_>>>()?;
     let mut grown = true;
     while std::mem::take(&mut grown) {

@@ -1,31 +1,32 @@
 //! The germ of one branch `u w^ω`: its visible quotient `Y = V/N_G`, the map `L` on it, and its ring (theory §3, §9).
 
 use super::{Address, Kind, Model};
-use crate::base::{Checked, Matrix, need};
+use crate::base::{Checked, Matrix, Whole, need};
+use num_bigint::BigInt;
 
 /// A piece of the ring that the germ sees.
 #[derive(Debug, Clone)]
-pub struct RingPiece {
+pub struct RingPiece<T = BigInt> {
     /// The word that leaves the cycle with its last letter.
     pub word: Vec<usize>,
     /// The state where it ends.
     pub end: usize,
     /// Its operator.
-    pub op: Matrix,
+    pub op: Matrix<T>,
     /// `-1` where it lies before the germ's point in the order of the germ's state, `1` after it, `0` where there is no order.
     pub side: i32,
 }
 
 /// Where addresses are read and what is looked at: the start state with its view, or a state with its own visible quotient.
-pub struct Root {
+pub struct Root<T = BigInt> {
     /// The state.
     pub state: usize,
     /// The map from its coordinates into the space where the shape is looked at.
-    pub view: Matrix,
+    pub view: Matrix<T>,
 }
 
 /// A germ with everything that is computed for it.
-pub struct Germ {
+pub struct Germ<T = BigInt> {
     /// The state of the cycle.
     pub state: usize,
     /// The orientation of the prefix.
@@ -33,22 +34,22 @@ pub struct Germ {
     /// The orientation of the cycle, `1` where the state is no curve.
     pub turn: i32,
     /// The fixed point `q` of the cycle.
-    pub fixed: Matrix,
+    pub fixed: Matrix<T>,
     /// Coordinates on `Y`: those of a point `x` are `chart (x − q)`.
-    pub chart: Matrix,
+    pub chart: Matrix<T>,
     /// `L` on `Y`.
-    pub linear: Matrix,
+    pub linear: Matrix<T>,
     /// `G` on `Y`.
-    pub view: Matrix,
+    pub view: Matrix<T>,
     /// The pieces of the ring that are neither repeated nor the point itself and do not collapse.
-    pub ring: Vec<RingPiece>,
+    pub ring: Vec<RingPiece<T>>,
     /// Whether a piece was left out because it collapses.
     pub collapses: bool,
 }
 
-impl Germ {
+impl<T: Whole> Germ<T> {
     /// Computes the germ of a branch.
-    pub fn new(model: &Model<'_>, root: &Root, address: &Address) -> Checked<Self> {
+    pub fn new(model: &Model<'_, T>, root: &Root<T>, address: &Address) -> Checked<Self> {
         let shape = model.shape;
         let (prefix, state) = shape.product(root.state, &address.prefix)?;
         let (cycle, fixed) = shape.cycle(state, &address.cycle)?;
@@ -76,20 +77,20 @@ impl Germ {
     }
 
     /// The coordinates of a point of the attractor of the germ's state.
-    pub fn coordinates(&self, point: &Matrix) -> Checked<Matrix> {
+    pub fn coordinates(&self, point: &Matrix<T>) -> Checked<Matrix<T>> {
         self.chart.times(&point.minus(&self.fixed))
     }
 
     /// The standard ring of the cycle without repeated pieces of sets, copies of `q`, and pieces that collapse (Lemma 2); whether
     /// there are such.
-    fn ring_of(&self, model: &Model<'_>, cycle: &[usize]) -> Checked<(Vec<RingPiece>, bool)> {
+    fn ring_of(&self, model: &Model<'_, T>, cycle: &[usize]) -> Checked<(Vec<RingPiece<T>>, bool)> {
         let falls = self.linear.power(self.dim())?.times(&self.chart)?;
-        let (mut kept, mut some_collapse): (Vec<RingPiece>, bool) = (Vec::new(), false);
+        let (mut kept, mut some_collapse): (Vec<RingPiece<T>>, bool) = (Vec::new(), false);
         let mut product = Matrix::identity(model.shape.states[self.state].dim);
         let (mut at, mut forward) = (self.state, true);
         for (i, &turn) in cycle.iter().enumerate() {
             let state = &model.shape.states[at];
-            let mut level: Vec<(usize, Matrix)> = Vec::new();
+            let mut level: Vec<(usize, Matrix<T>)> = Vec::new();
             let (ordered, cycled) = (state.kind == Kind::Edge, &state.pieces[turn]);
             for (letter, piece) in state.pieces.iter().enumerate().filter(|(j, _)| *j != turn) {
                 let op = product.times(&piece.op)?;

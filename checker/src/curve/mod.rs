@@ -1,7 +1,9 @@
 //! Curves and sets: the case, what is computed from it, and the rules of certificates of the kind `certify`.
 
+mod arcs;
 pub mod case;
 mod claims;
+mod components;
 mod everywhere;
 mod frames;
 mod germ;

@@ -1,7 +1,8 @@
 //! From branches to points: which branches a point has, and what follows for it (theory §3, §5, §9).
 
 use super::{Address, End, Found, Kind, Line, Model, Root, read_address, rules};
-use crate::base::{Checked, Field, MAX_PIECES, Matrix, Node, Verdict, need, reject, some};
+use crate::base::{Checked, Field, MAX_PIECES, Matrix, Node, Verdict, Whole, need, reject, some};
+use num_bigint::BigInt;
 
 /// Where a point sits.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -30,15 +31,15 @@ type Side = Option<End>;
 type Branch = (Side, Option<Found>);
 
 /// A checked point.
-pub struct Point {
+pub struct Point<T = BigInt> {
     /// Where it sits.
     pub place: Place,
     /// Whether it has a tangent line.
     pub verdict: Verdict,
     /// Its kind, such as `cusp`.
     pub kind: &'static str,
-    /// A rational vector of its tangent line, where the certificate gives one.
-    pub common: Option<Matrix>,
+    /// A vector of its tangent line over the field of the case, where the certificate gives one.
+    pub common: Option<Matrix<T>>,
 }
 
 impl std::fmt::Display for Place {
@@ -74,7 +75,7 @@ impl Place {
     }
 
     /// The branches of the point: for a curve through the outermost pieces that are more than a point.
-    fn branches(&self, model: &Model<'_>, root: &Root) -> Checked<Vec<(Side, Address)>> {
+    fn branches<T: Whole>(&self, model: &Model<'_, T>, root: &Root<T>) -> Checked<Vec<(Side, Address)>> {
         match self {
             Self::End(end) => Ok(vec![(Some(*end), end_branch(model, &[], root.state, *end)?)]),
             Self::Joint { path, left, right } => {
@@ -94,7 +95,7 @@ impl Place {
             }
             Self::Inside(address) | Self::OfSet(address) => {
                 let normal = address.normalise(model.shape, root.state).as_ref() == Some(address);
-                let here = normal && root.state == model.shape.start && Self::of_address(model, address)? == *self;
+                let here = normal && Self::of_address(model, root.state, address)? == *self;
                 need(here, "place", "the address is not in its normal form, or that of another kind of point")?;
                 Ok(vec![(None, address.clone())])
             }
@@ -102,15 +103,15 @@ impl Place {
     }
 
     /// The state and the two pieces of a joint.
-    pub fn joint(&self, model: &Model<'_>, root: usize) -> Option<(usize, usize, usize)> {
+    pub fn joint<T: Whole>(&self, model: &Model<'_, T>, root: usize) -> Option<(usize, usize, usize)> {
         let Self::Joint { path, left, right } = self else { return None };
         Some((*model.shape.path(root, path).ok()?.last()?, *left, *right))
     }
 
-    /// The place of the point with a normalised address: an end, a joint, a point inside, or a point of a set.
-    pub fn of_address(model: &Model<'_>, address: &Address) -> Checked<Self> {
+    /// The place of the point with a normalised address from a state: an end, a joint, a point inside, or a point of a set.
+    pub fn of_address<T: Whole>(model: &Model<'_, T>, root: usize, address: &Address) -> Checked<Self> {
         let shape = model.shape;
-        let states = shape.path(shape.start, &address.prefix)?;
+        let states = shape.path(root, &address.prefix)?;
         let state = states[states.len() - 1];
         let cycle = shape.path(state, &address.cycle)?;
         if states.iter().chain(&cycle).any(|&e| shape.states[e].kind != Kind::Edge) {
@@ -144,7 +145,7 @@ impl Place {
     }
 }
 
-impl Model<'_> {
+impl<T: Whole> Model<'_, T> {
     /// All first-level joints: the reachable states, and the pairs of neighbours among their pieces that are more than points.
     pub fn joints(&self) -> Checked<Vec<(usize, usize, usize)>> {
         let all = self.shape.reachable.iter().map(|&e| self.joints_of(e)).collect::<Checked<Vec<_>>>()?;
@@ -157,7 +158,12 @@ impl Model<'_> {
 }
 
 /// Whether all first-level joints are among these.
-pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node<'_>, rule: &str) -> Checked<()> {
+pub fn complete<T: Whole>(
+    model: &Model<'_, T>,
+    listed: &[(usize, usize, usize)],
+    node: &Node<'_>,
+    rule: &str,
+) -> Checked<()> {
     match model.joints()?.into_iter().find(|joint| !listed.contains(joint)) {
         None => Ok(()),
         Some((e, left, right)) => {
@@ -167,7 +173,12 @@ pub fn complete(model: &Model<'_>, listed: &[(usize, usize, usize)], node: &Node
 }
 
 /// Whether all pieces between two, which are more than points, are single points where they are looked at.
-fn meet(model: &Model<'_>, root: &Root, path: &[usize], (e, left, right): (usize, usize, usize)) -> Checked<bool> {
+fn meet<T: Whole>(
+    model: &Model<'_, T>,
+    root: &Root<T>,
+    path: &[usize],
+    (e, left, right): (usize, usize, usize),
+) -> Checked<bool> {
     let pieces = &model.shape.states[e].pieces;
     if left >= right || right >= pieces.len() || model.spaces.is_point(e, left)? || model.spaces.is_point(e, right)? {
         return Ok(false);
@@ -181,7 +192,7 @@ fn meet(model: &Model<'_>, root: &Root, path: &[usize], (e, left, right): (usize
     Ok(true)
 }
 
-fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Checked<Address> {
+fn end_branch<T: Whole>(model: &Model<'_, T>, path: &[usize], state: usize, end: End) -> Checked<Address> {
     let solid = model.shape.reachable.iter().map(|&e| Ok((e, model.spaces.solid(e)?))).collect::<Checked<Vec<_>>>()?;
     // Pieces of states that are not reached are none.
     let skip = |e: usize, letter: usize| !solid.iter().any(|(of, letters)| *of == e && letters.contains(&letter));
@@ -190,7 +201,7 @@ fn end_branch(model: &Model<'_>, path: &[usize], state: usize, end: End) -> Chec
 }
 
 /// Whether the fixed point of a cycle is this end of its cell: nothing but points lies on that side, for two turns.
-fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> Checked<bool> {
+fn is_end<T: Whole>(model: &Model<'_, T>, state: usize, cycle: &[usize], end: End) -> Checked<bool> {
     let (mut at, mut side) = (state, end);
     for letter in cycle.iter().chain(cycle) {
         let pieces = &model.shape.states[at].pieces;
@@ -204,9 +215,9 @@ fn is_end(model: &Model<'_>, state: usize, cycle: &[usize], end: End) -> Checked
     Ok(true)
 }
 
-impl Point {
+impl<T: Whole> Point<T> {
     /// Reads `{"state", "point"}`: a first-level joint, seen in the visible quotient of its own state, which is returned.
-    pub fn in_own_state(model: &Model<'_>, node: &Node<'_>, rule: &str) -> Checked<(usize, Self)> {
+    pub fn in_own_state(model: &Model<'_, T>, node: &Node<'_>, rule: &str) -> Checked<(usize, Self)> {
         let [state, point] = node.fields("state point")?;
         let e = state.index(model.shape.states.len())?;
         let space = state.at(model.spaces.of(e))?;
@@ -217,7 +228,7 @@ impl Point {
     }
 
     /// Reads a point and checks what its certificate says.
-    pub fn check(model: &Model<'_>, root: &Root, node: &Node<'_>) -> Checked<Self> {
+    pub fn check(model: &Model<'_, T>, root: &Root<T>, node: &Node<'_>) -> Checked<Self> {
         let [at, verdict, kind, rule, common, branches] = node.fields("place verdict kind rule common branches")?;
         let place = Place::read(&at)?;
         let addresses = at.at(place.branches(model, root))?;
@@ -226,7 +237,7 @@ impl Point {
             let seen = if item.is_null() { None } else { Some(rules::check(model, root, address, item)?) };
             found.push((*side, seen));
         }
-        let point = node.at(conclude(place, rule.text()?, &common, root.view.rows, &found))?;
+        let point = node.at(conclude(place, rule.text()?, (&common, root.view.rows, &model.ground), &found))?;
         verdict.follows("point", point.verdict.word())?;
         kind.follows("point", point.kind)?;
         Ok(point)
@@ -235,7 +246,12 @@ impl Point {
 
 /// The conclusions: `plane` (a branch has more than one dimension), `line` (all branches have the same line), `differ` (the
 /// two branches have different lines, or their tangent subspaces contain different lines).
-fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[Branch]) -> Checked<Point> {
+fn conclude<T: Whole>(
+    place: Place,
+    rule: &str,
+    (common, size, ground): (&Node<'_>, usize, &T::Ground),
+    found: &[Branch],
+) -> Checked<Point<T>> {
     need(!found.is_empty(), "point", "a point has branches")?;
     // `plane` and `differ` are about the branches that have a certificate; `line` is about all.
     let given: Vec<&Found> = found.iter().flat_map(|(_, found)| found).collect();
@@ -257,7 +273,7 @@ fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[B
                 _ => reject("point", "every branch needs a proved line"),
             };
             let lines: Vec<(Side, Line)> = found.iter().map(line).collect::<Checked<_>>()?;
-            let (relations, common) = relations(common, size, &lines)?;
+            let (relations, common) = relations(common, size, ground, &lines)?;
             let (mut left, mut right) = (Vec::new(), Vec::new());
             for ((side, line), factor) in lines.iter().zip(relations) {
                 left.extend(line.left.iter().filter(|_| *side != Some(End::Start)).map(|s| s * factor));
@@ -270,21 +286,22 @@ fn conclude(place: Place, rule: &str, common: &Node<'_>, size: usize, found: &[B
     }
 }
 
-/// For each line the ray on which a common vector lies, as a sign; the vector is returned where it is rational. Of a single
-/// line `common` may be `null`; otherwise it is a rational vector, or a list with one algebraic number for each coordinate,
+/// For each line the ray on which a common vector lies, as a sign; the vector is returned where it is one over the field of the
+/// case. Of a single line `common` may be `null`; otherwise it is such a vector, or a list with one algebraic number for each coordinate,
 /// each the root of a polynomial in an interval, as elements of the fields of the lines.
-fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, Line)]) -> Checked<(Vec<i32>, Option<Matrix>)> {
+fn relations<T: Whole>(
+    common: &Node<'_>,
+    dimension: usize,
+    ground: &T::Ground,
+    lines: &[(Side, Line)],
+) -> Checked<(Vec<i32>, Option<Matrix<T>>)> {
     let shared = |ray| common.some(ray, "line", "the lines are not seen to have this vector in common");
     if common.is_null() {
         return Ok((vec![shared((lines.len() == 1).then_some(1))?], None));
     }
     let mut vectors: Vec<Matrix> = lines.iter().map(|(_, line)| Matrix::empty(line.field.degree())).collect();
-    let rational = if common.list()?.iter().all(|item| item.text().is_ok()) {
-        Some(Matrix::new(dimension, 1, &common.vector(dimension)?))
-    } else {
-        None
-    };
-    for item in if rational.is_none() { common.exactly(dimension, "format")? } else { Vec::new() } {
+    let own = T::common(common, dimension, ground)?;
+    for item in if own.is_none() { common.exactly(dimension, "format")? } else { Vec::new() } {
         let [polynomial, interval, elements] = item.fields("polynomial interval elements")?;
         let number = Field::read(&polynomial, &interval)?;
         let elements = elements.exactly(lines.len(), "format")?;
@@ -296,13 +313,13 @@ fn relations(common: &Node<'_>, dimension: usize, lines: &[(Side, Line)]) -> Che
     }
     let mut signs = Vec::new();
     for ((_, line), vector) in lines.iter().zip(vectors) {
-        let vector = match &rational {
-            Some(v) => line.field.embedded(v),
+        let vector = match &own {
+            Some(v) => line.field.embedded(v)?,
             None => vector,
         };
         signs.push(shared(line.along(&vector)?)?);
     }
-    Ok((signs, rational))
+    Ok((signs, own))
 }
 
 /// The kind from the rays of the two sides.

@@ -1,9 +1,8 @@
 //! Products of nonnegative matrices in rounded numbers: bounds of their cross-ratios from both sides, without the long
 //! fractions of the exact products.
 
-use crate::base::{Checked, Matrix, Q, bits, charge, spend};
+use crate::base::{Checked, Matrix, Q, Whole, bits, charge, spend};
 use num_bigint::BigInt;
-use num_integer::Integer;
 use num_traits::{One, Signed};
 
 /// Binary places behind the point.
@@ -15,13 +14,14 @@ pub struct Bounds([Matrix; 2]);
 
 impl Bounds {
     /// Of a matrix.
-    pub fn of(m: &Matrix) -> Self {
+    pub fn of<T: Whole>(m: &Matrix<T>) -> Self {
         charge(2 * m.data.len(), m.bits() + PLACES);
-        let round = |to: fn(&BigInt, &BigInt) -> BigInt| {
-            let data = m.data.iter().map(|x| to(&(x << PLACES), &m.den)).collect();
-            Matrix { data, den: BigInt::one() << PLACES, ..*m }
+        let rounded: Vec<[BigInt; 2]> = m.data.iter().map(|x| x.rounded(&m.den, PLACES)).collect();
+        let side = |k: usize| {
+            let data = rounded.iter().map(|x| x[k].clone()).collect();
+            Matrix { rows: m.rows, cols: m.cols, data, den: BigInt::one() << PLACES }
         };
-        Self([round(Integer::div_floor), round(Integer::div_ceil)])
+        Self([side(0), side(1)])
     }
 
     /// Of the product: bounds of factors that are not negative give bounds of the product.

@@ -1,8 +1,9 @@
 //! The rules for one branch: what its certificate proves about the tangent subspace of its germ.
 
 use super::{Address, Chain, Germ, Model, Root, Top, outside, residual, span_a_plane};
-use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, need};
-use num_traits::Zero;
+use crate::base::{Checked, Enclosed, Field, Matrix, Node, Q, Whole, need};
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
 
 /// A proved tangent line, or a line in the tangent subspace.
 #[derive(Clone)]
@@ -38,15 +39,15 @@ pub fn read_address(node: &Node<'_>) -> Checked<Address> {
 }
 
 /// A branch with its germ.
-pub struct Branch<'a> {
+pub struct Branch<'a, T: Whole = BigInt> {
     /// The model.
-    pub model: &'a Model<'a>,
+    pub model: &'a Model<'a, T>,
     /// The germ.
-    pub germ: Germ,
+    pub germ: Germ<T>,
 }
 
 /// Checks the certificate of the branch with this address.
-pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>) -> Checked<Found> {
+pub fn check<T: Whole>(model: &Model<'_, T>, root: &Root<T>, address: &Address, node: &Node<'_>) -> Checked<Found> {
     let germ = node.at(Germ::new(model, root, address))?;
     let branch = Branch { model, germ };
     node.at(match node.tag("rule")? {
@@ -76,8 +77,8 @@ pub struct Leading {
 
 impl Leading {
     /// Reads and checks a top of this form.
-    pub fn read(node: &Node<'_>, linear: &Matrix) -> Checked<Self> {
-        let Top::Real { field, chains: mut shorter } = Top::read(node, linear)? else {
+    pub fn read<T: Whole>(node: &Node<'_>, linear: &Matrix<T>, ground: &T::Ground) -> Checked<Self> {
+        let Top::Real { field, chains: mut shorter } = Top::read(node, linear, ground)? else {
             return node.reject("leading", "a real top is needed here");
         };
         shorter.sort_by_key(|c| c.vectors.len());
@@ -88,17 +89,17 @@ impl Leading {
 
     /// The sign of the eigenvalue of the longest chain.
     pub fn eigenvalue_sign(&self) -> i32 {
-        self.sign * self.field.root_sign()
+        self.sign * self.field.value_sign()
     }
 
     /// `g L − λ g` for a row over the field.
-    fn residual(&self, linear: &Matrix, row: &Matrix) -> Checked<Matrix> {
-        residual(&self.field.by_root, &linear.transpose(), self.sign, row)
+    fn residual<T: Whole>(&self, linear: &Matrix<T>, row: &Matrix) -> Checked<Matrix> {
+        residual(&self.field, &linear.transpose(), self.sign, row)
     }
 
     /// Rule `leading`: a row `g` with `g L = λ g` that reads the coefficient of the last vector of the longest chain, up to
     /// a factor whose sign is returned.
-    pub fn row(&self, linear: &Matrix, node: &Node<'_>) -> Checked<(Matrix, i32)> {
+    pub fn row<T: Whole>(&self, linear: &Matrix<T>, node: &Node<'_>) -> Checked<(Matrix, i32)> {
         let row = self.field.vector(node, linear.rows)?;
         let left = self.residual(linear, &row)?.is_zero();
         node.need(left, "leading", "the row is no left eigenvector")?;
@@ -112,10 +113,10 @@ impl Leading {
     }
 }
 
-impl Branch<'_> {
+impl<T: Whole> Branch<'_, T> {
     /// A top with exactly one longest chain.
     fn leading(&self, node: &Node<'_>) -> Checked<Leading> {
-        Leading::read(node, &self.germ.linear)
+        Leading::read(node, &self.germ.linear, &self.model.ground)
     }
 
     /// Theorems 2 and 3.
@@ -147,7 +148,7 @@ impl Branch<'_> {
 
     /// The line of a vector of `Y`, seen through `G`.
     fn found_line(&self, field: &Field, v: &Matrix) -> Checked<Line> {
-        Line::new(field, self.germ.view.times(v)?)
+        Line::new(field, field.applied(&self.germ.view, v)?)
     }
 
     /// The corollary on a line: `dim Y = 1` and `L ≠ 0`; the rays stay open.
@@ -155,7 +156,8 @@ impl Branch<'_> {
         let [_] = node.fields("rule")?;
         let fits = self.germ.dim() == 1 && !self.germ.linear.is_zero();
         need(fits, "corollary-line", "the visible quotient is no line, or L is 0")?;
-        Ok(Found::Line(self.found_line(&Field::rational(&Q::zero()), &Matrix::identity(1))?))
+        let own = T::own(&self.model.ground)?;
+        Ok(Found::Line(self.found_line(&own, &own.one())?))
     }
 
     /// The corollary for one direction: `G v_1` lies in `D*`.
@@ -173,12 +175,12 @@ impl Branch<'_> {
     /// The corollary: `U ⊂ D*` and `dim G U ≥ 2`.
     fn corollary(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top] = node.fields("rule top")?;
-        let top = Top::read(&top, &self.germ.linear)?;
+        let top = Top::read(&top, &self.germ.linear, &self.model.ground)?;
         Self::plane("corollary", &top.directions(&self.germ.view)?)
     }
 
     /// The coordinates of a point of the ring with an address, and the part of the ring where it lies.
-    fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix, i32)> {
+    fn ring_point(&self, node: &Node<'_>) -> Checked<(Matrix<T>, i32)> {
         let address = read_address(node)?;
         let letters = self.germ.ring.iter().map(|p| p.word.len()).max();
         let letters = node.some(letters, "ring", "no piece of the ring is seen")?;
@@ -195,7 +197,7 @@ impl Branch<'_> {
         for (node, wanted) in points.into_iter().zip([1, -1]) {
             let (y, part) = self.ring_point(node)?;
             parts.push(part);
-            let has = field.sign(&y.transpose().times(row)?)? == wanted;
+            let has = field.sign(&field.applied(&y.transpose(), row)?)? == wanted;
             node.need(has, "sign-change", "the functional does not have this sign at the point")?;
         }
         let connected = parts[0] == parts[1] && parts[0] != 0;
@@ -208,7 +210,7 @@ impl Branch<'_> {
         let mut ends = Vec::new();
         for (node, wanted) in points.into_iter().zip([1, -1]) {
             let (y, _) = self.ring_point(node)?;
-            let has = field.sign(&y.transpose().times(row)?)? == wanted;
+            let has = field.sign(&field.applied(&y.transpose(), row)?)? == wanted;
             node.need(has, "sign-change", "the functional does not have this sign at the point")?;
             let address = read_address(node)?;
             let piece = self.germ.ring.iter().find(|p| (0..p.word.len()).all(|k| address.letter(k) == p.word[k]));
@@ -229,7 +231,7 @@ impl Branch<'_> {
         } else {
             self.changing_piece(&top.field, &row, [&positive, &negative], &links)?;
         }
-        let (dimension, list) = outer(&self.germ, &radius, &rows)?;
+        let (dimension, list) = outer(&self.germ, &self.model.ground, &radius, &rows)?;
         let functionals = self.model.rows(&self.germ, &list, vec![Q::zero(); list.rows])?;
         self.model.cover(&self.germ, &functionals, None, &cover)?;
         let space = complement(&self.germ.linear, &list)?;
@@ -252,7 +254,7 @@ impl Branch<'_> {
         let top = self.leading(&top)?;
         let (row, _) = top.row(&self.germ.linear, &functional)?;
         let (y, _) = self.ring_point(&address)?;
-        let vanishes = y.transpose().times(&row)?.is_zero();
+        let vanishes = top.field.applied(&y.transpose(), &row)?.is_zero();
         address.need(vanishes, "null-point", "the functional does not vanish at the point")?;
         let ends = self.germ.linear.power(self.germ.dim())?.times(&y)?.is_zero();
         address.need(!ends, "null-point", "the orbit of the point ends in the germ's point")?;
@@ -276,7 +278,7 @@ impl Branch<'_> {
     /// Lower bound from the orbit of one point of the ring: its own leading directions and those of the corollary.
     fn orbit(&self, node: &Node<'_>) -> Checked<Found> {
         let [_, top, address, own] = node.fields("rule top address own")?;
-        let top = Top::read(&top, &self.germ.linear)?;
+        let top = Top::read(&top, &self.germ.linear, &self.model.ground)?;
         let (own, view) = self.orbit_top(&address, &own)?;
         let mut vectors = top.directions(&self.germ.view)?;
         vectors.extend(own.directions(&view)?);
@@ -284,12 +286,13 @@ impl Branch<'_> {
     }
 
     /// The top of `L` on the cyclic hull of a point of the ring, and `G` on that hull.
-    pub fn orbit_top(&self, address: &Node<'_>, own: &Node<'_>) -> Checked<(Top, Matrix)> {
+    pub fn orbit_top(&self, address: &Node<'_>, own: &Node<'_>) -> Checked<(Top<T>, Matrix<T>)> {
         let (y, _) = self.ring_point(address)?;
         let transposed = self.germ.linear.transpose();
         let (hull, pivots) = y.transpose().hull(&transposed)?;
         address.need(!pivots.is_empty(), "orbit", "this is the germ's point itself")?;
-        let own = Top::read(own, &hull.times(&transposed)?.columns(&pivots).transpose())?;
+        let linear = hull.times(&transposed)?.columns(&pivots).transpose();
+        let own = Top::read(own, &linear, &self.model.ground)?;
         Ok((own, self.germ.view.times(&hull.transpose())?))
     }
 
@@ -309,15 +312,20 @@ impl Branch<'_> {
         let signs: Vec<i32> = cells.iter().filter(|c| c.functional == 1).map(|c| c.sign).collect();
         let one = !signs.is_empty() && signs.windows(2).all(|s| s[0] == s[1]);
         cover.need(one, "crossing", "g_1 takes both signs where g_2 may vanish, or is used nowhere")?;
-        let vectors = top.vectors.iter().map(|v| top.field.enclose(&self.germ.view.times(v)?));
+        let vectors = top.vectors.iter().map(|v| top.field.enclose(&top.field.applied(&self.germ.view, v)?));
         Self::plane("crossing", &vectors.collect::<Checked<Vec<_>>>()?)
     }
 }
 
-/// Reads rational rows that span an invariant space of rows on which all eigenvalues lie outside the disc, of as many dimensions
+/// Reads rows over the field of the case that span an invariant space of rows on which all eigenvalues lie outside the disc, of as many dimensions
 /// as there are outside, and returns that number: their common kernel is the sum of the generalised eigenspaces inside.
-pub fn outer(germ: &Germ, radius: &Node<'_>, rows: &Node<'_>) -> Checked<(usize, Matrix)> {
-    let list = rows.matrix(germ.dim())?;
+pub fn outer<T: Whole>(
+    germ: &Germ<T>,
+    ground: &T::Ground,
+    radius: &Node<'_>,
+    rows: &Node<'_>,
+) -> Checked<(usize, Matrix<T>)> {
+    let list: Matrix<T> = rows.entries(germ.dim(), ground)?;
     let (space, pivots) = list.echelon()?;
     let images = space.times(&germ.linear)?;
     let inner = images.columns(&pivots);
@@ -331,7 +339,7 @@ pub fn outer(germ: &Germ, radius: &Node<'_>, rows: &Node<'_>) -> Checked<(usize,
 
 /// Columns that span the sum of the other generalised eigenspaces: the image of `χ(L)`, `χ` the characteristic polynomial of `L`
 /// on the common kernel of the rows.
-fn complement(linear: &Matrix, rows: &Matrix) -> Checked<Matrix> {
+fn complement<T: Whole>(linear: &Matrix<T>, rows: &Matrix<T>) -> Checked<Matrix<T>> {
     let n = linear.rows;
     let (space, pivots) = rows.echelon()?;
     let free: Vec<usize> = (0..n).filter(|k| !pivots.contains(k)).collect();
@@ -347,14 +355,14 @@ fn complement(linear: &Matrix, rows: &Matrix) -> Checked<Matrix> {
     let chi = own.characteristic()?;
     let mut sum = Matrix::zeros(n, n);
     for k in (0..chi.cols).rev() {
-        sum = sum.times(linear)?.plus(&chi.at(0, k), &Matrix::identity(n));
+        sum = sum.times(linear)?.plus(&Q::one(), &Matrix::identity(n).multiple(&chi.columns(&[k])));
     }
     Ok(sum)
 }
 
 /// Whether the attractor of a state is connected: for it and all states reached from it, breadth first, pairs of addresses of
 /// one point join all pieces.
-fn connected(model: &Model<'_>, from: usize, node: &Node<'_>) -> Checked<()> {
+fn connected<T: Whole>(model: &Model<'_, T>, from: usize, node: &Node<'_>) -> Checked<()> {
     let mut order = vec![from];
     let lists = node.list()?;
     let mut next = 0;

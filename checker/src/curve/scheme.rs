@@ -2,6 +2,7 @@
 //! itself (docs/schemes.md says what they stand for).
 
 mod curves;
+mod interpolate;
 mod masks;
 mod symbol;
 
@@ -10,7 +11,11 @@ use crate::base::{Checked, Json, Matrix, Node, flag, some};
 use curves::Curve;
 
 /// The keys that say what is built; each table has exactly one.
-const FORMS: [&str; 6] = ["name", "mask", "symbol", "filter", "tensor", "mesh"];
+const FORMS: [&str; 7] = ["name", "mask", "symbol", "filter", "tensor", "mesh", "interpolate"];
+
+/// What to do where a case is not built here.
+pub const ELSEWHERE: &str = "check the expanded case, which `secant certify --certificate FILE` writes beside the certificate, \
+    and `secant expand` prints";
 
 /// A key with its value.
 type Field = (String, Json);
@@ -31,22 +36,26 @@ fn rows(m: &Matrix) -> Json {
 
 /// What the table `[scheme]` stands for: the keys of a case in its place.
 pub fn expanded(node: &Node<'_>) -> Checked<Vec<Field>> {
+    let spans = node.get("ends").is_some() || node.get("knots").is_some();
+    node.need(!spans, "scheme", format_args!("polygons of several spans are not built here: {ELSEWHERE}"))?;
     match form(node)? {
         "tensor" => tensor(node),
-        "mesh" => node.reject(
-            "scheme",
-            "meshes are not built here: check the expanded case, which `secant certify --certificate FILE` writes beside \
-             the certificate, and `secant expand` prints",
-        ),
+        "interpolate" => interpolate::expanded(node, "interpolate"),
+        "mesh" => node.reject("scheme", format_args!("meshes are not built here: {ELSEWHERE}")),
         form => curve(node, form, flag(node, "vertices")?)?.fields(),
     }
+}
+
+/// What the table `[interpolate]` stands for.
+pub fn interpolated(node: &Node<'_>) -> Checked<Vec<Field>> {
+    interpolate::expanded(node, "points")
 }
 
 fn form(node: &Node<'_>) -> Checked<&'static str> {
     let given: Vec<&'static str> = FORMS.into_iter().filter(|key| node.get(key).is_some()).collect();
     match given.as_slice() {
         [form] => Ok(form),
-        _ => node.reject("format", "a scheme has exactly one of the keys name, mask, symbol, filter, tensor, mesh"),
+        _ => node.reject("format", format_args!("a scheme has exactly one of the keys {}", FORMS.join(", "))),
     }
 }
 
@@ -68,6 +77,12 @@ fn tensor(node: &Node<'_>) -> Checked<Vec<Field>> {
     let factors = node.field("tensor")?.exactly(2, "format")?;
     let factor = |node: &Node<'_>| {
         let form = form(node)?;
+        let plain = form != "interpolate";
+        node.need(
+            plain,
+            "scheme",
+            format_args!("products of functions that interpolate are not built here: {ELSEWHERE}"),
+        )?;
         node.need(!matches!(form, "tensor" | "mesh"), "format", "the factors of a tensor product are curves")?;
         let curve = curve(node, form, true)?;
         node.need(curve.vertex.is_some(), "format", "a factor of a tensor product is a curve, no set")?;

@@ -1,6 +1,7 @@
 //! Shapes and what is computed from them: addresses, ends of curves, adjacency, relevant spaces, visible quotients.
 
-use crate::base::{Checked, MAX_LETTERS, Matrix, Q, charge, need, some, spend};
+use crate::base::{Checked, MAX_LETTERS, Matrix, Q, Whole, charge, need, some, spend};
+use num_bigint::BigInt;
 
 /// What a state stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,11 +16,11 @@ pub enum Kind {
 
 /// A piece `op · A_target` of a state.
 #[derive(Debug, Clone)]
-pub struct Piece {
+pub struct Piece<T = BigInt> {
     /// The state whose attractor is mapped.
     pub target: usize,
     /// The operator.
-    pub op: Matrix,
+    pub op: Matrix<T>,
     /// Whether it runs against the parameter.
     pub reversed: bool,
     /// What it takes of the parameter, where the case says so.
@@ -28,15 +29,15 @@ pub struct Piece {
 
 /// A state of the automaton.
 #[derive(Debug)]
-pub struct State {
+pub struct State<T = BigInt> {
     /// What it stands for.
     pub kind: Kind,
     /// Number of barycentric coordinates.
     pub dim: usize,
     /// Its pieces, by letter.
-    pub pieces: Vec<Piece>,
+    pub pieces: Vec<Piece<T>>,
     /// The boundary operators at the start and at the finish: vertex and matrix.
-    pub ends: [Option<(usize, Matrix)>; 2],
+    pub ends: [Option<(usize, Matrix<T>)>; 2],
 }
 
 /// An operator of a shape.
@@ -52,13 +53,13 @@ pub enum Op {
 
 /// An automaton of operators with a start state and a map into the space where the shape is looked at.
 #[derive(Debug)]
-pub struct Shape {
+pub struct Shape<T = BigInt> {
     /// The states.
-    pub states: Vec<State>,
+    pub states: Vec<State<T>>,
     /// The start.
     pub start: usize,
     /// Control points (one column each), or the identity.
-    pub view: Matrix,
+    pub view: Matrix<T>,
     /// The states that can be reached, breadth first.
     pub reachable: Vec<usize>,
 }
@@ -111,7 +112,7 @@ impl Address {
     }
 
     /// The address whose sequence of (state, letter) pairs is written with the shortest prefix and the shortest period.
-    pub fn normalise(&self, shape: &Shape, start: usize) -> Option<Self> {
+    pub fn normalise<T>(&self, shape: &Shape<T>, start: usize) -> Option<Self> {
         // After the prefix and one round of the cycle per state, the pairs repeat.
         let length = self.prefix.len() + self.cycle.len() * (shape.states.len() + 1);
         if length > 10 * MAX_LETTERS || !charge(10 * length, 0) {
@@ -144,7 +145,7 @@ pub enum End {
 
 impl End {
     /// The end of a piece that lies at this end of its state.
-    pub fn in_piece(self, piece: &Piece) -> Self {
+    pub fn in_piece<T>(self, piece: &Piece<T>) -> Self {
         match (self, piece.reversed) {
             (Self::Start, false) | (Self::Finish, true) => Self::Start,
             _ => Self::Finish,
@@ -152,9 +153,9 @@ impl End {
     }
 }
 
-impl Shape {
+impl<T: Whole> Shape<T> {
     /// A shape with these states.
-    pub fn new(states: Vec<State>, start: usize, view: Matrix) -> Self {
+    pub fn new(states: Vec<State<T>>, start: usize, view: Matrix<T>) -> Self {
         let (mut reachable, mut next) = (vec![start], 0);
         while next < reachable.len() {
             for piece in &states[reachable[next]].pieces {
@@ -167,13 +168,26 @@ impl Shape {
         Self { states, start, view, reachable }
     }
 
+    /// What can be reached from a state by at least one piece.
+    pub fn below(&self, from: usize) -> Vec<usize> {
+        let targets = |e: usize| self.states[e].pieces.iter().map(|p| p.target).collect::<Vec<_>>();
+        let (mut found, mut open) = (Vec::new(), targets(from));
+        while let Some(e) = open.pop() {
+            if !found.contains(&e) {
+                found.push(e);
+                open.extend(targets(e));
+            }
+        }
+        found
+    }
+
     /// The pieces of all reachable states, with the state.
-    pub fn pieces(&self) -> impl Iterator<Item = (usize, &Piece)> {
+    pub fn pieces(&self) -> impl Iterator<Item = (usize, &Piece<T>)> {
         self.reachable.iter().flat_map(|&e| self.states[e].pieces.iter().map(move |p| (e, p)))
     }
 
     /// For each state a matrix without rows.
-    pub fn no_rows(&self) -> Vec<Matrix> {
+    pub fn no_rows(&self) -> Vec<Matrix<T>> {
         self.states.iter().map(|s| Matrix::empty(s.dim)).collect()
     }
 
@@ -188,7 +202,7 @@ impl Shape {
     }
 
     /// The product of the operators of a word and the state where it ends.
-    pub fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
+    pub fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix<T>, usize)> {
         let states = self.path(from, word)?;
         let mut product = Matrix::identity(self.states[from].dim);
         for (&e, &letter) in states.iter().zip(word) {
@@ -204,7 +218,7 @@ impl Shape {
     }
 
     /// The product and the fixed point of a cycle, which must return to the state where it begins.
-    pub fn cycle(&self, state: usize, word: &[usize]) -> Checked<(Matrix, Matrix)> {
+    pub fn cycle(&self, state: usize, word: &[usize]) -> Checked<(Matrix<T>, Matrix<T>)> {
         let (cycle, back) = self.product(state, word)?;
         need(back == state && !word.is_empty(), "word", "the cycle of an address does not return to its state")?;
         let fixed = some(cycle.fixed_point()?, "fixed-point", "a fixed point is not unique")?;
@@ -212,7 +226,7 @@ impl Shape {
     }
 
     /// The point with an address.
-    pub fn point(&self, from: usize, address: &Address) -> Checked<Matrix> {
+    pub fn point(&self, from: usize, address: &Address) -> Checked<Matrix<T>> {
         let (prefix, state) = self.product(from, &address.prefix)?;
         prefix.times(&self.cycle(state, &address.cycle)?.1)
     }
@@ -235,7 +249,7 @@ impl Shape {
     }
 
     /// An end point of the curve of a state.
-    pub fn end_point(&self, state: usize, end: End) -> Checked<Matrix> {
+    pub fn end_point(&self, state: usize, end: End) -> Checked<Matrix<T>> {
         self.point(state, &some(self.end_address(state, end, &|_, _| false), "curve", "a state without pieces")?)
     }
 
@@ -243,7 +257,7 @@ impl Shape {
     pub fn check_curves(&self) -> Checked<()> {
         for &e in self.reachable.iter().filter(|&&e| self.states[e].kind == Kind::Edge) {
             for (j, pair) in self.states[e].pieces.windows(2).enumerate() {
-                let end = |p: &Piece, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
+                let end = |p: &Piece<T>, end: End| p.op.times(&self.end_point(p.target, end.in_piece(p))?);
                 let meet = end(&pair[0], End::Finish)? == end(&pair[1], End::Start)?;
                 need(meet, "curve", format_args!("pieces {j} and {} of state {e} do not meet", j + 1))?;
             }
@@ -280,7 +294,7 @@ impl Shape {
     }
 
     /// The matrix of an operator.
-    pub fn op(&self, op: Op) -> Checked<&Matrix> {
+    pub fn op(&self, op: Op) -> Checked<&Matrix<T>> {
         let found = match op {
             Op::Piece(state, letter) => self.states[state].pieces.get(letter).map(|p| &p.op),
             Op::End(state, end) => self.states[state].ends[end as usize].as_ref().map(|b| &b.1),
@@ -292,15 +306,15 @@ impl Shape {
 
 /// The relevant space of a state and its visible quotient.
 #[derive(Debug, Clone)]
-pub struct Space {
+pub struct Space<T = BigInt> {
     /// The point of the address that reads letter 0 for ever.
-    pub base: Matrix,
+    pub base: Matrix<T>,
     /// A basis of `V_e` as columns; its transpose is in reduced echelon form.
-    pub basis: Matrix,
+    pub basis: Matrix<T>,
     /// The matrix that reads the coordinates of a vector of `V_e` in this basis.
-    pub reading: Matrix,
+    pub reading: Matrix<T>,
     /// Rows on coordinates of `V_e`, in reduced echelon form: coordinates of the visible quotient `W_e`.
-    pub visible: Matrix,
+    pub visible: Matrix<T>,
     /// The columns of their leading ones.
     pub leading: Vec<usize>,
     /// By letter, whether the piece is a single point.
@@ -308,16 +322,16 @@ pub struct Space {
 }
 
 /// The spaces of all reachable states.
-pub struct Spaces(Vec<Option<Space>>);
+pub struct Spaces<T = BigInt>(Vec<Option<Space<T>>>);
 
-impl Spaces {
+impl<T: Whole> Spaces<T> {
     /// The space of a reachable state.
-    pub fn of(&self, state: usize) -> Checked<&Space> {
+    pub fn of(&self, state: usize) -> Checked<&Space<T>> {
         some(self.0.get(state).and_then(Option::as_ref), "word", "a state that cannot be reached")
     }
 
     /// Computes base points, relevant spaces by closure, and visible quotients (theory §3 and §9).
-    pub fn new(shape: &Shape) -> Checked<Self> {
+    pub fn new(shape: &Shape<T>) -> Checked<Self> {
         let (mut base, mut offsets, mut rows) = (shape.no_rows(), shape.no_rows(), shape.no_rows());
         for &e in &shape.reachable {
             let zero = Address { prefix: Vec::new(), cycle: vec![0] };
@@ -335,7 +349,7 @@ impl Spaces {
             let (basis, pivots) = spans[e].echelon()?;
             let (basis, reading) = (basis.transpose(), Matrix::ones(pivots.len(), basis.cols, |i, j| pivots[i] == j));
             let (visible, leading) = rows[e].times(&basis)?.echelon()?;
-            let is_point = |p: &Piece| Ok(p.op.times(&spans[p.target].transpose())?.is_zero());
+            let is_point = |p: &Piece<T>| Ok(p.op.times(&spans[p.target].transpose())?.is_zero());
             let points = shape.states[e].pieces.iter().map(is_point).collect::<Checked<_>>()?;
             spaces[e] = Some(Space { base: base[e].clone(), basis, reading, visible, leading, points });
         }
@@ -343,7 +357,7 @@ impl Spaces {
     }
 
     /// The linear part of an operator from the space of `from` to that of `to`, in the coordinates of the bases.
-    pub fn linear(&self, op: &Matrix, to: usize, from: usize) -> Checked<Matrix> {
+    pub fn linear(&self, op: &Matrix<T>, to: usize, from: usize) -> Checked<Matrix<T>> {
         self.of(to)?.reading.times(&op.times(&self.of(from)?.basis)?)
     }
 
@@ -359,7 +373,7 @@ impl Spaces {
     }
 
     /// The map between visible quotients that a piece of a state induces.
-    pub fn on_visible(&self, state: usize, piece: &Piece) -> Checked<Matrix> {
+    pub fn on_visible(&self, state: usize, piece: &Piece<T>) -> Checked<Matrix<T>> {
         let (own, target) = (self.of(state)?, self.of(piece.target)?);
         let onto = own.visible.times(&self.linear(&piece.op, state, piece.target)?)?;
         // Rows of `onto` are combinations of the echelon rows of the target; the leading columns give the coefficients.
@@ -381,12 +395,12 @@ pub enum Way {
 
 /// The smallest family of row spaces (one for each reachable state, in echelon form) that holds a given one and the images of
 /// its members, which `image` computes for a state, one of its pieces and the space that is carried.
-pub fn close(
-    shape: &Shape,
-    mut family: Vec<Matrix>,
+pub fn close<T: Whole>(
+    shape: &Shape<T>,
+    mut family: Vec<Matrix<T>>,
     way: Way,
-    image: impl Fn(usize, &Piece, &Matrix) -> Checked<Matrix>,
-) -> Checked<Vec<Matrix>> {
+    image: impl Fn(usize, &Piece<T>, &Matrix<T>) -> Checked<Matrix<T>>,
+) -> Checked<Vec<Matrix<T>>> {
     for &e in &shape.reachable {
         family[e] = family[e].echelon()?.0;
     }

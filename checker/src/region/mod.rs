@@ -5,7 +5,7 @@ mod argument;
 mod curve;
 mod hull;
 mod model;
-mod polynomial;
+pub mod polynomial;
 mod symbolic;
 
 use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, file, index, need, together, whole};

@@ -118,8 +118,8 @@ pub fn common_divisor(a: &[Q], b: &[Q]) -> Checked<Poly> {
     Ok(rationals(&common(&integers(a), &integers(b))?))
 }
 
-fn derivative(f: &[BigInt]) -> Vec<BigInt> {
-    f.iter().enumerate().skip(1).map(|(k, c)| c * k).collect()
+pub fn derivative<T: Clone + std::ops::Mul<BigInt, Output = T>>(f: &[T]) -> Vec<T> {
+    f.iter().enumerate().skip(1).map(|(k, c)| c.clone() * BigInt::from(k)).collect()
 }
 
 /// `f / g` up to a positive factor or its opposite, where the division has no remainder.

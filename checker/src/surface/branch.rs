@@ -23,7 +23,7 @@ pub fn check(model: &Model<'_>, root: &Root, address: &Address, node: &Node<'_>)
     let branch = Branch { model, germ: Germ::new(model, root, address)? };
     let germ = &branch.germ;
     let [top_node, orbits, bound] = node.fields("top orbits bound")?;
-    let top = Top::read(&top_node, &germ.linear)?;
+    let top = Top::read(&top_node, &germ.linear, &())?;
     let (mut contains, mut within) = (top.directions(&germ.view)?, top.ends(&germ.view)?);
     for orbit in orbits.list()? {
         let [point, own] = orbit.fields("address own")?;
@@ -51,9 +51,7 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
     let zero = [Zero::zero(), Zero::zero()];
     let (field, imaginary, parts, chains) = match top {
         Top::Real { field, chains } => (field.clone(), zero, 1, chains.as_slice()),
-        Top::Pair { value: [x, y], by_root, .. } => {
-            (Field { interval: x.clone(), by_root: by_root.clone() }, y.clone(), 2, [].as_slice())
-        }
+        Top::Pair { square: [_, y], field, .. } => (field.clone(), y.clone(), 2, [].as_slice()),
         Top::Conformal(_) => (Field::rational(&Zero::zero()), zero, 0, [].as_slice()),
     };
     bound.need(parts > 0, "leading", "a top that is real, or a pair, is needed here")?;
@@ -62,7 +60,7 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
     let mut rows = Vec::new();
     for item in list.list()? {
         let row = field.vector(&item, germ.dim())?;
-        let left = |sign| Ok(residual(&field.by_root, &germ.linear.transpose(), sign, &row)?.is_zero());
+        let left = |sign| Ok(residual(&field, &germ.linear.transpose(), sign, &row)?.is_zero());
         item.need(left(1)? || left(-1)?, "leading", "the row is no left eigenvector")?;
         for chain in chains.iter().filter(|c| c.vectors.len() < longest) {
             let value = field.dot(&row, &chain.vectors[chain.vectors.len() - 1])?;
@@ -78,7 +76,7 @@ fn leading<'n>(germ: &Germ, top: &Top, bound: &Node<'n>) -> Checked<(usize, Vec<
 fn group<'n>(germ: &Germ, bound: &Node<'n>) -> Checked<(usize, Vec<Enclosed>, Node<'n>)> {
     let [_, radius, rows, cover] = bound.fields("by radius rows cover")?;
     bound.need(bound.tag("by")? == "group", "format", "unknown bound")?;
-    let (dimension, list) = outer(germ, &radius, &rows)?;
+    let (dimension, list) = outer(germ, &(), &radius, &rows)?;
     let exact = |i: usize| Enclosed::exact(list.row(i).transpose());
     Ok((dimension, (0..list.rows).map(exact).collect(), cover))
 }

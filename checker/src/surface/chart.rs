@@ -8,7 +8,7 @@ use num_traits::{One, Signed, Zero};
 /// Cells that may be visited in search of the addresses of a parameter.
 const MAX_STEPS: usize = 20_000;
 
-/// The faces of a case as even divisions of a square or a triangle. A parameter `(u, v)` is the column `1 − u − v, u, v`, and the
+/// The faces of a case as divisions of a square or a triangle, even ones or in the shares of the sides. A parameter `(u, v)` is the column `1 − u − v, u, v`, and the
 /// operator of a piece is the affine map that puts the parameters of its face where the piece lies.
 pub struct Chart {
     maps: Shape,
@@ -23,11 +23,11 @@ fn corners(triangle: bool) -> Vec<Matrix> {
 
 const QUAD: [[i64; 3]; 4] = [[1, 0, 0], [0, 1, 0], [-1, 1, 1], [0, 0, 1]];
 
-/// The corners of the cells of a layout, in units of the last two numbers.
-fn cells(layout: &str) -> Option<(Vec<Vec<[usize; 2]>>, usize, usize)> {
+/// The corners of the cells of a layout, by the numbers of the cuts along both sides, and how many parts these have.
+fn cells(layout: &str) -> Option<(Vec<Vec<[usize; 2]>>, [usize; 2])> {
     if layout == "triangle" {
         let corner = |u, v| vec![[u, v], [u + 1, v], [u, v + 1]];
-        return Some((vec![corner(0, 0), corner(1, 0), corner(0, 1), vec![[1, 1], [0, 1], [1, 0]]], 2, 2));
+        return Some((vec![corner(0, 0), corner(1, 0), corner(0, 1), vec![[1, 1], [0, 1], [1, 0]]], [2, 2]));
     }
     let (columns, rows) = layout.split_once('x')?;
     let size = |text: &str| text.trim().parse().ok().filter(|n| (1..=MAX_PIECES).contains(n));
@@ -36,28 +36,72 @@ fn cells(layout: &str) -> Option<(Vec<Vec<[usize; 2]>>, usize, usize)> {
         let (i, j) = (k % columns, k / columns);
         vec![[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]]
     };
-    Some(((0..columns * rows).map(cell).collect(), columns, rows))
+    Some(((0..columns * rows).map(cell).collect(), [columns, rows]))
 }
 
 /// The affine map that takes the corners of a patch to these.
-fn affine(places: &[[usize; 2]], columns: usize, rows: usize) -> Matrix {
-    let part = |n: usize, of: usize| ratio(BigInt::from(n), BigInt::from(of));
+fn affine(places: &[[usize; 2]], cuts: &[Vec<Q>; 2]) -> Matrix {
     let column = |k: usize| {
-        let (u, v) = (part(places[k][0], columns), part(places[k][1], rows));
+        let (u, v) = (cuts[0][places[k][0]].clone(), cuts[1][places[k][1]].clone());
         vec![Q::one() - &u - &v, u, v]
     };
     Matrix::from_rows(3, &[column(0), column(1), column(places.len() - 1)]).transpose()
 }
 
-/// The pieces of a face as affine maps of its parameters; `None` where it has no sides, does not shrink in both directions, or
-/// they are no symmetries.
-fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option<Vec<Piece>>> {
+/// The ends of so many equal parts.
+fn even(parts: usize) -> Vec<Q> {
+    (0..=parts).map(|n| ratio(BigInt::from(n), BigInt::from(parts))).collect()
+}
+
+/// Where the sides of a face are cut, and whether by shares: as its sides are divided, by the shares of their pieces, which have to be
+/// the same on opposite sides; `None` where they are not, or a triangle has shares.
+fn cuts(
+    state: &Node<'_>,
+    parts: [usize; 2],
+    triangle: bool,
+    edge: &dyn Fn(&str) -> Option<usize>,
+    shape: &Shape,
+) -> Checked<Option<([Vec<Q>; 2], bool)>> {
+    let keys = if triangle { "side01 side12 side02" } else { "bottom right top left" };
+    let (mut sides, mut own) = (Vec::new(), false);
+    for (k, key) in keys.split(' ').enumerate() {
+        let name = state.field(key)?.field("edge")?;
+        let pieces = &shape.states[name.some(edge(name.text()?), "case", "there is no state of this name")?].pieces;
+        if pieces.iter().all(|p| p.share.is_none()) {
+            sides.push(even(parts[k % 2]));
+            continue;
+        }
+        own = true;
+        let mut ends = vec![Q::zero()];
+        for piece in pieces {
+            let share = name.some(piece.share.clone(), "case", "a piece without a share")?;
+            ends.push(&ends[ends.len() - 1] + share);
+        }
+        sides.push(ends);
+    }
+    if triangle {
+        return Ok((!own).then(|| ([even(2), even(2)], false)));
+    }
+    let fits = sides[0] == sides[2] && sides[1] == sides[3] && (0..2).all(|k| sides[k].len() == parts[k] + 1);
+    Ok(fits.then(|| ([sides[0].clone(), sides[1].clone()], own)))
+}
+
+/// The pieces of a face as affine maps of its parameters, whether it is divided by shares, and whether a piece is turned; `None` where
+/// it has no sides, does not shrink in both directions, or they are no symmetries.
+fn divided(
+    state: &Node<'_>,
+    pieces: &[Piece],
+    triangle: bool,
+    edge: &dyn Fn(&str) -> Option<usize>,
+    shape: &Shape,
+) -> Checked<Option<(Vec<Piece>, bool, bool)>> {
     let (Some(layout), true) = (state.get("layout"), state.get(side(triangle)).is_some()) else { return Ok(None) };
     let parts = cells(layout.text()?);
-    let (cells, columns, rows) = layout.some(parts, "case", "this is no layout of a face")?;
+    let (cells, parts) = layout.some(parts, "case", "this is no layout of a face")?;
     let fits = cells.len() == pieces.len() && cells.iter().all(|c| c.len() == if triangle { 3 } else { 4 });
     layout.need(fits, "case", "the layout of a face does not fit its pieces or its sides")?;
-    let mut maps = Vec::new();
+    let Some((cuts, own)) = cuts(state, parts, triangle, edge, shape)? else { return Ok(None) };
+    let (mut maps, mut turned) = (Vec::new(), false);
     for ((piece, node), cell) in pieces.iter().zip(state.field("piece")?.list()?).zip(cells) {
         let mut places = cell.clone();
         if let Some(order) = node.get("corners") {
@@ -66,13 +110,14 @@ fn divided(state: &Node<'_>, pieces: &[Piece], triangle: bool) -> Checked<Option
             order.need(all, "case", "each corner must be named once")?;
             places = named.iter().map(|&k| cell[k]).collect();
         }
+        turned |= places != cell;
         let opposite = |k: usize| [0, 1].map(|i| places[k][i] + places[k + 2][i]);
-        if columns.min(rows) < 2 || (places.len() == 4 && opposite(0) != opposite(1)) {
+        if parts.contains(&1) || (places.len() == 4 && opposite(0) != opposite(1)) {
             return Ok(None);
         }
-        maps.push(Piece { target: piece.target, op: affine(&places, columns, rows), reversed: false, share: None });
+        maps.push(Piece { target: piece.target, op: affine(&places, &cuts), reversed: false, share: None });
     }
-    Ok(Some(maps))
+    Ok(Some((maps, own, turned)))
 }
 
 /// A side that a face with sides has.
@@ -91,10 +136,17 @@ impl Chart {
             let triangle = states[shape.start].get(side(true)).is_some();
             let state = |s: &State| State { kind: s.kind, dim: 3, pieces: Vec::new(), ends: [None, None] };
             let mut maps: Vec<State> = shape.states.iter().map(state).collect();
+            let named = |name: &str| states.iter().position(|s| s.get("name").is_some_and(|n| n.text() == Ok(name)));
+            let (mut by_shares, mut any_turned) = (false, false);
             for &e in &shape.reachable {
-                let pieces = if face(e) { divided(&states[e], &shape.states[e].pieces, triangle)? } else { None };
-                let Some(pieces) = pieces else { return Ok(None) };
+                let pieces = &shape.states[e].pieces;
+                let found = if face(e) { divided(&states[e], pieces, triangle, &named, shape)? } else { None };
+                let Some((pieces, own, turned)) = found else { return Ok(None) };
                 maps[e].pieces = pieces;
+                (by_shares, any_turned) = (by_shares || own, any_turned || turned);
+            }
+            if by_shares && any_turned {
+                return Ok(None);
             }
             Ok(Some(Self { maps: Shape::new(maps, shape.start, Matrix::identity(3)), triangle }))
         })
@@ -110,27 +162,55 @@ impl Chart {
         &self.maps.states[face].pieces[letter].op
     }
 
-    /// `1/N` and `U^-t`, where a piece is placed by `x ↦ U x / N + p` with a matrix `U` of 0, 1, −1 and determinant ±1.
-    pub fn turn(&self, face: usize, letter: usize) -> Checked<(Q, Matrix)> {
+    /// The linear part of the map of a piece.
+    pub fn linear(&self, face: usize, letter: usize) -> Matrix {
         let column = |k: usize| self.map(face, letter).columns(&[k]).minus(&self.map(face, letter).columns(&[0]));
-        let linear = column(1).part(1..3, 0..1).beside(&column(2).part(1..3, 0..1));
-        let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().map(|(i, j)| linear.at(i, j));
-        let share = some(entries().map(|x| x.abs()).max(), "every", "a piece without a size")?;
-        need(share.is_positive(), "every", "a piece without a size")?;
-        let turn = linear.scaled(&share.recip());
-        let det = turn.at(0, 0) * turn.at(1, 1) - turn.at(0, 1) * turn.at(1, 0);
-        let whole = entries().all(|x| x.is_zero() || x.abs() == share) && det.abs() == Q::one();
-        need(whole, "every", "a face is not divided into the same number of parts along every side")?;
-        let inverse = some(turn.solve(&Matrix::identity(2))?, "every", "a piece that is no cell")?;
-        Ok((share, inverse.transpose()))
+        column(1).part(1..3, 0..1).beside(&column(2).part(1..3, 0..1))
+    }
+
+    /// `1/N`, where every piece from which its state can be reached again is placed by `x ↦ U x / N + p` with a matrix `U` of 0, 1, −1
+    /// and determinant ±1.
+    pub fn share(&self) -> Checked<Q> {
+        let mut share: Option<Q> = None;
+        let letters = |&e: &usize| self.maps.states[e].pieces.iter().enumerate().map(move |(i, p)| (e, i, p.target));
+        for (e, letter, target) in self.maps.reachable.iter().flat_map(letters) {
+            if !self.maps.below(target).contains(&e) {
+                continue;
+            }
+            let linear = self.linear(e, letter);
+            let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter().map(|(i, j)| linear.at(i, j).abs());
+            let size = some(entries().max(), "every", "a piece without a size")?;
+            let det = (linear.at(0, 0) * linear.at(1, 1) - linear.at(0, 1) * linear.at(1, 0)).abs();
+            let whole = size.is_positive() && entries().all(|x| x.is_zero() || x == size) && det == &size * &size;
+            let one = share.as_ref().is_none_or(|s| *s == size);
+            need(
+                whole && one && size < Q::one(),
+                "every",
+                "the pieces that lead back to their face are not of one size",
+            )?;
+            share = Some(size);
+        }
+        some(share, "every", "no face leads back to itself")
     }
 
     /// Whether a piece of the start lies in its part of a division into columns and rows without a turn.
     pub fn is_plain(&self, letter: usize, columns: usize, rows: usize) -> bool {
-        let parts = cells(&format!("{columns}x{rows}"));
-        let plain = parts.and_then(|(cells, ..)| Some(affine(cells.get(letter)?, columns, rows)));
-        let here = self.maps.states[self.maps.start].pieces.get(letter);
-        !self.triangle && here.is_some_and(|piece| plain.as_ref() == Some(&piece.op))
+        let pieces = &self.maps.states[self.maps.start].pieces;
+        if self.triangle || pieces.len() != columns * rows || letter >= pieces.len() {
+            return false;
+        }
+        // It begins where the ones before it end, in both directions.
+        let corner = |k: usize, c: usize| pieces[k].op.times(&corners(false)[c]);
+        let (i, j) = (letter % columns, letter / columns);
+        let zero = corners(false)[0].clone();
+        let before = if i == 0 { Ok(None) } else { corner(letter - 1, 1).map(Some) };
+        let below = if j == 0 { Ok(None) } else { corner(letter - columns, 3).map(Some) };
+        let (Ok(here), Ok(before), Ok(below)) = (corner(letter, 0), before, below) else { return false };
+        let fits = before.is_none_or(|x| x == here) && below.is_none_or(|x| x == here);
+        let linear = self.linear(self.maps.start, letter);
+        let straight = linear.at(0, 1).is_zero() && linear.at(1, 0).is_zero();
+        let forwards = linear.at(0, 0).is_positive() && linear.at(1, 1).is_positive();
+        fits && straight && forwards && (letter > 0 || here == zero)
     }
 
     /// The parameters of an address of a face.

@@ -18,7 +18,7 @@ struct Level {
     maps: Vec<Vec<Matrix>>,
 }
 
-/// A patch whose pieces are placed by `x ↦ U x / N + p`.
+/// A patch whose pieces are placed by `x ↦ U x / N + p`, `U` a turn where a piece leads back to its face.
 struct Patch<'a> {
     model: &'a Model<'a>,
     chart: &'a Chart,
@@ -68,6 +68,15 @@ pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
     cells.at(patch.covered(&radii, &cells))
 }
 
+/// All faces are divided into the same number of parts along every side, and the points of parts that share an edge are the same
+/// there.
+pub fn continuous(model: &Model<'_>, chart: &Chart) -> Checked<()> {
+    let patch = Patch::read(model, chart)?;
+    let (pairs, steps, inner) = patch.pairs()?;
+    need(!inner.is_empty(), "every", "a face without inner edges")?;
+    patch.meets(&patch.points, &pairs, &steps, &inner, &|e, word| patch.point(e, word))
+}
+
 impl<'a> Patch<'a> {
     fn read(model: &'a Model<'a>, chart: &'a Chart) -> Checked<Self> {
         let shape = model.shape;
@@ -75,7 +84,7 @@ impl<'a> Patch<'a> {
         let mut patch = Self {
             model,
             chart,
-            share: Q::zero(),
+            share: chart.share()?,
             turns: none(),
             scaled: none(),
             derivatives: Level { maps: none() },
@@ -84,15 +93,14 @@ impl<'a> Patch<'a> {
             families: shape.no_rows(),
         };
         for (e, piece) in shape.pieces() {
-            let (share, turn) = chart.turn(e, patch.turns[e].len())?;
-            let one = patch.share.is_zero() || patch.share == share;
-            need(one && share < Q::one(), "every", "all pieces must be of one size")?;
-            let scaled = model.spaces.on_visible(e, piece)?.scaled(&share.recip());
+            let scale = patch.share.recip();
+            let turn = chart.linear(e, patch.turns[e].len()).scaled(&scale);
+            let turn = some(turn.solve(&Matrix::identity(2))?, "every", "a piece that is no cell")?.transpose();
+            let scaled = model.spaces.on_visible(e, piece)?.scaled(&scale);
             patch.derivatives.maps[e].push(kronecker(&turn, &scaled)?);
             patch.points.maps[e].push(piece.op.clone());
             patch.scaled[e].push(scaled);
             patch.turns[e].push(turn);
-            patch.share = share;
         }
         for &e in &shape.reachable {
             let (chords, defect) = patch.corners(e)?;
@@ -182,42 +190,55 @@ impl<'a> Patch<'a> {
             Ok(pairs.len() - 1)
         };
         for &e in &self.model.shape.reachable {
-            for ([i, j], pair) in self.divided(&Pair { states: [e, e], place: Matrix::identity(3) })? {
+            for ([i, j], pair, _) in self.divided(&Pair { states: [e, e], place: Matrix::identity(3) })? {
                 if i < j {
                     inner.push((e, ([i, j], number(&mut pairs, pair)?)));
                 }
             }
         }
         while steps.len() < pairs.len() {
-            let mut own = Vec::new();
-            for (letters, pair) in self.divided(&pairs[steps.len()].clone())? {
+            let whole = pairs[steps.len()].clone();
+            let (mut own, mut parts) = (Vec::new(), Q::zero());
+            for (letters, pair, length) in self.divided(&whole)? {
                 own.push((letters, number(&mut pairs, pair)?));
+                parts += length;
             }
-            need(!own.is_empty(), "every", "an edge without parts")?;
+            let edge = self.edge(&whole)?.map(|ends| length(&ends));
+            need(edge == Some(parts), "every", "two faces are divided differently along an edge")?;
             steps.push(own);
         }
         Ok((pairs, steps, inner))
     }
 
-    /// The pieces of two faces that share an edge.
-    fn divided(&self, pair: &Pair) -> Checked<Vec<([usize; 2], Pair)>> {
+    /// The pieces of two faces that share an edge, and how long it is in the parameters of the first face.
+    fn divided(&self, pair: &Pair) -> Checked<Vec<([usize; 2], Pair, Q)>> {
         let pieces = |k: usize| &self.model.shape.states[pair.states[k]].pieces;
-        let corners = self.chart.corners();
         let mut found = Vec::new();
         for (i, first) in pieces(0).iter().enumerate() {
             for (j, second) in pieces(1).iter().enumerate() {
+                let map = self.chart.map(pair.states[0], i);
                 let there = pair.place.times(self.chart.map(pair.states[1], j))?;
-                let place = some(self.chart.map(pair.states[0], i).solve(&there)?, "every", "a place that is no cell")?;
-                let mut common = 0;
-                for corner in &corners {
-                    common += usize::from(corners.contains(&place.times(corner)?));
-                }
-                if common == 2 {
-                    found.push(([i, j], Pair { states: [first.target, second.target], place }));
+                let place = some(map.solve(&there)?, "every", "a place that is no cell")?;
+                let inner = Pair { states: [first.target, second.target], place };
+                if let Some([p, q]) = self.edge(&inner)? {
+                    found.push(([i, j], inner, length(&[map.times(&p)?, map.times(&q)?])));
                 }
             }
         }
         Ok(found)
+    }
+
+    /// The two corners that two faces share, where they share two, in the parameters of the first one.
+    fn edge(&self, pair: &Pair) -> Checked<Option<[Matrix; 2]>> {
+        let corners = self.chart.corners();
+        let mut common = Vec::new();
+        for corner in &corners {
+            let there = pair.place.times(corner)?;
+            if corners.contains(&there) {
+                common.push(there);
+            }
+        }
+        Ok(common.try_into().ok())
     }
 
     /// Whether what two pieces of a face that share an edge have along it is the same, for every such edge: on the span of the values
@@ -380,6 +401,11 @@ impl<'a> Patch<'a> {
         }
         Ok(form(&own, 0, &own, 1) > radius * (first + second) + radius * radius * both)
     }
+}
+
+/// The length of a segment, of two points; of segments of one line only, as the sum of those of its coordinates.
+fn length([p, q]: &[Matrix; 2]) -> Q {
+    column_norm(&p.minus(q))
 }
 
 /// The largest 1-norm of a column.

@@ -65,7 +65,7 @@ impl<'a> Product<'a> {
         let mut read = Vec::new();
         for (shape, node) in curves.iter().zip(nodes) {
             let [_, contraction, points] = node.fields("operators contraction points")?;
-            let model = Model::read(shape, &contraction)?;
+            let model = Model::read(shape, &(), &contraction)?;
             shape.check_curves()?;
             // Along a cell that is a point the curve is constant, and the tangent subspace is that of the other curve.
             let pieces = &shape.states[0].pieces;
@@ -97,7 +97,7 @@ impl<'a> Product<'a> {
             let part = |word: &[usize]| word.iter().map(|l| [l % columns, l / columns][k]).collect();
             let normal =
                 Address { prefix: part(&address.prefix), cycle: part(&address.cycle) }.normalise(model.shape, 0);
-            let (point, here) = (&points[item.index(points.len())?], normal.map(|a| Place::of_address(model, &a)));
+            let (point, here) = (&points[item.index(points.len())?], normal.map(|a| Place::of_address(model, 0, &a)));
             item.need(
                 Some(&point.place) == here.transpose()?.as_ref(),
                 "product",

@@ -8,7 +8,7 @@ use crate::base::{Checked, Matrix, Q, need, reject, whole};
 use num_traits::{One, Signed, Zero};
 
 /// Most sectors.
-pub const MAX_VALENCE: usize = 256;
+pub const MAX_VALENCE: usize = 1024;
 
 /// The splines that the schemes are away from the vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

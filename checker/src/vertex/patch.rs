@@ -217,6 +217,12 @@ fn choose(n: usize, k: usize) -> i64 {
 mod tests {
     use super::*;
 
+    #[test]
+    fn rows_of_pascal() {
+        let row = |n: usize| (0..=n).map(|k| choose(n, k)).collect::<Vec<_>>();
+        assert_eq!((row(0), row(3), row(6)), (vec![1], vec![1, 3, 3, 1], vec![1, 6, 15, 20, 15, 6, 1]));
+    }
+
     /// The weights of a net in the new point at a place: Loop's rule away from extraordinary vertices.
     fn weight((i, j): Place) -> i64 {
         match (i.abs().max(j.abs()).max((i + j).abs()), i * j * (i + j)) {

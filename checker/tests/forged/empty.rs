@@ -30,34 +30,38 @@ fn no_more(before: &[Decided], after: &[Decided]) -> bool {
 #[test]
 fn lists_taken_out_of_certificates() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/certs/pass");
-    let mut tried = 0;
     let mut names: Vec<_> = std::fs::read_dir(root).unwrap().map(|e| e.unwrap().path()).collect();
     names.retain(|p| p.extension().is_some_and(|e| e == "json"));
-    for path in names {
-        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
-        let (case, text) = stored(&name);
-        let whole: Value = serde_json::from_str(&text).unwrap();
-        let before = check(&case, &text).unwrap();
-        let mut places = Vec::new();
-        lists(&whole["proof"], "/proof", &mut places);
-        for place in places {
-            let mut forged = whole.clone();
-            *forged.pointer_mut(&place).unwrap() = json!([]);
-            tried += 1;
-            let mut found = check(&case, &forged.to_string());
-            for verdict in ["proved", "refuted", "undetermined"] {
-                // What follows may be another verdict.
-                if found.as_ref().is_err_and(|r| r.rule == "verdict") {
-                    forged["verdict"] = json!(verdict);
-                    found = check(&case, &forged.to_string());
-                }
-            }
-            if let Ok(after) = found {
-                assert!(no_more(&before.claims, &after.claims), "{name} {place}: {:?}", after.claims);
+    names.sort();
+    let part = |k: usize| names.iter().skip(k).step_by(2).map(|path| without_lists(path)).sum::<usize>();
+    let tried = std::thread::scope(|s| [0, 1].map(|k| s.spawn(move || part(k))).map(|t| t.join().unwrap()));
+    assert!(tried[0] + tried[1] > 1000, "{tried:?}");
+}
+
+/// The lists that were taken out of one certificate, and how many.
+fn without_lists(path: &Path) -> usize {
+    let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+    let (case, text) = stored(&name);
+    let whole: Value = serde_json::from_str(&text).unwrap();
+    let before = check(&case, &text).unwrap();
+    let mut places = Vec::new();
+    lists(&whole["proof"], "/proof", &mut places);
+    for place in &places {
+        let mut forged = whole.clone();
+        *forged.pointer_mut(place).unwrap() = json!([]);
+        let mut found = check(&case, &forged.to_string());
+        for verdict in ["proved", "refuted", "undetermined"] {
+            // What follows may be another verdict.
+            if found.as_ref().is_err_and(|r| r.rule == "verdict") {
+                forged["verdict"] = json!(verdict);
+                found = check(&case, &forged.to_string());
             }
         }
+        if let Ok(after) = found {
+            assert!(no_more(&before.claims, &after.claims), "{name} {place}: {:?}", after.claims);
+        }
     }
-    assert!(tried > 1000, "{tried}");
+    places.len()
 }
 
 /// A product of size 0 x 0 has no eigenvalue near any number: the joint spectral radius of this curve's derivatives is 1/4.
@@ -148,7 +152,7 @@ fn cases_without_a_part() {
         read("vertex-loop", &format!("name = \"vertex-loop\"\n[vertex]\nmesh = \"loop\"\nvalence = {valence}"))
     };
     assert!(!vertex("\"4..5\""));
-    for valence in ["\"\"", "\",\"", "\"5..4\"", "\"..\"", "2", "257", "\"2\"", "\"5,\"", "[]"] {
+    for valence in ["\"\"", "\",\"", "\"5..4\"", "\"..\"", "1", "1025", "\"1\"", "\"5,\"", "[]"] {
         assert!(vertex(valence), "{valence}");
     }
 }

@@ -58,7 +58,7 @@ fn extraordinary_vertices() {
         ("vertex", &[(&valence, json!(6))]),
         ("vertex", &[(&valence, json!(4))]),
         ("vertex", &[(&valence, json!(2))]),
-        ("format", &[(&valence, json!(257))]),
+        ("format", &[(&valence, json!(1025))]),
         ("vertex", &[("/valences", json!([]))]),
     ];
     for (wanted, changes) in loop_five {

@@ -71,9 +71,11 @@ pub(super) fn evidence(case: &Case, found: &Components) -> Evidence {
         evidence.push("points", Tone::Neutral, words("all states have cones."));
     }
     evidence.push("injective", Tone::Good, words("the ranks are the dimensions of the relevant spaces."));
-    let view = match found.code {
+    let view = match &found.sight {
         None => "there are no control points.".to_owned(),
-        Some(words) => format!("cones of all states, and a functional behind each of {}.", count(words, "word")),
+        Some((_, code)) => {
+            format!("cones of all states, and a functional behind each of {}.", count(code.len(), "word"))
+        }
     };
     evidence.push("view", Tone::Good, words(view));
     evidence

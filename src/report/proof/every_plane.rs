@@ -12,7 +12,7 @@ use crate::answer::Answer;
 use crate::case::Case;
 use crate::statement::Statement;
 use crate::theorem::Certified;
-use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface};
+use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, PatchDerivative, Surface, SurfaceForms};
 
 pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Every point")];
@@ -32,6 +32,10 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
         Answer::Proved(EverySurfaceProof::Derivative(found)) => {
             blocks.extend(seen.once_id(Statement::PatchDerivative));
             blocks.push(derivative(found).block());
+        }
+        Answer::Proved(EverySurfaceProof::Forms(found)) => {
+            blocks.extend(seen.once_id(Statement::SurfaceCones));
+            blocks.push(cones(found).block());
         }
         Answer::Proved(EverySurfaceProof::Vertex { valence, rings }) => {
             blocks.extend(seen.once_id(Statement::VertexEveryPoint));
@@ -65,12 +69,28 @@ fn derivative(found: &PatchDerivative) -> Evidence {
     Evidence::of(Statement::PatchDerivative)
         .holds(
             "patch",
-            "all faces are divided evenly; the pieces have the size $1/N=@$ in the parameters.",
+            "all faces are divided evenly, or in the shares of their sides; the pieces that lead back to their face have the size $1/N=@$ \
+             in the parameters.",
             [Math::number(&found.share)],
         )
         .holds("radius", &radius, [Math::number(&found.share)])
         .holds("edges", &edges, [])
         .holds("rank", &rank, [])
+}
+
+/// What was verified of the statement on cones around planes.
+fn cones(found: &SurfaceForms) -> Evidence {
+    let (stars, lists) = (found.forms.len() - 1, &found.stars);
+    let cells = listed(&lists.list.iter().skip(1).map(|s| s.cells.len().to_string()).collect::<Vec<_>>());
+    let children = lists.children.iter().skip(1).map(Vec::len).sum::<usize>();
+    let dims = listed(&found.forms.iter().skip(1).map(|q| q.rows().to_string()).collect::<Vec<_>>());
+    Evidence::of(Statement::SurfaceCones)
+        .holds("patch", "all faces are divided evenly, into the same number of parts along every side.", [])
+        .holds("stars", &format!("there are {} of {cells} cells, with {children} children.", count(stars, "star")), [])
+        .holds("signature", &format!("the forms have the dimensions {dims}, star by star."), [])
+        .holds("growth", &format!("elimination has positive pivots only, for all {children} children."), [])
+        .holds("apart", &format!("bounds on {} of cells show it.", count(found.pairs, "pair")), [])
+        .holds("view", &format!("it holds after {} of stars.", count(found.views, "word")), [])
 }
 
 /// What was verified of the statement on the disc around a vertex.

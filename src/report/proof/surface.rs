@@ -6,6 +6,7 @@ use super::super::surface::{head, product_line, span, verdict};
 use super::super::words::{mark, tone};
 use super::evidence::Evidence;
 use super::{Quoted, matrix, product, surface_cycle};
+use crate::answer::Answer;
 use crate::case::Case;
 use crate::theorem::Statement;
 use crate::theorem::surface::{Bivectors, Surface, SurfaceBranch, SurfaceDense, SurfacePoint};
@@ -76,6 +77,12 @@ pub(super) fn section(case: &Case, surface: &Surface, seen: &mut Quoted) -> Vec<
         blocks.push(Block::Paragraph(conclusion));
     }
     blocks.extend(surface.dense.as_ref().map(|d| dense(case, d, seen)).unwrap_or_default());
+    if matches!(surface.every, Answer::Proved(_)) {
+        blocks.push(Block::text(
+            "There is a tangent plane at every point (see there), so that those at a dense set follow.",
+            [],
+        ));
+    }
     blocks
 }
 

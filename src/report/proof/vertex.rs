@@ -3,6 +3,7 @@
 
 use super::super::document::{Block, Document, Inline, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
+use super::super::radius::interval;
 use super::super::values::{decimal_math, outward};
 use super::super::vertex::{at, functional, places, summary_by_valence, twice};
 use super::super::words::{count, mark, short_bound};
@@ -14,7 +15,7 @@ use crate::scheme::mesh_rules;
 use crate::statement::Statement;
 use crate::theorem::Verdict;
 use crate::vertex::regular::Regular;
-use crate::vertex::{AtValence, Eigenvector, Every, Ground, overall};
+use crate::vertex::{AtValence, Eigenvector, Every, Ground, Size, overall};
 
 /// The whole proof for the valences examined, and for all valences where they were asked for, as a document.
 #[must_use]
@@ -196,6 +197,7 @@ fn evidence(case: &VertexCase, f: &AtValence) -> Vec<Block> {
             Statement::Lemma3 => half_plane(f, frequency(f, Evidence::of(statement))),
             Statement::Theorem7 => half_plane(f, regular(f, leading(f, setting(f, Evidence::of(statement))))),
             Statement::Theorem8 => obstruction(case, f, setting(f, Evidence::of(statement))),
+            Statement::CurvatureSize => curvature(f, Evidence::of(statement)),
             Statement::NoLimit => no_limit(f, Evidence::of(statement)),
             Statement::BorderVertex | Statement::BorderJordan | Statement::BorderOneFace | Statement::BorderRefuted => {
                 on_border(case, f, statement)
@@ -311,6 +313,19 @@ fn regular(f: &AtValence, mut evidence: Evidence) -> Evidence {
     evidence
 }
 
+fn curvature(f: &AtValence, mut evidence: Evidence) -> Evidence {
+    let Some(c) = f.curvature.as_ref().filter(|_| f.polynomial) else { return evidence };
+    let text = "Theorem 7 proves it C¹, with blocks of size 1 and $λ>0$; the rings are piecewise polynomial.";
+    evidence = evidence.holds("setting", text, []);
+    let blocks = crate::report::curvature::blocks(c, f.valence);
+    let ratio = match c.size {
+        Size::Vanishing => "ρ/λ² is below 1".to_owned(),
+        _ => format!("ρ/λ² lies in {}, and its longest Jordan blocks have size {}", interval(&c.ratio), c.power + 1),
+    };
+    evidence.push("rest", Tone::Good, words(format!("{ratio}; Fourier blocks with one: {blocks}.")));
+    evidence
+}
+
 fn half_plane(f: &AtValence, mut evidence: Evidence) -> Evidence {
     if let Some((a, b)) = &f.half_plane {
         let by = if f.polynomial {
@@ -351,10 +366,9 @@ fn branch(f: &AtValence, statement: Statement) -> Evidence {
 fn obstruction(case: &VertexCase, f: &AtValence, mut evidence: Evidence) -> Evidence {
     let dimension = f.top.as_ref().map_or(0, |top| top.longest(f.valence).1);
     let text = match f.ground {
-        Some(Ground::Winding) => match (f.frequency, f.winding) {
-            (Some(k), Some(w)) => format!("(a): k = {k}, and by Lemma 3 the ring winds {w} times around 0."),
-            (Some(k), None) => format!("(a): k = {k}, and the eigenvectors are semisimple."),
-            (None, _) => return evidence,
+        Some(Ground::Winding(k)) => match f.winding {
+            Some(w) => format!("(a): k = {k}, and by Lemma 3 the ring winds {w} times around 0."),
+            None => format!("(a): k = {k}, and the eigenvectors are semisimple."),
         },
         Some(Ground::Sectors) => "(b): both leading eigenvectors are in the blocks 0 and n/2.".to_owned(),
         Some(Ground::Fold) => {

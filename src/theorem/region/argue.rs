@@ -2,8 +2,8 @@
 
 use super::cones::Rays;
 use super::curve::{CurveFamily, Germ, apply};
-use super::fact::{CurveClaim, CurveEnd, Fact, Why};
-use super::signs::{Signs, adjugate, determinant, dot, is_stable, scaled};
+use super::fact::{CurveClaim, CurveEnd, Evidence, Fact, Why};
+use super::signs::{Signs, adjugate, determinant, dot, horner, is_stable, scaled, without_root};
 use super::symbol::Symbol;
 use crate::answer::Verdict;
 use crate::arith::Rational;
@@ -19,8 +19,9 @@ struct Word<P> {
     eigenvalues: Vec<P>,
 }
 
-/// The leading eigenvalue of a word, real, simple and alone, with `ψ(λ) adj(λ − T)`: a positive multiple of the projection to its
-/// eigenvector.
+/// The leading eigenvalue of a word, real, with one Jordan block and alone, with `ψ(λ) adj(λ − T)`, `ψ` the characteristic
+/// polynomial without its factors `x − λ`: a positive multiple of the projection to its eigenvector, or, with a block of length 2, of
+/// that to the block followed by `T − λ`.
 pub(super) struct Leading<P> {
     pub value: P,
     pub positive: bool,
@@ -54,17 +55,21 @@ pub(super) struct Arguments<'a, P> {
     pub family: &'a CurveFamily<P>,
     /// Searches for constant rays that are left.
     pub searches: Cell<usize>,
+    /// Whether something was used that certificates of regions have no form for.
+    beyond: Cell<bool>,
     words: RefCell<BTreeMap<Vec<usize>, Rc<Word<P>>>>,
 }
 
 impl<'a, P: Symbol> Arguments<'a, P> {
     pub fn new(family: &'a CurveFamily<P>) -> Self {
-        Self { family, searches: Cell::new(SEARCHES), words: RefCell::default() }
+        Self { family, searches: Cell::new(SEARCHES), beyond: Cell::new(false), words: RefCell::default() }
     }
 
     /// What is decided at a value. All of it rests on contraction.
     pub fn facts(&self, at: &impl Signs<P>) -> Vec<Fact<P>> {
-        let Some((chord, span)) = self.premises(at) else { return Vec::new() };
+        self.beyond.set(false);
+        let other = at.fork();
+        let Some((chord, span)) = self.premises(at) else { return self.on_a_line(&other) };
         let germs = [0, 1].map(|end| self.germ(at, &self.family.germs[end], &chord));
         let joints = self.joints(at, &germs);
         let mut facts = self.refuted(at, &germs, &joints);
@@ -88,8 +93,27 @@ impl<'a, P: Symbol> Arguments<'a, P> {
         for fact in &mut facts {
             fact.evidence.span.clone_from(&span);
             fact.evidence.values = germs.each_ref().map(value);
+            fact.evidence.beyond = self.beyond.get();
         }
         facts
+    }
+
+    /// A curve on the line of its chord whose pieces all go forwards: a segment.
+    fn on_a_line(&self, at: &impl Signs<P>) -> Vec<Fact<P>> {
+        let family = self.family;
+        if family.chord_guards.iter().any(|f| at.sign(f) == 0) {
+            return Vec::new();
+        }
+        let Some(chord) = at.primitive(&family.chord) else { return Vec::new() };
+        let forwards = |letter: usize| {
+            let image = apply(&family.linear[letter], &chord);
+            at.parallel(&image, &chord) && at.sign(&dot(&image, &chord)) * family.sign(&[letter]) > 0
+        };
+        if !(0..family.linear.len()).all(forwards) {
+            return Vec::new();
+        }
+        let facts = CurveClaim::ALL.into_iter().filter_map(|c| Fact::of(at, c, Verdict::Proved, Why::Segment));
+        facts.map(|f| Fact { evidence: Evidence { beyond: true, ..f.evidence }, ..f }).collect()
     }
 
     /// The chord, where the relevant space is the space of all differences and no piece is a point.
@@ -134,7 +158,8 @@ impl<'a, P: Symbol> Arguments<'a, P> {
         made
     }
 
-    /// The leading eigenvalue, where it is a polynomial, simple, and larger than all others in modulus.
+    /// The leading eigenvalue, where it is a polynomial with one Jordan block of length 1 or 2, and larger than all others in
+    /// modulus.
     pub fn leading(&self, at: &impl Signs<P>, word: &[usize]) -> Option<Leading<P>> {
         let own = self.word(word);
         own.eigenvalues.iter().find_map(|value| {
@@ -143,26 +168,27 @@ impl<'a, P: Symbol> Arguments<'a, P> {
             if sign == 0 {
                 return None;
             }
-            // χ = (x − λ) ψ, from the highest coefficient down.
-            let mut psi: Vec<P> = Vec::new();
-            for c in own.chi[1..].iter().rev() {
-                let next = psi.last().map_or_else(|| c.clone(), |p| p.times(value).plus(c));
-                psi.push(next);
+            let mut rest = without_root(&own.chi, value);
+            let chain = horner(&rest, value).vanishes();
+            if chain {
+                rest = without_root(&rest, value);
             }
-            psi.reverse();
             let mut power = P::number(Rational::from(1));
             let mut shrunk = Vec::new();
-            for c in &psi {
+            for c in &rest {
                 shrunk.push(c.times(&power));
                 power = power.times(value);
             }
             if !is_stable(at, shrunk) {
                 return None;
             }
-            let at_value = psi.iter().rev().fold(P::nought(), |v, c| v.times(value).plus(c));
-            let side = at.sign(&at_value);
+            let side = at.sign(&horner(&rest, value));
             let projection = adjugate(&own.matrix, &own.chi, value).map(|f| f.multiple(&Rational::from(side)));
-            (side != 0).then_some(Leading { value: value.clone(), positive: sign > 0, projection })
+            if side == 0 || (chain && !at.is_not_zero(projection.entries())) {
+                return None;
+            }
+            self.beyond.set(self.beyond.get() || chain);
+            Some(Leading { value: value.clone(), positive: sign > 0, projection })
         })
     }
 

@@ -197,9 +197,16 @@ impl<P: Symbol> Arguments<'_, P> {
         if lead.positive != (self.family.sign(word) > 0) {
             return None;
         }
-        let n = rays.len();
-        let k = (0..n).find(|&k| at.sign(&dot(lead.projection.row(k), &rays[0])) != 0)?;
-        let signs: Vec<i32> = rays.iter().map(|r| at.sign(&dot(lead.projection.row(k), r))).collect();
-        signs.iter().all(|s| *s == signs[0]).then_some(lead.value)
+        let images: Vec<Vec<P>> = rays.iter().map(|r| apply(&lead.projection, r)).collect();
+        // The images are multiples of one vector; a ray of a longer chain may lie on it itself.
+        let first = images.iter().find(|v| v.iter().any(|x| !x.vanishes()))?;
+        let (k, sign) = first.iter().enumerate().map(|(k, x)| (k, at.sign(x))).find(|(_, s)| *s != 0)?;
+        let pulled = |(ray, image): (&Vec<P>, &Vec<P>)| {
+            if image.iter().all(P::vanishes) {
+                return at.parallel(ray, first) && at.sign(&dot(ray, first)) > 0;
+            }
+            at.sign(&image[k]) == sign
+        };
+        rays.iter().zip(&images).all(pulled).then_some(lead.value)
     }
 }

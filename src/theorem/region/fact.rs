@@ -41,6 +41,8 @@ pub enum Why {
     Cusp(usize),
     /// The tangents of a joint do not tend to the only line that a tangent at this cycle can have.
     Jumps(Vec<usize>),
+    /// All pieces lie on the line of the chord and go forwards.
+    Segment,
 }
 
 /// An end of the curve.
@@ -82,12 +84,15 @@ pub struct Evidence<P = Poly> {
     pub cycles: Vec<(Vec<usize>, P)>,
     /// The joint and the side of it (0: left) whose tangents jump.
     pub place: Option<(usize, usize)>,
+    /// Whether it rests on a longer Jordan chain, or on less than the space of all differences, for which certificates of regions have
+    /// no form.
+    pub beyond: bool,
 }
 
 impl<P> Default for Evidence<P> {
     fn default() -> Self {
         let (span, rays, cycles) = (Vec::new(), Vec::new(), Vec::new());
-        Self { span, values: [None, None], rays, window: 0, cycles, place: None }
+        Self { span, values: [None, None], rays, window: 0, cycles, place: None, beyond: false }
     }
 }
 

@@ -11,7 +11,9 @@ mod cones;
 mod curve;
 mod fact;
 mod independence;
+mod line;
 mod plane;
+mod plane_box;
 mod signs;
 mod symbol;
 mod table;
@@ -19,12 +21,13 @@ mod table;
 pub use curve::{CurveFamily, CurveFamilyError};
 pub use fact::{CurveClaim, CurveEnd, Evidence, Fact, Why};
 pub use independence::Independence;
+pub use line::{LineRegion, PlaneLine};
 pub use plane::{Area, Known, PlaneBox, PlaneLimits, PlaneRegion};
 pub use symbol::Symbol;
 pub use table::{Basis, CurvePart, CurveRegions, CurveTable, Subject, member_verdict};
 
 use super::regularity::{Regularity, digits, regularity};
-use crate::algebraic::{Root, between, roots_within, sorted};
+use crate::algebraic::{Root, between, lies_within, roots_within, sorted};
 use crate::arith::Rational;
 use crate::linalg::Matrix;
 use crate::poly::Poly;
@@ -147,15 +150,7 @@ impl OrderRegion {
     /// What is said of a value of the range.
     #[must_use]
     pub fn at(&self, p: &Root) -> Option<&Finding> {
-        use crate::algebraic::cmp_real;
-        let holds = |part: &&Part| {
-            if part.is_point() {
-                part.from.same(p)
-            } else {
-                cmp_real(&part.from, p).is_lt() && cmp_real(p, &part.to).is_lt()
-            }
-        };
-        self.parts.iter().find(holds).map(|part| &part.finding)
+        self.parts.iter().find(|part| lies_within(p, &part.from, &part.to)).map(|part| &part.finding)
     }
 }
 

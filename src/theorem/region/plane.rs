@@ -3,15 +3,17 @@
 use super::argue::Arguments;
 use super::curve::CurveFamily;
 use super::fact::{CurveClaim, Fact, Why};
-use super::signs::{Signs, determinant};
+use super::line::LineRegion;
+use super::plane_box::{Spot, Waiting, inside};
+use super::signs::determinant;
 use super::symbol::Symbol;
 use crate::answer::Verdict;
-use crate::arith::{Interval, Rational, ratio};
-use crate::linalg::Matrix;
+use crate::arith::{Rational, ratio};
+use crate::budget::Budget;
+use crate::parallel;
 use crate::poly::Two;
 use crate::radius::Ended;
-use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
-use std::cell::{Cell, RefCell};
+use crate::radius::family::Search;
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
@@ -31,8 +33,27 @@ pub enum Known {
     Curve(Verdict, Why),
     /// The system does not contract: a word has an eigenvalue outside the unit disc.
     Expands(Vec<usize>),
+    /// The curve contracts; nothing more is claimed.
+    Contracts,
     /// Nothing is claimed.
     Open,
+}
+
+impl Known {
+    /// The verdict on G¹.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Self::Curve(verdict, _) => *verdict,
+            Self::Expands(_) | Self::Contracts | Self::Open => Verdict::Undetermined,
+        }
+    }
+
+    /// Whether something about the curve, or that it does not contract, is known.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        matches!(self, Self::Curve(..) | Self::Expands(_))
+    }
 }
 
 /// A box with what is known of it.
@@ -51,6 +72,8 @@ pub struct PlaneRegion {
     pub boxes: Vec<PlaneBox>,
     /// Polynomials whose zeros alone keep a box from being decided: borders, and curves on which nothing is said.
     pub borders: Vec<Two>,
+    /// What is known on those borders that are straight lines.
+    pub lines: Vec<LineRegion>,
     /// Why the search ended: `Exhausted` where boxes became as small as was asked for.
     pub ended: Ended,
 }
@@ -64,58 +87,8 @@ pub struct PlaneLimits {
     pub boxes: usize,
     /// A guard by the clock.
     pub time: Option<Duration>,
-}
-
-/// Signs at a rational value of two parameters.
-struct Spot<'a> {
-    at: &'a (Rational, Rational),
-    guards: RefCell<Vec<Two>>,
-    special: Cell<bool>,
-}
-
-impl<'a> Spot<'a> {
-    fn new(at: &'a (Rational, Rational)) -> Self {
-        Self { at, guards: RefCell::default(), special: Cell::new(false) }
-    }
-}
-
-impl Signs<Two> for Spot<'_> {
-    fn fork(&self) -> Self {
-        let guards = RefCell::new(self.guards.borrow().clone());
-        Self { at: self.at, guards, special: Cell::new(self.special.get()) }
-    }
-
-    fn kept(&self) -> Option<Vec<Two>> {
-        (!self.special.get()).then(|| self.guards.borrow().clone())
-    }
-
-    fn sign(&self, f: &Two) -> i32 {
-        let sign = crate::arith::sign(&self.near(f));
-        if f.is_number() {
-            return sign;
-        }
-        if sign == 0 {
-            self.special.set(true);
-        }
-        let mut guards = self.guards.borrow_mut();
-        let f = f.monic();
-        if !guards.contains(&f) {
-            guards.push(f);
-        }
-        sign
-    }
-
-    fn primitive(&self, v: &[Two]) -> Option<Vec<Two>> {
-        self.is_not_zero(v).then(|| v.to_vec())
-    }
-
-    fn near(&self, f: &Two) -> Rational {
-        f.eval(&self.at.0, &self.at.1)
-    }
-
-    fn is_around(&self) -> bool {
-        true
-    }
+    /// What is spent on borders that are straight lines, where these are examined.
+    pub lines: Option<(Search, Budget)>,
 }
 
 /// A fact about G¹ with the indices of its guards and their signs.
@@ -125,30 +98,31 @@ struct Held {
     guards: Vec<(usize, i32)>,
 }
 
-/// A box that waits, with the signs of guards that are known there.
-struct Waiting {
-    area: Area,
-    depth: usize,
-    signs: Vec<Option<i32>>,
-    contracts: bool,
-}
-
-struct Covering<'a> {
+/// What holds where which guards have which signs.
+struct Ledger<'a> {
     family: &'a CurveFamily<Two>,
-    arguments: Arguments<'a, Two>,
     guards: Vec<Two>,
     facts: Vec<Held>,
     /// By word the guards of which one that is negative refutes contraction.
     words: Vec<(Vec<usize>, Vec<usize>)>,
 }
 
+struct Covering<'a> {
+    arguments: Arguments<'a, Two>,
+    ledger: Ledger<'a>,
+    /// Looks for arguments that may still be in vain.
+    looks: usize,
+}
+
 /// Words that are looked at for an eigenvalue outside the unit disc.
 const LETTERS: usize = 2;
-/// Products that are formed to show contraction on a box.
-const PRODUCTS: usize = 160;
+/// Boxes that are examined at a time, on all threads; arguments that are found in between are known to the next ones.
+const AT_A_TIME: usize = 64;
+/// Values at which no argument is found, before no more are looked for.
+const LOOKS: usize = 200;
 /// Boxes that are left whose guards are looked at for borders.
 const UNSIGNED: usize = 800;
-/// Denominators of values at which arguments are looked for.
+/// Shares of a box between which values lie at which arguments are looked for.
 const SPOTS: [(i64, i64); 2] = [(23, 53), (31, 59)];
 
 impl CurveFamily<Two> {
@@ -162,72 +136,106 @@ impl CurveFamily<Two> {
     pub fn plane(&self, whole: &Area, limits: &PlaneLimits, step: &dyn Fn(usize)) -> PlaneRegion {
         let begun = Instant::now();
         let mut covering = Covering::new(self);
-        let signs = vec![None; covering.guards.len()];
-        let first = Waiting { area: whole.clone(), depth: 0, signs, contracts: false };
-        let mut queue: VecDeque<Waiting> = [first].into();
+        let mut queue: VecDeque<Waiting> = [Waiting::new(whole.clone())].into();
         let (mut boxes, mut examined, mut ended) = (Vec::new(), 0, Ended::Done);
         let mut unsigned: Vec<Vec<usize>> = Vec::new();
-        while let Some(mut own) = queue.pop_front() {
+        while !queue.is_empty() {
             crate::stop::check();
-            let late = limits.time.is_some_and(|t| begun.elapsed() >= t);
-            let known = if late || examined >= limits.boxes {
-                ended = if late { Ended::Clock } else { Ended::Work };
-                Known::Open
+            if limits.time.is_some_and(|t| begun.elapsed() >= t) {
+                ended = Ended::Clock;
+            } else if examined >= limits.boxes {
+                ended = Ended::Work;
+            }
+            let some =
+                queue.len().min(if ended == Ended::Done { AT_A_TIME.min(limits.boxes - examined) } else { usize::MAX });
+            let wave: Vec<Waiting> = queue.drain(..some).collect();
+            examined += wave.len();
+            let found = if ended == Ended::Done {
+                covering.examined(wave)
             } else {
-                examined += 1;
-                covering.known(&mut own)
+                wave.into_iter().map(Waiting::left).collect()
             };
-            let size = 1_usize << (2 * (limits.depth - own.depth));
-            if known == Known::Open && own.depth < limits.depth && ended == Ended::Done {
-                queue.extend(own.quarters());
-                continue;
-            }
-            if known == Known::Open {
-                if unsigned.len() < UNSIGNED {
-                    unsigned.push(covering.unsigned(&mut own));
+            for (own, known) in found {
+                if !known.is_decided() && own.depth < limits.depth && ended == Ended::Done {
+                    queue.extend(own.quarters());
+                    continue;
                 }
+                if !known.is_decided() && unsigned.len() < UNSIGNED {
+                    unsigned.push(covering.ledger.unsigned(&own));
+                }
+                step(1 << (2 * (limits.depth - own.depth)));
+                boxes.push(PlaneBox { area: own.area, known });
             }
-            step(size);
-            boxes.push(PlaneBox { area: own.area, known });
         }
-        let open = boxes.iter().any(|b| b.known == Known::Open);
+        let open = boxes.iter().any(|b| !b.known.is_decided());
         let ended = if open && ended == Ended::Done { Ended::Exhausted } else { ended };
-        PlaneRegion { boxes, borders: covering.borders(&unsigned), ended }
-    }
-}
-
-impl Waiting {
-    fn quarters(&self) -> Vec<Self> {
-        let halves = |(lo, hi): &(Rational, Rational)| {
-            let middle = (lo + hi) / Rational::from(2);
-            [(lo.clone(), middle.clone()), (middle, hi.clone())]
-        };
-        let (first, second) = (halves(&self.area.first), halves(&self.area.second));
-        let quarter = |p: &(Rational, Rational), q: &(Rational, Rational)| Self {
-            area: Area { first: p.clone(), second: q.clone() },
-            depth: self.depth + 1,
-            signs: self.signs.clone(),
-            contracts: self.contracts,
-        };
-        first.iter().flat_map(|p| second.iter().map(move |q| quarter(p, q))).collect()
+        let borders = covering.ledger.borders(&unsigned);
+        let lines = limits.lines.as_ref().filter(|_| ended != Ended::Clock);
+        let lines = lines.map_or_else(Vec::new, |(search, budget)| self.on_lines(&borders, whole, (search, budget)));
+        PlaneRegion { boxes, borders, lines, ended }
     }
 }
 
 impl<'a> Covering<'a> {
     fn new(family: &'a CurveFamily<Two>) -> Self {
-        let arguments = Arguments::new(family);
-        let mut covering = Self { family, arguments, guards: Vec::new(), facts: Vec::new(), words: Vec::new() };
+        Self { arguments: Arguments::new(family), ledger: Ledger::new(family), looks: LOOKS }
+    }
+
+    /// Some boxes with what is known of them; new arguments are looked for in those that are left.
+    fn examined(&mut self, wave: Vec<Waiting>) -> Vec<(Waiting, Known)> {
+        let ledger = &self.ledger;
+        let mut found = parallel::map(&wave, true, |own| ledger.known(own.clone()));
+        let before = ledger.facts.len();
+        for (own, known) in found.iter_mut().filter(|(_, known)| *known == Known::Contracts) {
+            let at = (inside(&own.area.first, SPOTS[0]), inside(&own.area.second, SPOTS[1]));
+            if !self.ledger.holds_at(&at) {
+                self.look(&at);
+            }
+            if let Some(fact) = self.ledger.fact_on(own, before) {
+                *known = fact;
+            }
+        }
+        if self.ledger.facts.len() > before {
+            let ledger = &self.ledger;
+            found = parallel::map(&found, true, |(own, known)| {
+                let mut own = own.clone();
+                let more = if *known == Known::Contracts { ledger.fact_on(&mut own, before) } else { None };
+                (own, more.unwrap_or_else(|| known.clone()))
+            });
+        }
+        found
+    }
+
+    /// Looks for an argument about G¹ at a value.
+    fn look(&mut self, at: &(Rational, Rational)) {
+        if self.looks == 0 {
+            return;
+        }
+        let facts: Vec<Fact<Two>> = self.arguments.facts(&Spot::new(at));
+        let Some(fact) = facts.into_iter().find(|f| f.claim == CurveClaim::G1) else {
+            self.looks -= 1;
+            return;
+        };
+        let guards =
+            fact.guards.iter().map(|f| (self.ledger.guard(f), crate::arith::sign(&f.eval(&at.0, &at.1)))).collect();
+        self.ledger.facts.push(Held { verdict: fact.verdict, why: fact.why, guards });
+    }
+}
+
+impl<'a> Ledger<'a> {
+    fn new(family: &'a CurveFamily<Two>) -> Self {
+        let mut ledger = Self { family, guards: Vec::new(), facts: Vec::new(), words: Vec::new() };
         let letters = family.linear.len();
         let mut words: Vec<Vec<usize>> = vec![Vec::new()];
         for _ in 0..LETTERS {
             let longer: Vec<Vec<usize>> =
                 words.iter().flat_map(|w| (0..letters).map(move |l| [w.as_slice(), &[l]].concat())).collect();
             for word in &longer {
-                covering.word(word);
+                ledger.word(word);
             }
             words = longer;
         }
-        covering
+        ledger
     }
 
     fn guard(&mut self, f: &Two) -> usize {
@@ -252,85 +260,45 @@ impl<'a> Covering<'a> {
         self.words.push((word.to_vec(), indices));
     }
 
-    /// The sign of a guard on a box.
-    fn sign(&self, own: &mut Waiting, k: usize) -> Option<i32> {
-        own.signs.resize(self.guards.len(), None);
-        if own.signs[k].is_none() {
-            own.signs[k] = self.guards[k].strict_sign(&own.area.first, &own.area.second);
-        }
-        own.signs[k]
-    }
-
-    fn known(&mut self, own: &mut Waiting) -> Known {
+    fn known(&self, mut own: Waiting) -> (Waiting, Known) {
         if !own.contracts {
-            let words = std::mem::take(&mut self.words);
-            let found = words.iter().find(|(_, all)| all.iter().any(|k| self.sign(own, *k) == Some(-1)));
-            let found = found.map(|(word, _)| word.clone());
-            self.words = words;
-            if let Some(word) = found {
-                return Known::Expands(word);
+            let expands = self.words.iter().find(|(_, all)| all.iter().any(|k| own.sign(&self.guards, *k) == Some(-1)));
+            if let Some((word, _)) = expands {
+                return (own, Known::Expands(word.clone()));
             }
-            own.contracts = self.contracts(&own.area);
+            own.contracts = own.area.contracts(&self.family.operators);
             if !own.contracts {
-                return Known::Open;
+                return (own, Known::Open);
             }
         }
-        if let Some(k) = self.fact_on(own) {
-            return Known::Curve(self.facts[k].verdict, self.facts[k].why.clone());
-        }
-        let (p, q) = (inside(&own.area.first, SPOTS[0]), inside(&own.area.second, SPOTS[1]));
-        if self.holds_at(&p, &q) || !self.look(&(p, q)) {
-            return Known::Open;
-        }
-        match self.fact_on(own) {
-            Some(k) => Known::Curve(self.facts[k].verdict, self.facts[k].why.clone()),
-            None => Known::Open,
-        }
+        let fact = self.fact_on(&mut own, 0);
+        (own, fact.unwrap_or(Known::Contracts))
     }
 
-    /// A fact whose guards have its signs on the whole box.
-    fn fact_on(&self, own: &mut Waiting) -> Option<usize> {
-        (0..self.facts.len()).find(|f| self.facts[*f].guards.iter().all(|(k, s)| self.sign(own, *k) == Some(*s)))
+    /// A fact, of those from one on, whose guards have its signs on the whole box.
+    fn fact_on(&self, own: &mut Waiting, first: usize) -> Option<Known> {
+        let holds = |f: &&Held| f.guards.iter().all(|(k, s)| own.sign(&self.guards, *k) == Some(*s));
+        self.facts[first..].iter().find(holds).map(|f| Known::Curve(f.verdict, f.why.clone()))
     }
 
     /// Whether a fact holds at a value: then another look would find nothing new.
-    fn holds_at(&self, p: &Rational, q: &Rational) -> bool {
+    fn holds_at(&self, (p, q): &(Rational, Rational)) -> bool {
         let sign = |k: usize| crate::arith::sign(&self.guards[k].eval(p, q));
         self.facts.iter().any(|f| f.guards.iter().all(|(k, s)| sign(*k) == *s))
     }
 
-    /// Looks for an argument about G¹ at a value.
-    fn look(&mut self, at: &(Rational, Rational)) -> bool {
-        let facts: Vec<Fact<Two>> = self.arguments.facts(&Spot::new(at));
-        let Some(fact) = facts.into_iter().find(|f| f.claim == CurveClaim::G1) else { return false };
-        let guards = fact.guards.iter().map(|f| (self.guard(f), crate::arith::sign(&f.eval(&at.0, &at.1)))).collect();
-        self.facts.push(Held { verdict: fact.verdict, why: fact.why, guards });
-        true
-    }
-
-    /// Whether products of operators shrink all differences for every value of a box: along every infinite word one of finitely many
-    /// words occurs first, and all of these shrink.
-    fn contracts(&self, area: &Area) -> bool {
-        let bounds = [&area.first, &area.second].map(|(lo, hi)| Interval::new(lo.clone(), hi.clone()));
-        let letters: Vec<Matrix<Interval>> = self.family.operators.iter().map(|m| m.map(|f| on(f, &bounds))).collect();
-        let mut queue: VecDeque<Matrix<Interval>> = letters.iter().cloned().collect();
-        let mut formed = letters.len();
-        while let Some(m) = queue.pop_front() {
-            if shrinks(&m) {
-                continue;
-            }
-            formed += letters.len();
-            if formed > PRODUCTS {
-                return false;
-            }
-            queue.extend(letters.iter().map(|l| product(&m, l)));
-        }
-        true
-    }
-
-    /// The guards without a sign on a box.
-    fn unsigned(&self, own: &mut Waiting) -> Vec<usize> {
-        (0..self.guards.len()).filter(|k| self.sign(own, *k).is_none()).collect()
+    /// The guards without a sign on a box that was left: of facts where it contracts, of words elsewhere.
+    fn unsigned(&self, own: &Waiting) -> Vec<usize> {
+        let mut own = own.clone();
+        let mut all: Vec<usize> = if own.contracts {
+            self.facts.iter().flat_map(|f| f.guards.iter().map(|g| g.0)).collect()
+        } else {
+            self.words.iter().flat_map(|w| w.1.clone()).collect()
+        };
+        all.sort_unstable();
+        all.dedup();
+        all.retain(|k| own.sign(&self.guards, *k).is_none());
+        all
     }
 
     /// Factors of guards that are the only ones without a sign on some box that was left.
@@ -346,7 +314,7 @@ impl<'a> Covering<'a> {
                 rest
             });
             if !rest.is_number() {
-                base.push(rest.monic());
+                base.push(rest.primitive());
             }
         }
         let divides = |g: &Two, k: usize| self.guards[k].divided(g).is_some();
@@ -365,33 +333,6 @@ impl<'a> Covering<'a> {
     }
 }
 
-/// A short value inside a range.
-fn inside((lo, hi): &(Rational, Rational), (a, b): (i64, i64)) -> Rational {
-    let at = |share: Rational| lo + (hi - lo) * share;
-    Rational::simplest_rational_in_open_interval(&at(ratio(a, b)), &at(ratio(a + 2, b)))
-}
-
-/// The values of a polynomial on a box.
-fn on(f: &Two, [p, q]: &[Interval; 2]) -> Interval {
-    let zero = || Interval::point(Rational::from(0));
-    let number = |c: &Rational| Interval::point(c.clone());
-    let row = |r: &crate::poly::Poly| r.coeffs().iter().rev().fold(zero(), |v, c| &(&v * p) + &number(c));
-    f.rows().iter().rev().fold(zero(), |v, r| &(&v * q) + &row(r))
-}
-
-fn product(a: &Matrix<Interval>, b: &Matrix<Interval>) -> Matrix<Interval> {
-    let zero = || Interval::point(Rational::from(0));
-    let entry = |i: usize, j: usize| (0..a.cols()).fold(zero(), |s, l| &s + &(&a[(i, l)] * &b[(l, j)]));
-    Matrix::from_fn(a.rows(), b.cols(), entry)
-}
-
-/// Whether half the largest sum of differences of two columns is below 1.
-fn shrinks(m: &Matrix<Interval>) -> bool {
-    let apart =
-        |j: usize, k: usize| (0..m.rows()).fold(Rational::from(0), |s, i| s + (&m[(i, j)] - &m[(i, k)]).magnitude());
-    (0..m.cols()).all(|j| (0..j).all(|k| apart(j, k) < 2))
-}
-
 impl PlaneRegion {
     /// What is said of a value: of the boxes that hold it the first that decides.
     #[must_use]
@@ -401,6 +342,6 @@ impl PlaneRegion {
             within(&b.area.first, p) && within(&b.area.second, q)
         };
         let own = || self.boxes.iter().filter(holds).map(|b| &b.known);
-        own().find(|k| **k != Known::Open).or_else(|| own().next())
+        own().find(|k| k.is_decided()).or_else(|| own().next())
     }
 }

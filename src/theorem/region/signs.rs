@@ -116,6 +116,22 @@ pub(super) fn adjugate<P: Symbol>(m: &Matrix<P>, chi: &[P], x: &P) -> Matrix<P> 
     Matrix::from_fn(m.rows(), m.rows(), |i, j| columns[j][i].clone())
 }
 
+/// The value of a polynomial with polynomials as coefficients, the lowest first.
+pub(super) fn horner<P: Symbol>(f: &[P], x: &P) -> P {
+    f.iter().rev().fold(P::nought(), |v, c| v.times(x).plus(c))
+}
+
+/// The quotient of a division by `x − root` that leaves no rest.
+pub(super) fn without_root<P: Symbol>(f: &[P], root: &P) -> Vec<P> {
+    let mut quotient: Vec<P> = Vec::new();
+    for c in f.iter().skip(1).rev() {
+        let next = quotient.last().map_or_else(|| c.clone(), |q| q.times(root).plus(c));
+        quotient.push(next);
+    }
+    quotient.reverse();
+    quotient
+}
+
 /// Whether all roots lie in the open unit disc (Schur, Cohn, Jury), at the value.
 pub(super) fn is_stable<P: Symbol>(at: &impl Signs<P>, mut p: Vec<P>) -> bool {
     while p.len() > 1 {

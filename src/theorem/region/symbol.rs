@@ -73,7 +73,7 @@ fn choices<T: Clone>(lists: &[Vec<T>]) -> Vec<Vec<T>> {
 
 /// Those of some polynomials that are roots, each once.
 fn roots<P: Symbol>(chi: &[P], candidates: impl IntoIterator<Item = P>) -> Vec<P> {
-    let is_root = |f: &P| chi.iter().rev().fold(P::nought(), |v, c| v.times(f).plus(c)).vanishes();
+    let is_root = |f: &P| super::signs::horner(chi, f).vanishes();
     let mut found: Vec<P> = Vec::new();
     for f in candidates {
         if is_root(&f) && !found.contains(&f) {
@@ -156,13 +156,6 @@ impl Symbol for Two {
             Poly::eigenvalues(&m.map(|f| f.at_second(q)), &chi)
         };
         let values: Vec<Vec<Poly>> = at.iter().map(along).collect();
-        let joined = |c: Vec<Poly>| {
-            let degree = c.iter().filter_map(Poly::degree).fold(0, usize::max);
-            let column = |k: usize| Poly::through(&at, c.iter().map(|f| f.coeff(k)).collect());
-            let columns: Vec<Poly> = (0..=degree).map(column).collect();
-            let row = |j: usize| Poly::new(columns.iter().map(|f| f.coeff(j)).collect());
-            Self::new((0..at.len()).map(row).collect())
-        };
-        roots(chi, choices(&values).into_iter().map(joined))
+        roots(chi, choices(&values).iter().map(|lines| Self::through(&at, lines)))
     }
 }

@@ -7,7 +7,7 @@ use super::curve::CurveFamily;
 use super::fact::{CurveClaim, Fact, Why};
 use super::signs::At;
 use super::{MEMBERS, Purse, RegionError};
-use crate::algebraic::{Root, between, cmp_real, roots_within, sorted};
+use crate::algebraic::{Root, between, cmp_real, lies_within, roots_within, sorted};
 use crate::answer::Verdict;
 use crate::arith::{Rational, ratio, to_f64};
 use crate::budget::Budget;
@@ -86,14 +86,7 @@ impl CurveTable {
     /// What is said of a value of the range.
     #[must_use]
     pub fn at(&self, p: &Root) -> Option<Verdict> {
-        let holds = |part: &&CurvePart| {
-            if part.is_point() {
-                part.from.same(p)
-            } else {
-                cmp_real(&part.from, p).is_lt() && cmp_real(p, &part.to).is_lt()
-            }
-        };
-        self.parts.iter().find(holds).map(|part| part.verdict)
+        self.parts.iter().find(|part| lies_within(p, &part.from, &part.to)).map(|part| part.verdict)
     }
 }
 

@@ -12,12 +12,12 @@ use crate::theorem::derived::radius_of;
 use crate::theorem::{Context, EverySurfaceGap};
 
 /// Most coordinates of all visible quotients together for which this is tried.
-const MAX_DIMENSIONS: usize = 40;
+const MAX_DIMENSIONS: usize = 120;
 
 /// The hypotheses of the statement on the derivative of a patch, as found.
 #[derive(Debug, Clone)]
 pub struct PatchDerivative {
-    /// `1/N`, by which every piece shrinks the parameters.
+    /// `1/N`, by which every piece that leads back to its state shrinks the parameters.
     pub share: Rational,
     /// Dimensions of the spaces `F_e` of the differences of the derivative, by reachable state.
     pub dims: Vec<usize>,
@@ -41,9 +41,9 @@ pub(super) struct Patch<'a> {
     pub states: Vec<usize>,
     /// `1/N`.
     pub share: Rational,
-    /// By state and letter: the map of the parameters `x ↦ U_i x / N + p_i`, on columns `1, u, v`.
+    /// By state and letter: the map of the parameters `x ↦ A_i x + p_i`, on columns `1, u, v`.
     pub places: Vec<Vec<Matrix>>,
-    /// By state and letter: `U_i^-t`, which goes with the derivative as two rows.
+    /// By state and letter: `U_i^-t`, `U_i = N A_i`, which goes with the derivative as two rows.
     pub turns: Vec<Vec<Matrix>>,
     /// By state and letter: the positions of the targets.
     pub targets: Vec<Vec<usize>>,
@@ -65,7 +65,7 @@ pub fn derivative(setting: &Setting, chart: &Chart) -> Result<PatchDerivative, E
     let system = patch.system();
     let (radius, enclosure) = radius_of(system.as_ref(), &setting.cx.budget.orders);
     let enclosure = enclosure.filter(|e| e.hi < share).ok_or(EverySurfaceGap::Radius)?;
-    let pairs = Pairs::new(&patch).ok_or(EverySurfaceGap::Radius)?;
+    let pairs = Pairs::new(&patch).ok_or(EverySurfaceGap::Unequal)?;
     if let Some((state, letters)) = agree(&patch, &pairs).ok_or(EverySurfaceGap::Radius)? {
         return Err(EverySurfaceGap::Edge { state, letters });
     }

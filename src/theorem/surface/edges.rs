@@ -2,7 +2,7 @@
 
 use super::derivative::Patch;
 use super::place::Param;
-use crate::arith::Rational;
+use crate::arith::{Rational, abs};
 use crate::linalg::{Matrix, closures};
 
 /// Two faces that share an edge: the states, by position, and the map, on columns `1, u, v`, which puts the parameters of the second face
@@ -24,12 +24,12 @@ pub(super) struct Pairs {
 }
 
 impl Pairs {
-    /// `None` where a piece is no cell.
+    /// `None` where a piece is no cell, or two faces are divided differently along the edge that they share.
     pub fn new(patch: &Patch) -> Option<Self> {
         let mut pairs = Self { list: Vec::new(), steps: Vec::new(), inner: Vec::new() };
         for e in 0..patch.states.len() {
             let here = Pair { first: e, second: e, place: Matrix::identity(3) };
-            for (i, j, pair) in here.divided(patch)? {
+            for (i, j, pair, _) in here.divided(patch)? {
                 if i < j {
                     let index = pairs.index(pair);
                     pairs.inner.push((e, [i, j], index));
@@ -38,8 +38,12 @@ impl Pairs {
         }
         while pairs.steps.len() < pairs.list.len() {
             crate::stop::check();
-            let divided = pairs.list[pairs.steps.len()].divided(patch)?;
-            let steps = divided.into_iter().map(|(i, j, pair)| (i, j, pairs.index(pair))).collect();
+            let pair = &pairs.list[pairs.steps.len()];
+            let (edge, divided) = (length(&pair.edge(patch)?), pair.divided(patch)?);
+            if divided.iter().fold(Rational::from(0), |sum, step| sum + length(&step.3)) != edge {
+                return None;
+            }
+            let steps = divided.into_iter().map(|(i, j, pair, _)| (i, j, pairs.index(pair))).collect();
             pairs.steps.push(steps);
         }
         Some(pairs)
@@ -59,28 +63,38 @@ impl Pairs {
 }
 
 impl Pair {
-    /// The pieces of the first and of the second face that share an edge, with their position beside one another; `None` where a piece
-    /// is no cell.
-    fn divided(&self, patch: &Patch) -> Option<Vec<(usize, usize, Self)>> {
+    /// The pieces of the first and of the second face that share an edge, with their position beside one another, and where this edge
+    /// lies in the parameters of the first face; `None` where a piece is no cell.
+    fn divided(&self, patch: &Patch) -> Option<Vec<(usize, usize, Self, Segment)>> {
         let mut found = Vec::new();
         for (i, first) in patch.places[self.first].iter().enumerate() {
             for (j, second) in patch.places[self.second].iter().enumerate() {
                 let place = first.solve(&(&self.place * second))?;
                 let pair = Self { first: patch.targets[self.first][i], second: patch.targets[self.second][j], place };
-                if pair.shares_an_edge(patch) {
-                    found.push((i, j, pair));
+                if let Some(edge) = pair.edge(patch) {
+                    found.push((i, j, pair, edge.map(|x| first.apply(&x))));
                 }
             }
         }
         Some(found)
     }
 
-    fn shares_an_edge(&self, patch: &Patch) -> bool {
+    /// The two corners that the faces share, where they share two, in the parameters of the first one.
+    fn edge(&self, patch: &Patch) -> Option<Segment> {
         let column = |[u, v]: &Param| vec![Rational::from(1), u.clone(), v.clone()];
         let corners = |e: usize| patch.chart.corners(patch.states[e]).iter().map(column).collect::<Vec<_>>();
         let own = corners(self.first);
-        corners(self.second).iter().filter(|x| own.contains(&self.place.apply(x))).count() == 2
+        let there = corners(self.second).into_iter().map(|x| self.place.apply(&x)).filter(|x| own.contains(x));
+        there.collect::<Vec<_>>().try_into().ok()
     }
+}
+
+/// Two points as columns `1, u, v`.
+type Segment = [Vec<Rational>; 2];
+
+/// The length of a segment; of segments of one line only, as the sum of those of its coordinates.
+fn length([p, q]: &Segment) -> Rational {
+    p.iter().zip(q).fold(Rational::from(0), |sum, (x, y)| sum + abs(&(x - y)))
 }
 
 /// The first two pieces, with their state by index, whose derivatives differ at a point of the edge that they share, if there is one; of

@@ -2,6 +2,7 @@
 
 use super::branch::Setting;
 use super::derivative::{PatchDerivative, derivative};
+use super::forms::{SurfaceForms, forms};
 use super::place::{Chart, Spot};
 use super::tensor::Product;
 use super::verdict::{Surface, SurfacePoint};
@@ -22,6 +23,8 @@ pub enum EverySurfaceProof {
     Product(Box<[Certified; 2]>),
     /// It is C¹ in its parameters, and immersed.
     Derivative(Box<PatchDerivative>),
+    /// There are cones around planes for all stars of its cells.
+    Forms(Box<SurfaceForms>),
     /// It lies around a vertex at which Theorem 7 holds.
     Vertex {
         /// The valence.
@@ -90,6 +93,7 @@ fn claimed(every: &EverySurface, surface: &Surface) -> Claim {
             Some(Statement::TensorEveryPoint)
         }
         Answer::Proved(EverySurfaceProof::Derivative(_)) => Some(Statement::PatchDerivative),
+        Answer::Proved(EverySurfaceProof::Forms(_)) => Some(Statement::SurfaceCones),
         Answer::Proved(EverySurfaceProof::Vertex { .. }) => Some(Statement::VertexEveryPoint),
         Answer::Refuted(EverySurfaceBreak::Point(k)) => surface.points[*k].statement,
         Answer::Open(_) => None,
@@ -103,22 +107,34 @@ fn decide(setting: &Setting, chart: &Chart, product: Option<&Product>, surface: 
         None => Answer::Open(vec![EverySurfaceGap::NoProduct]),
     };
     let found = match by_product {
-        Answer::Open(mut gaps) => match derivative(setting, chart) {
-            Ok(found) => Answer::Proved(EverySurfaceProof::Derivative(Box::new(found))),
-            Err(gap) => {
-                gaps.push(gap);
-                Answer::Open(gaps)
-            }
-        },
+        Answer::Open(gaps) => by_patch(setting, chart, surface, gaps),
         decided => decided,
     };
-    // Of a branch alone it is not known what else comes to its point.
-    let broken = |p: &SurfacePoint| p.verdict == Verdict::Refuted && p.spot != Spot::Branch;
     match (found, surface.points.iter().position(broken)) {
         (Answer::Proved(_), Some(_)) => Answer::Open(vec![EverySurfaceGap::Contradiction]),
         (Answer::Open(_), Some(k)) => Answer::Refuted(EverySurfaceBreak::Point(k)),
         (answer, _) => answer,
     }
+}
+
+/// Of a branch alone it is not known what else comes to its point.
+fn broken(p: &SurfacePoint) -> bool {
+    p.verdict == Verdict::Refuted && p.spot != Spot::Branch
+}
+
+/// By the derivative in the parameters, or by cones around planes where no point is known that refutes.
+fn by_patch(setting: &Setting, chart: &Chart, surface: &Surface, mut gaps: Vec<EverySurfaceGap>) -> EverySurface {
+    match derivative(setting, chart) {
+        Ok(found) => return Answer::Proved(EverySurfaceProof::Derivative(Box::new(found))),
+        Err(gap) => gaps.push(gap),
+    }
+    if !surface.points.iter().any(broken) {
+        match forms(setting, chart) {
+            Ok(found) => return Answer::Proved(EverySurfaceProof::Forms(Box::new(found))),
+            Err(gap) => gaps.push(gap),
+        }
+    }
+    Answer::Open(gaps)
 }
 
 /// The theorem on tensor products at every point.

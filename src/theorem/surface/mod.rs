@@ -1,12 +1,16 @@
 //! Surfaces: tangent planes at the points of a patch complex (theory §5, §7, §9).
 
+mod apart;
 mod branch;
 mod dense;
 mod derivative;
 mod edges;
 mod every;
+mod forms;
 mod place;
 mod span;
+mod star_space;
+mod stars;
 mod tensor;
 mod verdict;
 mod winding;
@@ -14,8 +18,10 @@ mod winding;
 pub use branch::leading_functionals;
 pub use derivative::PatchDerivative;
 pub use every::{EverySurface, EverySurfaceBreak, EverySurfaceProof, around_vertex};
+pub use forms::SurfaceForms;
 pub use place::{Param, Spot};
 pub use span::{Rank, Subspace};
+pub use stars::{Child, Star, Stars};
 pub use tensor::{factors, product_point};
 pub use verdict::{
     Bivectors, ProductEvidence, ProductFactor, Surface, SurfaceBranch, SurfaceDense, SurfaceOutcome, SurfacePoint,
@@ -23,8 +29,8 @@ pub use verdict::{
 };
 
 use super::{
-    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Statement, Verdict,
-    Viewpoint, rational_contraction, state_report, without_contraction,
+    AboutPlane, Assertion, Certified, Claim, Context, Dimension, ModelError, PlaneGap, Reason, Seen, Statement,
+    Verdict, Viewpoint, rational_contraction, state_report, without_contraction,
 };
 use crate::answer::Answer;
 use crate::budget::Budget;
@@ -107,6 +113,13 @@ pub fn certify_complex_within(
     }
     let (every, claim) = every::claim(&setting, chart, product.as_ref(), &surface);
     surface.every = every;
+    if let Answer::Proved(EverySurfaceProof::Derivative(_)) = &surface.every {
+        // Planes at every point are planes at a dense set.
+        let open = |c: &&mut Claim| matches!(c.what, Assertion::DensePlanes { .. }) && c.verdict() != Verdict::Proved;
+        found.claims.iter_mut().filter(open).for_each(|c| {
+            *c = Claim::proved(Assertion::DensePlanes { seen: Seen::Injective }, Some(Statement::PatchDerivative));
+        });
+    }
     found.claims.push(claim);
     found.claims.sort_by_key(|c| c.what.topic());
     found.polygons = setting.cx.polygons();

@@ -1,13 +1,15 @@
 //! Where the points of a patch lie in its parameters, and all addresses of a point (theory §9, Surfaces).
 //!
-//! A quadrangle is `[0, 1]²`, a triangle is `u, v ≥ 0, u + v ≤ 1`; its pieces divide it evenly. In a valid complex the map
-//! from the parameters to the attractor is well defined and continuous, and the addresses of a parameter are the paths
-//! through the cells that contain it.
+//! A quadrangle is `[0, 1]²`, a triangle is `u, v ≥ 0, u + v ≤ 1`; its pieces divide it evenly, or a quadrangle as its sides are
+//! divided by the shares of their pieces. In a valid complex the map from the parameters to the attractor is well defined and
+//! continuous, and the addresses of a parameter are the paths through the cells that contain it.
 
-use crate::arith::Rational;
+use crate::arith::{Rational, abs};
 use crate::linalg::Matrix;
-use crate::shape::{Address, CellKind, Complex, Layout};
+use crate::shape::{Address, CellKind, Complex, Face, Layout};
 use crate::theorem::NoChart;
+use crate::theorem::frames::component;
+use std::collections::BTreeMap;
 
 /// Parameters of a point.
 pub type Param = [Rational; 2];
@@ -38,14 +40,39 @@ pub fn corners(layout: Layout) -> Vec<Param> {
     }
 }
 
+/// Where the sides of a patch are cut, along `u` and along `v`: numbers from 0 to 1.
+type Cuts = [Vec<Rational>; 2];
+
+/// Where a patch is cut: in equal parts, or in the shares of its sides, which have to be the same on opposite ones; `None` where they
+/// are not, or a triangle has shares.
+fn cuts(complex: &Complex, face: &Face) -> Option<Cuts> {
+    let half = Rational::from(1) / Rational::from(2);
+    let ends = |middle: Vec<Rational>| [vec![Rational::from(0)], middle, vec![Rational::from(1)]].concat();
+    let Layout::Quad { columns, rows } = face.layout else {
+        return (!has_shares(complex, face)).then(|| [ends(vec![half.clone()]), ends(vec![half])]);
+    };
+    let along = |side: usize, parts: usize| {
+        let edge = &complex.shape.states[face.sides.get(side)?.edge];
+        (edge.pieces.len() == parts).then(|| ends((1..parts).map(|i| edge.before(i)).collect()))
+    };
+    let (bottom, top) = (along(0, columns)?, along(2, columns)?);
+    let (right, left) = (along(1, rows)?, along(3, rows)?);
+    (bottom == top && left == right).then_some([bottom, left])
+}
+
+/// Whether a piece of a side has a share of its own.
+fn has_shares(complex: &Complex, face: &Face) -> bool {
+    let edges = face.sides.iter().map(|side| &complex.shape.states[side.edge]);
+    edges.flat_map(|edge| &edge.pieces).any(|p| p.share.is_some())
+}
+
 /// The corners of a subcell in the parameters of its patch, in the order of the division.
-fn cell_corners(layout: Layout, letter: usize) -> Vec<Param> {
-    let fraction = |a: usize, b: usize| Rational::from(a) / Rational::from(b);
+fn cell_corners(layout: Layout, [across, up]: &Cuts, letter: usize) -> Vec<Param> {
+    let node = |i: usize, j: usize| [across[i].clone(), up[j].clone()];
     match layout {
-        Layout::Quad { columns, rows } => {
+        Layout::Quad { columns, .. } => {
             let (i, j) = (letter % columns, letter / columns);
-            let node = |a: usize, b: usize| [fraction(i + a, columns), fraction(j + b, rows)];
-            vec![node(0, 0), node(1, 0), node(1, 1), node(0, 1)]
+            vec![node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)]
         }
         Layout::Triangle => {
             let halves = [
@@ -54,7 +81,7 @@ fn cell_corners(layout: Layout, letter: usize) -> Vec<Param> {
                 [(0, 1), (1, 1), (0, 2)],
                 [(1, 1), (0, 1), (1, 0)],
             ];
-            halves[letter].iter().map(|&(u, v)| [fraction(u, 2), fraction(v, 2)]).collect()
+            halves[letter].iter().map(|&(i, j)| node(i, j)).collect()
         }
     }
 }
@@ -107,27 +134,36 @@ impl Affine {
 /// The parameters of the faces of a complex.
 pub struct Chart<'a> {
     complex: &'a Complex,
+    /// By face that is reached.
+    cuts: BTreeMap<usize, Cuts>,
 }
 
 impl<'a> Chart<'a> {
     /// The chart, where the sides of all faces that are reached are given, they are divided in both directions, their pieces are
-    /// faces, and every piece is placed by a symmetry of its subcell; a reason where not. The identities are taken as checked.
+    /// faces, and every piece is placed by a symmetry of its subcell, without a turn where sides are divided by shares; a reason where
+    /// not. The identities are taken as checked.
     ///
     /// # Errors
     /// What is not so.
     pub fn new(complex: &'a Complex) -> Result<Self, NoChart> {
         let shape = &complex.shape;
-        let chart = Self { complex };
-        for e in shape.reachable() {
+        let faces: Vec<usize> =
+            shape.reachable().into_iter().filter(|e| shape.states[*e].kind == CellKind::Face).collect();
+        let mut chart = Self { complex, cuts: BTreeMap::new() };
+        for &e in &faces {
+            let face = complex.faces.get(&e).ok_or(NoChart::Sides { state: e })?;
+            chart.cuts.insert(e, cuts(complex, face).ok_or(NoChart::Shares { state: e })?);
+        }
+        let own = faces.iter().any(|e| has_shares(complex, &complex.faces[e]));
+        for e in faces {
             let state = &shape.states[e];
-            if state.kind != CellKind::Face {
-                continue;
-            }
-            let Some(face) = complex.faces.get(&e) else {
-                return Err(NoChart::Sides { state: e });
-            };
+            let face = &complex.faces[&e];
             if matches!(face.layout, Layout::Quad { columns, rows } if columns.min(rows) < 2) {
                 return Err(NoChart::Shrinking { state: e });
+            }
+            let turned = face.placement.iter().any(|p| !p.is_sorted());
+            if own && turned {
+                return Err(NoChart::Shares { state: e });
             }
             for letter in 0..state.pieces.len() {
                 let target = state.pieces[letter].target;
@@ -150,7 +186,7 @@ impl<'a> Chart<'a> {
     /// The corners of the cell of a piece, in the order of its own state, in the parameters of the patch it divides.
     pub fn piece_corners(&self, state: usize, letter: usize) -> Vec<Param> {
         let face = &self.complex.faces[&state];
-        let cell = cell_corners(face.layout, letter);
+        let cell = cell_corners(face.layout, &self.cuts[&state], letter);
         match face.placement.get(letter) {
             Some(placement) => placement.iter().map(|&k| cell[k].clone()).collect(),
             None => cell,
@@ -176,14 +212,31 @@ impl<'a> Chart<'a> {
         Matrix::from_columns(3, &[column(1, p), column(0, a), column(0, b)])
     }
 
-    /// `1/N`, where these states are all divided into `N` parts along every side.
+    /// `1/N`, where every piece of these states from which its state can be reached again is placed by `x ↦ U x / N + p`, `U` a turn
+    /// or a reflection of its patch.
     pub fn share(&self, states: &[usize]) -> Option<Rational> {
-        let parts = |&e: &usize| match self.layout(e) {
-            Layout::Quad { columns, rows } => (columns == rows).then_some(columns),
-            Layout::Triangle => Some(2),
-        };
-        let first = parts(states.first()?)?;
-        states.iter().all(|e| parts(e) == Some(first)).then(|| Rational::from(1) / Rational::from(first))
+        let shape = &self.complex.shape;
+        let mut share = None;
+        for &e in states {
+            let own = component(shape, e);
+            let pieces = shape.states[e].pieces.iter().enumerate();
+            for (letter, _) in pieces.filter(|(_, p)| own.contains(&p.target)) {
+                let size = self.size(e, letter)?;
+                if share.get_or_insert_with(|| size.clone()) != &size {
+                    return None;
+                }
+            }
+        }
+        share
+    }
+
+    /// The factor by which a piece shrinks the parameters, where that is all it does but for a symmetry.
+    fn size(&self, state: usize, letter: usize) -> Option<Rational> {
+        let Affine { a, b, .. } = self.map(state, letter);
+        let entries: Vec<Rational> = a.iter().chain(&b).map(abs).collect();
+        let size = entries.iter().max()?.clone();
+        let det = abs(&(&a[0] * &b[1] - &a[1] * &b[0]));
+        (entries.iter().all(|x| *x == 0 || *x == size) && det == &size * &size && size > 0).then_some(size)
     }
 
     /// Whether all corners of a piece lie where the affine map through three of them has them.

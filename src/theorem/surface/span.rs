@@ -65,6 +65,17 @@ impl Subspace {
         Self { generators }.reduced()
     }
 
+    /// The normal of a rational plane in space: its third coordinate is 1, or its last one that is not 0.
+    #[must_use]
+    pub fn normal(&self) -> Option<Vec<Rational>> {
+        let rows: Vec<Vec<Rational>> = self.generators.iter().map(Direction::rational).collect::<Option<_>>()?;
+        let [a, b] = rows.as_slice() else { return None };
+        let ([a0, a1, a2], [b0, b1, b2]) = (a.as_slice(), b.as_slice()) else { return None };
+        let cross = [a1 * b2 - a2 * b1, a2 * b0 - a0 * b2, a0 * b1 - a1 * b0];
+        let unit = cross.iter().rev().find(|x| **x != 0)?.clone();
+        Some(cross.iter().map(|x| x / &unit).collect())
+    }
+
     /// The span of both.
     #[must_use]
     pub fn join(&self, other: &Self) -> Self {

@@ -9,6 +9,7 @@ use crate::algebraic::{Root, between, cmp_real, roots_within, sorted};
 use crate::answer::Verdict;
 use crate::arith::{Interval, Rational, ratio};
 use crate::budget::Budget;
+use crate::vertex::Ground;
 use std::cmp::Ordering;
 use std::time::Instant;
 
@@ -113,14 +114,14 @@ impl Covering<'_> {
     fn alone(&self, leader: &Leader, window: &Window) -> Option<Vec<Segment>> {
         match beside_one(&leader.square) {
             Some(Ordering::Less) => Some(vec![whole(window, self.judge.finding(leader, window)?)]),
-            Some(_) => Some(vec![whole(window, Finding::NoLimit)]),
+            Some(_) => Some(vec![whole(window, Finding::By(Ground::NoLimit))]),
             None => {
                 let (at, up) = self.crossing(leader, Against::Unit, window)?;
                 let inside = self.judge.finding(leader, window)?;
                 Some(if up {
-                    split(window, &at, inside, Finding::NoLimit, Finding::NoLimit)
+                    split(window, &at, inside, Finding::By(Ground::NoLimit), Finding::By(Ground::NoLimit))
                 } else {
-                    split(window, &at, Finding::NoLimit, Finding::NoLimit, inside)
+                    split(window, &at, Finding::By(Ground::NoLimit), Finding::By(Ground::NoLimit), inside)
                 })
             }
         }
@@ -131,7 +132,7 @@ impl Covering<'_> {
         match (beside_one(&one.square), beside_one(&other.square)) {
             (Some(Ordering::Less), Some(Ordering::Less)) => {}
             (Some(Ordering::Greater), _) | (_, Some(Ordering::Greater)) => {
-                return Some(vec![whole(window, Finding::NoLimit)]);
+                return Some(vec![whole(window, Finding::By(Ground::NoLimit))]);
             }
             _ => return None,
         }

@@ -4,6 +4,7 @@ use super::leader::{BITS, Kind, Leader, Window};
 use super::model::Model;
 use super::{Finding, Gap};
 use crate::budget::Budget;
+use crate::vertex::Ground;
 use crate::vertex::field::{Enclosures, Fixed};
 use crate::vertex::limit::Ring;
 use crate::vertex::net::Signs;
@@ -32,10 +33,12 @@ impl<'a> Judge<'a> {
         let between = 0 < block.frequency && 2 * block.frequency < self.model.vertex.valence;
         match (&leader.kind, between) {
             // With their conjugates in the block n − k four dimensions.
-            (Kind::Pair, true) => return Some(Finding::Span),
+            (Kind::Pair, true) => return Some(Finding::By(Ground::Span)),
             // The function of the pair is the same in every sector, or in every second one.
-            (Kind::Pair, false) => return Some(Finding::Sectors),
-            (Kind::Real { .. }, true) if block.frequency > 1 => return Some(Finding::Winding(block.frequency)),
+            (Kind::Pair, false) => return Some(Finding::By(Ground::Sectors)),
+            (Kind::Real { .. }, true) if block.frequency > 1 => {
+                return Some(Finding::By(Ground::Winding(block.frequency)));
+            }
             _ => {}
         }
         let constant = piece.is_constant() && block.is_constant();
@@ -51,6 +54,10 @@ impl<'a> Judge<'a> {
     }
 
     fn by_signs(&self, leader: &Leader, window: &Window) -> Option<Finding> {
+        // At valence 2 block 1 belongs to ω = −1, and is no map to the plane.
+        if self.model.vertex.valence < 3 {
+            return None;
+        }
         let (field, values, value) = self.values(leader, window)?;
         let k = self.model.blocks[self.model.pieces[leader.piece].block].frequency;
         if k == 1 { self.of_map(&field, &values, &value) } else { self.of_function(k, &field, &values) }
@@ -83,8 +90,8 @@ impl<'a> Judge<'a> {
             signs::map_on_ring(&self.ring(field, values, value)?, field)
         };
         match (map.jacobian.strict(), map.half_plane) {
-            (Some(_), Some(_)) => Some(Finding::Regular),
-            _ if map.jacobian.changes() => Some(Finding::Fold),
+            (Some(_), Some(_)) => Some(Finding::By(Ground::Regular)),
+            _ if map.jacobian.changes() => Some(Finding::By(Ground::Fold)),
             _ => None,
         }
     }
@@ -98,7 +105,7 @@ impl<'a> Judge<'a> {
         let nets = signs::function(&self.model.vertex, field, values, k)?;
         let nets = if path { boundary(&self.model.vertex.rule, &nets)? } else { nets };
         let signs: Signs = signs::signs_of(field, nets, self.halvings());
-        signs.strict().map(|_| if path { Finding::Path } else { Finding::Line })
+        signs.strict().map(|_| if path { Finding::By(Ground::Path) } else { Finding::By(Ground::Line) })
     }
 
     /// Windows are divided too.
@@ -125,8 +132,8 @@ pub(super) fn meeting(model: &Model, one: &Leader, other: &Leader) -> Finding {
         return Finding::Open(Gap::Meeting);
     }
     match dimension(one) + dimension(other) {
-        3.. => Finding::Span,
-        _ if alike && real(one) => Finding::Sectors,
+        3.. => Finding::By(Ground::Span),
+        _ if alike && real(one) => Finding::By(Ground::Sectors),
         _ => Finding::Open(Gap::Meeting),
     }
 }

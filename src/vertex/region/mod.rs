@@ -12,12 +12,13 @@ mod tie;
 
 pub use model::RuleFamily;
 
-use crate::algebraic::{Root, cmp_real};
+use crate::algebraic::{Root, lies_within};
 use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::budget::Budget;
 use crate::scheme::SchemeError;
 use crate::statement::Statement;
+use crate::vertex::Ground;
 use crate::vertex::regular::Regular;
 use model::Model;
 use std::time::Duration;
@@ -66,23 +67,8 @@ pub struct Limits {
 /// What is known on a part of the range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Finding {
-    /// Theorem 7: the characteristic map is regular and winds once.
-    Regular,
-    /// Theorem 8 (a): a real pair of this block, neither 1 nor `n − 1`, leads.
-    Winding(usize),
-    /// Theorem 8 (c).
-    Fold,
-    /// Theorem 8 (e): one eigenvector of block n/2 leads, and its function on the ring has no zero.
-    Line,
-    /// Theorem 8 (e): one of block 0 leads, and its function has no zero on a closed path.
-    Path,
-    /// Theorem 8 (b): the leading eigenvectors are the same in every second sector, or a pair that is not real leads in block 0
-    /// or n/2.
-    Sectors,
-    /// Theorem 8 (d): they span three dimensions or more.
-    Span,
-    /// Besides 1 an eigenvalue has modulus 1 or more.
-    NoLimit,
+    /// What holds at each value. [`Ground::Sectors`] is also said of a pair that is not real and leads in block 0 or n/2.
+    By(Ground),
     /// Nothing is claimed.
     Open(Gap),
 }
@@ -109,9 +95,8 @@ impl Finding {
     #[must_use]
     pub fn verdict(self) -> Verdict {
         match self {
-            Self::Regular => Verdict::Proved,
+            Self::By(ground) => ground.verdict(),
             Self::Open(_) => Verdict::Undetermined,
-            _ => Verdict::Refuted,
         }
     }
 
@@ -119,10 +104,8 @@ impl Finding {
     #[must_use]
     pub fn statement(self) -> Option<Statement> {
         match self {
-            Self::Regular => Some(Statement::Theorem7),
-            Self::NoLimit => Some(Statement::NoLimit),
+            Self::By(ground) => Some(ground.statement()),
             Self::Open(_) => None,
-            _ => Some(Statement::Theorem8),
         }
     }
 }
@@ -161,14 +144,7 @@ impl VertexRegion {
     /// What is said of a value of the range.
     #[must_use]
     pub fn at(&self, p: &Root) -> Option<Finding> {
-        let holds = |part: &&Part| {
-            if part.is_point() {
-                part.from.same(p)
-            } else {
-                cmp_real(&part.from, p).is_lt() && cmp_real(p, &part.to).is_lt()
-            }
-        };
-        self.parts.iter().find(holds).map(|part| part.finding)
+        self.parts.iter().find(|part| lies_within(p, &part.from, &part.to)).map(|part| part.finding)
     }
 }
 

@@ -252,6 +252,23 @@ pub fn locate(elem: &Elem, root: &Root) -> Root {
     }
 }
 
+/// Whether a real root is the point, where both ends are one, or lies in the open interval between them.
+///
+/// # Panics
+/// If one of them is not real.
+///
+/// # Examples
+/// ```
+/// use secant_exact::{algebraic::{Root, lies_within}, arith::ratio};
+/// let at = |p, q| Root::from_rational(&ratio(p, q));
+/// assert!(lies_within(&at(1, 2), &at(0, 1), &at(1, 1)) && lies_within(&at(1, 1), &at(1, 1), &at(1, 1)));
+/// assert!(!lies_within(&at(0, 1), &at(0, 1), &at(1, 1)));
+/// ```
+#[must_use]
+pub fn lies_within(p: &Root, from: &Root, to: &Root) -> bool {
+    if from.same(to) { from.same(p) } else { cmp_real(from, p).is_lt() && cmp_real(p, to).is_lt() }
+}
+
 /// The order of two real roots, exactly.
 ///
 /// # Panics

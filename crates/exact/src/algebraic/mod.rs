@@ -22,7 +22,7 @@ mod real;
 mod relation;
 mod root;
 
-pub use elem::{Elem, cmp_real, locate};
+pub use elem::{Elem, cmp_real, lies_within, locate};
 pub use line::{between, roots_within, sorted};
 pub use modulus::sqrt_down;
 pub use number::{Real, nearest};

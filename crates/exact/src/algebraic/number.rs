@@ -302,6 +302,8 @@ impl fmt::Display for Real {
             Value::Irrational(field, x) => (field, x),
         };
         let name = field.text();
+        // A power of a product needs brackets.
+        let base = if name.contains('*') && !name.starts_with("root(") { format!("({name})") } else { name.clone() };
         for (k, c) in x.0.coeffs().iter().enumerate().filter(|(_, c)| **c != 0) {
             let first = x.0.coeffs()[..k].iter().all(|c| *c == 0);
             f.write_str(if *c < 0 {
@@ -315,7 +317,7 @@ impl fmt::Display for Real {
             let power = match k {
                 0 => String::new(),
                 1 => name.clone(),
-                _ => format!("{name}^{k}"),
+                _ => format!("{base}^{k}"),
             };
             match (k, size == 1) {
                 (0, _) => write!(f, "{size}")?,

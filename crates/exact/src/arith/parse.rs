@@ -18,6 +18,9 @@ pub enum ParseNumberError {
     /// More than [`MAX_DIGITS`] digits.
     #[error("a number of {0} digits is over the limit of {MAX_DIGITS}")]
     TooLong(usize),
+    /// An exponent of ten beyond [`MAX_DIGITS`].
+    #[error("`{0}` has an exponent beyond the limit of {MAX_DIGITS}")]
+    Exponent(String),
 }
 
 /// Reads an exact rational: `12`, `-3/4`, `0.25` (exactly 1/4), `1.5e-3`.
@@ -40,7 +43,10 @@ pub fn parse_rational(text: &str) -> Result<Rational, ParseNumberError> {
     if trimmed.len() > MAX_DIGITS + 8 {
         return Err(ParseNumberError::TooLong(trimmed.len()));
     }
-    let malformed = || ParseNumberError::Malformed(trimmed.to_owned());
+    let malformed = || match trimmed.rsplit_once(['e', 'E']) {
+        Some((_, e)) if is_long_exponent(e) => ParseNumberError::Exponent(trimmed.to_owned()),
+        _ => ParseNumberError::Malformed(trimmed.to_owned()),
+    };
     if let Some((p, q)) = trimmed.split_once('/') {
         let p = decimal(p.trim()).ok_or_else(malformed)?;
         let q = decimal(q.trim()).ok_or_else(malformed)?;
@@ -50,6 +56,13 @@ pub fn parse_rational(text: &str) -> Result<Rational, ParseNumberError> {
         return Ok(p / q);
     }
     decimal(trimmed).ok_or_else(malformed)
+}
+
+/// Whether an exponent is a whole number that is too large to be read.
+fn is_long_exponent(text: &str) -> bool {
+    let digits = text.strip_prefix(['-', '+']).unwrap_or(text);
+    let value: Option<usize> = digits.parse().ok();
+    !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) && value.is_none_or(|e| e > MAX_DIGITS)
 }
 
 fn decimal(text: &str) -> Option<Rational> {
@@ -102,6 +115,9 @@ mod tests {
             assert!(matches!(parse_rational(text), Err(ParseNumberError::Malformed(_))), "{text}");
         }
         assert!(matches!(parse_rational("1/0"), Err(ParseNumberError::ZeroDenominator(_))));
+        for text in ["1e10001", "1e999999999999999999999", "-1/2e-20000"] {
+            assert!(matches!(parse_rational(text), Err(ParseNumberError::Exponent(_))), "{text}");
+        }
         assert!(matches!(parse_rational(&"9".repeat(20_000)), Err(ParseNumberError::TooLong(_))));
     }
 }

@@ -2,7 +2,6 @@
 
 use super::Poly;
 use crate::arith::{Rational, abs, sign};
-use std::fmt::Write;
 
 /// A polynomial in two variables: by powers of the second, with polynomials in the first as coefficients.
 ///
@@ -27,6 +26,16 @@ impl Two {
             rows.pop();
         }
         Self { rows }
+    }
+
+    /// The polynomial that is each of some polynomials in the first variable at a value of the second, of the lowest degree in the
+    /// second.
+    #[must_use]
+    pub fn through(at: &[Rational], lines: &[Poly]) -> Self {
+        let degree = lines.iter().filter_map(Poly::degree).fold(0, usize::max);
+        let across = |i: usize| Poly::through(at, lines.iter().map(|f| f.coeff(i)).collect());
+        let columns: Vec<Poly> = (0..=degree).map(across).collect();
+        Self::new((0..at.len()).map(|j| Poly::new(columns.iter().map(|f| f.coeff(j)).collect())).collect())
     }
 
     /// A number.
@@ -122,6 +131,33 @@ impl Two {
         self.rows.iter().rev().fold(Poly::zero(), |v, r| &v.scale(q) + r)
     }
 
+    /// The polynomial in the first variable where the second is a polynomial in it.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, poly::{Poly, Two}};
+    /// let square = Poly::new(vec![ratio(0, 1), ratio(0, 1), ratio(1, 1)]);
+    /// let f = Two::first().times(&Two::second());
+    /// assert_eq!(f.along(&square).display("p"), "p^3");
+    /// ```
+    #[must_use]
+    pub fn along(&self, second: &Poly) -> Poly {
+        self.rows.iter().rev().fold(Poly::zero(), |v, r| &(&v * second) + r)
+    }
+
+    /// The same polynomial with the variables in the other order.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        let row = |i: usize| Poly::new(self.rows.iter().map(|r| r.coeff(i)).collect());
+        Self::new((0..=self.degree()).map(row).collect())
+    }
+
+    /// What the second variable is where this vanishes, as a polynomial in the first, if it is one.
+    #[must_use]
+    pub fn solved(&self) -> Option<Poly> {
+        let [rest, lead] = self.rows.as_slice() else { return None };
+        (lead.degree() == Some(0)).then(|| rest.scale(&(Rational::from(-1) / lead.coeff(0))))
+    }
+
     /// The leading coefficient: of the highest power of the second variable, and in it of the first.
     #[must_use]
     pub fn leading(&self) -> Option<&Rational> {
@@ -132,6 +168,16 @@ impl Two {
     #[must_use]
     pub fn monic(&self) -> Self {
         self.leading().map_or_else(|| self.clone(), |c| self.scale(&(Rational::from(1) / c)))
+    }
+
+    /// The multiple whose coefficients are integers without a common divisor, the leading one positive; 0 stays.
+    #[must_use]
+    pub fn primitive(&self) -> Self {
+        let columns = self.degree() + 1;
+        let all = self.rows.iter().flat_map(|r| (0..columns).map(|k| r.coeff(k)));
+        let whole = Poly::from_ints(&Poly::new(all.collect()).primitive());
+        let row = |j: usize| Poly::new((0..columns).map(|k| whole.coeff(j * columns + k)).collect());
+        Self::new((0..self.rows.len()).map(row).collect())
     }
 
     /// The quotient, where there is no rest.
@@ -193,9 +239,10 @@ impl Two {
                 let factors: Vec<String> =
                     [power(names[0], i), power(names[1], j)].into_iter().filter(|f| !f.is_empty()).collect();
                 let size = abs(c);
-                let head = if size == 1 && !factors.is_empty() { String::new() } else { size.to_string() };
-                let all: Vec<String> = std::iter::once(head).chain(factors).filter(|f| !f.is_empty()).collect();
-                let _ = write!(out, "{}", all.join(" "));
+                if size != 1 || factors.is_empty() {
+                    out.push_str(&size.to_string());
+                }
+                out.push_str(&factors.join(" "));
             }
         }
         if out.is_empty() { "0".to_owned() } else { out }
@@ -246,6 +293,10 @@ mod tests {
         let g = p.times(&p).minus(&p.times(&q)).plus(&q.times(&q)).plus(&Two::number(ratio(1, 1)));
         assert_eq!((g.strict_sign(&unit, &unit), line.strict_sign(&unit, &unit)), (Some(1), None));
         assert_eq!(line.strict_sign(&(ratio(0, 1), ratio(1, 5)), &(ratio(0, 1), ratio(1, 5))), Some(-1));
-        assert_eq!(line.display(["a", "b"]), "2 b + a - 1");
+        assert_eq!(line.scale(&ratio(-3, 7)).primitive(), line);
+        assert_eq!(line.display(["a", "b"]), "2b + a - 1");
+        assert_eq!(line.solved().map(|f| f.display("a")), Some("-1/2a + 1/2".to_owned()));
+        assert_eq!(line.swapped().display(["a", "b"]), "b + 2a - 1");
+        assert!(f.solved().is_none() && line.along(&line.solved().unwrap()).is_zero());
     }
 }

@@ -62,6 +62,8 @@ pub struct FieldBuilder {
     growths: Vec<Elem>,
     known: Vec<(Root, Number)>,
     cosines: BTreeMap<usize, Number>,
+    /// Roots and cosines in the order in which they were asked for.
+    asked: Vec<Number>,
     pub(super) constants: BTreeMap<String, Number>,
 }
 
@@ -80,6 +82,7 @@ impl FieldBuilder {
             growths: Vec::new(),
             known: Vec::new(),
             cosines: BTreeMap::new(),
+            asked: Vec::new(),
             constants: BTreeMap::new(),
         }
     }
@@ -88,6 +91,17 @@ impl FieldBuilder {
     #[must_use]
     pub fn field(&self) -> &NumberField {
         &self.field
+    }
+
+    /// The values of the roots and cosines that were asked for.
+    #[must_use]
+    pub fn asked(&self) -> &[Number] {
+        &self.asked
+    }
+
+    fn noted(&mut self, number: Number) -> Number {
+        self.asked.push(number.clone());
+        number
     }
 
     /// A number as an element of the field as it is now.
@@ -222,6 +236,11 @@ impl FieldBuilder {
     /// # Errors
     /// [`FieldError::NotReal`] for an even root of a negative number, [`FieldError::Degree`].
     pub fn nth_root(&mut self, x: &Number, n: usize) -> Result<Number, FieldError> {
+        let root = self.real_root(x, n)?;
+        Ok(self.noted(root))
+    }
+
+    fn real_root(&mut self, x: &Number, n: usize) -> Result<Number, FieldError> {
         let negative = match self.sign(x) {
             0 => return Ok(x.clone()),
             s => s < 0,
@@ -234,7 +253,7 @@ impl FieldBuilder {
                 return Err(FieldError::NotReal);
             }
             let zero = self.rational(&Rational::from(0));
-            let root = self.nth_root(&self.sub(&zero, x), n)?;
+            let root = self.real_root(&self.sub(&zero, x), n)?;
             return Ok(self.sub(&zero, &root));
         }
         if let (Some(q), 2) = (self.is_rational(x), n) {
@@ -266,8 +285,8 @@ impl FieldBuilder {
     /// # Errors
     /// [`FieldError::Roots`] unless exactly one real root lies there, [`FieldError::Degree`].
     pub fn root_between(&mut self, f: &Poly, lo: &Rational, hi: &Rational) -> Result<Number, FieldError> {
-        let root = named::root_between(f, lo, hi)?;
-        self.adjoin(&root)
+        let root = self.adjoin(&named::root_between(f, lo, hi)?)?;
+        Ok(self.noted(root))
     }
 
     /// The real root of a polynomial with a place, from 0, among its different real roots, ascending.
@@ -277,7 +296,8 @@ impl FieldBuilder {
     pub fn root_number(&mut self, f: &Poly, place: usize) -> Result<Number, FieldError> {
         let found = named::all_real_roots(f);
         let root = found.get(place).ok_or(FieldError::Roots(found.len()))?.clone();
-        self.adjoin(&root)
+        let root = self.adjoin(&root)?;
+        Ok(self.noted(root))
     }
 
     /// `cos(2π turns)`.
@@ -322,7 +342,8 @@ impl FieldBuilder {
         for _ in 0..k.min(n - k) {
             (a, b) = (b.clone(), b.mul(&x, f).sub(&a));
         }
-        Ok(self.number(a.scale(&crate::arith::ratio(1, 2))))
+        let cosine = self.number(a.scale(&crate::arith::ratio(1, 2)));
+        Ok(self.noted(cosine))
     }
 
     fn power_by(&self, x: &Number, e: usize) -> Number {

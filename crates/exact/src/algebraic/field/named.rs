@@ -39,8 +39,17 @@ pub(super) fn square_part(q: &Rational) -> (Rational, Integer) {
     (Rational::from(side) / Rational::from(denominator), Integer::from_sign_and_abs(!negative, core))
 }
 
-/// The polynomial of the numbers `2 cos(2πj/n)` with `j` prime to `n`, for `n >= 3`.
-fn double_cosines(n: usize) -> Poly {
+/// The minimal polynomial of the numbers `2 cos(2πj/n)` with `j` prime to `n`: with `Φ_n(x) = x^m ψ(x + 1/x)`, `ψ`; for
+/// `n <= 2`, `t - 2` and `t + 2`.
+///
+/// # Panics
+/// If `n` is 0.
+#[must_use]
+pub fn cosine_polynomial(n: usize) -> Poly {
+    assert!(n > 0, "an angle");
+    if n <= 2 {
+        return Poly::linear(&Rational::from(if n == 1 { 2 } else { -2 }));
+    }
     // Φ(z) = z^(m) ψ(z + 1/z), with z^k + z^-k = V_k(x), V_0 = 2, V_1 = x, V_(k+1) = x V_k - V_(k-1).
     let cyclotomic = cyclotomic(n);
     let half = cyclotomic.degree().unwrap_or(2) / 2;
@@ -121,7 +130,7 @@ pub fn cosine(k: usize, n: usize) -> Root {
     let k = k.min(n - k);
     // The cosine falls from 0 to π, so the roots above k in this order are smaller.
     let index = (k + 1..=n / 2).filter(|j| coprime(*j, n)).count();
-    roots(&double_cosines(n)).swap_remove(index)
+    roots(&cosine_polynomial(n)).swap_remove(index)
 }
 
 /// Why a polynomial and an interval do not name a number.
