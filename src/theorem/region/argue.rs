@@ -163,33 +163,41 @@ impl<'a, P: Symbol> Arguments<'a, P> {
     pub fn leading(&self, at: &impl Signs<P>, word: &[usize]) -> Option<Leading<P>> {
         let own = self.word(word);
         own.eigenvalues.iter().find_map(|value| {
-            // The attempts of other eigenvalues fail at the value, and their guards say for how long.
-            let sign = at.sign(value);
-            if sign == 0 {
-                return None;
+            let mark = at.mark();
+            let found = self.leads(at, &own, value);
+            if found.is_none() {
+                at.forget(mark);
             }
-            let mut rest = without_root(&own.chi, value);
-            let chain = horner(&rest, value).vanishes();
-            if chain {
-                rest = without_root(&rest, value);
-            }
-            let mut power = P::number(Rational::from(1));
-            let mut shrunk = Vec::new();
-            for c in &rest {
-                shrunk.push(c.times(&power));
-                power = power.times(value);
-            }
-            if !is_stable(at, shrunk) {
-                return None;
-            }
-            let side = at.sign(&horner(&rest, value));
-            let projection = adjugate(&own.matrix, &own.chi, value).map(|f| f.multiple(&Rational::from(side)));
-            if side == 0 || (chain && !at.is_not_zero(projection.entries())) {
-                return None;
-            }
-            self.beyond.set(self.beyond.get() || chain);
-            Some(Leading { value: value.clone(), positive: sign > 0, projection })
+            found
         })
+    }
+
+    fn leads(&self, at: &impl Signs<P>, own: &Word<P>, value: &P) -> Option<Leading<P>> {
+        let sign = at.sign(value);
+        if sign == 0 {
+            return None;
+        }
+        let mut rest = without_root(&own.chi, value);
+        let chain = horner(&rest, value).vanishes();
+        if chain {
+            rest = without_root(&rest, value);
+        }
+        let mut power = P::number(Rational::from(1));
+        let mut shrunk = Vec::new();
+        for c in &rest {
+            shrunk.push(c.times(&power));
+            power = power.times(value);
+        }
+        if !is_stable(at, shrunk) {
+            return None;
+        }
+        let side = at.sign(&horner(&rest, value));
+        let projection = adjugate(&own.matrix, &own.chi, value).map(|f| f.multiple(&Rational::from(side)));
+        if side == 0 || (chain && !at.is_not_zero(projection.entries())) {
+            return None;
+        }
+        self.beyond.set(self.beyond.get() || chain);
+        Some(Leading { value: value.clone(), positive: sign > 0, projection })
     }
 
     /// Differences from an end to points of the curve.

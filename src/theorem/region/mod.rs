@@ -11,6 +11,7 @@ mod cones;
 mod curve;
 mod fact;
 mod independence;
+mod ledger;
 mod line;
 mod plane;
 mod plane_box;

@@ -3,18 +3,17 @@
 use super::argue::Arguments;
 use super::curve::CurveFamily;
 use super::fact::{CurveClaim, Fact, Why};
+use super::ledger::Ledger;
 use super::line::LineRegion;
 use super::plane_box::{Spot, Waiting, inside};
-use super::signs::determinant;
-use super::symbol::Symbol;
 use crate::answer::Verdict;
-use crate::arith::{Rational, ratio};
+use crate::arith::Rational;
 use crate::budget::Budget;
 use crate::parallel;
 use crate::poly::Two;
 use crate::radius::Ended;
 use crate::radius::family::Search;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::time::{Duration, Instant};
 
 /// A closed box of two parameters.
@@ -91,22 +90,6 @@ pub struct PlaneLimits {
     pub lines: Option<(Search, Budget)>,
 }
 
-/// A fact about G¹ with the indices of its guards and their signs.
-struct Held {
-    verdict: Verdict,
-    why: Why,
-    guards: Vec<(usize, i32)>,
-}
-
-/// What holds where which guards have which signs.
-struct Ledger<'a> {
-    family: &'a CurveFamily<Two>,
-    guards: Vec<Two>,
-    facts: Vec<Held>,
-    /// By word the guards of which one that is negative refutes contraction.
-    words: Vec<(Vec<usize>, Vec<usize>)>,
-}
-
 struct Covering<'a> {
     arguments: Arguments<'a, Two>,
     ledger: Ledger<'a>,
@@ -114,8 +97,6 @@ struct Covering<'a> {
     looks: usize,
 }
 
-/// Words that are looked at for an eigenvalue outside the unit disc.
-const LETTERS: usize = 2;
 /// Boxes that are examined at a time, on all threads; arguments that are found in between are known to the next ones.
 const AT_A_TIME: usize = 64;
 /// Values at which no argument is found, before no more are looked for.
@@ -138,7 +119,7 @@ impl CurveFamily<Two> {
         let mut covering = Covering::new(self);
         let mut queue: VecDeque<Waiting> = [Waiting::new(whole.clone())].into();
         let (mut boxes, mut examined, mut ended) = (Vec::new(), 0, Ended::Done);
-        let mut unsigned: Vec<Vec<usize>> = Vec::new();
+        let (mut borders, mut left) = (BTreeSet::new(), 0);
         while !queue.is_empty() {
             crate::stop::check();
             if limits.time.is_some_and(|t| begun.elapsed() >= t) {
@@ -160,8 +141,9 @@ impl CurveFamily<Two> {
                     queue.extend(own.quarters());
                     continue;
                 }
-                if !known.is_decided() && unsigned.len() < UNSIGNED {
-                    unsigned.push(covering.ledger.unsigned(&own));
+                if !known.is_decided() && left < UNSIGNED {
+                    left += 1;
+                    borders.extend(covering.ledger.border(&own));
                 }
                 step(1 << (2 * (limits.depth - own.depth)));
                 boxes.push(PlaneBox { area: own.area, known });
@@ -169,7 +151,7 @@ impl CurveFamily<Two> {
         }
         let open = boxes.iter().any(|b| !b.known.is_decided());
         let ended = if open && ended == Ended::Done { Ended::Exhausted } else { ended };
-        let borders = covering.ledger.borders(&unsigned);
+        let borders: Vec<Two> = borders.into_iter().collect();
         let lines = limits.lines.as_ref().filter(|_| ended != Ended::Clock);
         let lines = lines.map_or_else(Vec::new, |(search, budget)| self.on_lines(&borders, whole, (search, budget)));
         PlaneRegion { boxes, borders, lines, ended }
@@ -185,7 +167,7 @@ impl<'a> Covering<'a> {
     fn examined(&mut self, wave: Vec<Waiting>) -> Vec<(Waiting, Known)> {
         let ledger = &self.ledger;
         let mut found = parallel::map(&wave, true, |own| ledger.known(own.clone()));
-        let before = ledger.facts.len();
+        let before = ledger.count();
         for (own, known) in found.iter_mut().filter(|(_, known)| *known == Known::Contracts) {
             let at = (inside(&own.area.first, SPOTS[0]), inside(&own.area.second, SPOTS[1]));
             if !self.ledger.holds_at(&at) {
@@ -195,7 +177,7 @@ impl<'a> Covering<'a> {
                 *known = fact;
             }
         }
-        if self.ledger.facts.len() > before {
+        if self.ledger.count() > before {
             let ledger = &self.ledger;
             found = parallel::map(&found, true, |(own, known)| {
                 let mut own = own.clone();
@@ -216,120 +198,7 @@ impl<'a> Covering<'a> {
             self.looks -= 1;
             return;
         };
-        let guards =
-            fact.guards.iter().map(|f| (self.ledger.guard(f), crate::arith::sign(&f.eval(&at.0, &at.1)))).collect();
-        self.ledger.facts.push(Held { verdict: fact.verdict, why: fact.why, guards });
-    }
-}
-
-impl<'a> Ledger<'a> {
-    fn new(family: &'a CurveFamily<Two>) -> Self {
-        let mut ledger = Self { family, guards: Vec::new(), facts: Vec::new(), words: Vec::new() };
-        let letters = family.linear.len();
-        let mut words: Vec<Vec<usize>> = vec![Vec::new()];
-        for _ in 0..LETTERS {
-            let longer: Vec<Vec<usize>> =
-                words.iter().flat_map(|w| (0..letters).map(move |l| [w.as_slice(), &[l]].concat())).collect();
-            for word in &longer {
-                ledger.word(word);
-            }
-            words = longer;
-        }
-        ledger
-    }
-
-    fn guard(&mut self, f: &Two) -> usize {
-        if let Some(k) = self.guards.iter().position(|g| g == f) {
-            return k;
-        }
-        self.guards.push(f.clone());
-        self.guards.len() - 1
-    }
-
-    /// `χ(1) < 0`, or `(−1)ⁿ χ(−1) < 0`, or `1 − d < 0` or `1 + d < 0` for the determinant `d`: then an eigenvalue lies outside the
-    /// unit disc.
-    fn word(&mut self, word: &[usize]) {
-        let m = self.family.product(word);
-        let chi = m.char_poly_over(&Two::ring());
-        let one = Two::number(Rational::from(1));
-        let at = |x: i64| chi.iter().rev().fold(Two::nought(), |v, c| v.multiple(&ratio(x, 1)).plus(c));
-        let minus = if m.rows().is_multiple_of(2) { at(-1) } else { at(-1).multiple(&ratio(-1, 1)) };
-        let d = determinant(&m);
-        let own = [at(1), minus, one.minus(&d), one.plus(&d)];
-        let indices = own.iter().filter(|f| !f.is_number()).map(|f| self.guard(f)).collect();
-        self.words.push((word.to_vec(), indices));
-    }
-
-    fn known(&self, mut own: Waiting) -> (Waiting, Known) {
-        if !own.contracts {
-            let expands = self.words.iter().find(|(_, all)| all.iter().any(|k| own.sign(&self.guards, *k) == Some(-1)));
-            if let Some((word, _)) = expands {
-                return (own, Known::Expands(word.clone()));
-            }
-            own.contracts = own.area.contracts(&self.family.operators);
-            if !own.contracts {
-                return (own, Known::Open);
-            }
-        }
-        let fact = self.fact_on(&mut own, 0);
-        (own, fact.unwrap_or(Known::Contracts))
-    }
-
-    /// A fact, of those from one on, whose guards have its signs on the whole box.
-    fn fact_on(&self, own: &mut Waiting, first: usize) -> Option<Known> {
-        let holds = |f: &&Held| f.guards.iter().all(|(k, s)| own.sign(&self.guards, *k) == Some(*s));
-        self.facts[first..].iter().find(holds).map(|f| Known::Curve(f.verdict, f.why.clone()))
-    }
-
-    /// Whether a fact holds at a value: then another look would find nothing new.
-    fn holds_at(&self, (p, q): &(Rational, Rational)) -> bool {
-        let sign = |k: usize| crate::arith::sign(&self.guards[k].eval(p, q));
-        self.facts.iter().any(|f| f.guards.iter().all(|(k, s)| sign(*k) == *s))
-    }
-
-    /// The guards without a sign on a box that was left: of facts where it contracts, of words elsewhere.
-    fn unsigned(&self, own: &Waiting) -> Vec<usize> {
-        let mut own = own.clone();
-        let mut all: Vec<usize> = if own.contracts {
-            self.facts.iter().flat_map(|f| f.guards.iter().map(|g| g.0)).collect()
-        } else {
-            self.words.iter().flat_map(|w| w.1.clone()).collect()
-        };
-        all.sort_unstable();
-        all.dedup();
-        all.retain(|k| own.sign(&self.guards, *k).is_none());
-        all
-    }
-
-    /// Factors of guards that are the only ones without a sign on some box that was left.
-    fn borders(&self, unsigned: &[Vec<usize>]) -> Vec<Two> {
-        let mut base: Vec<Two> = Vec::new();
-        let mut guards: Vec<&Two> = self.guards.iter().collect();
-        guards.sort_by_key(|f| f.degree() + f.rows().len());
-        for f in guards {
-            let rest = base.iter().fold(f.clone(), |mut rest, g| {
-                while let Some(quotient) = rest.divided(g) {
-                    rest = quotient;
-                }
-                rest
-            });
-            if !rest.is_number() {
-                base.push(rest.primitive());
-            }
-        }
-        let divides = |g: &Two, k: usize| self.guards[k].divided(g).is_some();
-        let mut found: Vec<Two> = Vec::new();
-        for all in unsigned {
-            let own: Vec<&Two> = base.iter().filter(|g| all.iter().any(|k| divides(g, *k))).collect();
-            // Every guard without a sign has such a factor: one factor alone explains them all.
-            for g in &own {
-                if all.iter().all(|k| divides(g, *k)) && !found.contains(g) {
-                    found.push((*g).clone());
-                }
-            }
-        }
-        found.sort();
-        found
+        self.ledger.hold(fact, at);
     }
 }
 

@@ -2,9 +2,10 @@
 
 use super::plane::{Area, Known};
 use super::signs::Signs;
-use crate::arith::{Interval, Rational, ratio};
+use crate::arith::{Integer, Interval, Rational, ratio};
 use crate::linalg::Matrix;
-use crate::poly::Two;
+use crate::poly::{Poly, Two};
+use crate::ring::{Enclosures, Field, Fixed, Ring};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
 use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
@@ -26,6 +27,15 @@ impl Signs<Two> for Spot<'_> {
     fn fork(&self) -> Self {
         let guards = RefCell::new(self.guards.borrow().clone());
         Self { at: self.at, guards, special: Cell::new(self.special.get()) }
+    }
+
+    fn mark(&self) -> (usize, bool) {
+        (self.guards.borrow().len(), self.special.get())
+    }
+
+    fn forget(&self, (count, special): (usize, bool)) {
+        self.guards.borrow_mut().truncate(count);
+        self.special.set(special);
     }
 
     fn kept(&self) -> Option<Vec<Two>> {
@@ -67,6 +77,7 @@ pub(super) struct Waiting {
     pub area: Area,
     pub depth: usize,
     pub contracts: bool,
+    /// 0 for those that have no strict sign here.
     signs: Vec<Option<i32>>,
 }
 
@@ -84,7 +95,8 @@ impl Waiting {
         let quarter = |p: &(Rational, Rational), q: &(Rational, Rational)| Self {
             area: Area { first: p.clone(), second: q.clone() },
             depth: self.depth + 1,
-            ..self.clone()
+            contracts: self.contracts,
+            signs: self.signs.iter().map(|s| s.filter(|s| *s != 0)).collect(),
         };
         first.iter().flat_map(|p| second.iter().map(move |q| quarter(p, q))).collect()
     }
@@ -94,10 +106,12 @@ impl Waiting {
         if self.signs.len() <= k {
             self.signs.resize(guards.len(), None);
         }
-        if self.signs[k].is_none() {
-            self.signs[k] = guards[k].strict_sign(&self.area.first, &self.area.second);
-        }
-        self.signs[k]
+        let (first, second) = (&self.area.first, &self.area.second);
+        let sign = *self.signs[k].get_or_insert_with(|| match guards[k].strict_sign(first, second) {
+            Some(sign) => sign,
+            None => 0,
+        });
+        Some(sign).filter(|s| *s != 0)
     }
 
     /// What is known of a box that is not examined any more.
@@ -107,6 +121,8 @@ impl Waiting {
     }
 }
 
+/// Enclosures of what products of operators are on a box.
+const FIXED: Enclosures = Enclosures { bits: 64 };
 /// Products that are formed to show contraction on a box.
 const PRODUCTS: usize = 160;
 
@@ -114,9 +130,9 @@ impl Area {
     /// Whether products of operators shrink all differences for every value of the box: along every infinite word one of finitely many
     /// words occurs first, and all of these shrink.
     pub(super) fn contracts(&self, operators: &[Matrix<Two>]) -> bool {
-        let bounds = [&self.first, &self.second].map(|(lo, hi)| Interval::new(lo.clone(), hi.clone()));
-        let letters: Vec<Matrix<Interval>> = operators.iter().map(|m| m.map(|f| on(f, &bounds))).collect();
-        let mut queue: VecDeque<Matrix<Interval>> = letters.iter().cloned().collect();
+        let bounds = [&self.first, &self.second].map(|(lo, hi)| FIXED.interval(&Interval::new(lo.clone(), hi.clone())));
+        let letters: Vec<Matrix<Fixed>> = operators.iter().map(|m| m.map(|f| on(f, &bounds))).collect();
+        let mut queue: VecDeque<Matrix<Fixed>> = letters.iter().cloned().collect();
         let mut formed = letters.len();
         while let Some(m) = queue.pop_front() {
             if shrinks(&m) {
@@ -126,7 +142,7 @@ impl Area {
             if formed > PRODUCTS {
                 return false;
             }
-            queue.extend(letters.iter().map(|l| product(&m, l)));
+            queue.extend(letters.iter().map(|l| m.mul_over(&FIXED, l)));
         }
         true
     }
@@ -139,22 +155,16 @@ pub(super) fn inside((lo, hi): &(Rational, Rational), (a, b): (i64, i64)) -> Rat
 }
 
 /// The values of a polynomial on a box.
-fn on(f: &Two, [p, q]: &[Interval; 2]) -> Interval {
-    let zero = || Interval::point(Rational::from(0));
-    let number = |c: &Rational| Interval::point(c.clone());
-    let row = |r: &crate::poly::Poly| r.coeffs().iter().rev().fold(zero(), |v, c| &(&v * p) + &number(c));
-    f.rows().iter().rev().fold(zero(), |v, r| &(&v * q) + &row(r))
-}
-
-fn product(a: &Matrix<Interval>, b: &Matrix<Interval>) -> Matrix<Interval> {
-    let zero = || Interval::point(Rational::from(0));
-    let entry = |i: usize, j: usize| (0..a.cols()).fold(zero(), |s, l| &s + &(&a[(i, l)] * &b[(l, j)]));
-    Matrix::from_fn(a.rows(), b.cols(), entry)
+fn on(f: &Two, [p, q]: &[Fixed; 2]) -> Fixed {
+    let row = |r: &Poly| FIXED.eval(r, p);
+    f.rows().iter().rev().fold(FIXED.zero(), |v, r| FIXED.add(&FIXED.mul(&v, q), &row(r)))
 }
 
 /// Whether half the largest sum of differences of two columns is below 1.
-fn shrinks(m: &Matrix<Interval>) -> bool {
+fn shrinks(m: &Matrix<Fixed>) -> bool {
+    let two = FIXED.integer(&Integer::from(2)).lo;
+    let size = |x: Fixed| (-x.lo).max(x.hi);
     let apart =
-        |j: usize, k: usize| (0..m.rows()).fold(Rational::from(0), |s, i| s + (&m[(i, j)] - &m[(i, k)]).magnitude());
-    (0..m.cols()).all(|j| (0..j).all(|k| apart(j, k) < 2))
+        |j: usize, k: usize| (0..m.rows()).fold(Integer::from(0), |s, i| s + size(FIXED.sub(&m[(i, j)], &m[(i, k)])));
+    (0..m.cols()).all(|j| (0..j).all(|k| apart(j, k) < two))
 }

@@ -15,6 +15,12 @@ pub(super) trait Signs<P: Symbol>: Sized {
     /// The polynomials that were asked for; `None` where one vanished that must not.
     fn kept(&self) -> Option<Vec<P>>;
 
+    /// A place in what is kept, to which an attempt that failed may go back.
+    fn mark(&self) -> (usize, bool);
+
+    /// Forgets, where that is done, what was asked for since, of which nothing is used.
+    fn forget(&self, mark: (usize, bool));
+
     fn sign(&self, f: &P) -> i32;
 
     /// A positive multiple of a vector, where there is one without a common divisor; `None` where the vector is 0.
@@ -60,6 +66,13 @@ impl Signs<Poly> for At<'_> {
             special: Cell::new(self.special.get()),
         }
     }
+
+    fn mark(&self) -> (usize, bool) {
+        (self.guards.borrow().len(), self.special.get())
+    }
+
+    /// Everything stays: a checker follows the attempts one by one.
+    fn forget(&self, _: (usize, bool)) {}
 
     fn kept(&self) -> Option<Vec<Poly>> {
         (!self.special.get()).then(|| self.guards.borrow().clone())
