@@ -41,7 +41,7 @@ impl<'a> Ledger<'a> {
     pub fn new(family: &'a CurveFamily<Two>) -> Self {
         let mut ledger = Self { family, guards: Vec::new(), base: Vec::new(), facts: Vec::new(), words: Vec::new() };
         // Entries are factors of much that is asked for.
-        for f in family.linear.iter().flat_map(|m| m.entries()) {
+        for f in family.linear.iter().flat_map(|m| m.entries()).filter(|f| !f.is_zero()) {
             ledger.factors(f);
         }
         let letters = family.linear.len();
@@ -70,7 +70,9 @@ impl<'a> Ledger<'a> {
         let (mut rest, mut found) = (f.primitive(), Vec::new());
         let known = self.base.clone();
         for k in known {
-            while let Some(quotient) = rest.divided(&self.guards[k]) {
+            while !rest.is_number()
+                && let Some(quotient) = rest.divided(&self.guards[k])
+            {
                 rest = quotient;
                 if !found.contains(&k) {
                     found.push(k);
