@@ -30,8 +30,15 @@ pub fn run(args: &RefineArgs) -> u8 {
 }
 
 fn refined(args: &RefineArgs) -> Result<String, Problem> {
-    let Question::Tangents { case, .. } = Question::ask(&args.case)? else {
-        return Err(refused(&JunctionError::Refinement("only curves and surfaces are refined".to_owned())));
+    let case = match Question::ask(&args.case)? {
+        Question::Tangents { case, .. } => case,
+        Question::OverField { .. } => {
+            let message = "curves with irrational entries are not refined yet";
+            return Err(Problem::new("secant::refine", message).with_help("write rational entries"));
+        }
+        Question::Vertices { .. } => {
+            return Err(refused(&JunctionError::Refinement("only curves and surfaces are refined".to_owned())));
+        }
     };
     let first = case.complex();
     let mut complex = first.clone();

@@ -56,7 +56,7 @@ pub fn reason(v: &AtVertex) -> String {
             "a point around the vertex has irrational coordinates after the steps of the semi-sharp edges, or no rule".to_owned()
         }
         Reason::Dart => {
-            "one sharp edge ends there: no statement is about such a vertex, and across the edge the surface has a fold"
+            "one sharp edge ends there: no statement is about such a vertex, and across the edge the surface may have a fold"
                 .to_owned()
         }
         Reason::Tip => "the vertex is fixed, with faces all around and no sharp edge; no statement is about it".to_owned(),
@@ -126,7 +126,7 @@ pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Docu
     blocks.push(Block::Table(table(found)));
     let bad: Vec<&AtVertex> = found.vertices.iter().filter(|v| !v.surrounded()).collect();
     if !bad.is_empty() {
-        blocks.push(Block::heading(2, "Vertices that are not proved"));
+        blocks.push(Block::heading(2, "Vertices around which something is not proved"));
         blocks.push(Block::List(bad.iter().take(most).map(|v| listed(v)).collect()));
         blocks.extend(rest(bad.len(), most));
     }
@@ -347,7 +347,7 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
         "curvature": found.curvature.iter().map(|(n, c)| json!({
             "valence": n,
             "almost_all": curvature::size(c),
-            "ratio": crate::arith::to_f64(&c.ratio.mid()),
+            "ratio": curvature::ratio(c),
             "exponent": c.exponent.filter(|p| p.is_finite()),
         })).collect::<Vec<_>>(),
         "vertices": found.vertices.iter().map(vertex).collect::<Vec<_>>(),
