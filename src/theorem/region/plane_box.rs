@@ -59,7 +59,10 @@ impl Signs<Two> for Spot<'_> {
     }
 
     fn primitive(&self, v: &[Two]) -> Option<Vec<Two>> {
-        self.is_not_zero(v).then(|| v.to_vec())
+        let common = v.iter().fold(Two::number(Rational::from(0)), |g, x| g.gcd(x));
+        let sign = self.sign(&common);
+        let divided: Option<Vec<Two>> = v.iter().map(|x| x.divided(&common)).collect();
+        divided.map(|v| super::signs::scaled(&v, sign)).filter(|v| sign != 0 && self.is_not_zero(v))
     }
 
     fn near(&self, f: &Two) -> Rational {

@@ -146,7 +146,9 @@ impl Symbol for Two {
     }
 
     fn shortened(v: &[Self]) -> Vec<Self> {
-        v.to_vec()
+        let common = v.iter().fold(Self::nought(), |g, x| g.gcd(x));
+        let divided: Option<Vec<Self>> = v.iter().map(|x| x.divided(&common)).collect();
+        divided.unwrap_or_else(|| v.to_vec())
     }
 
     fn eigenvalues(m: &Matrix<Self>, chi: &[Self]) -> Vec<Self> {

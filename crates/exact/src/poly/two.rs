@@ -199,6 +199,52 @@ impl Two {
         Some(quotient)
     }
 
+    /// The greatest common divisor, up to a number: remainders in the second variable, without their divisors in the first.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, poly::Two};
+    /// let (p, q) = (Two::first(), Two::second());
+    /// let (f, g) = (p.plus(&q), p.minus(&q));
+    /// assert_eq!(f.times(&p).times(&g).gcd(&g.times(&g).times(&p)), g.times(&p).primitive());
+    /// ```
+    #[must_use]
+    pub fn gcd(&self, other: &Self) -> Self {
+        if self.is_zero() || other.is_zero() {
+            return self.plus(other).primitive();
+        }
+        let (mut a, of_a) = self.without_content();
+        let (mut b, of_b) = other.without_content();
+        if a.rows.len() < b.rows.len() {
+            std::mem::swap(&mut a, &mut b);
+        }
+        while !b.is_zero() {
+            let rest = a.pseudo_remainder(&b);
+            a = std::mem::replace(&mut b, rest.without_content().0);
+        }
+        a.times(&Self::new(vec![of_a.gcd(&of_b)])).primitive()
+    }
+
+    /// The polynomial without the largest divisor in the first variable alone, and that divisor.
+    fn without_content(&self) -> (Self, Poly) {
+        let content = self.rows.iter().fold(Poly::zero(), |g, r| g.gcd(r));
+        if content.is_zero() {
+            return (self.clone(), content);
+        }
+        (Self::new(self.rows.iter().map(|r| r.div_rem(&content).0).collect()).primitive(), content)
+    }
+
+    /// The rest of a multiple of the polynomial after division in the second variable.
+    fn pseudo_remainder(&self, by: &Self) -> Self {
+        let (mut rest, degree) = (self.clone(), by.rows.len());
+        while rest.rows.len() >= degree && !rest.is_zero() {
+            let lead = Self::new(vec![by.rows[degree - 1].clone()]);
+            let mut up = vec![Poly::zero(); rest.rows.len() - degree];
+            up.push(rest.rows[rest.rows.len() - 1].clone());
+            rest = rest.times(&lead).minus(&Self::new(up).times(by));
+        }
+        rest
+    }
+
     /// The strict sign on a closed box, where all Bernstein coefficients have it.
     #[must_use]
     pub fn strict_sign(&self, first: &(Rational, Rational), second: &(Rational, Rational)) -> Option<i32> {
