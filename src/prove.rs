@@ -2,9 +2,11 @@
 
 mod findings;
 mod model;
+mod orders;
 
 pub use findings::{Findings, confirm, unconfirmed};
 pub use model::model_problem;
+pub use orders::{deciding_claims, of_longer_polygons};
 
 use crate::answer::{Answer, Verdict};
 use crate::budget::Budget;

@@ -283,7 +283,7 @@ fn turning(hodograph: &Hodograph, turn: &Turn) -> String {
     match turn {
         Turn::Inside(k, root) => {
             let t = root.rational().map_or_else(
-                || format!("{:.6} (a root of {})", root.to_f64().0, root.minpoly().display("t")),
+                || format!("≈ {:.6} (a root of {})", root.to_f64().0, root.minpoly().display("t")),
                 |t| t.to_string(),
             );
             format!("at the parameter {t}{} the derivative changes to the opposite direction: a cusp", arc(*k))
