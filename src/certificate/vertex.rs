@@ -8,6 +8,7 @@ use crate::case::{Valences, VertexCase};
 use crate::scheme::Sector;
 use crate::theorem::Verdict;
 use crate::vertex::field::{Enclosures, Field};
+use crate::vertex::regular::Regular;
 use crate::vertex::top::Top;
 use crate::vertex::{Again, AtValence, Eigenvector, Ground};
 use malachite_base::num::arithmetic::traits::Floor;
@@ -21,6 +22,12 @@ const SHORT: u64 = 24;
 /// Binary places of the bound of the other eigenvalues, which was proposed in floating point: few enough for the same certificate
 /// everywhere, and more than [`apart`] asks for.
 const BOUND: u64 = 40;
+
+/// So many steps together shrink second differences that have factors in the mask (Lemma 4′): enough, and cheap.
+const FACTOR_STEPS: usize = 6;
+
+/// So many words of steps the checker looks at.
+const MAX_WORDS: usize = 1000;
 
 /// A complex number.
 type Complex = (Rational, Rational);
@@ -57,16 +64,18 @@ fn unity(k: usize, n: usize) -> Complex {
     (cosine, sine)
 }
 
-/// The values on the first two rings, in the order of the format, without their constant part in block 0.
+/// The values on the first rings, in the order of the format, without their constant part in block 0.
 fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
+    // Splines have two rings in the format.
+    let rings = if by_stencils(case) { vector.rings } else { 2 };
     let inside = |&(i, j): &(usize, usize)| match (case.rule.dual(), case.rule.sector()) {
-        (true, _) => i < 2 && j < 2,
+        (true, _) => i < rings && j < rings,
         (false, Sector::Quads) => i > 0,
-        (false, Sector::Triangles) => i > 0 && i + j <= 2,
+        (false, Sector::Triangles) => i > 0 && i + j <= rings,
     };
     let turn = unity(vector.frequency, n);
     let value = |(x, y): &Complex| (x + y * &turn.0, y * &turn.1);
-    let places = (0..=2).flat_map(|i| (0..=2).map(move |j| (i, j))).filter(inside);
+    let places = (0..=rings).flat_map(|i| (0..=rings).map(move |j| (i, j))).filter(inside);
     let known = places.map(|place| match vector.points.iter().find(|(p, _)| *p == place) {
         Some((_, v)) => Ok(value(v)),
         None => unsupported(format!("an eigenvector without a value at {place:?}"), valence(n)),
@@ -98,17 +107,14 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     if n < 3 {
         return unsupported("a valence below 3", valence(n));
     }
-    if case.rule.own().is_some() {
-        return unsupported("stencils of one's own", valence(n));
+    if case.rule.own().is_some() && case.rule.steps() > 1 {
+        return unsupported("stencils of one's own for two steps that turn the mesh", valence(n));
     }
     let (Some(top), Some(ground), Some(vector)) = (&found.top, found.ground, &found.eigenvector) else {
         return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
     };
     if !matches!(top.members.as_slice(), [only] if only.blocks == [1]) {
         return unsupported("leading eigenvalues in several blocks, or with Jordan blocks", valence(n));
-    }
-    if !found.polynomial {
-        return unsupported("a ring without polynomial patches", valence(n));
     }
     if !apart(top) {
         return unsupported("eigenvalues this close", valence(n));
@@ -134,14 +140,44 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
         let unit = Rational::from(1) / sqrt_down(&size, SHORT).max(Rational::from(1) >> SHORT);
         written(&scaled(&h, &unit), SHORT)
     });
-    Ok(json!({
+    let mut evidence = json!({
         "valence": n,
         "rule": rule,
         "frequency": vector.frequency,
         "turn": written(&unity(1, n), PLACES),
         "others": rounded(&top.others, BOUND),
-        "vector": values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect::<Vec<_>>(),
-        "half_plane": half_plane,
+    });
+    if by_stencils(case) {
+        evidence["rings"] = json!(vector.rings);
+    }
+    evidence["vector"] = values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect();
+    evidence["half_plane"] = json!(half_plane);
+    Ok(evidence)
+}
+
+/// Whether the checker looks at the rule by its stencils, without patches.
+fn by_stencils(case: &VertexCase) -> bool {
+    case.rule.info().spline.is_none() || case.rule.own().is_some()
+}
+
+/// How second differences are seen to shrink where the checker does without patches; it computes itself how much.
+fn limits(case: &VertexCase) -> Result<Option<Value>, Unsupported> {
+    if !by_stencils(case) {
+        return Ok(None);
+    }
+    let Some(regular) = Regular::of(&case.rule) else {
+        return unsupported("a regular rule without bounds of its limits", case.name.clone());
+    };
+    let length = regular.shrinks.length;
+    let words = (0..length).try_fold(1_usize, |all, _| all.checked_mul(regular.parts.len()));
+    Ok(Some(if regular.shrinks.by_factors {
+        json!({ "by": "factors", "steps": FACTOR_STEPS })
+    } else if regular.shrinks_along_axes(&case.rule) {
+        json!({ "by": "axes", "steps": FACTOR_STEPS })
+    } else if words.is_some_and(|all| all <= MAX_WORDS) {
+        json!({ "by": "words", "steps": length })
+    } else {
+        return unsupported("second differences that shrink this slowly", case.name.clone());
     }))
 }
 
@@ -175,7 +211,11 @@ fn covered(case: &VertexCase, found: &[AtValence]) -> Result<Covered, Unsupporte
         };
     }
     let verdict = together(case, &claims);
-    let certificate = Certificate::new("vertex", &case.name, verdict.word(), json!({ "valences": valences }));
+    let proof = match limits(case)? {
+        Some(limits) => json!({ "limits": limits, "valences": valences }),
+        None => json!({ "valences": valences }),
+    };
+    let certificate = Certificate::new("vertex", &case.name, verdict.word(), proof);
     let certificate = certificate.without(left_out);
     Ok(Covered { certificate, listed: claims.into_iter().map(|(n, _)| n).collect(), verdict })
 }
