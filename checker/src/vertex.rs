@@ -6,6 +6,7 @@ use crate::claim::Claim;
 mod ball;
 mod case;
 mod cells;
+mod exact;
 mod factors;
 mod formula;
 mod limit;
@@ -18,6 +19,7 @@ mod rule;
 use ball::{Ball, Balls, deflated, dominated, dot, leading};
 pub use case::Case;
 use case::Scheme;
+use exact::Operator;
 use limit::Regular;
 use mesh::{MAX_VALENCE, Mesh, Net, powers};
 use num_traits::{One, Signed};
@@ -65,6 +67,9 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
 impl Case {
     /// What follows at one valence: C¹, and a tangent plane.
     fn valence(&self, node: &Node<'_>, regular: Option<&Regular>) -> Checked<(usize, Verdict, Verdict)> {
+        if node.get("value").is_some() {
+            return self.exact(node, regular);
+        }
         let [valence, rule, frequency, turn, others, rings, vector, half_plane] = match regular {
             Some(_) => node.fields("valence rule frequency turn others rings vector half_plane")?,
             None => {
@@ -76,47 +81,98 @@ impl Case {
         };
         let (n, k, radius) = (valence.index(MAX_VALENCE + 1)?, frequency.index(MAX_VALENCE)?, others.rational()?);
         node.need(n >= 3 && 2 * k <= n && radius.is_positive(), "vertex", "no such vertex, block or bound")?;
-        let pair = |node: &Node<'_>| node.vector(2).map(|mut v| (v.remove(0), v.remove(0)));
-        let powers = powers(n, &pair(&turn)?)?;
+        let (mesh, last) = self.mesh(regular, powers(n, &pair(&turn)?)?)?;
         let near = vector.list()?.iter().map(pair).collect::<Checked<Vec<_>>>()?;
-        let ring = match (&self.scheme, regular) {
-            (Scheme::Spline(spline, centre), _) => {
-                let mesh = Mesh::new(*spline, centre(n), powers)?;
-                Ring::of_patches(*spline, &mesh, &top(&mesh, k, &near, &radius, [2, 3])?)?
-            }
+        let rings = if regular.is_some() { rings.index(MAX_RINGS + 1)? as i64 } else { 2 };
+        let net = top(&mesh, k, &near, &radius, [rings, last])?;
+        let ring = self.ring(regular, &mesh, &net)?;
+        let (smooth, plane) = judged(&ring, &rule, &half_plane, [n, k, 1])?;
+        Ok((n, smooth, plane))
+    }
+
+    /// The same with rational weights and a rational leading eigenvalue, which may be one of several blocks or have Jordan blocks.
+    fn exact(&self, node: &Node<'_>, regular: Option<&Regular>) -> Checked<(usize, Verdict, Verdict)> {
+        let [valence, rule, turn, value, others, unit, half_plane] =
+            node.fields("valence rule turn value others unit half_plane")?;
+        let (n, value) = (valence.index(MAX_VALENCE + 1)?, value.rational()?);
+        node.need(n >= 3, "vertex", "no such vertex")?;
+        let (mesh, last) = self.mesh(regular, powers(n, &pair(&turn)?)?)?;
+        let operator = Operator::new(&self.scheme, &mesh)?;
+        let leading = operator.leading(&value, &others.rational()?)?;
+        if rule.text()? == "theorem-8-span" {
+            let holds = leading.count() >= 3 && unit.is_null() && half_plane.is_null();
+            rule.need(holds, "theorem-8-span", "a premise of this rule does not hold")?;
+            return Ok((n, Verdict::Refuted, Verdict::Refuted));
+        }
+        let mut net = operator.net(&mesh, &leading)?;
+        let k = net.frequency;
+        if !unit.is_null() {
+            let places = mesh.places(operator.rings);
+            let scale = mesh.at(&net, Some((places[unit.index(places.len())?], 0)))?.inverse()?;
+            net.values.values_mut().for_each(|value| *value = value.times(&scale));
+            net.centre = net.centre.times(&scale);
+        }
+        let net = mesh.continued(&Ball::real(&value), net, last.max(operator.rings))?;
+        let ring = self.ring(regular, &mesh, &net)?;
+        let (smooth, plane) = judged(&ring, &rule, &half_plane, [n, k, leading.length])?;
+        Ok((n, smooth, plane))
+    }
+
+    /// The scheme at one valence, and the rings that the ring of patches or cells needs.
+    fn mesh(&self, regular: Option<&Regular>, powers: Vec<Ball>) -> Checked<(Mesh, i64)> {
+        match (&self.scheme, regular) {
+            (Scheme::Spline(spline, centre), _) => Ok((Mesh::new(*spline, centre(powers.len()), powers)?, 3)),
             (Scheme::Rule(rule), Some(regular)) => {
                 let stencils = rule.stencils(&powers)?;
                 let last = regular.rings(&stencils.special.keys().copied().collect())?;
-                let mesh = Mesh::of_stencils(stencils, powers);
-                let net = top(&mesh, k, &near, &radius, [rings.index(MAX_RINGS + 1)? as i64, last])?;
-                Ring::of_cells(regular, &mesh, &net)?
+                Ok((Mesh::of_stencils(stencils, powers), last))
             }
-            (Scheme::Rule(_), None) => return reject("limits", "a rule by stencils without bounds of its limits"),
-        };
-        let held = if half_plane.is_null() {
-            false
-        } else {
-            let inside = ring.lies_in(&pair(&half_plane)?)? && 0 < k && 2 * k < n;
-            half_plane.need(inside, "half-plane", "the ring of a sector does not lie in it")?;
-            true
-        };
-        let holds = match rule.text()? {
-            "theorem-7" => k == 1 && held && ring.is_regular()?,
-            "theorem-8-winding" => 2 <= k && 2 * k < n,
-            "theorem-8-fold" => 0 < k && 2 * k < n && ring.folds()?,
-            "theorem-2" => k == 0 && ring.is_one_sided(false)?,
-            "theorem-8-path" => k == 0 && ring.is_one_sided(true)?,
-            _ => return rule.reject("format", "unknown rule for a vertex"),
-        };
-        rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
-        let (smooth, plane) = match rule.text()? {
-            "theorem-7" => (Verdict::Proved, Verdict::Proved),
-            "theorem-2" => (Verdict::Refuted, Verdict::Refuted),
-            _ if held => (Verdict::Refuted, Verdict::Proved),
-            _ => (Verdict::Refuted, Verdict::Undetermined),
-        };
-        Ok((n, smooth, plane))
+            (Scheme::Rule(_), None) => reject("limits", "a rule by stencils without bounds of its limits"),
+        }
     }
+
+    fn ring<'a>(&self, regular: Option<&'a Regular>, mesh: &Mesh, net: &Net) -> Checked<Ring<'a>> {
+        match (&self.scheme, regular) {
+            (Scheme::Spline(spline, _), _) => Ring::of_patches(*spline, mesh, net),
+            (Scheme::Rule(_), Some(regular)) => Ring::of_cells(regular, mesh, net),
+            (Scheme::Rule(_), None) => reject("limits", "a rule by stencils without bounds of its limits"),
+        }
+    }
+}
+
+fn pair(node: &Node<'_>) -> Checked<(Q, Q)> {
+    node.vector(2).map(|mut v| (v.remove(0), v.remove(0)))
+}
+
+/// What a rule says of the ring of the function in block `k` that ends chains of a length: C¹, and a tangent plane.
+fn judged(
+    ring: &Ring<'_>,
+    rule: &Node<'_>,
+    half_plane: &Node<'_>,
+    [n, k, length]: [usize; 3],
+) -> Checked<(Verdict, Verdict)> {
+    let held = if half_plane.is_null() {
+        false
+    } else {
+        let inside = ring.lies_in(&pair(half_plane)?)? && 0 < k && 2 * k < n;
+        half_plane.need(inside, "half-plane", "the ring of a sector does not lie in it")?;
+        true
+    };
+    let holds = match rule.text()? {
+        "theorem-7" => k == 1 && held && ring.is_regular()?,
+        "theorem-8-winding" => 2 <= k && 2 * k < n && (held || length == 1),
+        "theorem-8-fold" => 0 < k && 2 * k < n && ring.folds()?,
+        "theorem-2" => k == 0 && ring.is_one_sided(false)?,
+        "theorem-8-path" => k == 0 && ring.is_one_sided(true)?,
+        _ => return rule.reject("format", "unknown rule for a vertex"),
+    };
+    rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
+    Ok(match rule.text()? {
+        "theorem-7" => (Verdict::Proved, Verdict::Proved),
+        "theorem-2" => (Verdict::Refuted, Verdict::Refuted),
+        _ if held => (Verdict::Refuted, Verdict::Proved),
+        _ => (Verdict::Refuted, Verdict::Undetermined),
+    })
 }
 
 /// Proves that the block `k` has exactly one eigenvalue of modulus `radius` or more but the 1 of block 0, that it is simple and smaller

@@ -19,7 +19,7 @@ const SIZE: usize = 50;
 /// Binary places of half-planes.
 const SHORT: usize = 16;
 /// How often a cell is divided at most.
-const DEPTH: usize = 14;
+const DEPTH: usize = 16;
 /// How many cells are looked at.
 const MAX_CELLS: usize = 200_000;
 

@@ -5,7 +5,7 @@ use super::factors::by_factors;
 use super::mesh::Place;
 use super::rule::{Lattice, Mask};
 use crate::base::number::{lcm, ratio};
-use crate::base::{Checked, Matrix, Node, Q, need, some, whole};
+use crate::base::{Checked, Matrix, Node, Q, need, reject, some, whole};
 use num_bigint::BigInt;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,6 +17,8 @@ pub type Cell = (Place, i64);
 const MAX_POINTS: usize = 64;
 /// Words at most.
 const MAX_WORDS: usize = 1000;
+/// The same for changes of slopes.
+const MAX_CHANGES: usize = 4096;
 /// Steps taken together at most.
 const MAX_STEPS: usize = 7;
 /// Binary places of the bounds.
@@ -146,9 +148,10 @@ pub fn four(o: Place, [u, v]: [Place; 2]) -> [Place; 4] {
 impl Regular {
     /// The rule with its bounds; `limits` says how second differences are seen to shrink.
     pub fn new(rule: &Lattice, limits: &Node<'_>) -> Checked<Self> {
-        let [by, count] = limits.fields("by steps")?;
-        let (by, count) = (by.text()?, count.index(MAX_STEPS + 1)?);
-        need(["factors", "axes", "words"].contains(&by) && count > 0, "format", "no such way to bound limits")?;
+        let [by, count, stride] = limits.fields("by steps changes")?;
+        let (by, count, stride) = (by.text()?, count.index(MAX_STEPS + 1)?, stride.index(MAX_STEPS + 1)?);
+        let known = ["factors", "axes", "words"].contains(&by) && stride > 0 && count > 0;
+        need(known && count.is_multiple_of(stride), "format", "no such way to bound limits")?;
         let turned = |(p, w): (&Place, &Q)| rule.mask.get(&(-p.0, -p.1)) == Some(w);
         need(rule.mask.iter().all(turned), "limits", "the mask is not symmetric under half a turn")?;
         let parts = parts(rule.triangles, rule.factor);
@@ -179,9 +182,9 @@ impl Regular {
             "words" => norms.by_words(&weights.matrices, rule.factor, count)?,
             _ => by_factors(rule, &regular, &all, count)?,
         };
-        let (slope, value) = norms.changes(&weights.matrices)?;
-        let sums = [sum(&shrinking, 1)?, sum(&shrinking, rule.factor)?];
-        (regular.slope, regular.value) = (units(&(slope * &sums[0]))?, units(&(value * &sums[1]))?);
+        let slope = norms.slopes(&weights.matrices, stride)? * sum(&shrinking, 1, stride)?;
+        let value = norms.values(&weights.matrices)? * sum(&shrinking, rule.factor, 1)?;
+        (regular.slope, regular.value) = (units(&slope)?, units(&value)?);
         Ok(regular)
     }
 
@@ -190,17 +193,13 @@ impl Regular {
     }
 }
 
-/// `Σ R_m / N^m` over all `m`, from those of the first steps: `R_(ak+b) ≤ R_k^a R_b`.
-fn sum(shrinking: &[Q], factor: i64) -> Checked<Q> {
-    let (mut all, mut scale, mut rest) = (Q::zero(), Q::one(), Q::zero());
-    for (m, r) in shrinking.iter().enumerate() {
-        rest = r / &scale;
-        if m + 1 < shrinking.len() {
-            all += &rest;
-        }
-        scale *= whole(factor);
-    }
-    need(shrinking.len() > 1 && rest < Q::one(), "limits", "second differences are not seen to shrink in these steps")?;
+/// `Σ R_m / N^m` over all multiples `m` of the stride, from those of the first steps: `R_(ak+b) ≤ R_k^a R_b`.
+fn sum(shrinking: &[Q], factor: i64, stride: usize) -> Checked<Q> {
+    let Some((last, first)) = shrinking.split_last() else { return reject("limits", "no steps") };
+    let scaled = |m: usize, r: &Q| r / num_traits::pow(whole(factor), m);
+    let all: Q = first.iter().enumerate().step_by(stride).map(|(m, r)| scaled(m, r)).sum();
+    let rest = scaled(first.len(), last);
+    need(rest < Q::one(), "limits", "second differences are not seen to shrink in these steps")?;
     Ok(all / (Q::one() - rest))
 }
 
@@ -333,24 +332,43 @@ impl<'a> Norms<'a> {
         Ok(all)
     }
 
-    /// How much one step changes slopes and the linear fit.
-    fn changes(&self, steps: &[Matrix]) -> Checked<(Q, Q)> {
+    /// How much the steps along all words of a length change slopes.
+    fn slopes(&self, steps: &[Matrix], length: usize) -> Checked<Q> {
+        let r = self.regular;
+        let (slopes, _) = fits(r)?;
+        let (mut words, mut scale) = (vec![(slopes.clone(), 1)], Q::one());
+        for _ in 0..length {
+            need(words.len() * steps.len() <= MAX_CHANGES, "limit", "too many words")?;
+            let longer = words.iter().flat_map(|(word, sign)| {
+                let part = move |(step, part): (&Matrix, &Cell)| Ok((word.times(step)?.reduced(), sign * part.1));
+                steps.iter().zip(&r.parts).map(part)
+            });
+            words = longer.collect::<Checked<_>>()?;
+            scale *= whole(r.factor);
+        }
+        let mut worst = Q::zero();
+        for (word, sign) in words {
+            let change = word.scaled(&(&scale * whole(sign))).minus(&slopes);
+            worst = worst.max(self.largest(&change)?);
+        }
+        Ok(worst)
+    }
+
+    /// How much one step changes the linear fit.
+    fn values(&self, steps: &[Matrix]) -> Checked<Q> {
         let r = self.regular;
         let (slopes, fits) = fits(r)?;
-        let factor = whole(r.factor);
-        let (mut slope, mut value) = (Q::zero(), Q::zero());
+        let (factor, mut worst) = (whole(r.factor), Q::zero());
         for (part, step) in r.parts.iter().zip(steps) {
-            let new = slopes.times(step)?.scaled(&(&factor * whole(part.1)));
-            slope = slope.max(self.largest(&new.minus(&slopes))?);
             let new = fits.times(step)?;
             for (k, corner) in corners(r.triangles).iter().enumerate() {
                 let (x, y) = place(part, *corner);
                 let old = fits.row(0).plus(&(whole(x) / &factor), &slopes.row(0));
                 let old = old.plus(&(whole(y) / &factor), &slopes.row(1));
-                value = value.max(self.largest(&new.row(k).minus(&old))?);
+                worst = worst.max(self.largest(&new.row(k).minus(&old))?);
             }
         }
-        Ok((slope, value))
+        Ok(worst)
     }
 }
 
@@ -381,8 +399,9 @@ mod tests {
     use super::*;
     use crate::base::Json;
 
-    fn regular(rule: &Lattice, by: &str, steps: u64) -> Checked<Regular> {
-        let limits = vec![("by".to_owned(), Json::Text(by.to_owned())), ("steps".to_owned(), Json::Index(steps))];
+    fn regular(rule: &Lattice, by: &str, steps: u64, changes: u64) -> Checked<Regular> {
+        let [by, steps, changes] = [Json::Text(by.to_owned()), Json::Index(steps), Json::Index(changes)];
+        let limits = vec![("by".to_owned(), by), ("steps".to_owned(), steps), ("changes".to_owned(), changes)];
         Regular::new(rule, &Node { value: &Json::Object(limits), place: String::new() })
     }
 
@@ -413,16 +432,16 @@ mod tests {
             i128::from(seed >> 44) << 40
         };
         let rules = [
-            (butterfly(1, 16), "factors", 6, 4),
-            (butterfly(1, 100), "factors", 6, 4),
-            (turned(true), "words", 1, 2),
-            (turned(false), "factors", 3, 4),
-            (turned(false), "words", 2, 4),
-            (product(&[16, 9, 0, -1], 16), "axes", 6, 4),
-            (product(&[6, 4, 1], 8), "axes", 2, 4),
+            (butterfly(1, 16), "factors", [6, 3], 4),
+            (butterfly(1, 100), "factors", [6, 1], 4),
+            (turned(true), "words", [1, 1], 2),
+            (turned(false), "factors", [3, 3], 4),
+            (turned(false), "words", [2, 1], 4),
+            (product(&[16, 9, 0, -1], 16), "axes", [6, 2], 4),
+            (product(&[6, 4, 1], 8), "axes", [2, 2], 4),
         ];
-        for (rule, by, steps, depth) in rules {
-            let r = regular(&rule, by, steps).unwrap();
+        for (rule, by, [steps, changes], depth) in rules {
+            let r = regular(&rule, by, steps, changes).unwrap();
             let (scale, all) = (if r.triangles { 1 } else { 2 }, corners(r.triangles));
             let at = |v: &[i128], c: &Place| v[r.points.iter().position(|p| p == c).unwrap()];
             let slopes = |v: &[i128]| match all.iter().map(|c| at(v, c)).collect::<Vec<_>>()[..] {
@@ -463,16 +482,22 @@ mod tests {
     #[test]
     fn bounds_are_refused() {
         // In hundredths, by a script of its own in floats.
-        for (rule, by, steps, slope) in [
-            (butterfly(1, 16), "factors", 6, 599),
-            (turned(true), "words", 1, 726),
-            (turned(false), "words", 2, 454),
-            (turned(false), "factors", 1, 209),
-            (product(&[16, 9, 0, -1], 16), "axes", 6, 445),
+        for (rule, by, [steps, changes], slope) in [
+            (butterfly(1, 16), "factors", [6, 1], 599),
+            (butterfly(1, 16), "factors", [4, 4], 419),
+            (butterfly(1, 100), "factors", [4, 4], 428),
+            (turned(true), "words", [1, 1], 726),
+            (turned(false), "words", [2, 1], 454),
+            (turned(false), "factors", [1, 1], 209),
+            (product(&[16, 9, 0, -1], 16), "axes", [6, 1], 445),
         ] {
-            let found = (100 * regular(&rule, by, steps).unwrap().slope) >> PLACES;
+            let found = (100 * regular(&rule, by, steps, changes).unwrap().slope) >> PLACES;
             assert!((found - slope).abs() <= 1, "{by}: {found} hundredths");
         }
+        assert!(
+            regular(&butterfly(1, 16), "factors", 6, 4).is_err()
+                && regular(&butterfly(1, 16), "factors", 6, 0).is_err()
+        );
         // Piecewise linear, not convergent, or not seen to shrink in these steps.
         let bad = [
             (butterfly(0, 1), "factors", 6),
@@ -488,7 +513,7 @@ mod tests {
             (butterfly(1, 16), "factors", 0),
         ];
         for (k, (rule, by, steps)) in bad.iter().enumerate() {
-            assert!(regular(rule, by, *steps).is_err(), "{k}");
+            assert!(regular(rule, by, *steps, 1).is_err(), "{k}");
         }
     }
 }

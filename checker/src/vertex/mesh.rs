@@ -89,6 +89,14 @@ fn outside<T>() -> Checked<T> {
 }
 
 impl Spline {
+    /// The old places of a new point in the regular mesh.
+    pub fn terms(self, (i, j): Place) -> Vec<(Place, Q)> {
+        let old = (-2..=3).flat_map(|a| (-2..=3).map(move |b| (a, b)));
+        let reached = old.filter(|(a, b)| (i - 2 * a).abs() <= 2 && (j - 2 * b).abs() <= 2);
+        let term = |q: Place| (q, self.mask((i - 2 * q.0, j - 2 * q.1)));
+        reached.map(term).filter(|(_, weight)| !weight.is_zero()).collect()
+    }
+
     /// The weight of the old point `q` in the new point `q`·2 + `offset`.
     fn mask(self, (i, j): Place) -> Q {
         let far = |x: i64| usize::from(!(0..=1).contains(&x));
@@ -154,7 +162,8 @@ impl Mesh {
         self.powers.len()
     }
 
-    fn dual(&self) -> bool {
+    /// Whether the centre is a face.
+    pub fn dual(&self) -> bool {
         matches!(self.around, Around::Spline(Spline::Biquadratic | Spline::Quadratic, _))
     }
 
@@ -167,7 +176,7 @@ impl Mesh {
     }
 
     /// `ω^turn`.
-    fn power(&self, turn: i64) -> &Ball {
+    pub fn power(&self, turn: i64) -> &Ball {
         &self.powers[turn.rem_euclid(self.powers.len() as i64) as usize]
     }
 
@@ -191,11 +200,8 @@ impl Mesh {
     fn stencil(&self, (i, j): Place) -> Checked<Terms> {
         match &self.around {
             Around::Spline(spline, _) => {
-                let old = (-2..=3).flat_map(|a| (-2..=3).map(move |b| (a, b)));
-                let reached = old.filter(|(a, b)| (i - 2 * a).abs() <= 2 && (j - 2 * b).abs() <= 2);
-                let term = |q: Place| (self.locate(q), spline.mask((i - 2 * q.0, j - 2 * q.1)));
-                let used = reached.map(term).filter(|(_, weight)| !weight.is_zero());
-                Ok(used.map(|(old, weight)| (old, Ball::real(&weight))).collect())
+                let term = |(q, weight): (Place, Q)| (self.locate(q), Ball::real(&weight));
+                Ok(spline.terms((i, j)).into_iter().map(term).collect())
             }
             Around::Stencils(stencils) => stencils.at((i, j)),
         }

@@ -115,7 +115,7 @@ fn vertices_by_stencils() {
         "/valences/0/frequency",
         "/valences/0/valence",
     );
-    let limits = |by: &str, steps: usize| json!({"by": by, "steps": steps});
+    let limits = |by: &str, steps: usize| json!({"by": by, "steps": steps, "changes": 1});
     let short = |x: &str, y: &str| json!([x, y]);
     let sixth = short("1/2", "136876158426/158050973531");
     let butterfly: &[(&str, &[(&str, Value)])] = &[
@@ -127,6 +127,8 @@ fn vertices_by_stencils() {
         ("format", &[("/limits", limits("factors", 8))]),
         ("format", &[("/limits", limits("words", 0))]),
         ("format", &[("/limits", limits("nothing", 4))]),
+        ("format", &[("/limits", json!({"by": "factors", "steps": 4, "changes": 3}))]),
+        ("format", &[("/limits", json!({"by": "factors", "steps": 4, "changes": 0}))]),
         ("format", &[("/limits", json!({"by": "factors"}))]),
         ("format", &[("/limits", json!([]))]),
         ("vertex", &[("/valences", json!([]))]),
@@ -202,7 +204,7 @@ fn vertices_by_stencils() {
     for (wanted, old, new) in [
         ("case", "neighbours = \"1/16\"", "neighbours = \"1/15\""),
         ("case", "sides = \"1/8\"", "sides = \"1/9\""),
-        ("format", "sides = ", "wheels = "),
+        ("case", "sides = ", "wheels = "),
         ("format", "n)/4)/n", "m)/4)/n"),
         ("format", "n)/4)/n", "n)/4/n"),
         ("format", "cos(2*pi*k/n)", "pi*k/n"),
@@ -211,9 +213,64 @@ fn vertices_by_stencils() {
         ("vertex", "3/4*cos", "3/5*cos"),
         ("case", "neighbours@0\" = \"1/8", "neighbours@1\" = \"1/8"),
         ("case", "3/(8*n)", "4/(8*n)"),
-        ("format", "triangles", "turned-triangles"),
+        ("case", "triangles", "turned-triangles"),
         ("limits", "ends = \"3/8\", sides = \"1/8\"", "ends = \"1/2\""),
     ] {
         assert_eq!(other("vertex-own", old, new), wanted, "{new}");
+    }
+}
+
+/// Leading eigenvalues of several blocks, and with Jordan blocks.
+#[test]
+fn vertices_with_equal_eigenvalues() {
+    let (rule_of, value, others, unit, half, turn, valence) = (
+        "/valences/0/rule",
+        "/valences/0/value",
+        "/valences/0/others",
+        "/valences/0/unit",
+        "/valences/0/half_plane",
+        "/valences/0/turn",
+        "/valences/0/valence",
+    );
+    let changes = |items: &[(&'static str, Value)]| items.to_vec();
+    for (name, wanted, items) in [
+        // A triple eigenvalue.
+        ("vertex-span", "vertex", changes(&[(value, json!("1/5"))])),
+        ("vertex-span", "vertex", changes(&[(value, json!("0"))])),
+        ("vertex-span", "vertex", changes(&[(value, json!("1"))])),
+        ("vertex-span", "vertex", changes(&[(value, json!("-1/4"))])),
+        ("vertex-span", "vertex", changes(&[(value, json!("1/8"))])),
+        ("vertex-span", "vertex", changes(&[(value, json!("1/8")), (others, json!("1/9"))])),
+        ("vertex-span", "vertex", changes(&[(others, json!("0"))])),
+        ("vertex-span", "vertex", changes(&[(others, json!("-1/5"))])),
+        ("vertex-span", "vertex", changes(&[(others, json!("1/100"))])),
+        ("vertex-span", "vertex", changes(&[(others, json!("1/4"))])),
+        ("vertex-span", "vertex", changes(&[(others, json!("1/2"))])),
+        ("vertex-span", "theorem-8-span", changes(&[(unit, json!(0))])),
+        ("vertex-span", "theorem-8-span", changes(&[(half, json!(["1", "0"]))])),
+        ("vertex-span", "vertex", changes(&[(rule_of, json!("theorem-7")), ("^/verdict", json!("proved"))])),
+        ("vertex-span", "vertex", changes(&[(rule_of, json!("theorem-2"))])),
+        ("vertex-span", "vertex", changes(&[(valence, json!(4))])),
+        ("vertex-span", "vertex", changes(&[(turn, json!(["1", "0"]))])),
+        // A pair of Jordan blocks of length 2, beside simple ones.
+        ("vertex-chains", "theorem-8-span", changes(&[(rule_of, json!("theorem-8-span")), (unit, Value::Null)])),
+        ("vertex-chains", "theorem-7", changes(&[(half, Value::Null)])),
+        ("vertex-chains", "half-plane", changes(&[(half, json!(["-1", "0"]))])),
+        ("vertex-chains", "half-plane", changes(&[(half, json!(["0", "1"]))])),
+        ("vertex-chains", "format", changes(&[(unit, json!(4))])),
+        ("vertex-chains", "vertex", changes(&[(value, json!("1/3"))])),
+        ("vertex-chains", "vertex", changes(&[(others, json!("1/4"))])),
+        ("vertex-chains", "theorem-8-winding", changes(&[(rule_of, json!("theorem-8-winding"))])),
+        ("vertex-chains", "theorem-8-fold", changes(&[(rule_of, json!("theorem-8-fold"))])),
+        ("vertex-chains", "theorem-2", changes(&[(rule_of, json!("theorem-2"))])),
+        ("vertex-chains", "vertex", changes(&[(valence, json!(4))])),
+        // One block of length 3.
+        ("vertex-chain", "theorem-7", changes(&[(rule_of, json!("theorem-7"))])),
+        ("vertex-chain", "theorem-8-span", changes(&[(rule_of, json!("theorem-8-span"))])),
+        ("vertex-chain", "half-plane", changes(&[(half, json!(["1", "0"]))])),
+        ("vertex-chain", "vertex", changes(&[(value, json!("1/8"))])),
+        ("vertex-chain", "verdict", changes(&[("^/verdict", json!("proved"))])),
+    ] {
+        assert_eq!(rule(name, &items), wanted, "{name} {items:?}");
     }
 }
