@@ -392,6 +392,15 @@ fn a_frequency_is_a_whole_number() {
     }
 }
 
+/// At valence 2 with these weights 1/4 leads in block 1 twice, with the net of (u² − v², uv): the surface is C¹, and no statement
+/// here covers it. It was refuted once.
+#[test]
+fn an_odd_map_at_valence_2_is_not_refuted() {
+    let weights = [("alpha".to_owned(), ratio(1, 2)), ("beta".to_owned(), ratio(1, 4))].into();
+    let found = at_valence(&mesh_rule("catmull-clark-variant", &weights).unwrap(), 2).unwrap();
+    assert_eq!((found.smooth, found.plane), (Verdict::Undetermined, Verdict::Undetermined));
+}
+
 /// At valence 2 the quadratic of Catmull and Clark's block 1 has the double root 1/4, and −1/4 is in block 0: the leading
 /// eigenvectors span three dimensions.
 #[test]

@@ -6,8 +6,9 @@ use secant::arith::{Integer, Rational, abs, ratio, to_f64};
 use secant::linalg::Matrix;
 use secant::radius::Options;
 use secant::scheme::Interpolation;
-use secant::shape::{CellKind, End, Frame, Piece, Shape, Spaces, State};
+use secant::shape::{Address, CellKind, End, Frame, Piece, Shape, Spaces, State};
 use secant::theorem::Side;
+use secant::theorem::characteristic::Characteristic;
 use secant::theorem::local::{LocalContext, LocalLimit, LocalSide};
 use secant::theorem::smoothness::{CurveRegularity, Outcome, Seen, curve_regularity};
 
@@ -529,10 +530,71 @@ fn certificates_of_exponents_in_shares_are_checked() {
 
 /// The sides of the points of a curve: by point, those of all branches.
 fn sides(shape: &Shape, addresses: &[&str]) -> Vec<Vec<LocalSide>> {
-    let addresses: Vec<_> = addresses.iter().map(|a| secant::shape::Address::parse(a).unwrap()).collect();
+    let addresses: Vec<_> = addresses.iter().map(|a| Address::parse(a).unwrap()).collect();
     let found = secant::theorem::certify(shape, &addresses).unwrap();
-    let context = LocalContext::new(shape, &found.contraction).unwrap();
+    let context = LocalContext::new(shape, &found).unwrap();
     found.points.iter().map(|p| p.branches.iter().flat_map(|b| context.sides(b)).collect()).collect()
+}
+
+#[test]
+fn characteristic_maps() {
+    let curve = |p, q| secant::scheme::build("takagi", &[("alpha".to_owned(), ratio(p, q))].into()).unwrap();
+    // Of 2x − 2x² the leading coefficient is the abscissa.
+    for side in sides(&curve(1, 4), &["(01)"]).iter().flatten() {
+        assert!(matches!(side.characteristic, Some(Characteristic::Injective { cells: 1.. })), "{side:?}");
+    }
+    // Above 1/2 it is the height, which is monotone nowhere; the chords of the two cells have opposite signs.
+    let curve = curve(3, 5);
+    let found = secant::theorem::certify(&curve, &[]).unwrap();
+    let secant::theorem::Outcome::Line { functional, .. } = &found.points[0].branches[0].outcome else {
+        panic!("a line at 0")
+    };
+    let side = &sides(&curve, &[])[0][0];
+    let Some(Characteristic::Not { words }) = &side.characteristic else { panic!("{side:?}") };
+    let change = |word: &Vec<usize>| {
+        let at = |end: &str| curve.point(0, &Address::parse(&format!("{}{end}", text(word))).unwrap()).unwrap();
+        let chord: Vec<_> = at("(1)").iter().zip(at("(0)")).map(|(a, b)| a - b).collect();
+        let row = found.points[0].branches[0].chart.apply(&chord);
+        let values = row.iter().zip(functional).map(|(x, f)| f.is_rational().unwrap() * x);
+        values.fold(ratio(0, 1), |sum, x| sum + x)
+    };
+    let changes: Vec<_> = words.iter().map(change).collect();
+    assert!(changes.len() == 2 && changes[0] > 0 && changes[1] < 0, "{words:?}: {changes:?}");
+}
+
+fn text(word: &[usize]) -> String {
+    word.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn difference_polygons_tend_to_derivatives() {
+    let orders = |name: &str, degree: i64| {
+        let shape = secant::scheme::build(name, &[("degree".to_owned(), ratio(degree, 1))].into()).unwrap();
+        let spaces = Spaces::new(&shape).unwrap();
+        curve_regularity(&shape, &spaces, &Options::default()).unwrap().orders
+    };
+    // Of a Bézier curve of degree n the derivative of order k is n … (n−k+1) times the differences; every rate above 1/2.
+    let mut factor = ratio(1, 1);
+    for (k, order) in orders("bezier", 4).iter().enumerate().skip(1) {
+        factor /= Rational::from(5 - k);
+        assert_eq!(order.polygons, Some(vec![factor.clone()]), "order {k}");
+        assert_eq!(order.rate(), Some(if k == 4 { ratio(0, 1) } else { ratio(1, 2) }), "order {k}");
+    }
+    // Of uniform B-splines, differences of unit knots.
+    for (k, order) in orders("bspline", 4).iter().enumerate().skip(1) {
+        let sign = order.polygons.as_ref().unwrap()[0].clone();
+        assert_eq!(abs(&sign), 1, "order {k}");
+    }
+    // In numbers, for t³: the first differences of the cell at t, divided by its length, are t² up to C 2^−m.
+    let shape = secant::scheme::build("bezier", &[("degree".to_owned(), ratio(3, 1))].into()).unwrap();
+    let word: Vec<usize> = (0..14).map(|k| (k * k / 3) % 2).collect();
+    let operator = word.iter().fold(Matrix::identity(4), |m, &l| &m * &shape.states[0].pieces[l].op);
+    let (length, t) = shape.parameter_map(0, &word).unwrap();
+    for j in 0..3 {
+        let difference = (&operator[(3, j + 1)] - &operator[(3, j)]) / &length;
+        let error = difference - &t * &t;
+        assert!(error < &length * ratio(3, 1) && error > &length * ratio(-3, 1), "{j}");
+    }
 }
 
 fn values(point: &[LocalSide]) -> Vec<(Side, Option<usize>, Vec<Rational>)> {

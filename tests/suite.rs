@@ -46,6 +46,8 @@ mod lattice;
 mod laws;
 #[path = "meshes.rs"]
 mod meshes;
+#[path = "outputs.rs"]
+mod outputs;
 #[path = "questions.rs"]
 mod questions;
 #[path = "radius.rs"]
@@ -56,6 +58,8 @@ mod readers;
 mod refinement;
 #[path = "regions.rs"]
 mod regions;
+#[path = "regions_plane.rs"]
+mod regions_plane;
 #[path = "regions_vertex.rs"]
 mod regions_vertex;
 #[path = "regularity.rs"]

@@ -135,7 +135,7 @@ impl Answered {
         let written = self.evidence.clone().unwrap_or_else(|| unconfirmed(&self.findings));
         written.map_err(|unsupported| {
             Problem::new("secant::certificate::none", unsupported.to_string())
-                .with_help("see docs/certificate.md, “What is not covered”; nothing was written")
+                .with_help("see docs/certificate.md, “What is not covered”; no certificate was written")
         })
     }
 
@@ -147,8 +147,8 @@ impl Answered {
     pub fn picture(&self, cones: bool) -> Result<String, Problem> {
         let (case, found) = match &self.findings {
             Findings::Tangents { case, found } => (case, found),
-            Findings::OverField { case, .. } => {
-                let drawn = if cones { None } else { figures::near(case) };
+            Findings::OverField { case, found } => {
+                let drawn = if cones { None } else { figures::attractor(case, found) };
                 return drawn.map(|p| p.svg).ok_or_else(|| undrawn(&case.name));
             }
             Findings::Vertices { case, found, .. } => {
@@ -180,9 +180,8 @@ impl Answered {
             Findings::Tangents { case, found } => {
                 figures::attractor_png(case, found, pixels).ok_or_else(|| undrawn(&case.name))
             }
-            Findings::OverField { .. } => {
-                Err(Problem::new("secant::picture", "there is no PNG image of a case with irrational entries here")
-                    .with_help("take --svg, or `secant render`"))
+            Findings::OverField { case, found } => {
+                figures::attractor_png(case, found, pixels).ok_or_else(|| undrawn(&case.name))
             }
             Findings::Vertices { .. } => {
                 Err(Problem::new("secant::picture", "there is no PNG image of the vertices of a mesh")

@@ -10,14 +10,17 @@ mod curve_family;
 mod expect;
 mod faces;
 mod field;
+mod free;
 mod interpolate;
 mod lattice;
 mod maps;
 mod matrix;
 pub mod matrix_file;
+mod member;
 mod node;
 mod own;
 mod parameters;
+mod plane_family;
 mod question;
 mod read;
 mod schema;
@@ -35,7 +38,9 @@ pub use curve_family::{CurveFamilyCase, FamilyForm};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::is_over_field;
 pub use lattice::LatticeCase;
-pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting};
+pub use member::{member_text, valued};
+pub use parameters::{MaskFamilyCase, Setting, named_family, setting};
+pub use plane_family::PlaneFamilyCase;
 pub use question::{Question, Subject};
 pub use schema::schema;
 pub use vertex::{Valences, VertexCase};
@@ -318,7 +323,7 @@ impl Case {
                     | Origin::States
             )
         );
-        let member = self.text.text.starts_with(parameters::MEMBER);
+        let member = member::is_member(&self.text.text);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }
 }

@@ -125,8 +125,8 @@ fn made(path: &Path, stem: &str, wanted: Report) -> Result<Made, Problem> {
                 ),
             )
         }
-        Findings::OverField { case, .. } => {
-            let picture = figures::near(case).map(|p| p.thumbnail);
+        Findings::OverField { case, found } => {
+            let picture = figures::attractor(case, found).map(|p| p.thumbnail);
             let kinds = escaped(&answered.kinds().join(", "));
             (picture, format!("{}: {kinds}", marked(answered.findings.verdict())))
         }

@@ -15,13 +15,13 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 pub struct RefineArgs {
     /// A case file of a curve or a surface, or the name of a scheme with its parameters in quotation marks.
-    case: String,
+    pub(super) case: String,
     /// How often to refine.
     #[arg(long, value_name = "COUNT", default_value_t = 1)]
     steps: usize,
     /// Write the refined case to a file instead of the standard output.
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    pub(super) output: Option<PathBuf>,
 }
 
 /// Writes the refined case.
@@ -30,8 +30,15 @@ pub fn run(args: &RefineArgs) -> u8 {
 }
 
 fn refined(args: &RefineArgs) -> Result<String, Problem> {
-    let Question::Tangents { case, .. } = Question::ask(&args.case)? else {
-        return Err(refused(&JunctionError::Refinement("only curves and surfaces are refined".to_owned())));
+    let case = match Question::ask(&args.case)? {
+        Question::Tangents { case, .. } => case,
+        Question::OverField { .. } => {
+            let message = "curves with irrational entries are not refined yet";
+            return Err(Problem::new("secant::refine", message).with_help("write rational entries"));
+        }
+        Question::Vertices { .. } => {
+            return Err(refused(&JunctionError::Refinement("only curves and surfaces are refined".to_owned())));
+        }
     };
     let first = case.complex();
     let mut complex = first.clone();

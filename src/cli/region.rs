@@ -1,11 +1,13 @@
 //! `secant region`.
 
-use super::output::{print, settle, shown, write_certificate, write_file};
+use super::files::Written;
+use super::output::{print, settle, shown};
+use super::progress::Progress;
 use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
-use crate::ask::{Asked, Family};
+use crate::ask::{Asked, DEPTH, Family, MAX_DEPTH};
 use crate::budget::{Budget, Effort};
 use crate::case::{Valences, setting};
 use crate::diagnostic::Problem;
@@ -20,7 +22,7 @@ pub struct RegionArgs {
     /// A case file with `[parameters]` and a mask, maps, operators or a `[vertex]` table, or the name of a scheme, with the range of its parameter behind it, as in
     /// `four-point w=-1/2..1/2`.
     #[arg(value_name = "CASE")]
-    what: String,
+    pub(super) what: String,
     /// A range or a value of a parameter, instead of what the file says.
     #[arg(value_name = "NAME=FROM..TO|NAME=VALUE")]
     parameters: Vec<String>,
@@ -33,6 +35,12 @@ pub struct RegionArgs {
     /// The valences of a case about vertices, in the place of those of the file: 5, 3..12 or 3,5,8.
     #[arg(long, value_name = "LIST", value_parser = Valences::parse)]
     valence: Option<Valences>,
+    /// With two parameters: how often the plane is halved in both directions, at most 10; 7 without it.
+    #[arg(long, value_name = "COUNT")]
+    depth: Option<usize>,
+    /// No progress bar.
+    #[arg(long, short)]
+    quiet: bool,
     /// Gaps that are narrower are left.
     #[arg(long, value_name = "WIDTH", value_parser = width, default_value = "1e-6")]
     width: Rational,
@@ -51,13 +59,13 @@ pub struct RegionArgs {
     json: bool,
     /// Write the tables with the statements to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
-    /// Draw a bar for each order, claim or valence, coloured by verdict.
+    pub(super) report: Option<PathBuf>,
+    /// Draw a bar for each order, claim or valence, or the plane of two parameters, coloured by verdict.
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    pub(super) svg: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md), and the family beside it.
     #[arg(long, value_name = "FILE")]
-    certificate: Option<PathBuf>,
+    pub(super) certificate: Option<PathBuf>,
 }
 
 fn width(text: &str) -> Result<Rational, String> {
@@ -85,34 +93,34 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
         search = search.within(seconds);
     }
     search.hulls = args.hulls.unwrap_or(search.hulls);
-    let asked = Asked { order: args.order, valences: args.valence.clone() };
-    let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort))?;
-    files(args, &found, render)?;
+    let asked = Asked { order: args.order, valences: args.valence.clone(), depth: args.depth };
+    let bar = Progress::of(1 << (2 * args.depth.unwrap_or(DEPTH).min(MAX_DEPTH)), "boxes", args.quiet);
+    let step = |count| bar.advance(count);
+    let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort), &step);
+    bar.finish();
+    let found = found?;
+    let written = files(args, &found, render);
     if args.json {
         print(&format!("{:#}\n", found.data()));
     } else {
         print(&shown(&found.document()));
     }
-    Ok(match found.verdict() {
+    Ok(written.code(match found.verdict() {
         Verdict::Proved => PROVED,
         Verdict::Refuted => REFUTED,
         Verdict::Undetermined => UNDETERMINED,
-    })
+    }))
 }
 
-fn files(args: &RegionArgs, found: &Family, render: Option<fn(&Document) -> String>) -> Result<(), Problem> {
-    let certificate = args.certificate.as_ref().map(|_| found.certificate()).transpose()?;
-    if let (Some(path), Some(render)) = (&args.report, render) {
-        write_file(path, render(&found.report()))?;
-    }
-    if let Some(path) = &args.svg {
-        let svg = found.svg().ok_or_else(|| Problem::new("secant::region", "there is nothing to draw"))?;
-        write_file(path, svg)?;
-    }
-    if let (Some(path), Some((text, family))) = (&args.certificate, certificate) {
-        write_certificate(path, text, Some(family))?;
-    }
-    Ok(())
+fn files(args: &RegionArgs, found: &Family, render: Option<fn(&Document) -> String>) -> Written {
+    let mut written = Written::default();
+    let report = args.report.as_deref().zip(render);
+    written.file(report.map(|r| r.0), |_| Ok(report.map(|r| r.1(&found.report())).unwrap_or_default()));
+    written.file(args.svg.as_deref(), |_| {
+        found.svg().ok_or_else(|| Problem::new("secant::region", "there is nothing to draw"))
+    });
+    written.certificate(args.certificate.as_deref(), || found.certificate().map(|(text, family)| (text, Some(family))));
+    written
 }
 
 /// The writer of a report that its ending names.

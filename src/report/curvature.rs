@@ -62,11 +62,16 @@ pub(super) fn table(found: &[AtValence]) -> Option<Table> {
     Some(Table { caption, header, rows: known.iter().map(row).collect() })
 }
 
+/// Enclosure of ρ/λ², as two exact ends; where the curvature tends to 0 only an upper bound below 1 is known.
+pub(super) fn ratio(c: &Curvature) -> Value {
+    super::regularity::bounds(&c.ratio)
+}
+
 /// The same as data.
 pub(super) fn data(c: &Curvature) -> Value {
     json!({
         "almost_all": size(c),
-        "ratio": to_f64(&c.ratio.mid()),
+        "ratio": ratio(c),
         "power": c.power,
         "exponent": c.exponent.filter(|p| p.is_finite()),
         "c2": match c.second {

@@ -1,10 +1,11 @@
 //! The pictures of a report.
 
 use super::document::{Block, Line, line, words};
+use super::reported::Reported;
 use super::text::math_line;
 use super::values::{root_decimals, root_math};
 use super::words::{addresses, count, listed, point_name};
-use crate::algebraic::{Elem, Real, Root};
+use crate::algebraic::{Elem, Root};
 use crate::arith::{Rational, to_f64};
 use crate::case::Case;
 use crate::jordan::Spectrum;
@@ -16,14 +17,12 @@ use crate::theorem::{
 
 /// Most points that are marked in a picture.
 const MAX_MARKS: usize = 12;
-/// Binary digits of the entries from which a case with irrational ones is drawn.
-const PICTURE_BITS: u64 = 64;
 
 /// The attractor with the points examined and the rays found there; `None` where it cannot be drawn.
 #[must_use]
-pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
+pub fn attractor<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Picture> {
     let marks: Vec<Mark> = found.points.iter().take(MAX_MARKS).map(mark).collect();
-    let mut picture = picture::attractor(&case.shape, &case.title, &marks)?;
+    let mut picture = picture::attractor(&E::drawn(&case.shape), &case.title, &marks)?;
     let named: Vec<String> =
         found.points.iter().map(|p| format!("{}: {}", point_name(&case.shape, p), verdict_word(p))).collect();
     if !named.is_empty() {
@@ -32,18 +31,12 @@ pub fn attractor(case: &Case, found: &Certified) -> Option<Picture> {
     Some(picture)
 }
 
-/// The shape of a case with irrational entries, drawn with rational ones nearby.
-#[must_use]
-pub fn near(case: &Case<Real>) -> Option<Picture> {
-    picture::attractor(&case.shape.rounded(PICTURE_BITS), &case.title, &[])
-}
-
 /// The picture of [`attractor`] as a PNG file, so many pixels wide, without the words in it.
 #[cfg(feature = "png")]
 #[must_use]
-pub fn attractor_png(case: &Case, found: &Certified, pixels: u32) -> Option<Vec<u8>> {
+pub fn attractor_png<E: Reported>(case: &Case<E>, found: &Certified<E>, pixels: u32) -> Option<Vec<u8>> {
     let marks: Vec<Mark> = found.points.iter().take(MAX_MARKS).map(mark).collect();
-    picture::attractor_png(&case.shape, &marks, pixels)
+    picture::attractor_png(&E::drawn(&case.shape), &marks, pixels)
 }
 
 fn figure(drawing: Drawing, alt: String, caption: Line) -> Block {
@@ -263,13 +256,13 @@ pub fn germ(case: &Case, point: &PointReport) -> Vec<Block> {
     out
 }
 
-fn verdict_word(point: &PointReport) -> &'static str {
+fn verdict_word<E: Reported>(point: &PointReport<E>) -> &'static str {
     point.kind.word()
 }
 
 /// What is drawn at an examined point of a curve or a set.
 #[must_use]
-pub fn mark(point: &PointReport) -> Mark {
+pub fn mark<E: Reported>(point: &PointReport<E>) -> Mark {
     let style = match (point.verdict, point.kind) {
         (_, Kind::Cusp) => MarkStyle::Cusp,
         (_, Kind::Corner) => MarkStyle::Corner,
@@ -287,5 +280,5 @@ pub fn mark(point: &PointReport) -> Mark {
         Role::LeftEnd | Role::RightEnd | Role::Interior | Role::SetPoint => addresses(point).join(" = "),
         Role::Joint { .. } => addresses(point).join(" = "),
     };
-    Mark { at: point.position.clone(), rays, style, label }
+    Mark { at: point.position.iter().map(E::near).collect(), rays, style, label }
 }

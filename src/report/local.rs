@@ -4,8 +4,11 @@ use super::document::{Line, line, words};
 use super::math::Math;
 use super::radius::interval;
 use super::regularity::bounds;
+use super::words::{count, listed};
 use crate::arith::Rational;
+use crate::shape::word_text;
 use crate::theorem::Side;
+use crate::theorem::characteristic::Characteristic;
 use crate::theorem::local::{LocalLimit, LocalSide};
 use serde_json::{Value, json};
 
@@ -52,6 +55,35 @@ pub(super) fn fact(side: &LocalSide) -> Line {
     out
 }
 
+/// Whether the characteristic map is injective, with its name.
+pub(super) fn characteristic(side: &LocalSide) -> Option<(String, Line)> {
+    let word = |w: &Vec<usize>| format!("`{}`", word_text(w));
+    let text = match side.characteristic.as_ref()? {
+        Characteristic::Injective { cells } => {
+            let cover = if *cells == 1 { "covers" } else { "cover" };
+            format!(
+                "the characteristic map is injective: it is strictly monotone on {} that {cover} the ring",
+                count(*cells, "cell")
+            )
+        }
+        Characteristic::Not { words } => match words.as_slice() {
+            [one] => format!(
+                "the characteristic map is not injective: it has the same value at both ends of the cell {}",
+                word(one)
+            ),
+            words => format!(
+                "the characteristic map is not injective: it changes in opposite directions on the cells {}",
+                listed(&words.iter().map(word).collect::<Vec<_>>())
+            ),
+        },
+        Characteristic::Open => {
+            "neither cones nor chords of a few hundred cells show whether the characteristic map is injective"
+                .to_owned()
+        }
+    };
+    Some((format!("map {}", self::word(side)), line(&text, [])))
+}
+
 /// As data (docs/json.md).
 pub(super) fn value(side: &LocalSide) -> Value {
     let texts = |v: &[Rational]| v.iter().map(ToString::to_string).collect::<Vec<_>>();
@@ -68,5 +100,12 @@ pub(super) fn value(side: &LocalSide) -> Value {
         Side::Right => "right",
         Side::Both => "both",
     };
-    json!({ "side": sides, "order": bounds(&side.order), "integer": side.integer, "limit": limit })
+    let map = side.characteristic.as_ref().map(|found| match found {
+        Characteristic::Injective { cells } => json!({ "injective": true, "cells": cells }),
+        Characteristic::Not { words } => json!({ "injective": false, "words": words }),
+        Characteristic::Open => json!({ "injective": null }),
+    });
+    json!({
+        "side": sides, "order": bounds(&side.order), "integer": side.integer, "limit": limit, "characteristic_map": map,
+    })
 }

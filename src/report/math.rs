@@ -175,7 +175,12 @@ fn parse_atom(chars: &mut Chars<'_>, values: &mut dyn Iterator<Item = Math>, dep
             }
             match word.as_str() {
                 "sqrt" => Math::Root(Box::new(parse_atom(chars, values, depth)?)),
-                "operatorname" => Math::Word(braced(chars)),
+                "operatorname" | "mathrm" => Math::Word(braced(chars)),
+                // A space, as in `\\,`.
+                "" => {
+                    chars.next();
+                    return parse_atom(chars, values, depth);
+                }
                 _ => Math::Word(word),
             }
         }

@@ -1,7 +1,7 @@
 //! The answers of `secant regularity` as text and as data.
 
 use super::radius::{decimal, interval, joint_radius};
-use super::words::count;
+use super::words::{count, listed};
 use crate::arith::{Integer, Interval, Rational};
 use crate::radius::JointRadius;
 use crate::scheme::Normalisation;
@@ -249,6 +249,7 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
         json!({
             "order": o.order, "dims": o.dims, "bound": o.threshold.to_string(), "radius": o.enclosure.as_ref().map(bounds),
             "outcome": outcome, "smooth": o.smooth(), "joint": jump,
+            "polygons": o.polygons.as_ref().map(|m| json!({ "factors": texts(m), "rate": o.rate().map(|r| r.to_string()) })),
         })
     };
     json!({
@@ -256,6 +257,40 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
         "smoothness": r.smoothness(), "polynomial": r.polynomial,
         "exponent": r.exponent.as_ref().map(bounds), "attained": r.attained,
     })
+}
+
+/// What the differences of the control polygons tend to, and how fast.
+#[must_use]
+pub fn polygons(shape: &Shape, o: &CurveOrder) -> Option<String> {
+    let factors = o.polygons.as_ref()?;
+    let named = |(e, m): (usize, &Rational)| match factors.len() {
+        1 => format!("{m} times"),
+        _ => format!("{m} times (in state {})", shape.states[e].name),
+    };
+    let same = factors.iter().all(|m| *m == factors[0]);
+    let times = match same {
+        true if factors[0] == 1 => String::new(),
+        true => format!("{} times ", factors[0]),
+        false => {
+            let all: Vec<String> = shape.reachable().into_iter().zip(factors).map(named).collect();
+            format!("{} ", listed(&all))
+        }
+    };
+    let k = o.order;
+    let by = match k {
+        1 => "divided by the length of the cell in the parameter".to_owned(),
+        _ => format!("divided by the power {k} of the length of the cell in the parameter"),
+    };
+    let rate = o.rate()?;
+    let how = if rate == 0 {
+        "are equal to".to_owned()
+    } else {
+        let short = rate.to_string();
+        let bound = if short.len() <= 24 { short } else { decimal(&rate, true, 6) };
+        format!("converge with an error O(r^m), for every r above {bound}, to")
+    };
+    let which = if k == 1 { "first differences".to_owned() } else { format!("differences of order {k}") };
+    Some(format!("the {which} of the control polygons of level m, {by}, {how} {times}the derivative of that order"))
 }
 
 /// By reachable state and letter.
@@ -307,6 +342,9 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
         let threshold = o.threshold.to_string();
         let _ = writeln!(out, "{:<3} {dims:<9} {radius:<34} {threshold:<8} {joint:<7} {word:<6} {letters}", o.order);
         if let Some(note) = outcome(shape, o) {
+            let _ = writeln!(notes, "order {:<5} {note}", o.order);
+        }
+        if let Some(note) = polygons(shape, o) {
             let _ = writeln!(notes, "order {:<5} {note}", o.order);
         }
     }

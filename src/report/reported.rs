@@ -12,11 +12,19 @@ use crate::theorem::cone::{Cone, ConeMap};
 use crate::theorem::local::{LocalContext, LocalSide};
 use crate::theorem::{Certified, Parameter, PointReport, Provable, Statement, field};
 use serde_json::{Value, json};
+use std::borrow::Cow;
+
+/// Binary digits of the entries from which a shape over a field is drawn.
+const PICTURE_BITS: u64 = 64;
 
 /// Entries of shapes on which there are reports.
 pub trait Reported: Provable {
     /// The number as a formula.
     fn math(&self) -> Math;
+    /// The shape with rational entries, to be drawn: nothing is proved of it.
+    fn drawn(shape: &Shape<Self>) -> Cow<'_, Shape>;
+    /// A rational number where this one is drawn.
+    fn near(&self) -> Rational;
     /// The field of the entries, where they are not rational.
     fn field_text(_: &Shape<Self>) -> Option<String> {
         None
@@ -58,6 +66,14 @@ impl Reported for Rational {
         Math::number(self)
     }
 
+    fn drawn(shape: &Shape) -> Cow<'_, Shape> {
+        Cow::Borrowed(shape)
+    }
+
+    fn near(&self) -> Rational {
+        self.clone()
+    }
+
     fn every_facts(case: &Case, found: &Certified) -> Option<Vec<(String, Line)>> {
         Some(every::facts(case, found, found.everywhere.as_ref()?))
     }
@@ -78,7 +94,7 @@ impl Reported for Rational {
     }
 
     fn local_sides(case: &Case, found: &Certified) -> Vec<Vec<LocalSide>> {
-        let Some(context) = LocalContext::new(&case.shape, &found.contraction) else { return Vec::new() };
+        let Some(context) = LocalContext::new(&case.shape, found) else { return Vec::new() };
         let of = |p: &PointReport| p.branches.iter().flat_map(|b| context.sides(b)).collect();
         found.points.iter().map(of).collect()
     }
@@ -114,6 +130,14 @@ impl Reported for Real {
         }
         row.push(Math::Root(Box::new(Math::number(&square))));
         Math::Row(row)
+    }
+
+    fn drawn(shape: &Shape<Self>) -> Cow<'_, Shape> {
+        Cow::Owned(shape.rounded(PICTURE_BITS))
+    }
+
+    fn near(&self) -> Rational {
+        self.enclosure(PICTURE_BITS).mid()
     }
 
     fn every_facts(case: &Case<Self>, found: &Certified<Self>) -> Option<Vec<(String, Line)>> {

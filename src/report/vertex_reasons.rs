@@ -35,6 +35,7 @@ pub fn reason(reason: &VertexReason) -> String {
         VertexReason::BorderOpen => "the signs of the characteristic map were not decided everywhere".to_owned(),
         VertexReason::Span { .. }
         | VertexReason::Sectors
+        | VertexReason::TwoFaces
         | VertexReason::Uncovered { .. }
         | VertexReason::Line { .. }
         | VertexReason::Path { .. }
@@ -88,6 +89,11 @@ fn leading(reason: &VertexReason) -> String {
         VertexReason::Sectors => "the two leading eigenvectors are the same in every second sector, so that the \
              characteristic map is not injective (Theorem 8)"
             .to_owned(),
+        VertexReason::TwoFaces => {
+            "at valence 2 both leading eigenvectors change their sign from sector to sector, so that \
+             their map may wind once; Theorem 7 is for 3 faces and more"
+                .to_owned()
+        }
         VertexReason::Uncovered { length } => format!("two leading {} of this kind are not covered", vectors(length)),
         VertexReason::Line { length, block } => format!(
             "{} in block {block} leads and its function on the ring has no zero: all limit directions lie on one line \

@@ -235,7 +235,7 @@ pub fn holder(h: &Holder) -> Line {
         }
         (_, Some(x)) => line("$h=\\ln(@)/\\ln(@)≈@$", [Math::number(&crate::arith::abs(&x)), scale, value]),
         // The modulus is irrational: a decimal may not stand behind `=`.
-        _ => line("$h=\\ln|λ|/\\ln(@)≈@$", [scale, value]),
+        _ => line("$h=\\ln ρ_1/\\ln(@)≈@$", [scale, value]),
     };
     match h.power {
         0 => {}

@@ -77,6 +77,15 @@ impl<E: Entry> Spaces<E> {
         space.visible.apply(&space.coordinates.apply(v))
     }
 
+    /// The same of any vector; `None` where it does not lie in `V_state`.
+    #[must_use]
+    pub fn in_visible_if_relevant(&self, state: usize, v: &[E]) -> Option<Vec<E>> {
+        let space = self.of(state);
+        let coordinates = space.coordinates.apply(v);
+        let inside = space.basis.apply(&coordinates).iter().zip(v).all(|(a, b)| a == b);
+        inside.then(|| space.visible.apply(&coordinates))
+    }
+
     /// The map `W_from -> W_to` of visible quotients (theory §9) that `op : X_from -> X_to` induces; `None` where it induces
     /// none, which happens for no piece of a shape.
     #[must_use]

@@ -6,15 +6,17 @@ use crate::answer::Verdict;
 use crate::arith::to_f64;
 use crate::ask::{Answered, Checked, answered};
 use crate::budget::{Budget, Effort};
-use crate::case::{Case, Question};
+use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::mesh::{Found, Model, Scheme, certify};
 use crate::picture::{MarkStyle, Projection, mesh as mesh_picture};
 use crate::prove::Findings;
 use crate::report::document::Document;
 use crate::report::math::Math;
+use crate::report::reported::Reported;
 use crate::report::text::{math_line, plain};
 use crate::report::{claims, figures, findings, html, mesh as mesh_report, proof, summary, surface, words};
+use crate::shape::Shape;
 use crate::theorem::surface::SurfacePoint;
 use crate::theorem::{Certified, Claim, PointReport, Required};
 use serde_json::{Value, json};
@@ -93,11 +95,6 @@ impl Kept {
     pub fn prove(asked: Asked, spend: Spend, check: bool) -> Result<Self, Problem> {
         let budget = spend.budget();
         let found = match &asked {
-            Asked::Case(Question::OverField { .. }) => {
-                let message = "cases with irrational entries are not shown here";
-                return Err(Problem::new("secant::case::irrational-entry", message)
-                    .with_help("`secant certify` and `secant render` read this case"));
-            }
             Asked::Case(question) => What::Case(Box::new(answered(question, check, &budget, &|| {})?)),
             Asked::Mesh { model, scheme, .. } => What::Mesh(Box::new(certify(model, *scheme, &budget, &|| {})?)),
         };
@@ -110,7 +107,8 @@ impl Kept {
             (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => mesh(model, *scheme, found),
             (_, What::Case(answered)) => match &answered.findings {
                 Findings::Tangents { case, found } => tangents(case, found, answered),
-                Findings::OverField { .. } | Findings::Vertices { .. } => vertices(answered),
+                Findings::OverField { case, found } => tangents(case, found, answered),
+                Findings::Vertices { .. } => vertices(answered),
             },
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         };
@@ -195,7 +193,8 @@ impl Kept {
         match &self.found {
             What::Case(answered) => match &answered.findings {
                 Findings::Tangents { case, found } => proof::point_document(case, found, number),
-                Findings::OverField { .. } | Findings::Vertices { .. } => None,
+                Findings::OverField { case, found } => summary::point_document(case, found, number),
+                Findings::Vertices { .. } => None,
             },
             What::Mesh(_) => None,
         }
@@ -206,7 +205,8 @@ impl Kept {
 fn beside(answered: &Answered) -> Option<String> {
     match &answered.findings {
         Findings::Tangents { case, .. } => case.beside(),
-        Findings::OverField { .. } | Findings::Vertices { .. } => None,
+        Findings::OverField { case, .. } => case.flat.clone(),
+        Findings::Vertices { .. } => None,
     }
 }
 
@@ -233,13 +233,14 @@ fn checked(answered: &Answered, value: &mut Value) {
     value["expanded"] = beside(answered).is_some().into();
 }
 
-fn tangents(case: &Case, found: &Certified, answered: &Answered) -> Value {
+fn tangents<E: Reported>(case: &Case<E>, found: &Certified<E>, answered: &Answered) -> Value {
     let required = Required::default();
     let data = findings::json(&answered.findings, &required, false);
+    let drawn = E::drawn(&case.shape);
     let points: Vec<Value> = match &found.surface {
-        Some(surface) => surface.points.iter().map(|p| on_surface(case, p)).collect(),
+        Some(surface) => surface.points.iter().map(|p| on_surface(&drawn, p)).collect(),
         None => {
-            let projection = Projection::of(&case.shape);
+            let projection = Projection::of(&drawn);
             found.points.iter().map(|p| point(case, &projection, p)).collect()
         }
     };
@@ -252,7 +253,7 @@ fn tangents(case: &Case, found: &Certified, answered: &Answered) -> Value {
     });
     let mut value = json!({
         "verdict": required.verdict(&found.claims).word(),
-        "overall": plain(&summary::overall_line(found, &required)),
+        "overall": plain(&summary::overall_line(case, found, &required)),
         "claims": found.claims.iter().map(|c| claim(c, claims::reason(case, found, c))).collect::<Vec<_>>(),
         "limits": found.limits().iter().map(claims::limit).collect::<Vec<_>>(),
         "points": points.collect::<Vec<_>>(),
@@ -271,7 +272,7 @@ fn style(style: MarkStyle) -> &'static str {
     }
 }
 
-fn point(case: &Case, projection: &Projection, point: &PointReport) -> Value {
+fn point<E: Reported>(case: &Case<E>, projection: &Projection, point: &PointReport<E>) -> Value {
     let mark = figures::mark(point);
     let parameter = point.branches.first().and_then(|b| proof::parameter(&case.shape, &b.address));
     json!({
@@ -286,12 +287,12 @@ fn point(case: &Case, projection: &Projection, point: &PointReport) -> Value {
     })
 }
 
-fn on_surface(case: &Case, point: &SurfacePoint) -> Value {
+fn on_surface(shape: &Shape, point: &SurfacePoint) -> Value {
     let image = point.image.as_ref().unwrap_or(&point.position);
     let at: Vec<f64> = image.iter().map(to_f64).collect();
     let plane = point.tangent.as_ref().map(|space| {
         let generators = space.to_f64();
-        generators.iter().map(|v| place(&case.shape, v)).collect::<Vec<_>>()
+        generators.iter().map(|v| place(shape, v)).collect::<Vec<_>>()
     });
     let (kind, style) = match point.verdict {
         Verdict::Proved => ("tangent plane", "tangent"),
@@ -305,7 +306,7 @@ fn on_surface(case: &Case, point: &SurfacePoint) -> Value {
         "verdict": point.verdict.word(),
         "kind": kind,
         "style": style,
-        "at": place(&case.shape, &at),
+        "at": place(shape, &at),
         "plane": plane,
         "tangent": point.tangent.as_ref().map(|space| json!({ "text": plain(&surface::span(space)) })),
     })

@@ -6,12 +6,13 @@ use crate::scheme::{self, Parameter};
 use serde_json::{Value, json};
 
 /// Examples: title, and text. They are files of the corpus and of the README.
-const EXAMPLES: [(&str, &str); 9] = [
+const EXAMPLES: [(&str, &str); 10] = [
     ("Mask: Chaikin's corner cutting", "1/4, 3/4, 3/4, 1/4"),
     ("Symbol: cubic B-spline", "(1+z)^4/8"),
     ("Matrices: the thesis's half-tangent", include_str!("../../cases/thesis/half-tangent.toml")),
     ("Control points: a Bézier curve with a cusp", include_str!("../../cases/control/bezier-cusp.toml")),
     ("Maps: an interpolation function", include_str!("../../cases/fif/integral.toml")),
+    ("Maps: Koch's curve, with √3", include_str!("../../cases/fields/koch-sqrt3.toml")),
     ("Maps: Sierpiński's triangle", include_str!("../../cases/sets/sierpinski.toml")),
     ("Automaton: three states", include_str!("../../cases/automata/three-states.toml")),
     ("Surface: a bicubic patch in space", include_str!("../../cases/surfaces/bicubic-space.toml")),

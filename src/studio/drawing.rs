@@ -2,10 +2,12 @@
 #![allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
 
 use super::input::Asked;
+use crate::algebraic::Real;
 use crate::arith::to_f64;
 use crate::case::{Case, Question, Subject};
 use crate::mesh::{Model, Scheme, refined};
 use crate::picture::{Projection, outline};
+use crate::report::reported::Reported;
 use crate::shape::{Frame, Shape, depth_within, sample};
 use serde::Serialize;
 
@@ -51,47 +53,53 @@ pub fn drawing(asked: &Asked) -> Drawing {
             words: "The characteristic maps are drawn with the proof.".to_owned(),
             ..Drawing::default()
         },
-        Asked::Case(question @ Question::OverField { .. }) => Drawing {
-            kind: "vertices",
-            title: question.title().to_owned(),
-            text,
-            words: "A case with irrational entries is drawn with the proof.".to_owned(),
-            ..Drawing::default()
-        },
+        // Control points are moved where they are rational.
+        Asked::Case(question @ Question::OverField { case, .. }) => {
+            let kind = if question.subject() == Subject::Curve { "curve" } else { "set" };
+            let control = control(&case.shape, |x: &Real| x.field().is_none());
+            Drawing {
+                title: question.title().to_owned(),
+                text,
+                free: free(&case.shape) && (control.is_some() || case.shape.control.is_none()),
+                control,
+                ..flat(&Reported::drawn(&case.shape), kind)
+            }
+        }
         Asked::Case(question @ Question::Tangents { case, .. }) => {
             let shape = match question.subject() {
                 Subject::Surface => surface(case),
-                Subject::Curve => flat(case, "curve"),
-                Subject::Set | Subject::Vertices => flat(case, "set"),
+                Subject::Curve => flat(&case.shape, "curve"),
+                Subject::Set | Subject::Vertices => flat(&case.shape, "set"),
             };
             Drawing {
                 title: question.title().to_owned(),
                 text,
-                control: control(&case.shape),
-                free: free(case),
+                control: control(&case.shape, |_| true),
+                free: free(&case.shape),
                 ..shape
             }
         }
     }
 }
 
-/// The control points, exactly.
-fn control(shape: &Shape) -> Option<Vec<Vec<String>>> {
-    let points = shape.control.as_ref().filter(|_| shape.frame == Frame::Barycentric)?;
+/// The control points, exactly, where each number is one that the page can write.
+fn control<E: Reported>(shape: &Shape<E>, writable: impl Fn(&E) -> bool) -> Option<Vec<Vec<String>>> {
+    let points =
+        shape.control.as_ref().filter(|m| shape.frame == Frame::Barycentric && m.entries().iter().all(&writable))?;
     let point = |j: usize| (0..points.rows()).map(|i| points[(i, j)].to_string()).collect();
     Some((0..points.cols()).map(point).collect())
 }
 
-fn free(case: &Case) -> bool {
-    case.shape.frame == Frame::Barycentric
+fn free<E: Reported>(shape: &Shape<E>) -> bool {
+    shape.frame == Frame::Barycentric
 }
 
 fn short(points: &[[f64; 2]]) -> Vec<[f32; 2]> {
     points.iter().map(|p| p.map(|x| x as f32)).collect()
 }
 
-fn flat(case: &Case, kind: &'static str) -> Drawing {
-    match outline(&case.shape) {
+fn flat(shape: &Shape, kind: &'static str) -> Drawing {
+    match outline(shape) {
         Some(found) => Drawing {
             kind,
             points: short(&found.points),

@@ -1,5 +1,6 @@
 //! What is claimed, and what the answers rest on, as data. The words are in [`crate::report::claims`].
 
+use super::gap::BranchGap;
 use super::verdict::{About, BranchReport, Certified, Outcome};
 use crate::answer::{Answer, Verdict};
 use crate::arith::{Interval, Rational};
@@ -379,7 +380,8 @@ impl<E: Scalar> Certified<E> {
 
     fn limits_of(&self, reason: &Reason) -> Vec<Limit> {
         let cells = |branch: &BranchReport<E>| match &branch.outcome {
-            Outcome::Open { place: Some(cell), .. } => {
+            // Where a condition was refuted, no search ended.
+            Outcome::Open { place: Some(cell), reason, .. } if *reason != BranchGap::RingFails => {
                 Some(Limit::Cells { branch: branch.address.clone(), cell: cell.clone() })
             }
             _ => None,

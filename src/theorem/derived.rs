@@ -6,8 +6,19 @@ use super::smoothness::{CurveOrder, CurveRegularityError, Jump, Outcome, Seen, S
 use crate::arith::{Interval, Rational, abs};
 use crate::linalg::{Matrix, closures};
 use crate::radius::{Arrow, JointRadius, Options, System, joint_radius};
-use crate::shape::{CellKind, End, Piece, Shape, Spaces, difference};
+use crate::shape::{CellKind, End, Frame, Piece, Shape, Spaces, difference};
 use std::collections::VecDeque;
+
+/// The difference of order `k` of the unit vectors from number `j` on.
+fn alternating(dim: usize, j: usize, k: usize) -> Vec<Rational> {
+    let mut out = vec![Rational::from(0); dim];
+    let mut binomial = Rational::from(1);
+    for i in (0..=k).rev() {
+        out[j + i] = binomial.clone();
+        binomial = -binomial * Rational::from(i) / Rational::from(k - i + 1);
+    }
+    out
+}
 
 pub(super) fn power(base: &Rational, exponent: usize) -> Rational {
     (0..exponent).fold(Rational::from(1), |p, _| p * base)
@@ -132,7 +143,8 @@ impl<'a> Curve<'a> {
             None => Rational::from(1) / power(&Rational::from(self.pieces), k),
         };
         let outcome = if k == 0 { Outcome::Curve } else { Outcome::Open };
-        CurveOrder { order: k, threshold, shares: self.shares.clone(), dims, system, radius, enclosure, outcome }
+        let shares = self.shares.clone();
+        CurveOrder { order: k, threshold, shares, dims, system, radius, enclosure, outcome, polygons: None }
     }
 
     /// The operators on the families; with shares, those of the derivatives of order `k`, but for signs.
@@ -270,6 +282,30 @@ impl<'a> Curve<'a> {
             Some(k) => Outcome::Chord(self.states[k]),
             None => Outcome::Open,
         }
+    }
+
+    /// For an order `k` that holds, the numbers `μ_e` of “Difference polygons” by state; `None` where a state has none.
+    pub(super) fn polygons(&self, k: usize, families: &[Matrix], chords: &Chords) -> Option<Vec<Rational>> {
+        let of = |place: usize| {
+            let (state, dim) = (self.states[place], self.shape.states[self.states[place]].dim);
+            // c and a basis of F, as columns.
+            let chord = Matrix::from_columns(chords[place].len(), &[chords[place].clone()]);
+            let spanned = chord.beside(&families[place].transpose());
+            let mut common: Option<Rational> = None;
+            for j in 0..dim.checked_sub(k)? {
+                let vector = self.spaces.in_visible_if_relevant(state, &alternating(dim, j, k))?;
+                let found = spanned.solve(&Matrix::from_columns(vector.len(), &[vector]))?;
+                let multiple = found[(0, 0)].clone();
+                if common.as_ref().is_some_and(|c| *c != multiple) {
+                    return None;
+                }
+                common = Some(multiple);
+            }
+            // The multiple is one number only where the chord is not in F.
+            let independent = spanned.rank() == 1 + families[place].rows();
+            common.filter(|c| independent && *c != 0)
+        };
+        (self.shape.frame == Frame::Barycentric).then(|| (0..self.states.len()).map(of).collect())?
     }
 
     /// Whether all states that are reached from this one lead back to it.

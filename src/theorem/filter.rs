@@ -92,7 +92,7 @@ pub enum FilterError {
     /// The sums over the residue classes are not those of a mask, in no known normalisation.
     #[error(
         "the coefficients with index {coset} modulo {arity} add up to {sum}, not to 1, and this is no filter with the sum 1, \
-         {arity} or √{arity} either: the scheme has no limits"
+         {arity} or √{arity} either: the weights of a new point must sum to 1"
     )]
     Sums {
         /// The arity.

@@ -1,11 +1,13 @@
 //! Critical orders and local fractional derivatives of a curve at a point (theory §8, Theorem L).
 
+use super::characteristic::{Characteristic, characteristic};
+use super::cone::Cone;
 use super::ring::Position;
-use super::verdict::{BranchReport, Outcome, Side};
+use super::verdict::{BranchReport, Certified, Outcome, Side};
 use crate::algebraic::Elem;
 use crate::arith::{Integer, Interval, Rational, abs, exp, ln};
 use crate::linalg::{Matrix, closures, dot};
-use crate::shape::{Balls, CellKind, Contraction, End, Shape, Spaces};
+use crate::shape::{Balls, CellKind, End, Shape, Spaces};
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
 
 /// Largest order that is compared with an integer.
@@ -26,6 +28,8 @@ pub struct LocalSide {
     pub integer: Option<usize>,
     /// Its limit.
     pub limit: LocalLimit,
+    /// Whether the characteristic map is injective; `None` where the statement does not apply.
+    pub characteristic: Option<Characteristic>,
 }
 
 /// The limit of the quotient, or why there is none.
@@ -75,38 +79,36 @@ pub struct LocalContext<'a> {
     shape: &'a Shape,
     spaces: Spaces,
     balls: Balls,
+    cones: &'a [Cone],
 }
 
 impl<'a> LocalContext<'a> {
     /// `None` where the shape is no curve that is proved to contract.
     #[must_use]
-    pub fn new(shape: &'a Shape, contraction: &Contraction) -> Option<Self> {
+    pub fn new(shape: &'a Shape, found: &'a Certified) -> Option<Self> {
         if shape.states[shape.start].kind != CellKind::Edge {
             return None;
         }
         let spaces = Spaces::new(shape)?;
-        let balls = Balls::of(shape, &spaces, contraction)?;
-        Some(Self { shape, spaces, balls })
+        let balls = Balls::of(shape, &spaces, &found.contraction)?;
+        let cone = found.everywhere.as_ref().and_then(|e| e.cone.as_ref());
+        let cones = cone.map_or(&[][..], |c| c.cones.as_slice());
+        Some(Self { shape, spaces, balls, cones })
     }
 
-    /// [`local_sides`] of a branch.
+    /// The sides of a branch with a tangent line by the ring condition on which the curve goes on; none of sets, or where the
+    /// statement does not apply.
+    ///
+    /// # Cost
+    /// Some linear algebra, and the enclosure of a functional on a few hundred cells.
     #[must_use]
     pub fn sides(&self, branch: &BranchReport) -> Vec<LocalSide> {
-        local_sides(self.shape, &self.spaces, &self.balls, branch)
+        sides(self, branch).into_iter().flatten().collect()
     }
 }
 
-/// The sides of a branch with a tangent line by the ring condition on which the curve goes on; none of sets, or where the
-/// statement does not apply.
-///
-/// # Cost
-/// Some linear algebra, and the enclosure of a functional on a few hundred cells.
-#[must_use]
-pub fn local_sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -> Vec<LocalSide> {
-    sides(shape, spaces, balls, branch).into_iter().flatten().collect()
-}
-
-fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -> Option<Vec<LocalSide>> {
+fn sides(cx: &LocalContext<'_>, branch: &BranchReport) -> Option<Vec<LocalSide>> {
+    let LocalContext { shape, spaces, balls, cones } = cx;
     let Outcome::Line { holder, proof: Some(_), block, functional, direction, .. } = &branch.outcome else {
         return None;
     };
@@ -132,7 +134,9 @@ fn sides(shape: &Shape, spaces: &Spaces, balls: &Balls, branch: &BranchReport) -
     let mut found = Vec::new();
     for place in places {
         let side = if (place == Position::Before) == (branch.prefix_sign > 0) { Side::Left } else { Side::Right };
-        let one = |integer, limit| LocalSide { side, order: order.clone(), integer, limit };
+        let map = characteristic(shape, cones, branch, place);
+        let one =
+            |integer, limit| LocalSide { side, order: order.clone(), integer, limit, characteristic: map.clone() };
         let Some(((value, row), seen)) = rational.clone().filter(|_| *block == 1) else {
             let limit = if *block > 1 { LocalLimit::Diverges(block - 1) } else { LocalLimit::None };
             let whole = root.rational().and_then(|x| integer(&abs(&x), &holder.scale, &order));

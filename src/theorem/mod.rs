@@ -3,6 +3,7 @@
 
 pub mod border;
 mod branch;
+pub mod characteristic;
 pub mod claim;
 mod components;
 pub mod cone;

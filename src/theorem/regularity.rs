@@ -23,7 +23,9 @@ pub enum MaskError {
     #[error("the mask is zero")]
     Zero,
     /// Coefficients that do not sum to 1 on a coset.
-    #[error("the coefficients with index {coset} modulo {arity} sum to {sum}, not to 1: the scheme has no limits")]
+    #[error(
+        "the coefficients with index {coset} modulo {arity} sum to {sum}, not to 1: the weights of a new point must sum to 1"
+    )]
     SumRule {
         /// The arity.
         arity: usize,

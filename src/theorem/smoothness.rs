@@ -93,6 +93,9 @@ pub struct CurveOrder {
     pub enclosure: Option<Interval>,
     /// The conclusion.
     pub outcome: Outcome,
+    /// By reachable state, the numbers `μ_e` by which the differences of order `k` of the control polygons tend to the derivative;
+    /// `None` where the order does not hold, or they need not tend to multiples of it (“Difference polygons”).
+    pub polygons: Option<Vec<Rational>>,
 }
 
 impl CurveOrder {
@@ -186,6 +189,9 @@ pub fn curve_regularity(
             },
         };
         let holds = order.smooth() == Some(true);
+        if holds {
+            order.polygons = curve.polygons(k, &smaller, &chords);
+        }
         found.polynomial &= holds;
         found.orders.push(order);
         if !holds || found.polynomial {
@@ -212,6 +218,13 @@ pub fn curve_regularity(
 }
 
 impl CurveOrder {
+    /// An upper bound of the radius of the operators of derivatives of this order on their differences: the differences of control
+    /// polygons converge at every rate above it.
+    #[must_use]
+    pub fn rate(&self) -> Option<Rational> {
+        Some(&self.enclosure.as_ref()?.hi / &self.threshold)
+    }
+
     pub(super) fn is_below(&self) -> bool {
         self.enclosure.as_ref().is_some_and(|e| e.hi < self.threshold)
     }

@@ -308,6 +308,8 @@ impl Judge<'_> {
             }
             (1, [(k, false)]) => self.line(*k, length),
             (2, [(k, false)]) if 0 < *k && 2 * *k < n => self.pair(*k, length),
+            // At valence 2 a map of which both parts are in block 1 may wind once.
+            (2, all) if n == 2 && all.iter().all(|(k, _)| *k == 1) => self.found.reason = VertexReason::TwoFaces,
             (2, all) if length == 1 && all.iter().all(|(_, negative)| !negative) => {
                 self.found.ground = Some(Ground::Sectors);
                 self.refute(VertexReason::Sectors);

@@ -27,6 +27,8 @@ pub enum VertexReason {
     },
     /// The two leading eigenvectors are the same in every second sector.
     Sectors,
+    /// At valence 2 both leading vectors are in block 1.
+    TwoFaces,
     /// Two leading vectors of a kind that is not covered.
     Uncovered {
         /// The length.

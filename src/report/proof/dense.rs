@@ -28,6 +28,10 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
             blocks.push(Block::text(text, []));
         }
     }
+    let cones = |f: &crate::theorem::Frames| f.frames.iter().any(|f| f.cones.is_some());
+    if statement == Statement::FramesDense && dense.frames.as_ref().is_some_and(cones) {
+        blocks.push(seen.once(Statement::FramesCones));
+    }
     blocks.push(match &dense.frames {
         Some(frames) if statement.uses_frames() => Block::Checks(super::frames::checks(case, frames)),
         _ => evidence(case, found, dense, plain, claim.verdict() == Verdict::Proved).block(),

@@ -22,6 +22,9 @@ pub(super) fn checks(case: &Case, frames: &Frames) -> Vec<Check> {
             checks.push(Check { tone: tone(point.verdict), text });
         }
         if let Some(found) = &frame.cones {
+            let rows = &frame.seen.rows;
+            checks
+                .push(Check { tone: Tone::Good, text: line("the rows of the frame are $Q=@$", [Math::matrix(rows)]) });
             for cone in &found.cone.cones {
                 let mut text =
                     words(format!("cone of state {}: rays, the columns of ", case.shape.states[cone.state].name));
@@ -39,7 +42,7 @@ pub(super) fn checks(case: &Case, frames: &Frames) -> Vec<Check> {
                 let below =
                     if word.is_empty() { "everywhere".to_owned() } else { format!("below `{}`", word_text(word)) };
                 let text = format!(
-                    "{below} the functional $h=@$ on the rows of the frame is positive on the cone as it is seen"
+                    "{below} the functional $h=@$ on the rows $Q$ of the frame is positive on the cone as it is seen"
                 );
                 checks.push(Check { tone: Tone::Good, text: line(&text, [Math::vector(functional)]) });
             }

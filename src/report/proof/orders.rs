@@ -31,8 +31,24 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
     if !notes.is_empty() {
         blocks.push(Block::List(notes));
     }
+    blocks.extend(polygons(case, orders, seen));
     blocks.extend(matching(case, orders, seen));
     blocks
+}
+
+/// What the control polygons do, in the orders that hold.
+fn polygons(case: &Case, orders: &CurveRegularity, seen: &mut Quoted) -> Vec<Block> {
+    let known = orders.orders.iter().filter(|o| o.polygons.is_some());
+    let notes: Vec<Line> = known
+        .filter_map(|o| Some(words(format!("Order {}: {}.", o.order, regularity::polygons(&case.shape, o)?))))
+        .collect();
+    if notes.is_empty() {
+        return Vec::new();
+    }
+    let proof = Evidence::of(Statement::DifferencePolygons)
+        .holds("smooth", "the orders below are proved above.", [])
+        .holds("polygon", "$μ_e$ is the factor of the derivative below, and was found by linear algebra.", []);
+    vec![seen.once(Statement::DifferencePolygons), proof.block(), Block::List(notes)]
 }
 
 /// What Theorem 10 says of data that are interpolated, by its own numbers.

@@ -10,7 +10,7 @@ use crate::report::figures;
 use crate::report::reasons;
 use crate::shape::{CellKind, word_text};
 use crate::statement::Statement;
-use crate::theorem::{BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
+use crate::theorem::{About, BranchReport, Certified, Direction, Kind, Outcome, PointReport, Role, Side, Verdict};
 
 /// So many points are shown enlarged.
 const MAX_PICTURED: usize = 5;
@@ -101,6 +101,7 @@ fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: boo
         blocks.extend(branch_blocks(case, branch, listed));
     }
     blocks.extend(together(point, seen));
+    blocks.extend(of_shape(point, seen));
     if pictured {
         blocks.extend(figures::germ(case, point));
     }
@@ -218,6 +219,26 @@ fn together(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
         evidence.push("contained", Tone::Good, text);
     }
     blocks.push(evidence.block());
+    blocks
+}
+
+/// Why the germ of the branch is that of the set.
+fn of_shape(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
+    if point.role != Role::SetPoint || point.verdict != Verdict::Proved || point.about() != About::Shape {
+        return Vec::new();
+    }
+    let mut blocks: Vec<Block> = seen.once_id(Statement::BranchAndShape).into_iter().collect();
+    let small = point.branches.iter().all(|b| b.linear.rows() <= 1);
+    let isolated = if small {
+        "not needed: the space on which $L$ acts has at most one dimension."
+    } else {
+        "by the ring condition above, without cells that were left out."
+    };
+    let proof = Evidence::of(Statement::BranchAndShape)
+        .holds("start", "the address has no prefix.", [])
+        .holds("isolated", isolated, [])
+        .holds("view", "$G$ is injective on the space where $L$ acts.", []);
+    blocks.push(proof.block());
     blocks
 }
 

@@ -15,7 +15,7 @@ use crate::scheme::mesh_rules;
 use crate::statement::Statement;
 use crate::theorem::Verdict;
 use crate::vertex::regular::Regular;
-use crate::vertex::{AtValence, Eigenvector, Every, Ground, Size, overall};
+use crate::vertex::{AtValence, BorderGround, Eigenvector, Every, Ground, Size, VertexReason, overall};
 
 /// The whole proof for the valences examined, and for all valences where they were asked for, as a document.
 #[must_use]
@@ -27,7 +27,7 @@ pub fn vertex_document(case: &VertexCase, found: &[AtValence], every: Option<&Ev
     blocks.extend(certificate(case, found));
     let first_page = blocks.len();
     blocks.extend(scheme(case));
-    blocks.extend(definitions());
+    blocks.extend(definitions(case.border.is_some()));
     blocks.extend(statements(case, found, every, &mut seen));
     for f in found {
         blocks.extend(at(case, f));
@@ -147,7 +147,7 @@ fn scheme(case: &VertexCase) -> Vec<Block> {
     vec![Block::heading(2, "The scheme"), Block::Facts(facts)]
 }
 
-fn definitions() -> Vec<Block> {
+fn definitions(border: bool) -> Vec<Block> {
     let items = [
         "$K$ is the closed **ring** of patches that one step leaves around the smaller copy of the neighbourhood of the vertex. The surface near the vertex \
          consists of the rings that belong to $K$ after $0, 1, 2, …$ steps, and the vertex.",
@@ -168,7 +168,12 @@ fn definitions() -> Vec<Block> {
          the largest modulus, $π_1$ the projection to it, which reads $Ψ$ (or the function of the only leading eigenvector), and $D^*$ the span of all limit directions \
          of secants. The branch is isolated if no row of $X$ is killed by a power of $L$.",
     ];
-    vec![Block::heading(2, "Definitions"), Block::List(items.iter().map(|t| line(t, [])).collect())]
+    // A fan has no Fourier blocks, and its statements say what its characteristic map is.
+    let used = |text: &&&str| {
+        !border || !["Fourier", "**leading**", "Theorems 2 and 3"].iter().any(|word| text.contains(word))
+    };
+    let items = items.iter().filter(used).map(|t| line(t, [])).collect();
+    vec![Block::heading(2, "Definitions"), Block::List(items)]
 }
 
 /// The statements that are applied, in the order of the theory.
@@ -220,10 +225,23 @@ fn on_border(case: &VertexCase, f: &AtValence, statement: Statement) -> Evidence
     if statement != Statement::BorderOneFace {
         evidence = evidence.holds("fan", "$k=@$.", [Math::count(f.valence)]);
     }
-    if matches!(statement, Statement::BorderVertex | Statement::BorderJordan) {
-        let map = "the eigenvectors were computed on three rings of points, exactly or in enclosures, and all Bernstein \
-                   coefficients on the ring have the signs, but for exact zeros on the border.";
-        evidence.push("map", Tone::Good, words(map));
+    let map = match f.reason {
+        VertexReason::Border(BorderGround::Affine) => Some(
+            "two linear functions on three rings of points are eigenvectors of 1/2, exactly; the characteristic map is \
+             affine, with a constant determinant.",
+        ),
+        VertexReason::Border(BorderGround::Jordan) => Some(
+            "on three rings of points, exactly: $y$, linear, is an eigenvector of 1/2, and there is a function $x$ with $S \
+             x=x/2+κy$ and $κ>0$.",
+        ),
+        VertexReason::Border(BorderGround::Map) => Some(
+            "the eigenvectors were computed on three rings of points, exactly or in enclosures, and all Bernstein \
+             coefficients on the ring have the signs, but for exact zeros on the border.",
+        ),
+        _ => None,
+    };
+    if let Some(map) = map {
+        evidence.push("map", Tone::Good, line(map, []));
     }
     evidence.push("coefficients", Tone::Good, words("for almost all control points."));
     evidence

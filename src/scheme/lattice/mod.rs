@@ -65,7 +65,9 @@ pub enum LatticeError {
         dilation: usize,
     },
     /// Coefficients that do not sum to 1 on a coset.
-    #[error("the coefficients at the points {coset} + M Z^s sum to {sum}, not to 1: the scheme has no limits")]
+    #[error(
+        "the coefficients at the points {coset} + M Z^s sum to {sum}, not to 1: the weights of a new point must sum to 1"
+    )]
     SumRule {
         /// A point of the coset.
         coset: String,

@@ -34,6 +34,8 @@ impl<'a> Judge<'a> {
         match (&leader.kind, between) {
             // With their conjugates in the block n − k four dimensions.
             (Kind::Pair, true) => return Some(Finding::By(Ground::Span)),
+            // At valence 2 a pair in block 1 may wind once.
+            (Kind::Pair, false) if self.model.vertex.valence == 2 && block.frequency == 1 => return None,
             // The function of the pair is the same in every sector, or in every second one.
             (Kind::Pair, false) => return Some(Finding::By(Ground::Sectors)),
             (Kind::Real { .. }, true) if block.frequency > 1 => {
