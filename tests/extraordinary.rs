@@ -32,7 +32,7 @@ fn secant(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_secant")).args(arguments).current_dir(root()).output().unwrap()
 }
 
-/// Splines with one leading eigenvalue: all of them are proved again by the checker, which builds the schemes from their masks.
+/// All verdicts inside of meshes are proved again by the checker, which builds the schemes from their masks and stencils.
 #[test]
 fn the_checker_proves_the_verdicts_again() {
     let (mut again, mut once) = (0, Vec::new());
@@ -42,12 +42,12 @@ fn the_checker_proves_the_verdicts_again() {
             continue;
         }
         let case = VertexCase::read(&path).unwrap();
-        // Vertices on the border and stencils of one's own have no rule yet.
-        if case.border.is_some() || case.rule.own().is_some() {
+        // Vertices on the border have no rule yet.
+        if case.border.is_some() {
             continue;
         }
         let mut found: Vec<AtValence> = case.expect.iter().map(|(n, _)| at(&case.rule, *n)).collect();
-        found.retain(|f| f.polynomial && f.smooth != Verdict::Undetermined);
+        found.retain(|f| f.smooth != Verdict::Undetermined);
         let written = match confirm_vertices(&case, &mut found) {
             Ok(_) => true,
             Err(Doubt::Unsupported(_)) => false,
@@ -58,9 +58,9 @@ fn the_checker_proves_the_verdicts_again() {
         once.extend(found.iter().filter(|f| f.again != Again::Proved).map(|f| (case.name.clone(), f.valence)));
     }
     once.sort();
-    // Equal leading eigenvalues in several blocks have no rule.
-    assert_eq!(once, [("loop-edge-3", 3), ("loop-edge-4", 4), ("midedge", 3)].map(|(name, n)| (name.to_owned(), n)));
-    assert!(again > 80, "{again} valences");
+    // Second differences shrink too slowly for the bounds of the checker.
+    assert_eq!(once, [("butterfly-small-tension".to_owned(), 5)]);
+    assert!(again > 150, "{again} valences");
 }
 
 #[test]

@@ -1,42 +1,51 @@
-//! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh, for schemes that are splines away
-//! from it (docs/theory.md §10.1, Theorems 2, 7 and 8).
+//! Certificates of the kind `vertex`: a subdivision scheme at an extraordinary vertex of a mesh (docs/theory.md §10.1, Theorems 2, 7
+//! and 8), with polynomial patches or with enclosures of its limit (Lemma 4).
 
-use crate::base::{Accepted, Checked, Json, Node, Q, Verdict, file, index, need, number, reject, spend, together};
+use crate::base::{Accepted, Checked, Node, Q, Verdict, file, need, reject, together};
 use crate::claim::Claim;
-use std::collections::BTreeSet;
 mod ball;
+mod case;
+mod cells;
+mod exact;
+mod factors;
+mod formula;
+mod limit;
 mod mesh;
+mod own;
 mod patch;
+mod ring;
+mod rule;
 
 use ball::{Ball, Balls, deflated, dominated, dot, leading};
-use mesh::{Centre, MAX_VALENCE, Mesh, Net, Spline, powers};
-use num_traits::{One, Signed, ToPrimitive};
-use patch::{Patch, boundary, patches};
-
-/// Largest frequency of the weights in a face.
-const MAX_FREQUENCY: usize = 1024;
+pub use case::Case;
+use case::Scheme;
+use exact::Operator;
+use limit::Regular;
+use mesh::{MAX_VALENCE, Mesh, Net, powers};
+use num_traits::{One, Signed};
+use ring::Ring;
 
 /// The keys of a case about vertices.
 pub const KEYS: &str = "name title source vertex expect";
-
-/// A case about the vertices of a mesh.
-pub struct Case {
-    /// The name.
-    pub name: String,
-    spline: Spline,
-    /// The weights at the centre, by valence.
-    centre: Box<dyn Fn(usize) -> Centre>,
-    /// The valences of the case, which may name none; `None` where it asks for all that there are.
-    pub asked: Option<BTreeSet<usize>>,
-}
+/// Rings on which a block may live.
+const MAX_RINGS: usize = 8;
 
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
     let case = file(source, KEYS, Case::read)?;
-    let [valences] = proof.fields("valences")?;
+    let (valences, regular) = match &case.scheme {
+        Scheme::Spline(..) => {
+            let [valences] = proof.fields("valences")?;
+            (valences, None)
+        }
+        Scheme::Rule(rule) => {
+            let [limits, valences] = proof.fields("limits valences")?;
+            (valences, Some(limits.at(Regular::new(&rule.lattice(), &limits))?))
+        }
+    };
     let (mut listed, mut claims, mut counted) = (Vec::new(), Vec::new(), Vec::new());
     for item in valences.list()? {
-        let (n, smooth, plane) = item.at(case.valence(&item))?;
+        let (n, smooth, plane) = item.at(case.valence(&item, regular.as_ref()))?;
         item.need(listed.last().is_none_or(|m| *m < n), "vertex", "valences ascend")?;
         listed.push(n);
         claims.extend([Claim::SmoothAtVertex(n).is(smooth), Claim::PlaneAtVertex(n).is(plane)]);
@@ -55,169 +64,123 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
     Ok(Accepted { case: case.name, verdict, claims, points: Vec::new() })
 }
 
-/// `5`, `"3..32"`, `"3,5,8..10"` or `"all"`.
-fn read_valences(node: &Node<'_>) -> Checked<Option<BTreeSet<usize>>> {
-    let valence = |n: &usize| (2..=MAX_VALENCE).contains(n);
-    let Json::Text(text) = node.value else {
-        let n = index(node, MAX_VALENCE + 1)?;
-        node.need(valence(&n), "format", format_args!("a valence is a number from 2 to {MAX_VALENCE}"))?;
-        return Ok(Some(BTreeSet::from([n])));
-    };
-    if text.trim() == "all" {
-        return Ok(None);
-    }
-    let mut all = BTreeSet::new();
-    for part in text.split(',') {
-        let (low, high) = match part.split_once("..") {
-            Some((low, high)) => (low, high.trim_start_matches('=')),
-            None => (part, part),
-        };
-        let bound = |s: &str| s.trim().parse().ok().filter(valence);
-        match (bound(low), bound(high)) {
-            (Some(low), Some(high)) if low <= high => {
-                // A long list of long ranges is no more than all valences.
-                spend(high - low + 1, 0)?;
-                all.extend(low..=high);
-            }
-            _ => return node.reject("format", "valences are numbers and ranges"),
-        }
-    }
-    Ok(Some(all))
-}
-
-fn ratio(p: usize, q: usize) -> Q {
-    Q::new(p.into(), q.into())
-}
-
-/// The weights at a central vertex: of all edge neighbours together, and of all opposite corners; it has what is left itself.
-fn vertex(edges: Q, corners: Q) -> Centre {
-    Centre::Vertex([Q::one() - &edges - &corners, edges, corners])
-}
-
-/// The weights in a central face of `n` corners: what all have, and what the own one and its two neighbours have beside.
-fn face(n: usize, all: Q, own: Q, near: Q) -> Centre {
-    let weight = |j: usize| match j {
-        0 => &all + &own,
-        _ if j == 1 || j + 1 == n => &all + &near,
-        _ => all.clone(),
-    };
-    Centre::Face((0..n).map(weight).collect())
-}
-
 impl Case {
-    /// Reads a case.
-    pub fn read(root: &Node<'_>) -> Checked<Self> {
-        let name = root.field("name")?.text()?.to_owned();
-        let table = root.field("vertex")?;
-        let (mesh, parameter) = (table.field("mesh")?.text()?, |key: &str| number(&table.field(key)?));
-        let (spline, centre, keys): (_, Box<dyn Fn(usize) -> Centre>, _) = match mesh {
-            "catmull-clark" => (Spline::Bicubic, Box::new(|n| vertex(ratio(3, 2 * n), ratio(1, 4 * n))), ""),
-            "quad-triangle" => (Spline::Bicubic, Box::new(|_| vertex(ratio(3, 8), ratio(1, 16))), ""),
-            "catmull-clark-variant" => {
-                let (alpha, beta) = (parameter("alpha")?, parameter("beta")?);
-                let gamma = Q::one() - alpha - &beta;
-                if table.get("gamma").is_some() {
-                    table.need(parameter("gamma")? == gamma, "case", "the weights do not add up to 1")?;
-                }
-                let centre = move |_| vertex(beta.clone(), gamma.clone());
-                (Spline::Bicubic, Box::new(centre), "alpha beta gamma")
-            }
-            "loop" => (Spline::Quartic, Box::new(|_| Centre::Loop), ""),
-            "loop-warren" => {
-                let edges = |n| if n == 3 { ratio(9, 16) } else { ratio(3, 8) };
-                (Spline::Quartic, Box::new(move |n| vertex(edges(n), ratio(0, 1))), "")
-            }
-            "loop-variant" => {
-                let beta = parameter("beta")?;
-                (Spline::Quartic, Box::new(move |n| vertex(&beta * ratio(n, 1), ratio(0, 1))), "beta")
-            }
-            "doo-sabin" if table.get("weights").is_some() => {
-                let list = table.field("weights")?.each(number)?;
-                (Spline::Biquadratic, Box::new(move |_| Centre::Face(list.clone())), "weights")
-            }
-            "doo-sabin" => (Spline::Biquadratic, Box::new(|_| Centre::Frequency(1)), ""),
-            "doo-sabin-frequency" => {
-                let f = match table.get("frequency") {
-                    None => 2,
-                    Some(node) => {
-                        let f = number(&node)?;
-                        let f = f.to_usize().filter(|k| f.is_integer() && (1..=MAX_FREQUENCY).contains(k));
-                        node.some(f, "format", format_args!("a whole number from 1 to {MAX_FREQUENCY} is needed here"))?
-                    }
-                };
-                (Spline::Biquadratic, Box::new(move |_| Centre::Frequency(f)), "frequency")
-            }
-            "doo-sabin-catmull-clark" => {
-                (Spline::Biquadratic, Box::new(|n| face(n, ratio(1, 4 * n), ratio(1, 2), ratio(1, 8))), "")
-            }
-            "midedge" => (Spline::Quadratic, Box::new(|n| face(n, ratio(0, 1), ratio(1, 2), ratio(1, 4))), ""),
-            _ => return table.reject("format", "a scheme for which there are no certificates"),
-        };
-        table.known(&format!("mesh valence {keys}"))?;
-        let asked = match table.get("valence") {
-            None => Some(BTreeSet::new()),
-            Some(node) => read_valences(&node)?,
-        };
-        Ok(Self { name, spline, centre, asked })
-    }
-
     /// What follows at one valence: C¹, and a tangent plane.
-    fn valence(&self, node: &Node<'_>) -> Checked<(usize, Verdict, Verdict)> {
-        let [valence, rule, frequency, turn, others, vector, half_plane] =
-            node.fields("valence rule frequency turn others vector half_plane")?;
+    fn valence(&self, node: &Node<'_>, regular: Option<&Regular>) -> Checked<(usize, Verdict, Verdict)> {
+        if node.get("value").is_some() {
+            return self.exact(node, regular);
+        }
+        let [valence, rule, frequency, turn, others, rings, vector, half_plane] = match regular {
+            Some(_) => node.fields("valence rule frequency turn others rings vector half_plane")?,
+            None => {
+                let [n, rule, k, turn, others, vector, half_plane] =
+                    node.fields("valence rule frequency turn others vector half_plane")?;
+                // Splines have two rings, which the format does not say.
+                [n, rule, k, turn, others, node.clone(), vector, half_plane]
+            }
+        };
         let (n, k, radius) = (valence.index(MAX_VALENCE + 1)?, frequency.index(MAX_VALENCE)?, others.rational()?);
         node.need(n >= 3 && 2 * k <= n && radius.is_positive(), "vertex", "no such vertex, block or bound")?;
-        let pair = |node: &Node<'_>| node.vector(2).map(|mut v| (v.remove(0), v.remove(0)));
-        let mesh = Mesh::new(self.spline, (self.centre)(n), powers(n, &pair(&turn)?)?)?;
+        let (mesh, last) = self.mesh(regular, powers(n, &pair(&turn)?)?)?;
         let near = vector.list()?.iter().map(pair).collect::<Checked<Vec<_>>>()?;
-        let net = top(&mesh, k, &near, &radius)?;
-        let ring = patches(&mesh, &net)?;
-        let held = if half_plane.is_null() {
-            false
-        } else {
-            let (x, y) = pair(&half_plane)?;
-            let against = Ball::new(&x, &y).conjugate();
-            need(!ring.is_empty(), "vertex", "a ring has patches")?;
-            let positive = ring.iter().flat_map(Patch::points).all(|p| p.times(&against).real_sign() == 1);
-            half_plane.need(positive && 0 < k && 2 * k < n, "half-plane", "the ring of a sector does not lie in it")?;
-            true
-        };
-        let holds = match rule.text()? {
-            "theorem-7" => {
-                k == 1 && held && one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign()))
-            }
-            "theorem-8-winding" => 2 <= k && 2 * k < n,
-            "theorem-8-fold" => {
-                let corners = ring.iter().flat_map(Patch::jacobian).filter(|c| c.1);
-                let signs: Vec<i32> = corners.map(|c| c.0.imaginary_sign()).collect();
-                0 < k && 2 * k < n && signs.contains(&1) && signs.contains(&-1)
-            }
-            "theorem-2" => k == 0 && one_sign(ring.iter().flat_map(Patch::points).map(Ball::real_sign)),
-            "theorem-8-path" => k == 0 && one_sign(boundary(&mesh, &ring).iter().map(Ball::real_sign)),
-            _ => return rule.reject("format", "unknown rule for a vertex"),
-        };
-        rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
-        let (smooth, plane) = match rule.text()? {
-            "theorem-7" => (Verdict::Proved, Verdict::Proved),
-            "theorem-2" => (Verdict::Refuted, Verdict::Refuted),
-            _ if held => (Verdict::Refuted, Verdict::Proved),
-            _ => (Verdict::Refuted, Verdict::Undetermined),
-        };
+        let rings = if regular.is_some() { rings.index(MAX_RINGS + 1)? as i64 } else { 2 };
+        let net = top(&mesh, k, &near, &radius, [rings, last])?;
+        let ring = self.ring(regular, &mesh, &net)?;
+        let (smooth, plane) = judged(&ring, &rule, &half_plane, [n, k, 1])?;
         Ok((n, smooth, plane))
+    }
+
+    /// The same with rational weights and a rational leading eigenvalue, which may be one of several blocks or have Jordan blocks.
+    fn exact(&self, node: &Node<'_>, regular: Option<&Regular>) -> Checked<(usize, Verdict, Verdict)> {
+        let [valence, rule, turn, value, others, unit, half_plane] =
+            node.fields("valence rule turn value others unit half_plane")?;
+        let (n, value) = (valence.index(MAX_VALENCE + 1)?, value.rational()?);
+        node.need(n >= 3, "vertex", "no such vertex")?;
+        let (mesh, last) = self.mesh(regular, powers(n, &pair(&turn)?)?)?;
+        let operator = Operator::new(&self.scheme, &mesh)?;
+        let leading = operator.leading(&value, &others.rational()?)?;
+        if rule.text()? == "theorem-8-span" {
+            let holds = leading.count() >= 3 && unit.is_null() && half_plane.is_null();
+            rule.need(holds, "theorem-8-span", "a premise of this rule does not hold")?;
+            return Ok((n, Verdict::Refuted, Verdict::Refuted));
+        }
+        let mut net = operator.net(&mesh, &leading)?;
+        let k = net.frequency;
+        if !unit.is_null() {
+            let places = mesh.places(operator.rings);
+            let scale = mesh.at(&net, Some((places[unit.index(places.len())?], 0)))?.inverse()?;
+            net.values.values_mut().for_each(|value| *value = value.times(&scale));
+            net.centre = net.centre.times(&scale);
+        }
+        let net = mesh.continued(&Ball::real(&value), net, last.max(operator.rings))?;
+        let ring = self.ring(regular, &mesh, &net)?;
+        let (smooth, plane) = judged(&ring, &rule, &half_plane, [n, k, leading.length])?;
+        Ok((n, smooth, plane))
+    }
+
+    /// The scheme at one valence, and the rings that the ring of patches or cells needs.
+    fn mesh(&self, regular: Option<&Regular>, powers: Vec<Ball>) -> Checked<(Mesh, i64)> {
+        match (&self.scheme, regular) {
+            (Scheme::Spline(spline, centre), _) => Ok((Mesh::new(*spline, centre(powers.len()), powers)?, 3)),
+            (Scheme::Rule(rule), Some(regular)) => {
+                let stencils = rule.stencils(&powers)?;
+                let last = regular.rings(&stencils.special.keys().copied().collect())?;
+                Ok((Mesh::of_stencils(stencils, powers), last))
+            }
+            (Scheme::Rule(_), None) => reject("limits", "a rule by stencils without bounds of its limits"),
+        }
+    }
+
+    fn ring<'a>(&self, regular: Option<&'a Regular>, mesh: &Mesh, net: &Net) -> Checked<Ring<'a>> {
+        match (&self.scheme, regular) {
+            (Scheme::Spline(spline, _), _) => Ring::of_patches(*spline, mesh, net),
+            (Scheme::Rule(_), Some(regular)) => Ring::of_cells(regular, mesh, net),
+            (Scheme::Rule(_), None) => reject("limits", "a rule by stencils without bounds of its limits"),
+        }
     }
 }
 
-fn one_sign(signs: impl Iterator<Item = i32>) -> bool {
-    let all: Vec<i32> = signs.collect();
-    !all.is_empty() && all.iter().all(|s| *s != 0 && *s == all[0])
+fn pair(node: &Node<'_>) -> Checked<(Q, Q)> {
+    node.vector(2).map(|mut v| (v.remove(0), v.remove(0)))
+}
+
+/// What a rule says of the ring of the function in block `k` that ends chains of a length: C¹, and a tangent plane.
+fn judged(
+    ring: &Ring<'_>,
+    rule: &Node<'_>,
+    half_plane: &Node<'_>,
+    [n, k, length]: [usize; 3],
+) -> Checked<(Verdict, Verdict)> {
+    let held = if half_plane.is_null() {
+        false
+    } else {
+        let inside = ring.lies_in(&pair(half_plane)?)? && 0 < k && 2 * k < n;
+        half_plane.need(inside, "half-plane", "the ring of a sector does not lie in it")?;
+        true
+    };
+    let holds = match rule.text()? {
+        "theorem-7" => k == 1 && held && ring.is_regular()?,
+        "theorem-8-winding" => 2 <= k && 2 * k < n && (held || length == 1),
+        "theorem-8-fold" => 0 < k && 2 * k < n && ring.folds()?,
+        "theorem-2" => k == 0 && ring.is_one_sided(false)?,
+        "theorem-8-path" => k == 0 && ring.is_one_sided(true)?,
+        _ => return rule.reject("format", "unknown rule for a vertex"),
+    };
+    rule.need(holds, rule.text()?, "a premise of this rule does not hold")?;
+    Ok(match rule.text()? {
+        "theorem-7" => (Verdict::Proved, Verdict::Proved),
+        "theorem-2" => (Verdict::Refuted, Verdict::Refuted),
+        _ if held => (Verdict::Refuted, Verdict::Proved),
+        _ => (Verdict::Refuted, Verdict::Undetermined),
+    })
 }
 
 /// Proves that the block `k` has exactly one eigenvalue of modulus `radius` or more but the 1 of block 0, that it is simple and smaller
-/// than 1, and that the other blocks have none; and returns its eigenvector on three rings.
-fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
+/// than 1, and that the other blocks have none; all on the first rings. It returns the eigenvector on as many rings as are asked for.
+fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q, [rings, last]: [i64; 2]) -> Checked<Net> {
     let mut found = None;
     for other in 0..=mesh.valence() / 2 {
-        let block = mesh.block(other)?;
+        let block = mesh.block(other, rings)?;
         let ones = vec![Ball::real(&Q::one()); block.len()];
         // The weights add up to 1: on the quotient by the constant net the eigenvalue 1 is gone.
         let rest: Balls = if other == 0 { deflated(&block, &ones, 0) } else { block.clone() };
@@ -225,7 +188,7 @@ fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
             dominated(&rest, radius)?;
             continue;
         }
-        need(near.len() == rest.len(), "vertex", "the vector has one entry for each point of the first two rings")?;
+        need(near.len() == rest.len(), "vertex", "the vector has one entry for each point of the first rings")?;
         let (value, mut vector) = leading(&rest, near, radius)?;
         need(value.at_most() < Q::one(), "vertex", "the eigenvalue is not smaller than 1")?;
         if k == 0 {
@@ -237,17 +200,19 @@ fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q) -> Checked<Net> {
         found = Some((value, vector));
     }
     let Some((value, mut vector)) = found else { return reject("vertex", "no such block") };
-    let places = mesh.places(2);
+    let places = mesh.places(rings);
     let centre = if vector.len() > places.len() { vector.remove(0) } else { Ball::zero() };
     let values = places.into_iter().zip(vector).collect();
-    mesh.continued(&value, Net { frequency: k, centre, values })
+    mesh.continued(&value, Net { frequency: k, centre, values }, last.max(rings))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::whole;
-    use mesh::Place;
+    use crate::base::{Json, whole};
+    use mesh::{Centre, Place, Spline};
+    use patch::{Patch, boundary, patches};
+    use ring::one_sign;
 
     /// The first half of a curve in Bernstein form.
     fn half(curve: &[Ball]) -> Vec<Ball> {
@@ -285,15 +250,16 @@ mod tests {
             let n = item.field("valence").unwrap().index(100).unwrap();
             let k = item.field("frequency").unwrap().index(100).unwrap();
             let turn = pair(&item.field("turn").unwrap());
-            let mesh = Mesh::new(case.spline, (case.centre)(n), powers(n, &turn).unwrap()).unwrap();
+            let Scheme::Spline(spline, centre) = &case.scheme else { panic!("{name} is a spline") };
+            let mesh = Mesh::new(*spline, centre(n), powers(n, &turn).unwrap()).unwrap();
             let near: Vec<_> = item.field("vector").unwrap().list().unwrap().iter().map(pair).collect();
             let radius = item.field("others").unwrap().rational().unwrap();
-            let block = mesh.block(k).unwrap();
+            let block = mesh.block(k, 2).unwrap();
             let (value, _) = leading(&block, &near, &radius).unwrap();
-            let net = top(&mesh, k, &near, &radius).unwrap();
-            let ring = patches(&mesh, &net).unwrap();
+            let net = top(&mesh, k, &near, &radius, [2, 3]).unwrap();
+            let ring = patches(*spline, &mesh, &net).unwrap();
             let small = Q::one() / num_traits::pow(whole(2), 60);
-            let (small_edge, outer) = (half(&edge(&ring)), boundary(&mesh, &ring));
+            let (small_edge, outer) = (half(&edge(&ring)), boundary(*spline, &ring));
             for (a, b) in small_edge.iter().zip(&outer) {
                 assert!(a.minus(&b.times(&value)).at_most() < small, "{name}");
             }
@@ -328,12 +294,12 @@ mod tests {
                 ((&x * &first.0 + &y * &first.1) / &size, (&y * &first.0 - &x * &first.1) / &size)
             };
             let near: Vec<_> = places.iter().map(near).collect();
-            let net = top(&mesh, 1, &near, &(whole(3) / whole(10))).unwrap();
-            let ring = patches(&mesh, &net).unwrap();
+            let net = top(&mesh, 1, &near, &(whole(3) / whole(10)), [2, 3]).unwrap();
+            let ring = patches(spline, &mesh, &net).unwrap();
             assert!(one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign())), "{spline:?}");
             // The outer boundary begins at distance 2 on the first spoke.
             let scale = Ball::new(&first.0, &first.1);
-            let corner = boundary(&mesh, &ring)[0].times(&scale).minus(&Ball::real(&whole(2)));
+            let corner = boundary(spline, &ring)[0].times(&scale).minus(&Ball::real(&whole(2)));
             assert!(corner.at_most() < Q::one() / num_traits::pow(whole(2), 60), "{spline:?}");
         }
     }

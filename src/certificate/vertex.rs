@@ -5,9 +5,10 @@ use super::{Certificate, Doubt, Unsupported, number, unsupported};
 use crate::algebraic::sqrt_down;
 use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};
-use crate::scheme::Sector;
+use crate::scheme::{Sector, sector_stencils};
 use crate::theorem::Verdict;
 use crate::vertex::field::{Enclosures, Field};
+use crate::vertex::regular::Regular;
 use crate::vertex::top::Top;
 use crate::vertex::{Again, AtValence, Eigenvector, Ground};
 use malachite_base::num::arithmetic::traits::Floor;
@@ -21,6 +22,18 @@ const SHORT: u64 = 24;
 /// Binary places of the bound of the other eigenvalues, which was proposed in floating point: few enough for the same certificate
 /// everywhere, and more than [`apart`] asks for.
 const BOUND: u64 = 40;
+
+/// So many steps together shrink second differences that have factors in the mask (Lemma 4′): enough, and cheap.
+const FACTOR_STEPS: usize = 6;
+
+/// Differences shrink slowly in these steps where they keep more than this part.
+const SLOW: (i64, i64) = (7, 20);
+
+/// So many words of steps the checker looks at.
+const MAX_WORDS: usize = 1000;
+
+/// The size of an operator on all sectors of which the checker computes the characteristic polynomial.
+const MAX_EXACT: usize = 48;
 
 /// A complex number.
 type Complex = (Rational, Rational);
@@ -57,23 +70,32 @@ fn unity(k: usize, n: usize) -> Complex {
     (cosine, sine)
 }
 
-/// The values on the first two rings, in the order of the format, without their constant part in block 0.
-fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
+/// The values on the first rings, in the order of the format.
+fn all_values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
+    // Splines have two rings in the format.
+    let rings = if by_stencils(case) { vector.rings } else { 2 };
     let inside = |&(i, j): &(usize, usize)| match (case.rule.dual(), case.rule.sector()) {
-        (true, _) => i < 2 && j < 2,
+        (true, _) => i < rings && j < rings,
         (false, Sector::Quads) => i > 0,
-        (false, Sector::Triangles) => i > 0 && i + j <= 2,
+        (false, Sector::Triangles) => i > 0 && i + j <= rings,
     };
     let turn = unity(vector.frequency, n);
     let value = |(x, y): &Complex| (x + y * &turn.0, y * &turn.1);
-    let places = (0..=2).flat_map(|i| (0..=2).map(move |j| (i, j))).filter(inside);
+    let places = (0..=rings).flat_map(|i| (0..=rings).map(move |j| (i, j))).filter(inside);
     let known = places.map(|place| match vector.points.iter().find(|(p, _)| *p == place) {
         Some((_, v)) => Ok(value(v)),
         None => unsupported(format!("an eigenvector without a value at {place:?}"), valence(n)),
     });
-    let mut all: Vec<Complex> = known.collect::<Result<_, _>>()?;
+    known.collect()
+}
+
+/// The same without the constant part in block 0.
+fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
+    let mut all = all_values(case, vector, n)?;
     if vector.frequency == 0 {
-        let own = if case.rule.dual() { all.remove(0) } else { value(&vector.centre) };
+        // ω = 1 there.
+        let centre = (&vector.centre.0 + &vector.centre.1, Rational::from(0));
+        let own = if case.rule.dual() { all.remove(0) } else { centre };
         all.iter_mut().for_each(|v| *v = (&v.0 - &own.0, &v.1 - &own.1));
     }
     Ok(all)
@@ -89,6 +111,69 @@ fn apart(top: &Top) -> bool {
     (&size - &top.others) << 24 > size
 }
 
+fn rule(ground: Ground, n: usize) -> Result<&'static str, Unsupported> {
+    Ok(match ground {
+        Ground::Regular => "theorem-7",
+        Ground::Winding(_) => "theorem-8-winding",
+        Ground::Fold => "theorem-8-fold",
+        Ground::Line => "theorem-2",
+        Ground::Path => "theorem-8-path",
+        Ground::Span => "theorem-8-span",
+        Ground::Sectors | Ground::NoLimit => return unsupported("this evidence", valence(n)),
+    })
+}
+
+/// The half-plane of a sector, for the vector divided by one of its entries.
+fn half_plane(found: &AtValence, vector: &Eigenvector, divisor: &Complex) -> Option<Value> {
+    let (a, b) = found.half_plane.as_ref()?;
+    // a x + b y = Re(conj(h) (x + yω)).
+    let turn = unity(vector.frequency, found.valence);
+    let h = times(&(a.clone(), (b - a * &turn.0) / &turn.1), &conjugate(divisor));
+    let size = square(&h);
+    let unit = Rational::from(1) / sqrt_down(&size, SHORT).max(Rational::from(1) >> SHORT);
+    Some(written(&scaled(&h, &unit), SHORT))
+}
+
+/// Whether the checker has the operator on all sectors exactly, and it is not too large for a characteristic polynomial.
+fn has_exact_operator(case: &VertexCase, n: usize) -> bool {
+    let butterfly = case.rule.info().name == "butterfly";
+    let known = if by_stencils(case) { butterfly } else { true };
+    let stencils = sector_stencils(&case.rule, n, if butterfly { 3 } else { 2 });
+    known && stencils.is_ok_and(|s| n * s.places.len() < MAX_EXACT)
+}
+
+/// The evidence where the leading eigenvalue is in several blocks, or has Jordan blocks: it is rational, and all weights are.
+fn tied(case: &VertexCase, found: &AtValence, top: &Top, ground: Ground) -> Result<Value, Unsupported> {
+    let n = found.valence;
+    let alone = top.members.iter().all(|m| !m.negative);
+    let Some(value) = top.rational.as_ref().filter(|_| alone && has_exact_operator(case, n)) else {
+        let what = "irrational leading eigenvalues or weights, where several blocks or Jordan blocks have them";
+        return unsupported(what, valence(n));
+    };
+    // No simple number, at which the recursion of Schur and Cohn may stop: 1/4 between 1/8 and 3/8.
+    let bound = (&top.others * Rational::from(4) + abs(value) * Rational::from(3)) / Rational::from(7);
+    let (mut unit, mut plane) = (None, None);
+    if ground != Ground::Span {
+        let Some(vector) = &found.eigenvector else {
+            return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
+        };
+        let values = all_values(case, vector, n)?;
+        let Some((index, largest)) = values.iter().enumerate().max_by_key(|(_, v)| square(v)) else {
+            return unsupported("an eigenvector without values", valence(n));
+        };
+        (unit, plane) = (Some(index), half_plane(found, vector, largest));
+    }
+    Ok(json!({
+        "valence": n,
+        "rule": rule(ground, n)?,
+        "turn": written(&unity(1, n), PLACES),
+        "value": number(value),
+        "others": rounded(&bound, BOUND),
+        "unit": unit,
+        "half_plane": plane,
+    }))
+}
+
 /// The evidence for one valence.
 fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> {
     let n = found.valence;
@@ -98,50 +183,70 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     if n < 3 {
         return unsupported("a valence below 3", valence(n));
     }
-    if case.rule.own().is_some() {
-        return unsupported("stencils of one's own", valence(n));
+    if case.rule.own().is_some() && case.rule.steps() > 1 {
+        return unsupported("stencils of one's own for two steps that turn the mesh", valence(n));
     }
-    let (Some(top), Some(ground), Some(vector)) = (&found.top, found.ground, &found.eigenvector) else {
-        return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
+    let (Some(top), Some(ground)) = (&found.top, found.ground) else {
+        return unsupported("a verdict that does not rest on leading eigenvectors", valence(n));
     };
-    if !matches!(top.members.as_slice(), [only] if only.blocks == [1]) {
-        return unsupported("leading eigenvalues in several blocks, or with Jordan blocks", valence(n));
-    }
-    if !found.polynomial {
-        return unsupported("a ring without polynomial patches", valence(n));
-    }
     if !apart(top) {
         return unsupported("eigenvalues this close", valence(n));
     }
-    let rule = match ground {
-        Ground::Regular => "theorem-7",
-        Ground::Winding(_) => "theorem-8-winding",
-        Ground::Fold => "theorem-8-fold",
-        Ground::Line => "theorem-2",
-        Ground::Path => "theorem-8-path",
-        Ground::Sectors | Ground::Span | Ground::NoLimit => return unsupported("this evidence", valence(n)),
+    if !matches!(top.members.as_slice(), [only] if only.blocks == [1]) {
+        return tied(case, found, top, ground);
+    }
+    let rule = rule(ground, n)?;
+    let Some(vector) = &found.eigenvector else {
+        return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
     };
     let values = values(case, vector, n)?;
     let Some(largest) = values.iter().max_by_key(|v| square(v)).filter(|v| square(v) > 0) else {
         return unsupported("an eigenvector that is 0", valence(n));
     };
     let inverse = scaled(&conjugate(largest), &(Rational::from(1) / square(largest)));
-    let half_plane = found.half_plane.as_ref().map(|(a, b)| {
-        // a x + b y = Re(conj(h) (x + yω)); the vector is divided by its largest entry.
-        let turn = unity(vector.frequency, n);
-        let h = times(&(a.clone(), (b - a * &turn.0) / &turn.1), &conjugate(largest));
-        let size = square(&h);
-        let unit = Rational::from(1) / sqrt_down(&size, SHORT).max(Rational::from(1) >> SHORT);
-        written(&scaled(&h, &unit), SHORT)
-    });
-    Ok(json!({
+    let half_plane = half_plane(found, vector, largest);
+    let mut evidence = json!({
         "valence": n,
         "rule": rule,
         "frequency": vector.frequency,
         "turn": written(&unity(1, n), PLACES),
         "others": rounded(&top.others, BOUND),
-        "vector": values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect::<Vec<_>>(),
-        "half_plane": half_plane,
+    });
+    if by_stencils(case) {
+        evidence["rings"] = json!(vector.rings);
+    }
+    evidence["vector"] = values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect();
+    evidence["half_plane"] = json!(half_plane);
+    Ok(evidence)
+}
+
+/// Whether the checker looks at the rule by its stencils, without patches.
+fn by_stencils(case: &VertexCase) -> bool {
+    case.rule.info().spline.is_none() || case.rule.own().is_some()
+}
+
+/// How second differences are seen to shrink where the checker does without patches; it computes itself how much.
+fn limits(case: &VertexCase) -> Result<Option<Value>, Unsupported> {
+    if !by_stencils(case) {
+        return Ok(None);
+    }
+    let Some(regular) = Regular::of(&case.rule) else {
+        return unsupported("a regular rule without bounds of its limits", case.name.clone());
+    };
+    let length = regular.shrinks.length;
+    let words = (0..length).try_fold(1_usize, |all, _| all.checked_mul(regular.parts.len()));
+    // The bounds of the checker are somewhat wider: where differences shrink slowly they may not do.
+    if &regular.shrinks.to * Rational::from(SLOW.1) > SLOW.0 {
+        return unsupported("second differences that shrink this slowly", case.name.clone());
+    }
+    Ok(Some(if regular.shrinks.by_factors {
+        json!({ "by": "factors", "steps": FACTOR_STEPS, "changes": FACTOR_STEPS / 2 })
+    } else if regular.shrinks_along_axes(&case.rule) {
+        json!({ "by": "axes", "steps": FACTOR_STEPS, "changes": FACTOR_STEPS / 2 })
+    } else if words.is_some_and(|all| all <= MAX_WORDS) {
+        json!({ "by": "words", "steps": length, "changes": length })
+    } else {
+        return unsupported("second differences that shrink this slowly", case.name.clone());
     }))
 }
 
@@ -175,7 +280,11 @@ fn covered(case: &VertexCase, found: &[AtValence]) -> Result<Covered, Unsupporte
         };
     }
     let verdict = together(case, &claims);
-    let certificate = Certificate::new("vertex", &case.name, verdict.word(), json!({ "valences": valences }));
+    let proof = match limits(case)? {
+        Some(limits) => json!({ "limits": limits, "valences": valences }),
+        None => json!({ "valences": valences }),
+    };
+    let certificate = Certificate::new("vertex", &case.name, verdict.word(), proof);
     let certificate = certificate.without(left_out);
     Ok(Covered { certificate, listed: claims.into_iter().map(|(n, _)| n).collect(), verdict })
 }

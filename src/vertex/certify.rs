@@ -67,6 +67,8 @@ impl Ground {
 pub struct Eigenvector {
     /// The frequency `k`.
     pub frequency: usize,
+    /// The rings of points.
+    pub rings: usize,
     /// At the centre.
     pub centre: (Rational, Rational),
     /// `x` and `y` at the points of sector 0, by place.
@@ -357,8 +359,9 @@ impl Judge<'_> {
     }
 
     /// The ring of the leading eigenvector of block `k` for a scheme without Bézier patches.
-    fn ring(&self, k: usize, bits: u64) -> Option<Ring> {
+    fn ring(&mut self, k: usize, bits: u64) -> Option<Ring> {
         let (field, values) = self.values(k, bits)?;
+        self.note(k, &field, &values);
         let eigenvalue = leading_value(self.vertex, self.blocks, self.top, k, bits)?;
         Ring::new(self.vertex, &field, &values, &eigenvalue, self.budget.ring_cells)
     }
@@ -389,7 +392,8 @@ impl Judge<'_> {
     fn note(&mut self, frequency: usize, field: &Enclosures, values: &Values<Fixed>) {
         let middle = |v: &Turning<Fixed>| (field.to_interval(&v.x).mid(), field.to_interval(&v.y).mid());
         let points = self.vertex.stencils.places.iter().copied().zip(values.orbits.iter().map(middle)).collect();
-        self.found.eigenvector = Some(Eigenvector { frequency, centre: middle(&values.centre), points });
+        self.found.eigenvector =
+            Some(Eigenvector { frequency, rings: self.vertex.rings, centre: middle(&values.centre), points });
     }
 
     /// A pair of leading eigenvectors in the blocks `k` and `n − k`: the characteristic map.

@@ -65,39 +65,37 @@ fn norm(mask: &Mask, steps: u32) -> Rational {
     Rational::from(sums.into_values().fold(Integer::from(0), Integer::max)) * scale
 }
 
-/// For a mask with `N = 2` that has the factors `(1 + z^u)(1 + z^v)` for all pairs of directions: bounds `R_0 = 1, R_1, …` of the
+/// For a mask with `N = 2` that has the factors `(1 + z^u)(1 + z^v)` for all of some pairs of directions: bounds `R_0 = 1, R_1, …` of the
 /// second differences in a part of a cell after so many steps, times `2^steps`, by those in the cell before. `None` where there is no
 /// such factor, or where differences outside of the cell take part.
 ///
 /// # Cost
 /// Products of masks up to 6 steps: some ten thousand terms each.
 #[must_use]
-pub fn shrinking(mask: &Mask, directions: &[Place], points: &[Place], parts: &[Cell]) -> Option<Vec<Rational>> {
-    let mut pairs: Vec<Mask> = Vec::new();
-    for (k, u) in directions.iter().enumerate() {
-        for v in &directions[k + 1..] {
-            let divided = quotient(&quotient(mask, *u)?, *v)?;
-            let corners = |o: Place, s: i64| {
-                [(0, 0), (1, 0), (0, 1), (1, 1)]
-                    .map(|(a, b)| (o.0 + s * (a * u.0 + b * v.0), o.1 + s * (a * u.1 + b * v.1)))
-            };
-            let inside = |o: Place| corners(o, 1).iter().all(|p| points.contains(p));
-            for part in parts {
-                // In a part that lies upside down a difference begins at its opposite corner.
-                let own = points.iter().filter(|o| inside(**o)).map(|o| place(part, *o));
-                let first = |o: Place| if part.1 == 1 { o } else { corners(o, -1)[3] };
-                if own.map(first).any(|o| sources(&divided, (*u, *v), o).any(|q| !inside(q))) {
-                    return None;
-                }
+pub fn shrinking(mask: &Mask, pairs: &[(Place, Place)], points: &[Place], parts: &[Cell]) -> Option<Vec<Rational>> {
+    let mut divided_masks: Vec<Mask> = Vec::new();
+    for (u, v) in pairs {
+        let divided = quotient(&quotient(mask, *u)?, *v)?;
+        let corners = |o: Place, s: i64| {
+            [(0, 0), (1, 0), (0, 1), (1, 1)]
+                .map(|(a, b)| (o.0 + s * (a * u.0 + b * v.0), o.1 + s * (a * u.1 + b * v.1)))
+        };
+        let inside = |o: Place| corners(o, 1).iter().all(|p| points.contains(p));
+        for part in parts {
+            // In a part that lies upside down a difference begins at its opposite corner.
+            let own = points.iter().filter(|o| inside(**o)).map(|o| place(part, *o));
+            let first = |o: Place| if part.1 == 1 { o } else { corners(o, -1)[3] };
+            if own.map(first).any(|o| sources(&divided, (*u, *v), o).any(|q| !inside(q))) {
+                return None;
             }
-            if !pairs.contains(&divided) {
-                pairs.push(divided);
-            }
+        }
+        if !divided_masks.contains(&divided) {
+            divided_masks.push(divided);
         }
     }
     let mut bounds = vec![Rational::from(1)];
     for steps in 1..=MAX_STEPS {
-        let worst = pairs.iter().map(|m| norm(m, steps)).max()?;
+        let worst = divided_masks.iter().map(|m| norm(m, steps)).max()?;
         let enough = &worst * Rational::from(ENOUGH.1) <= ENOUGH.0;
         bounds.push(worst);
         if enough {

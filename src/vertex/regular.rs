@@ -121,6 +121,16 @@ impl Regular {
         found
     }
 
+    /// Whether second differences along the axes alone, also twice along the same one, are seen to shrink by the factors of the mask of
+    /// a rule with this regular mesh in some steps.
+    #[must_use]
+    pub fn shrinks_along_axes(&self, rule: &MeshRule) -> bool {
+        let axes = [((1, 0), (1, 0)), ((0, 1), (0, 1)), ((1, 0), (0, 1))];
+        let halves = mask(&rule.regular()).filter(|_| self.factor == 2);
+        let bounds = halves.and_then(|(_, _, mask)| shrinking(&mask, &axes, &self.points, &self.parts));
+        bounds.is_some_and(|all| all.last().is_some_and(|last| *last < 1))
+    }
+
     fn build(rule: &MeshRule) -> Option<Self> {
         let (triangles, factor, mask) = mask(rule)?;
         let parts = parts(triangles, factor);
@@ -331,16 +341,19 @@ fn directions(triangles: bool) -> &'static [Place] {
     if triangles { &[(1, 0), (0, 1), (-1, 1)] } else { &[(1, 0), (0, 1), (1, 1), (1, -1)] }
 }
 
+/// All pairs of directions.
+fn pairs(triangles: bool) -> Vec<(Place, Place)> {
+    let all = directions(triangles);
+    (0..all.len()).flat_map(|k| all[k + 1..].iter().map(move |v| (all[k], *v))).collect()
+}
+
 fn differences(triangles: bool, index: &BTreeMap<Place, usize>) -> Vec<[usize; 4]> {
-    let directions = directions(triangles);
     let mut all = Vec::new();
-    for (k, u) in directions.iter().enumerate() {
-        for v in &directions[k + 1..] {
-            for o in index.keys() {
-                let at = |s: i64, t: i64| index.get(&(o.0 + s * u.0 + t * v.0, o.1 + s * u.1 + t * v.1)).copied();
-                if let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1)) {
-                    all.push([a, b, c, d]);
-                }
+    for (u, v) in pairs(triangles) {
+        for o in index.keys() {
+            let at = |s: i64, t: i64| index.get(&(o.0 + s * u.0 + t * v.0, o.1 + s * u.1 + t * v.1)).copied();
+            if let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1)) {
+                all.push([a, b, c, d]);
             }
         }
     }
@@ -501,7 +514,7 @@ impl<'a> Bounds<'a> {
     /// words, and from the factors of the mask, where it has them (Lemma 4′).
     fn found(&self, mask: &Mask) -> Option<(Shrinks, i128, i128)> {
         let r = self.regular;
-        let factors = (r.factor == 2).then(|| shrinking(mask, directions(r.triangles), &r.points, &r.parts)).flatten();
+        let factors = (r.factor == 2).then(|| shrinking(mask, &pairs(r.triangles), &r.points, &r.parts)).flatten();
         let mut length = 0;
         let (slope_scale, value_scale) = r.scales();
         let mut words = vec![self.first()];
@@ -655,7 +668,7 @@ mod tests {
         let of = |rule: &MeshRule| {
             let (triangles, _, mask) = mask(rule).unwrap();
             let r = Regular::of(rule).unwrap();
-            (shrinking(&mask, directions(triangles), &r.points, &r.parts), r)
+            (shrinking(&mask, &pairs(triangles), &r.points, &r.parts), r)
         };
         // Products of the divided mask, multiplied out in floating point by a script.
         let (bounds, _) = of(&butterfly(ratio(1, 16)));

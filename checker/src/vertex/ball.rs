@@ -2,7 +2,7 @@
 
 use crate::base::{Checked, Q, need, reject, spend, whole};
 use num_bigint::BigInt;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 
 /// Binary places.
 const PLACES: usize = 256;
@@ -93,6 +93,13 @@ impl Ball {
     /// A lower bound of the modulus.
     pub fn at_least(&self) -> Q {
         Q::new(self.x.abs().max(self.y.abs()) - &self.error, BigInt::one() << PLACES)
+    }
+
+    /// The parts rounded to whole numbers of units `2^-places`, and an error of each; `None` where one of them has `size` bits or more.
+    pub fn units(&self, places: usize, size: usize) -> Option<(i128, i128, i128)> {
+        let all = [&self.x, &self.y, &self.error].map(|v| (v >> (PLACES - places)).to_i128());
+        let [Some(x), Some(y), Some(error)] = all else { return None };
+        [x, y, error].iter().all(|v| v.abs() < 1 << size).then_some((x, y, error + 2))
     }
 
     /// The sign of the real part, 0 where it is not certain.

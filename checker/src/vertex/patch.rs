@@ -82,7 +82,7 @@ fn quartic() -> Vec<Vec<(Place, i64)>> {
 }
 
 /// The patches of the ring of sector 0.
-pub fn patches(mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
+pub fn patches(spline: Spline, mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
     let point = |terms: &[(Place, i64)], divisor| mesh.combined(net, terms, divisor);
     let tensor = |cell: Place, weights: &[&[i64]], divisor: i64| {
         let terms = |along: &[i64], across: &[i64]| -> Vec<(Place, i64)> {
@@ -97,7 +97,7 @@ pub fn patches(mesh: &Mesh, net: &Net) -> Checked<Vec<Patch>> {
         let rows = weights.iter().map(|across| row(across)).collect::<Checked<_>>()?;
         Ok(Patch { rows, triangle: false })
     };
-    match mesh.spline() {
+    match spline {
         Spline::Bicubic => {
             let weights: [&[i64]; 4] = [&[1, 4, 1, 0], &[0, 4, 2, 0], &[0, 2, 4, 0], &[0, 1, 4, 1]];
             CELLS.iter().map(|cell| tensor(*cell, &weights, 6)).collect()
@@ -197,12 +197,12 @@ impl Patch {
 }
 
 /// The control points of the outer boundary of the ring of sector 0, from its first spoke to the next.
-pub fn boundary(mesh: &Mesh, patches: &[Patch]) -> Vec<Ball> {
+pub fn boundary(spline: Spline, patches: &[Patch]) -> Vec<Ball> {
     // Every row has a control point.
     let last = |k: usize| patches[k].rows.iter().map(|row| row[row.len() - 1].clone()).collect::<Vec<_>>();
     let top = |k: usize| patches[k].rows[patches[k].degree()].clone();
     let first = |k: usize| patches[k].rows[0].clone();
-    match mesh.spline() {
+    match spline {
         Spline::Bicubic | Spline::Biquadratic => [last(0), last(1), top(1), top(2)].concat(),
         Spline::Quartic => [last(0), last(2)].concat(),
         Spline::Quadratic => [first(1), first(5), first(6), first(10)].concat(),
