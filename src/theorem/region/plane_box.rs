@@ -110,10 +110,8 @@ impl Waiting {
             self.signs.resize(guards.len(), None);
         }
         let (first, second) = (&self.area.first, &self.area.second);
-        let sign = *self.signs[k].get_or_insert_with(|| match guards[k].strict_sign(first, second) {
-            Some(sign) => sign,
-            None => 0,
-        });
+        let asked = || guards[k].strict_sign(first, second).map_or(0, i32::signum);
+        let sign = *self.signs[k].get_or_insert_with(asked);
         Some(sign).filter(|s| *s != 0)
     }
 
