@@ -43,6 +43,8 @@ fn the_claims_that_decide_can_be_named() {
         (smooth, "ends,joints,dense,points,inside?", 0),
         (smooth, "g1,c2", 0),
         (smooth, "c3", 0),
+        ("chaikin", "c1", 0),
+        ("chaikin", "c2", 1),
         ("four-point", "c1", 0),
         ("four-point", "c2", 1),
         (smooth, "points", 3),

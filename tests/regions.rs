@@ -296,7 +296,7 @@ fn the_program_answers() {
     // A case with parameters is one case only with values.
     let case = family("six-point.toml");
     let (code, _, problem) = run(&["certify", &case]);
-    assert!(code == Some(2) && problem.contains("w=1/16"), "{problem}");
+    assert!(code == Some(2) && problem.contains("t=1/16"), "{problem}");
     let (code, text, problem) = run(&["certify", &case, "t=1/50", "--certificate", "b.json"]);
     assert!(code == Some(0) && text.contains("proved"), "{text}{problem}");
     let member = std::fs::read_to_string(dir.path().join("b.case.toml")).unwrap();

@@ -46,6 +46,8 @@ mod lattice;
 mod laws;
 #[path = "meshes.rs"]
 mod meshes;
+#[path = "outputs.rs"]
+mod outputs;
 #[path = "questions.rs"]
 mod questions;
 #[path = "radius.rs"]

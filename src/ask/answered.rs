@@ -135,7 +135,7 @@ impl Answered {
         let written = self.evidence.clone().unwrap_or_else(|| unconfirmed(&self.findings));
         written.map_err(|unsupported| {
             Problem::new("secant::certificate::none", unsupported.to_string())
-                .with_help("see docs/certificate.md, “What is not covered”; nothing was written")
+                .with_help("see docs/certificate.md, “What is not covered”; no certificate was written")
         })
     }
 

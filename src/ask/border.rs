@@ -12,7 +12,7 @@ use std::path::Path;
 
 fn wrong(message: String) -> Problem {
     Problem::new("secant::regularity", message)
-        .with_help("the format of a [border] is in docs/case-format.md; nothing was written")
+        .with_help("the format of a [border] is in docs/case-format.md; no certificate was written")
 }
 
 /// A case file with a `[border]`; `None` where the input is none.

@@ -73,7 +73,7 @@ pub(super) fn lattice_answer(mask: LatticeMask) -> Result<(Smooth, LatticeRegula
 pub(super) fn lattice_certified(case: LatticeCase) -> Result<(Smooth, String, Option<String>), Problem> {
     let source = case.mask.case_text(&case.name);
     let (smooth, found) = lattice_answer(case.mask)?;
-    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; nothing was written");
+    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; no certificate was written");
     let certificate = lattice_certificate(&case.name, &found).map_err(|e| nothing(e.to_string()))?;
     let certificate = checked(&source, certificate).map_err(|e| nothing(e.to_string()))?;
     Ok((smooth, certificate.text(), Some(source)))

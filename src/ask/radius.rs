@@ -1,5 +1,6 @@
 //! Bounds of the joint spectral radius of the matrices of a file.
 
+use crate::case::matrix_file;
 use crate::certificate::radius_certificate;
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::{JointRadius, Options, file, joint_radius};
@@ -35,7 +36,7 @@ fn wrong(message: String, help: &str) -> Problem {
 /// # Ok::<(), secant::diagnostic::Problem>(())
 /// ```
 pub fn radius(name: &str, text: &str, options: &Options) -> Result<Radius, Problem> {
-    let file = file::parse(text).map_err(|e| {
+    let file = read(text).map_err(|e| {
         let source = SourceText::new(name, text);
         let of_case = ["convention", "pieces", "scheme", "map", "state", "control", "title"];
         let help = match &e.problem {
@@ -52,6 +53,48 @@ pub fn radius(name: &str, text: &str, options: &Options) -> Result<Radius, Probl
     Ok(Radius { name, found, file, text: text.to_owned() })
 }
 
+/// A file, also with matrices as NumPy prints them, one by one or in a list.
+fn read(text: &str) -> Result<file::File, file::FileError> {
+    file::parse(text).or_else(|error| {
+        let blocks = blocks(text);
+        let matrices: Option<Vec<String>> = blocks.iter().map(|block| rows(block)).collect();
+        match matrices.filter(|list| !list.is_empty() && !text.contains("matrices")) {
+            Some(list) => file::parse(&format!("matrices = [{}]", list.join(",\n"))),
+            None => Err(error),
+        }
+    })
+}
+
+/// The stretches `[[…]]` that hold rows of numbers.
+fn blocks(text: &str) -> Vec<&str> {
+    let brackets: Vec<(usize, bool)> = text.match_indices(['[', ']']).map(|(at, c)| (at, c == "[")).collect();
+    let mut found = Vec::new();
+    let mut k = 0;
+    while k < brackets.len() {
+        let begins = matches!(brackets[k..], [(_, true), (_, true), (_, false), ..]);
+        let mut depth = 0_usize;
+        let end = brackets[k..].iter().position(|(_, opens)| {
+            depth = if *opens { depth + 1 } else { depth.saturating_sub(1) };
+            depth == 0
+        });
+        match end.filter(|_| begins) {
+            Some(end) => {
+                found.push(&text[brackets[k].0..=brackets[k + end].0]);
+                k += end + 1;
+            }
+            None => k += 1,
+        }
+    }
+    found
+}
+
+/// A matrix in the notation of the file.
+fn rows(block: &str) -> Option<String> {
+    let matrix = matrix_file::parse(block).ok()?.matrix;
+    let row = |i: usize| matrix.row(i).iter().map(|x| format!("\"{x}\"")).collect::<Vec<_>>().join(", ");
+    Some(format!("[{}]", (0..matrix.rows()).map(|i| format!("[{}]", row(i))).collect::<Vec<_>>().join(", ")))
+}
+
 impl Radius {
     /// The answer as data.
     #[must_use]
@@ -65,7 +108,7 @@ impl Radius {
     /// A [`Problem`] where there is none, and where the text is not TOML.
     pub fn certificate(&self) -> Result<String, Problem> {
         let certificate = radius_certificate(&self.file, &self.found)
-            .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; nothing was written"))?;
+            .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; no certificate was written"))?;
         let written = certificate.text();
         secant_check::check_while(&self.text, &written, crate::stop::check).map_err(|e| {
             let help = match self.text.trim_start().starts_with(['{', '[']) || !self.text.contains('=') {

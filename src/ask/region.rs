@@ -5,7 +5,8 @@ use super::region_vertex::{RegionsAtVertices, vertex_regions_of_case};
 use crate::answer::Verdict;
 use crate::budget::Budget;
 use crate::case::{
-    CurveFamilyCase, FamilyForm, MaskFamilyCase, PlaneFamilyCase, Setting, Valences, VertexFamilyCase, named_family,
+    self, CurveFamilyCase, FamilyForm, MaskFamilyCase, PlaneFamilyCase, Setting, Valences, VertexFamilyCase,
+    named_family,
 };
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::family::Search;
@@ -114,9 +115,20 @@ impl Regions {
 /// A certificate that the checker accepts, with what it is about.
 fn accepted(plain: String, made: crate::certificate::Certificate) -> Result<(String, String), Problem> {
     let made = crate::certificate::checked(&plain, made).map_err(|e| {
-        Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; nothing was written")
+        Problem::new("secant::region", e.to_string()).with_help("see docs/certificate.md; no certificate was written")
     })?;
     Ok((made.text(), plain))
+}
+
+/// Why what was written is no family.
+fn no_family(what: &str) -> Problem {
+    match case::written(what) {
+        Err(problem) => problem,
+        Ok(_) => Problem::new("secant::region", format!("{} has no parameter that is left free", what.trim())).with_help(
+            "regions are about schemes with a range, as in four-point w=0..1/4, or a file with [parameters]; `secant certify` and \
+             `secant regularity` take this",
+        ),
+    }
 }
 
 /// The regions of a curve with a parameter.
@@ -244,6 +256,9 @@ impl Family {
         if scheme::list().iter().any(|s| s.name == what) {
             asked.no_valences(what)?;
             return Ok(Self::Mask(Box::new(regions(what, set, asked.order.unwrap_or(usize::MAX), search)?)));
+        }
+        if what != "-" && !what.ends_with(".toml") && !Path::new(what).exists() {
+            return Err(no_family(what));
         }
         let source = SourceText::read(Path::new(what))?;
         Self::of_text(&source.name, &source.text, set, asked, search, budget, step)

@@ -8,6 +8,7 @@ use crate::diagnostic::{Problem, SourceText};
 use crate::radius::Options;
 use crate::report::regularity as report;
 use crate::report::regularity::Meaning;
+use crate::report::values::decimal;
 use crate::scheme::{self, Laurent, Normalisation};
 use crate::shape::{Contraction, Shape, Spaces};
 use crate::theorem::enclosed::enclosed;
@@ -180,7 +181,10 @@ fn of_mask(what: &str, (mask, points): (&Understood, bool), options: &Options) -
             // The translates of a continuous orthonormal scaling function are stable.
             if field.orthonormal && found.exponent.lo > 0 { Meaning::Limit } else { Meaning::Scheme },
         ),
-        Filter::Near(near) => (format!("mask        near {what}"), Meaning::Near(near)),
+        Filter::Near(near) => (
+            format!("mask        near {}", near.mask.iter().map(|c| decimal(c, 10)).collect::<Vec<_>>().join(", ")),
+            Meaning::Near(near),
+        ),
         Filter::Rational(_) => return Err(wrong("a rational mask has no enclosures".to_owned())),
     };
     let decided = found.exponent.lo > 0 || found.exponent.hi <= 0;
@@ -229,7 +233,7 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
     if what.starts_with("[[[") {
         return of_read(Case::ask(what)?);
     }
-    if what.ends_with(".toml") || Path::new(what).is_file() {
+    if what.ends_with(".toml") || Path::new(what).exists() {
         return match std::fs::read_to_string(what) {
             Ok(text) => subject_of_case(what, &text),
             // What cannot be read is said by the reader of cases.
@@ -262,7 +266,10 @@ fn scheme_named(name: &str, parameters: &[String]) -> Result<Subject, Problem> {
         let Some((key, value)) = text.split_once('=') else {
             return Err(wrong(format!("`{text}` is not of the form name=value")));
         };
-        values.insert(key.trim().to_owned(), parse_rational(value).map_err(|e| wrong(e.to_string()))?);
+        let value = parse_rational(value).map_err(|e| wrong(e.to_string()))?;
+        if values.insert(key.trim().to_owned(), value).is_some() {
+            return Err(wrong(format!("`{}` is given twice", key.trim())).with_help("give each parameter one value"));
+        }
     }
     match scheme::mask(name, &values).map_err(|e| wrong(e.to_string()))? {
         Some(mask) => Ok(Subject::Mask(given(&mask), false)),
@@ -280,6 +287,7 @@ fn given(mask: &scheme::Mask) -> Understood {
 
 /// The mask of a case with one, whether its curve converges or not; otherwise its curve, which must be a model that contracts.
 fn subject_of_case(name: &str, text: &str) -> Result<Subject, Problem> {
+    let text = &*case::valued(name, text)?;
     if let Some((texts, arity, scale)) = written_mask(text) {
         let points = DeTable::parse(text).is_ok_and(|table| table.get_ref().contains_key("control"));
         let mask = understood(&texts, arity, scale).map_err(|e| no_mask(&format!("{name}: "), e))?;
@@ -367,19 +375,19 @@ pub fn certified_regularity(
     if let Some(case) = lattice_case(what, parameters, dilation)? {
         return lattice_certified(case);
     }
-    if let Some(extra) = parameters.first() {
-        return Err(wrong(format!("`{extra}` is a parameter, and certificates are about case files")));
-    }
     if !what.ends_with(".toml") && !Path::new(what).is_file() {
         return Err(Problem::new("secant::regularity", format!("{what} is no case file, which a certificate is about"))
             .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; wavelets have no certificates"));
     }
-    let case = Case::read(Path::new(what))?;
+    let case = match parameters {
+        [] => Case::read(Path::new(what))?,
+        set => Case::ask(&format!("{what} {}", set.join(" ")))?,
+    };
     let contraction = contracting(&case)?;
     let shape = &case.shape;
     let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
     let found = curve_regularity(shape, &spaces, &Options::default()).map_err(|e| wrong(e.to_string()))?;
-    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; nothing was written");
+    let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; no certificate was written");
     let certificate = crate::certificate::regularity_certificate(&case, &spaces, &contraction, &found);
     let certificate = certificate
         .map_err(|e| nothing(e.to_string()))
@@ -388,7 +396,7 @@ pub fn certified_regularity(
     let own = report::curve_regularity(shape, &found);
     let mut smooth = Smooth { text: own, data: report::curve_data(shape, &found), decided };
     if matches!(case.scheme, Some(Origin::Mask(_))) {
-        let mask = regularity(what, &[], arity)?;
+        let mask = regularity(what, parameters, arity)?;
         let text = format!("{}\nThe certificate is about the curve:\n{}", mask.text, smooth.text);
         smooth = Smooth { text, ..mask };
     }

@@ -50,7 +50,7 @@ fn certified(case: &Case, problem: &shape::Problem, solution: &Solution) -> Resu
     let accepted = written.and_then(|c| certificate::checked(&case.text.text, c));
     let none = |doubt: Doubt| {
         Problem::new("secant::certificate::none", doubt.to_string())
-            .with_help("see docs/certificate.md; nothing was written")
+            .with_help("see docs/certificate.md; no certificate was written")
     };
     Ok(accepted.map_err(none)?.text())
 }

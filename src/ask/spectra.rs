@@ -156,7 +156,7 @@ impl Matrices {
         for (spectrum, matrix) in found.iter().zip(&self.list) {
             let ExactSpectrum::Rational(spectrum) = spectrum else {
                 let message = "the format has no certificates of spectra over number fields";
-                return Err(none(message, "leave out --certificate; nothing was written"));
+                return Err(none(message, "leave out --certificate; no certificate was written"));
             };
             operators.push(Operator { place: matrix.place, spectrum });
         }
@@ -166,8 +166,8 @@ impl Matrices {
         };
         let written = certificate::spectra(name, &operators).map_err(Doubt::from);
         let accepted = written.and_then(|c| certificate::checked(text, c));
-        let accepted =
-            accepted.map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; nothing was written"))?;
+        let accepted = accepted
+            .map_err(|doubt| none(&doubt.to_string(), "see docs/certificate.md; no certificate was written"))?;
         Ok(accepted.text())
     }
 }

@@ -1,7 +1,8 @@
 //! What somebody writes instead of a file: the name of a scheme, a mask, a symbol, a wavelet, the matrices of the pieces.
 
+use super::member::member_text;
 use super::node::clipped;
-use super::parameters::{member_text, with_settings};
+use super::parameters::{twice, with_settings};
 use super::{Case, Question, VertexCase};
 use crate::arith::{Rational, parse_rational};
 use crate::diagnostic::{Problem, SourceText};
@@ -36,9 +37,26 @@ fn case(name: &str, title: &str, body: &str) -> String {
     format!("name = {}\ntitle = {}\n{body}\n", quoted(name), quoted(title))
 }
 
+/// What stands between the brackets around a whole text.
+fn enclosed(text: &str) -> Option<&str> {
+    let mut depth = 0_i64;
+    let closes = text.char_indices().find(|(_, c)| {
+        depth += match c {
+            '[' | '(' => 1,
+            ']' | ')' => -1,
+            _ => 0,
+        };
+        depth <= 0
+    });
+    closes.filter(|(at, _)| *at > 0 && at + 1 == text.len()).map(|(at, _)| &text[1..at])
+}
+
 /// The coefficients of a list: separated by commas, or by blanks as NumPy prints them.
 fn coefficients(text: &str) -> Option<Vec<&str>> {
-    let inner = text.trim().trim_start_matches(['[', '(']).trim_end_matches([']', ')']);
+    let mut inner = text.trim();
+    while let Some(within) = enclosed(inner) {
+        inner = within.trim();
+    }
     let parts: Vec<&str> = if inner.contains(',') {
         inner.split(',').map(str::trim).filter(|w| !w.is_empty()).collect()
     } else {
@@ -61,7 +79,11 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
                     Problem::new("secant::usage::parameter", format!("`{word}` is not of the form name=value"));
                 return Some(Err(problem.with_help(format!("parameters follow the name, as in `{first} w=1/16`"))));
             };
-            lines.push(format!("{} = {}", quoted(key), quoted(value)));
+            let line = format!("{} = ", quoted(key));
+            if lines.iter().any(|l| l.starts_with(&line)) {
+                return Some(Err(twice(key)));
+            }
+            lines.push(line + &quoted(value));
         }
         return Some(Ok(case(first, text, &format!("\n[scheme]\n{}", lines.join("\n")))));
     }
@@ -79,7 +101,7 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
         return Some(Ok(case("symbol", text, &format!("\n[scheme]\nsymbol = {}", quoted(text)))));
     }
     let parts = coefficients(text)?;
-    let numbers = parts.iter().any(|w| parse_rational(&w.replace("//", "/")).is_ok());
+    let numbers = parts.iter().any(|w| parse_rational(&w.replace("//", "/")).is_ok() || w.contains("sqrt("));
     let list: Vec<String> = parts.iter().map(|w| quoted(&w.replace("//", "/"))).collect();
     numbers.then(|| Ok(case("mask", text, &format!("\n[scheme]\nmask = [{}]", list.join(", ")))))
 }

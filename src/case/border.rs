@@ -35,7 +35,7 @@ impl BorderCase {
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
-        super::read::parsed(name, text, File::new, Self::of_table)
+        super::read::parsed(name, &super::valued(name, text)?, File::new, Self::of_table)
     }
 
     fn of_table(_: &File, root: &Table<'_>) -> Result<Self, Problem> {

@@ -28,7 +28,7 @@ impl Case<Real> {
     /// The case is read once more than the field has degrees: entries are polynomials in its generator, and everything that
     /// is checked is linear in them, so that values at as many rational numbers determine and check them.
     pub fn over_field(name: &str, text: &str) -> Result<Self, Problem> {
-        let (mut case, built) = Self::as_written(name, text)?;
+        let (mut case, built) = Self::as_written(name, &super::valued(name, text)?)?;
         let field = Real::base(entries(&case.shape));
         if !field.is_rational() && (built || case.numbers.is_none()) {
             // Operators over the generator of the field, whose roots and cosines lie in it.

@@ -1,7 +1,8 @@
 //! Parameters that are left free, and the degrees of expressions in them.
 
-use super::node::Table;
-use super::parameters::{Setting, expressions, parameters};
+use super::member::{Expression, expressions, mentions};
+use super::node::{Table, clipped};
+use super::parameters::{FORMULA_WORDS, Setting, parameters};
 use crate::algebraic::field::MAX_FIELD_DEGREE;
 use crate::arith::Rational;
 use crate::diagnostic::Problem;
@@ -72,11 +73,7 @@ pub(super) fn two_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Op
 /// A [`Problem`] where it is another, or an expression is no polynomial, such as `1/(1+p^2)`.
 pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free, most: usize) -> Result<usize, Problem> {
     let Ok(table) = DeTable::parse(text) else { return Ok(0) };
-    // The lower end, whose member every family reads.
-    let mut lowest = free.names.clone();
-    lowest.insert(free.parameter.clone(), Poly::constant(free.range.0.clone()));
-    let of = format!("`{}`", free.parameter);
-    within(case, along(case, &table, [&free.names, &lowest], &of)?, most, &of)
+    within(case, along(case, &table, &free.names, &[&free.parameter])?, most, &format!("`{}`", free.parameter))
 }
 
 /// Highest degree of the expressions in two free parameters together, from 1 to `most`.
@@ -86,23 +83,16 @@ pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free, most: usize) -> 
 pub(super) fn total_degree(case: &Table<'_>, text: &str, free: &TwoFree, most: usize) -> Result<usize, Problem> {
     let Ok(table) = DeTable::parse(text) else { return Ok(0) };
     let [p, q] = &free.parameters;
-    let with = |first: Poly, second: Poly| {
-        let mut names = free.names.clone();
-        names.extend([(p.clone(), first), (q.clone(), second)]);
-        names
-    };
-    let [(low, _), (lower, _)] = &free.ranges;
-    let lowest = with(Poly::constant(low.clone()), Poly::constant(lower.clone()));
-    let of = format!("`{p}` and `{q}`");
     let variable = Poly::linear(&Rational::from(0));
     // Along the lines `q = k p`: the part of highest degree vanishes on no more of them than its degree, and a divisor with
     // parameters is a number on no more of them than its own.
     let degrees = (1..=MAX_FIELD_DEGREE as u64 + 1).map(|k| {
-        let names = with(variable.clone(), variable.scale(&Rational::from(k)));
-        along(case, &table, [&names, &lowest], &of)
+        let mut names = free.names.clone();
+        names.extend([(p.clone(), variable.clone()), (q.clone(), variable.scale(&Rational::from(k)))]);
+        along(case, &table, &names, &[p, q])
     });
     let highest = degrees.collect::<Result<Vec<_>, _>>()?.into_iter().fold(0, usize::max);
-    within(case, highest, most, &of)
+    within(case, highest, most, &format!("`{p}` and `{q}`"))
 }
 
 fn within(case: &Table<'_>, degree: usize, most: usize, of: &str) -> Result<usize, Problem> {
@@ -115,19 +105,37 @@ fn within(case: &Table<'_>, degree: usize, most: usize, of: &str) -> Result<usiz
         .with_help(format!("regions of such cases are found for degrees from 1 to {most}")))
 }
 
-/// Highest degree of the expressions with what names stand for. What is a number at the lowest values must be a polynomial: a member
-/// is read with the numbers, and refuses what is none there.
+/// Highest degree of the expressions with what names stand for.
+///
+/// # Errors
+/// A [`Problem`] at an expression that holds a free parameter and is no polynomial.
 fn along(
     case: &Table<'_>,
     table: &Spanned<DeTable<'_>>,
-    [names, lowest]: [&BTreeMap<String, Poly>; 2],
-    of: &str,
+    names: &BTreeMap<String, Poly>,
+    free: &[&String],
 ) -> Result<usize, Problem> {
-    let found = expressions(table, names);
-    if expressions(table, lowest).len() > found.len() {
-        return Err(case
-            .problem("parameters", format!("an expression is no polynomial in {of}"), "this case")
-            .with_help("regions are found for polynomials; single values can be asked: `secant certify CASE p=1/16`"));
+    let mut degree = 0;
+    for (span, expression) in expressions(table, names) {
+        match expression {
+            Expression::Polynomial(f) => degree = degree.max(f.degree().unwrap_or(0)),
+            Expression::Formula(text) => {
+                let Some(name) = free.iter().find(|name| mentions(&text, |word| word == name.as_str())) else {
+                    continue;
+                };
+                let formula = case.get("vertex").is_some() && mentions(&text, |word| FORMULA_WORDS.contains(&word));
+                let message = match formula {
+                    true => format!(
+                        "`{}` has the parameter `{name}` and the valence in one weight, which regions do not take yet",
+                        clipped(&text)
+                    ),
+                    false => format!("`{}` is no polynomial in `{name}`", clipped(&text)),
+                };
+                let single =
+                    "regions are found for polynomials; single values can be asked: `secant certify CASE p=1/16`";
+                return Err(case.file.problem("parameters", message, span, "this expression").with_help(single));
+            }
+        }
     }
-    Ok(found.iter().filter_map(|(_, f)| f.degree()).fold(0, usize::max))
+    Ok(degree)
 }

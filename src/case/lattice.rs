@@ -37,7 +37,7 @@ impl LatticeCase {
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
-        super::read::parsed(name, text, File::new, Self::of_table)
+        super::read::parsed(name, &super::valued(name, text)?, File::new, Self::of_table)
     }
 
     fn of_table(_: &File, root: &Table<'_>) -> Result<Self, Problem> {

@@ -16,6 +16,7 @@ mod lattice;
 mod maps;
 mod matrix;
 pub mod matrix_file;
+mod member;
 mod node;
 mod own;
 mod parameters;
@@ -37,7 +38,8 @@ pub use curve_family::{CurveFamilyCase, FamilyForm};
 pub use expect::{Expect, ExpectForced, ExpectPoint, ExpectSolve, expected_error};
 pub use field::is_over_field;
 pub use lattice::LatticeCase;
-pub use parameters::{MaskFamilyCase, Setting, member_text, named_family, setting};
+pub use member::{member_text, valued};
+pub use parameters::{MaskFamilyCase, Setting, named_family, setting};
 pub use plane_family::PlaneFamilyCase;
 pub use question::{Question, Subject};
 pub use schema::schema;
@@ -321,7 +323,7 @@ impl Case {
                     | Origin::States
             )
         );
-        let member = self.text.text.starts_with(parameters::MEMBER);
+        let member = member::is_member(&self.text.text);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })
     }
 }

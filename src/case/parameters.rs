@@ -13,10 +13,7 @@ use crate::diagnostic::{Problem, SourceText};
 use crate::poly::Poly;
 use crate::scheme;
 use std::collections::BTreeMap;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
 
 /// A mask with one parameter that is left free.
 #[derive(Debug, Clone)]
@@ -90,20 +87,31 @@ fn value_of(text: &str) -> Result<Setting, String> {
     }
 }
 
-/// Letters in formulas of weights at vertices: the valence, the sector, and a constant.
-const FORMULA_LETTERS: [&str; 3] = ["n", "k", "pi"];
+/// Words in formulas of weights at vertices: the valence, the sector, a constant, and a function.
+pub(super) const FORMULA_WORDS: [&str; 4] = ["n", "k", "pi", "cos"];
+/// Variables of symbols.
+const SYMBOL_LETTERS: [&str; 3] = ["x", "y", "z"];
 
 /// The parameters of a case with what is set instead, in the order of the file.
 pub(super) fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Vec<(String, Setting)>, Problem> {
     let Some(node) = case.get("parameters") else { return unknown(case, set, Vec::new()) };
     let table = node.table()?;
-    let letters = if case.get("vertex").is_some() { FORMULA_LETTERS.as_slice() } else { &[] };
+    let symbol = |key: &str| case.get(key).and_then(|n| n.table().ok()).is_some_and(|t| t.get("symbol").is_some());
+    let letters = match case.get("vertex") {
+        Some(_) => FORMULA_WORDS.as_slice(),
+        None if symbol("scheme") || symbol("mask") => &SYMBOL_LETTERS,
+        None => &[],
+    };
     let mut all = Vec::new();
     for key in table.keys() {
         let Some(node) = table.get(&key) else { continue };
         if letters.contains(&key.as_str()) {
             return Err(node
-                .problem("parameter", format!("`{key}` has a meaning of its own in formulas of weights"), "this name")
+                .problem(
+                    "parameter",
+                    format!("`{key}` has a meaning of its own in formulas of weights and in symbols"),
+                    "this name",
+                )
                 .with_help("give the parameter another name"));
         }
         if !is_name(&key) {
@@ -123,12 +131,21 @@ pub(super) fn parameters(case: &Table<'_>, set: &[(String, Setting)]) -> Result<
     unknown(case, set, all)
 }
 
+/// A parameter that is given two values.
+pub(super) fn twice(name: &str) -> Problem {
+    Problem::new("secant::usage::parameter", format!("`{}` is given twice", clipped(name)))
+        .with_help("give each parameter one value")
+}
+
 fn unknown(
     case: &Table<'_>,
     set: &[(String, Setting)],
     mut all: Vec<(String, Setting)>,
 ) -> Result<Vec<(String, Setting)>, Problem> {
-    for (name, setting) in set {
+    for (k, (name, setting)) in set.iter().enumerate() {
+        if set[..k].iter().any(|(earlier, _)| earlier == name) {
+            return Err(twice(name));
+        }
         match all.iter_mut().find(|(own, _)| own == name) {
             Some((_, own)) => own.clone_from(setting),
             None => {
@@ -143,82 +160,6 @@ fn unknown(
     Ok(all)
 }
 
-/// The problem of a case with parameters where one case is asked for; `None` of a case without.
-pub(super) fn left_free(case: &Table<'_>) -> Option<Problem> {
-    let span = case.key_span("parameters")?;
-    let file = case.file;
-    Some(file.problem("parameters", "the case has parameters", span, "no values are set").with_help(
-        "give every one of them a value behind the case, as in `CASE w=1/16`, or ask `secant region` about its range",
-    ))
-}
-
-/// The case with a value for every parameter, as text; `None` for a text without `[parameters]`. What is written `w/2 + 1` becomes
-/// a number; everything else stays as it is.
-///
-/// # Errors
-/// A [`Problem`] where a parameter has a range and no value, where there is no such parameter, or the text is no case.
-///
-/// # Examples
-/// ```
-/// use secant::{arith::ratio, case::{Setting, member_text}};
-/// let text = "name = \"a\"\n[parameters]\nw = \"0..1\"\n[scheme]\nmask = [\"1/2 - w\", \"1/2\", \"1/2 + w\", \"1/2\"]\n";
-/// let set = [("w".to_owned(), Setting::Value(ratio(1, 4)))];
-/// let member = member_text("a.toml", text, &set)?.expect("it has a parameter");
-/// assert!(member.contains("mask = [\"1/4\", \"1/2\", \"3/4\", \"1/2\"]") && !member.contains("parameters"));
-/// # Ok::<(), secant::diagnostic::Problem>(())
-/// ```
-pub fn member_text(name: &str, text: &str, set: &[(String, Setting)]) -> Result<Option<String>, Problem> {
-    let Ok(table) = DeTable::parse(text) else {
-        // The reader of cases says what is wrong.
-        return Ok(None);
-    };
-    let file = File::new(SourceText::new(name, text));
-    let case = Table::root(&file, &table);
-    let all = parameters(&case, set)?;
-    if all.is_empty() {
-        return Ok(None);
-    }
-    let mut values = BTreeMap::new();
-    for (name, setting) in &all {
-        let Setting::Value(value) = setting else {
-            let span = case.key_span("parameters").unwrap_or_default();
-            return Err(file
-                .problem(
-                    "parameters",
-                    format!("the parameter `{name}` has a range and no value"),
-                    span,
-                    "declared here",
-                )
-                .with_help(format!(
-                    "give it a value behind the case, as in `CASE {name}=1/16`, or ask `secant region` about its range"
-                )));
-        };
-        values.insert(name.clone(), Poly::constant(value.clone()));
-    }
-    let number = |f: &Poly| f.degree().is_none_or(|d| d == 0).then(|| format!("\"{}\"", f.coeff(0)));
-    let mut edits: Vec<(Range<usize>, String)> =
-        expressions(&table, &values).into_iter().filter_map(|(span, f)| Some((span, number(&f)?))).collect();
-    edits.sort_by_key(|(span, _)| span.start);
-    let mut out = String::new();
-    let mut at = 0;
-    for (span, new) in edits {
-        out.push_str(&text[at..span.start]);
-        out.push_str(&new);
-        at = span.end;
-    }
-    out.push_str(&text[at..]);
-    let said: Vec<String> = all.iter().map(|(name, _)| format!("{name} = {}", values[name].coeff(0))).collect();
-    Ok(Some(format!("{MEMBER}{}\n{}", said.join(", "), without_parameters(&out))))
-}
-
-/// How the text of a member begins.
-pub(super) const MEMBER: &str = "# Member of a family: ";
-
-/// Keys of `[scheme]` and `[vertex]` that are words.
-const WORDS: [&str; 7] = ["name", "mesh", "symbol", "cell", "normalisation", "valence", "arity"];
-/// Lists of words.
-const LISTS: [&str; 2] = ["chain", "reversed"];
-
 /// A file with settings behind it, as in `six-point.toml t=1/50`; `None` of anything else.
 ///
 /// # Errors
@@ -231,57 +172,6 @@ pub(super) fn with_settings(text: &str) -> Result<Option<(PathBuf, Vec<(String, 
         }
     }
     Ok(None)
-}
-
-/// All expressions of a case that are numbers with values for the names: where they stand, and what they are.
-pub(super) fn expressions(table: &Spanned<DeTable<'_>>, values: &BTreeMap<String, Poly>) -> Vec<(Range<usize>, Poly)> {
-    let mut found = Vec::new();
-    for (key, value) in table.get_ref() {
-        let key: &str = key.get_ref();
-        match key {
-            "parameters" | "name" | "title" | "source" | "expect" | "examine" => {}
-            "scheme" | "vertex" => collect(value, true, values, &mut found),
-            _ => collect(value, false, values, &mut found),
-        }
-    }
-    found
-}
-
-/// Every string in a list, and in a table of numbers every string, that is an expression in the names.
-fn collect(
-    value: &Spanned<DeValue<'_>>,
-    direct: bool,
-    values: &BTreeMap<String, Poly>,
-    found: &mut Vec<(Range<usize>, Poly)>,
-) {
-    match value.get_ref() {
-        DeValue::Array(items) => items.iter().for_each(|item| collect(item, true, values, found)),
-        DeValue::Table(table) => {
-            for (key, value) in table {
-                let key: &str = key.get_ref();
-                if !LISTS.contains(&key) {
-                    collect(value, direct && !WORDS.contains(&key), values, found);
-                }
-            }
-        }
-        DeValue::String(text) if direct && parse_rational(text).is_err() => {
-            found.extend(polynomial(text, values).ok().map(|f| (value.span(), f)));
-        }
-        _ => {}
-    }
-}
-
-/// The text without the lines of its table `[parameters]`.
-fn without_parameters(text: &str) -> String {
-    let mut inside = false;
-    let kept = text.lines().filter(|line| {
-        let head = line.trim();
-        if head.starts_with('[') {
-            inside = head.trim_matches(['[', ']']).trim() == "parameters" && !head.starts_with("[[");
-        }
-        !inside
-    });
-    kept.map(|line| format!("{line}\n")).collect()
 }
 
 impl MaskFamilyCase {
@@ -314,6 +204,13 @@ impl MaskFamilyCase {
     fn of_table(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Self, Problem> {
         let name = super::read::name(case)?;
         let free = one_free(case, set)?;
+        if let Some(span) = case.key_span("interpolate") {
+            let message = "regions are found of masks, of curves by maps or operators, and of weights at vertices";
+            return Err(case
+                .file
+                .problem("parameters", message, span, "not of data that are interpolated")
+                .with_help("give the parameter a value behind the case, as in `secant certify CASE w=1/16`"));
+        }
         let node = case.need("scheme", "{ mask = [ … ] }")?;
         let mut table = node.table()?;
         table.what = "`[scheme]`".to_owned();
@@ -348,6 +245,11 @@ fn coefficients(table: &Table<'_>, names: &BTreeMap<String, Poly>) -> Result<(us
         let arity = table.get("arity").map_or(Ok(2), |n| n.index(scheme::MAX_ARITY))?;
         let entries = node.array(|k| format!("coefficient {k} of `mask`"))?;
         return Ok((arity, entries.iter().map(|n| n.polynomial(names)).collect::<Result<_, _>>()?));
+    }
+    if let Some(node) = table.get("symbol") {
+        return Err(node
+            .problem("scheme", "regions are found of masks that are written as a list", "a symbol")
+            .with_help("write its coefficients, as in mask = [\"-w\", …]; single values can be asked: `secant certify CASE w=1/16`"));
     }
     let node = table.need("name", "\"four-point\"")?;
     let name = node.text()?;

@@ -1,8 +1,9 @@
 //! Curves with two parameters that are left free.
 
 use super::free::{total_degree, two_free};
+use super::member::member_text;
 use super::node::{File, Table};
-use super::parameters::{Setting, member_text};
+use super::parameters::Setting;
 use super::{Case, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};

@@ -72,6 +72,7 @@ impl Question {
 
     /// The same of a text; where an entry is irrational, over the field of the entries.
     fn parse_open(name: &str, text: &str) -> Result<Self, Problem> {
+        let text = &*super::valued(name, text)?;
         match super::read::parsed(name, text, File::new, Self::of_table) {
             Err(problem) if super::is_over_field(&problem) => {
                 let case = Case::over_field(name, text)?;

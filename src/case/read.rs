@@ -95,7 +95,7 @@ impl Case {
 
     /// The same, with the file as `open` makes it.
     pub(super) fn parse_as(name: &str, text: &str, open: impl FnOnce(SourceText) -> File) -> Result<Self, Problem> {
-        parsed(name, text, open, build)
+        parsed(name, &super::valued(name, text)?, open, build)
     }
 
     /// The case of a table that was parsed; entries may be left open.
@@ -163,7 +163,7 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
             .problem("border", "this case is about two masks that meet along a line, not about one shape", "")
             .with_help("`secant regularity FILE` says how smooth the limits are across it"));
     }
-    super::parameters::left_free(case).map_or(Ok(()), Err)?;
+    super::member::left_free(case).map_or(Ok(()), Err)?;
     if let Some(span) = case.key_span("matrices") {
         return Err(case
             .file

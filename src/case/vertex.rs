@@ -107,12 +107,12 @@ impl VertexCase {
     /// # Errors
     /// As [`VertexCase::read`].
     pub fn parse(name: &str, text: &str) -> Result<Self, Problem> {
-        super::read::parsed(name, text, File::new, Self::of_table)
+        super::read::parsed(name, &super::valued(name, text)?, File::new, Self::of_table)
     }
 
     /// The case of a table that was parsed.
     pub(super) fn of_table(file: &File, root: &Table<'_>) -> Result<Self, Problem> {
-        super::parameters::left_free(root).map_or(Ok(()), Err)?;
+        super::member::left_free(root).map_or(Ok(()), Err)?;
         // With --valence a `[scheme]` of a mesh is a case about vertices too.
         let mesh = |t: &Table<'_>| t.get("mesh").is_some();
         let scheme = root.get("scheme").map(|node| node.table()).transpose()?.filter(mesh);

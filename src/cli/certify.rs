@@ -1,6 +1,7 @@
 //! `secant certify` of a single case.
 
-use super::output::{complain, print, problem_code, say, settle, shown, to_stdout, write_certificate, write_file};
+use super::files::Written;
+use super::output::{complain, print, problem_code, say, settle, shown, to_stdout};
 use super::progress::{Progress, Waiting};
 use super::question::question;
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many, mesh};
@@ -15,7 +16,7 @@ use crate::prove::Findings;
 use crate::report::proof::Level;
 use crate::report::words::{self, listed};
 use crate::report::{findings, html, json, latex, markdown};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The exit code of a verdict.
 #[must_use]
@@ -49,7 +50,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
         let piped = to_stdout([&args.report, &args.svg, &args.png, &args.certificate, &args.coq])?;
         let answered = one(path, args)?;
         // A picture or a file that fails takes no verdict with it.
-        let written = guarded(|| write_files(&answered, args));
+        let written = write_files(&answered, args);
         let shown = if args.quiet { String::new() } else { printed(&answered, args) };
         Ok((answered, shown, written, piped))
     });
@@ -59,13 +60,7 @@ pub fn run(args: &CertifyArgs) -> u8 {
                 note(&answered);
             }
             say(&shown, piped);
-            match written {
-                Ok(()) => exit_code(answered.findings.verdict_on(&args.require)),
-                Err(problem) => {
-                    complain(&problem);
-                    problem_code(&problem)
-                }
-            }
+            written.code(exit_code(answered.findings.verdict_on(&args.require)))
         }
         Err(problem) => {
             if args.json || args.jsonl {
@@ -137,6 +132,16 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
         return Err(Problem::new("secant::usage", "a mesh is certified by itself")
             .with_help("give one mesh at a time, with its --scheme"));
     }
+    let with_value = |path: &&PathBuf| {
+        path.to_str()
+            .and_then(|text| text.split_once(char::is_whitespace))
+            .is_some_and(|(file, _)| is_mesh(Path::new(file)))
+    };
+    if let Some(path) = args.cases.iter().find(with_value) {
+        return Err(Problem::new("secant::usage", format!("{}: a mesh has no parameters", path.display())).with_help(
+            "leave out NAME=VALUE and --set; weights of a rule are parameters of a case with a [vertex] table",
+        ));
+    }
     if let Some(option) =
         [(args.scheme.is_some(), "--scheme"), (args.ply.is_some(), "--ply"), (args.boundary.is_some(), "--boundary")]
             .iter()
@@ -204,36 +209,27 @@ pub(super) fn extension(path: &Path) -> String {
     path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
 }
 
-/// Writes the report and the picture that were asked for; both are made before the first is written.
-fn write_files(answered: &Answered, args: &CertifyArgs) -> Result<(), Problem> {
-    let report = args.report.as_deref().map(|path| {
-        let level = match args.report_level {
-            ReportLevel::Summary => Level::Summary,
-            ReportLevel::Proof => Level::Proof,
-            ReportLevel::Full => Level::Full,
-        };
-        let written = rendered(path, &answered.findings, level);
-        (path, written)
-    });
-    let svg = args.svg.as_deref().map(|path| Ok((path, picture(answered, args)?))).transpose()?;
-    let png = args.png.as_deref().map(|path| Ok((path, answered.bitmap(args.size.unwrap_or(PIXELS))?))).transpose()?;
-    let proof = args.certificate.as_deref().map(|path| Ok((path, answered.certificate()?.text()))).transpose()?;
-    let coq = args.coq.as_deref().map(|path| Ok((path, replay(&answered.findings)?))).transpose()?;
-    for (path, content) in report.into_iter().chain(svg).chain(coq) {
-        write_file(path, &content)?;
-    }
-    if let Some((path, content)) = proof {
+/// Writes what was asked for, each file for itself.
+fn write_files(answered: &Answered, args: &CertifyArgs) -> Written {
+    let level = match args.report_level {
+        ReportLevel::Summary => Level::Summary,
+        ReportLevel::Proof => Level::Proof,
+        ReportLevel::Full => Level::Full,
+    };
+    let mut written = Written::default();
+    written.file(args.report.as_deref(), |path| Ok(rendered(path, &answered.findings, level)));
+    written.file(args.svg.as_deref(), |_| picture(answered, args));
+    written.file(args.png.as_deref(), |_| answered.bitmap(args.size.unwrap_or(PIXELS)));
+    written.file(args.coq.as_deref(), |_| replay(&answered.findings));
+    written.certificate(args.certificate.as_deref(), || {
         let beside = match &answered.findings {
             Findings::Tangents { case, .. } => case.beside(),
             Findings::OverField { case, .. } => case.flat.clone(),
             Findings::Vertices { .. } => None,
         };
-        write_certificate(path, content, beside)?;
-    }
-    if let Some((path, image)) = png {
-        write_file(path, &image)?;
-    }
-    Ok(())
+        Ok((answered.certificate()?.text(), beside))
+    });
+    written
 }
 
 /// The picture, as wide as was asked for.
@@ -244,7 +240,7 @@ fn picture(answered: &Answered, args: &CertifyArgs) -> Result<String, Problem> {
 
 /// The file for Coq.
 fn replay(findings: &Findings) -> Result<String, Problem> {
-    let help = "see proofs/README.md, “What is not formalised”; nothing was written";
+    let help = "see proofs/README.md, “What is not formalised”; no file for Coq was written";
     match findings {
         Findings::Tangents { case, found } => crate::replay::coq(case, found)
             .map_err(|missing| Problem::new("secant::coq::none", missing.to_string()).with_help(help)),

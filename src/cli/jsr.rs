@@ -1,6 +1,7 @@
 //! `secant jsr`.
 
-use super::output::{complain, deliver, print, write_file};
+use super::files::Written;
+use super::output::{complain, print, settle};
 use super::{BAD_INPUT, JsrArgs, PROVED, UNDETERMINED};
 use crate::ask::{Radius, radius};
 use crate::diagnostic::Problem;
@@ -13,7 +14,11 @@ use std::path::Path;
 /// Prints bounds of the joint spectral radii of the matrices of files.
 pub fn jsr(args: &JsrArgs) -> u8 {
     if let ([path], false) = (args.files.as_slice(), args.jsonl) {
-        return deliver(answer(path, args).map(|found| (shown(&found, args), code(&found))));
+        return settle(answer(path, args).map(|found| {
+            let written = files(&found, args);
+            print(&shown(&found, args));
+            written.code(code(&found))
+        }));
     }
     let mut worst = PROVED;
     let mut list = Vec::new();
@@ -81,7 +86,11 @@ fn options(args: &JsrArgs) -> Result<Options, Problem> {
 fn answer(path: &Path, args: &JsrArgs) -> Result<Radius, Problem> {
     let name = path.display().to_string();
     let wrong = |message: String, help: &str| Problem::new("secant::jsr", message).with_help(help);
-    let text = std::fs::read_to_string(path).map_err(|e| {
+    let read = match name.as_str() {
+        "-" => std::io::read_to_string(std::io::stdin()),
+        _ => std::fs::read_to_string(path),
+    };
+    let text = read.map_err(|e| {
         let scheme = !path.exists() && crate::case::Case::ask(&name).is_ok();
         let help = if scheme {
             "it is a scheme: `secant regularity` bounds the radii that say how smooth it is; here name a file with `matrices = [...]`"
@@ -90,15 +99,18 @@ fn answer(path: &Path, args: &JsrArgs) -> Result<Radius, Problem> {
         };
         wrong(format!("{name} cannot be read: {e}"), help)
     })?;
-    let radius = radius(&name, &text, &options(args)?)?;
-    if let Some(path) = &args.svg {
-        let drawn = polytope(&radius.found).ok_or_else(|| {
-            wrong("no polytope in two dimensions was used".to_owned(), "--svg draws invariant polytopes in the plane")
-        })?;
-        write_file(path, &drawn)?;
-    }
-    if let Some(path) = &args.certificate {
-        write_file(path, radius.certificate()?)?;
-    }
-    Ok(radius)
+    radius(&name, &text, &options(args)?)
+}
+
+/// Writes what was asked for.
+fn files(radius: &Radius, args: &JsrArgs) -> Written {
+    let mut written = Written::default();
+    written.file(args.svg.as_deref(), |_| {
+        polytope(&radius.found).ok_or_else(|| {
+            Problem::new("secant::jsr", "no polytope in two dimensions was used")
+                .with_help("--svg draws invariant polytopes in the plane")
+        })
+    });
+    written.file(args.certificate.as_deref(), |_| radius.certificate());
+    written
 }

@@ -1,7 +1,8 @@
 //! `secant junction`: an intermediate curve between two schemes; with `--surface` see `junction_surface`.
 
 use super::certify::{json_text, known_format, rendered};
-use super::output::{print, settle, write_file};
+use super::files::Written;
+use super::output::{print, settle};
 use super::progress::Waiting;
 use super::{PROVED, REFUTED};
 use crate::algebraic::Root;
@@ -78,16 +79,16 @@ pub fn run(args: &JunctionArgs) -> u8 {
     let answer = if args.surface { super::junction_surface::answer } else { answer };
     let done = args.report.as_deref().map_or(Ok(()), known_format).and_then(|()| answer(args));
     waiting.finish();
-    settle(done.map(|(passes, shown)| {
+    settle(done.map(|(passes, shown, written)| {
         if args.json || !args.quiet {
             print(&shown);
         }
-        if passes { PROVED } else { REFUTED }
+        written.code(if passes { PROVED } else { REFUTED })
     }))
 }
 
 /// Whether a member passes, and what is printed of it; its case and proof are written.
-fn answer(args: &JunctionArgs) -> Result<(bool, String), Problem> {
+fn answer(args: &JunctionArgs) -> Result<(bool, String, Written), Problem> {
     let example = "bspline degree=2 four-point  or with quotation marks around each scheme";
     let names = both(&args.schemes, example)?;
     let sides = [side(&names[0])?, side(&names[1])?];
@@ -95,19 +96,18 @@ fn answer(args: &JunctionArgs) -> Result<(bool, String), Problem> {
     for _ in 0..args.inside {
         found.member = found.member.map(|m| m.refined_inside()).transpose().map_err(|e| refused(&e))?;
     }
+    let mut written = Written::default();
     if let Some(member) = &found.member {
-        keep(&case(member, &names, args)?, args)?;
+        keep(&case(member, &names, args)?, args, &mut written);
     }
     let shown = if args.json { json_text(&data(&found, &sides), true) } else { text(&found, &sides) };
-    Ok((found.member.is_some(), shown))
+    Ok((found.member.is_some(), shown, written))
 }
 
 /// Writes the case and its proof where that was asked for.
-pub(super) fn keep(case: &str, args: &JunctionArgs) -> Result<(), Problem> {
-    if let Some(path) = &args.report {
-        report(case, path)?;
-    }
-    args.output.as_ref().map_or(Ok(()), |path| write_file(path, case))
+pub(super) fn keep(case: &str, args: &JunctionArgs, written: &mut Written) {
+    written.file(args.report.as_deref(), |path| report(case, path));
+    written.file(args.output.as_deref(), |_| Ok(case));
 }
 
 /// The two schemes that are joined, each with the parameters behind it.
@@ -231,10 +231,10 @@ pub(super) fn control(text: &str, count: usize) -> Result<Matrix, Problem> {
     Ok(Matrix::from_columns(points[0].len(), &points))
 }
 
-pub(super) fn report(case: &str, path: &Path) -> Result<(), Problem> {
+pub(super) fn report(case: &str, path: &Path) -> Result<String, Problem> {
     let question = Question::parse("junction", case)?;
     let findings = prove(&question, &Budget::default())?;
-    write_file(path, rendered(path, &findings, Level::Proof))
+    Ok(rendered(path, &findings, Level::Proof))
 }
 
 /// An eigenvalue: exactly where it is rational, otherwise about.

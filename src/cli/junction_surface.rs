@@ -1,6 +1,7 @@
 //! `secant junction A B --surface`: a strip of intermediate faces between two face schemes.
 
 use super::certify::json_text;
+use super::files::Written;
 use super::junction::{JunctionArgs, both, control, keep, mistake, number, refused, side, wish};
 use crate::arith::Rational;
 use crate::case::Question;
@@ -17,16 +18,17 @@ use std::fmt::Write;
 ///
 /// # Errors
 /// The [`Problem`] of a scheme, of an option, or of an output.
-pub fn answer(args: &JunctionArgs) -> Result<(bool, String), Problem> {
+pub fn answer(args: &JunctionArgs) -> Result<(bool, String, Written), Problem> {
     let names = both(&args.schemes, "doo-sabin catmull-clark --surface")?;
     let sides = [face(&names[0])?, face(&names[1])?];
     let plan = plan(args)?;
     let found = find(&sides[0], &sides[1], &plan).map_err(|e| wrong(&e))?;
+    let mut written = Written::default();
     if let Some(member) = &found.member {
-        keep(&case(member, &names, args)?, args)?;
+        keep(&case(member, &names, args)?, args, &mut written);
     }
     let shown = if args.json { json_text(&data(&found), true) } else { text(&found, &sides) };
-    Ok((found.member.is_some(), shown))
+    Ok((found.member.is_some(), shown, written))
 }
 
 fn wrong(error: &SurfaceError) -> Problem {

@@ -1,7 +1,8 @@
 //! `secant certify` of a mesh.
 
 use super::certify::{exit_code, extension, json_text};
-use super::output::{self, say, to_stdout, write_file};
+use super::files::Written;
+use super::output::{self, say, to_stdout};
 use super::progress::Progress;
 use super::{CertifyArgs, Drawn};
 use crate::diagnostic::Problem;
@@ -39,11 +40,11 @@ pub fn run(path: &Path, args: &CertifyArgs) -> Result<u8, Problem> {
     let found = certify(&model, scheme, &args.budget(), &|| progress.step());
     progress.finish();
     let found = found?;
-    write(&model, name, &found, args)?;
+    let written = write(&model, name, &found, args);
     if !args.quiet {
         say(&shown(&model, name, &found, args), piped);
     }
-    Ok(exit_code(args.require.at_vertices(found.smooth(), found.regular())))
+    Ok(written.code(exit_code(args.require.at_vertices(found.smooth(), found.regular()))))
 }
 
 fn check(args: &CertifyArgs) -> Result<(), Problem> {
@@ -76,25 +77,22 @@ fn shown(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Stri
     output::shown(&document)
 }
 
-fn write(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Result<(), Problem> {
-    if let Some(path) = &args.report {
+fn write(model: &Model, scheme: &str, found: &Found, args: &CertifyArgs) -> Written {
+    let mut written = Written::default();
+    written.file(args.report.as_deref(), |path| {
         let document = report::document(model, scheme, found, true);
-        let written = match extension(path).as_str() {
+        Ok(match extension(path).as_str() {
             "md" => markdown::render(&document),
             "tex" => latex::render(&document),
             _ => html::render(&document),
-        };
-        write_file(path, written)?;
-    }
-    if let Some(path) = &args.svg {
-        let drawn = svg(model, found, &model.name).ok_or_else(|| {
+        })
+    });
+    written.file(args.svg.as_deref(), |_| {
+        svg(model, found, &model.name).ok_or_else(|| {
             Problem::new("secant::picture", "the mesh cannot be drawn")
                 .with_help("it has more than 20000 faces, or no extent")
-        })?;
-        write_file(path, drawn)?;
-    }
-    if let Some(path) = &args.ply {
-        write_file(path, ply(model, found))?;
-    }
-    Ok(())
+        })
+    });
+    written.file(args.ply.as_deref(), |_| Ok(ply(model, found)));
+    written
 }

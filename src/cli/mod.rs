@@ -5,6 +5,7 @@ mod cards;
 mod certify;
 mod expand;
 mod explain;
+mod files;
 #[cfg(feature = "strategies")]
 mod fuzz;
 mod gallery;
@@ -51,7 +52,8 @@ pub const UNDETERMINED: u8 = 3;
 /// A mistake in the program itself: there is no result.
 pub const INTERNAL: u8 = 4;
 
-const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input, 4 internal error. Of several cases: 4 if \
+const CODES: &str = "Exit codes: 0 proved, 1 refuted, 3 undetermined, 2 bad input, or something that was asked for \
+                     and could not be written (the answer is printed all the same), 4 internal error. Of several cases: 4 if \
                      the program failed on one, otherwise 2 if one cannot be read, otherwise 1 if one is refuted, \
                      otherwise 3 if one is undetermined; the results of the others are printed all the same.";
 
@@ -155,6 +157,16 @@ enum Command {
         #[arg(long, value_name = "DIR", conflicts_with = "command")]
         out: Option<PathBuf>,
     },
+}
+
+impl Command {
+    /// The same with each parameter `name=value` of `certify` joined to the scheme before it, and its files at their options.
+    fn with_parameters(self) -> Result<Self, Problem> {
+        Ok(match self {
+            Self::Certify(args) => Self::Certify(args.with_parameters()?),
+            other => other,
+        })
+    }
 }
 
 #[derive(Debug, Clone, Args)]
@@ -271,6 +283,13 @@ impl CertifyArgs {
                 ],
             )?;
         }
+        if let Some(set) = self.set.iter().filter_map(|s| s.to_str()).find(|s| !question::is_parameter(s)) {
+            return Err(Problem::new(
+                "secant::usage::parameter",
+                format!("--set {set}: a parameter gets its value by ="),
+            )
+            .with_help("write --set NAME=VALUE, as in --set w=1/16"));
+        }
         self.cases.append(&mut self.set);
         Ok(Self { cases: question::joined(self.cases), ..self })
     }
@@ -359,7 +378,8 @@ struct RegularityArgs {
 
 #[derive(Debug, Args)]
 struct JsrArgs {
-    /// Files with `matrices = [...]`, JSON, or plain text (docs/radius.md).
+    /// Files with `matrices = [...]`, JSON, plain text, or matrices as NumPy prints them (docs/radius.md); `-` reads the standard
+    /// input.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Print JSON; of several files a list.
@@ -413,22 +433,27 @@ pub fn main() -> ExitCode {
     // Also for the messages about the command line itself.
     let choice = output::Colour::of_arguments(std::env::args_os());
     output::choose(choice);
-    let parsed = Cli::command().color(choice.of_help()).try_get_matches().and_then(|m| Cli::from_arg_matches(&m));
+    let arguments = question::with_masks(std::env::args_os(), &Cli::command());
+    let parsed =
+        Cli::command().color(choice.of_help()).try_get_matches_from(arguments).and_then(|m| Cli::from_arg_matches(&m));
     let cli = match parsed {
         Ok(cli) => cli,
         Err(error) => {
-            let code = if error.use_stderr() { BAD_INPUT } else { PROVED };
-            let _ = error.print();
-            return ExitCode::from(code);
+            return ExitCode::from(output::explained(&error));
         }
     };
     output::choose(cli.color);
-    ExitCode::from(output::settle(guarded(|| Ok(run(cli.command)))))
+    let done = guarded(|| {
+        let command = cli.command.with_parameters()?;
+        files::keep_apart(&command)?;
+        Ok(run(command))
+    });
+    ExitCode::from(output::finished(output::settle(done)))
 }
 
 fn run(command: Command) -> u8 {
     match command {
-        Command::Certify(args) => output::settle(args.with_parameters().map(|args| certify::run(&args))),
+        Command::Certify(args) => certify::run(&args),
         Command::Spectrum(args) => spectrum::run(&SpectrumArgs { files: question::joined(args.files), ..args }),
         Command::Jsr(args) => jsr::jsr(&args),
         Command::Regularity(args) => regularity::run(&args),

@@ -1,11 +1,12 @@
 //! Writing: whole files or none, colours only for people.
 
-use super::{BAD_INPUT, INTERNAL};
+use super::{BAD_INPUT, INTERNAL, PROVED};
 use crate::diagnostic::Problem;
 use crate::report::document::Document;
 use crate::report::text::{self, Look};
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Writes a file so that it is either there in full or not touched: a temporary file beside it, then a rename. `-` is the
@@ -17,9 +18,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 /// A [`Problem`] that names the file.
 pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem> {
     if path.as_os_str() == "-" {
-        let mut out = std::io::stdout().lock();
-        let _ = out.write_all(content.as_ref()).and_then(|()| out.flush());
-        return Ok(());
+        return to_standard_output(content.as_ref());
     }
     let problem = |error: &std::io::Error| {
         // The name of a temporary file says nothing to anybody.
@@ -48,21 +47,6 @@ pub fn write_file(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Problem>
     let mut file = builder.tempfile_in(directory).map_err(|e| problem(&e))?;
     file.write_all(content.as_ref()).and_then(|()| file.flush()).map_err(|e| problem(&e))?;
     file.persist(&target).map_err(|e| problem(&e.error))?;
-    Ok(())
-}
-
-/// Writes a certificate, and beside it the case as the checker reads it where that is not the file itself.
-///
-/// # Errors
-/// A [`Problem`] where a file cannot be written.
-pub fn write_certificate(path: &Path, certificate: String, expanded: Option<String>) -> Result<(), Problem> {
-    write_file(path, certificate)?;
-    if let Some(case) = expanded {
-        let beside = path.with_extension("case.toml");
-        write_file(&beside, case)?;
-        let (case, path) = (beside.display(), path.display());
-        eprintln!("note: the certificate is about the expanded case, which is in {case}: secant-check {case} {path}");
-    }
     Ok(())
 }
 
@@ -113,10 +97,47 @@ pub fn say(text: &str, piped: bool) {
     }
 }
 
-/// Prints to the standard output; a reader that went away is no mistake.
+/// A remark on the standard error.
+pub fn remark(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}
+
+/// The first problem of the standard output, with which the program ends.
+static LOST: OnceLock<Problem> = OnceLock::new();
+
+/// Prints to the standard output. A reader that went away is no mistake; any other failure ends the program with exit code 2.
 pub fn print(text: &str) {
+    if let Err(problem) = to_standard_output(text.as_bytes()) {
+        LOST.get_or_init(|| problem);
+    }
+}
+
+fn to_standard_output(bytes: &[u8]) -> Result<(), Problem> {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    out.write_all(bytes).and_then(|()| out.flush()).or_else(|e| lost(&e))
+}
+
+fn lost(error: &std::io::Error) -> Result<(), Problem> {
+    if error.kind() == ErrorKind::BrokenPipe {
+        return Ok(());
+    }
+    Err(Problem::new("secant::output", format!("the standard output cannot be written: {error}"))
+        .with_help("what was printed is not complete"))
+}
+
+/// The exit code of the program: that of the command, or 2 where not all of its answer could be printed.
+pub fn finished(code: u8) -> u8 {
+    let Some(problem) = LOST.get() else { return code };
+    complain(problem);
+    if code == INTERNAL { INTERNAL } else { BAD_INPUT }
+}
+
+/// The exit code of a message about the command line, such as the help that was asked for, which is printed.
+pub fn explained(error: &clap::Error) -> u8 {
+    match error.print().or_else(|e| lost(&e).map_err(|p| complain(&p))) {
+        Ok(()) if !error.use_stderr() => PROVED,
+        _ => BAD_INPUT,
+    }
 }
 
 /// The exit code of a command that prints a text, or that of bad input with its diagnostic.

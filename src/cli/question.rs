@@ -4,6 +4,7 @@ use super::CertifyArgs;
 use crate::budget::Effort;
 use crate::case::{Question, Valences};
 use crate::diagnostic::Problem;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 /// The question of a file with the addresses and valences of the command line.
@@ -40,6 +41,29 @@ pub fn joined(given: Vec<PathBuf>) -> Vec<PathBuf> {
         }
     }
     cases
+}
+
+/// The arguments with a blank before each mask that begins with a minus sign, which would be read as an option.
+pub fn with_masks(arguments: impl Iterator<Item = OsString>, program: &clap::Command) -> Vec<OsString> {
+    let all: Vec<OsString> = arguments.collect();
+    let command = all.get(1).and_then(|name| program.find_subcommand(name));
+    let takes_value = |before: &OsString| {
+        let named = |a: &&clap::Arg| {
+            let long = before.to_str().and_then(|w| w.strip_prefix("--"));
+            let short = before.to_str().filter(|w| w.len() == 2).and_then(|w| w.strip_prefix('-')?.chars().next());
+            a.get_long().is_some_and(|l| long == Some(l)) || a.get_short().is_some_and(|s| short == Some(s))
+        };
+        command.is_some_and(|c| c.get_arguments().filter(named).any(|a| a.get_action().takes_values()))
+    };
+    let is_mask = |word: &str| {
+        let first = word.strip_prefix('-').and_then(|rest| rest.chars().next());
+        first.is_some_and(|c| c.is_ascii_digit() || c == '.') && word.contains([',', ' '])
+    };
+    let one = |(k, word): (usize, &OsString)| match word.to_str().filter(|w| is_mask(w)) {
+        Some(mask) if k > 1 && !takes_value(&all[k - 1]) => OsString::from(format!(" {mask}")),
+        _ => word.clone(),
+    };
+    all.iter().enumerate().map(one).collect()
 }
 
 /// Whether a word is of the form `name=value`.

@@ -15,13 +15,13 @@ use std::path::PathBuf;
 #[derive(Debug, clap::Args)]
 pub struct RefineArgs {
     /// A case file of a curve or a surface, or the name of a scheme with its parameters in quotation marks.
-    case: String,
+    pub(super) case: String,
     /// How often to refine.
     #[arg(long, value_name = "COUNT", default_value_t = 1)]
     steps: usize,
     /// Write the refined case to a file instead of the standard output.
     #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    pub(super) output: Option<PathBuf>,
 }
 
 /// Writes the refined case.

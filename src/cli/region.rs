@@ -1,6 +1,7 @@
 //! `secant region`.
 
-use super::output::{print, settle, shown, write_certificate, write_file};
+use super::files::Written;
+use super::output::{print, settle, shown};
 use super::progress::Progress;
 use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
@@ -21,7 +22,7 @@ pub struct RegionArgs {
     /// A case file with `[parameters]` and a mask, maps, operators or a `[vertex]` table, or the name of a scheme, with the range of its parameter behind it, as in
     /// `four-point w=-1/2..1/2`.
     #[arg(value_name = "CASE")]
-    what: String,
+    pub(super) what: String,
     /// A range or a value of a parameter, instead of what the file says.
     #[arg(value_name = "NAME=FROM..TO|NAME=VALUE")]
     parameters: Vec<String>,
@@ -58,13 +59,13 @@ pub struct RegionArgs {
     json: bool,
     /// Write the tables with the statements to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
-    report: Option<PathBuf>,
+    pub(super) report: Option<PathBuf>,
     /// Draw a bar for each order, claim or valence, or the plane of two parameters, coloured by verdict.
     #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    pub(super) svg: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md), and the family beside it.
     #[arg(long, value_name = "FILE")]
-    certificate: Option<PathBuf>,
+    pub(super) certificate: Option<PathBuf>,
 }
 
 fn width(text: &str) -> Result<Rational, String> {
@@ -98,32 +99,28 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
     let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort), &step);
     bar.finish();
     let found = found?;
-    files(args, &found, render)?;
+    let written = files(args, &found, render);
     if args.json {
         print(&format!("{:#}\n", found.data()));
     } else {
         print(&shown(&found.document()));
     }
-    Ok(match found.verdict() {
+    Ok(written.code(match found.verdict() {
         Verdict::Proved => PROVED,
         Verdict::Refuted => REFUTED,
         Verdict::Undetermined => UNDETERMINED,
-    })
+    }))
 }
 
-fn files(args: &RegionArgs, found: &Family, render: Option<fn(&Document) -> String>) -> Result<(), Problem> {
-    let certificate = args.certificate.as_ref().map(|_| found.certificate()).transpose()?;
-    if let (Some(path), Some(render)) = (&args.report, render) {
-        write_file(path, render(&found.report()))?;
-    }
-    if let Some(path) = &args.svg {
-        let svg = found.svg().ok_or_else(|| Problem::new("secant::region", "there is nothing to draw"))?;
-        write_file(path, svg)?;
-    }
-    if let (Some(path), Some((text, family))) = (&args.certificate, certificate) {
-        write_certificate(path, text, Some(family))?;
-    }
-    Ok(())
+fn files(args: &RegionArgs, found: &Family, render: Option<fn(&Document) -> String>) -> Written {
+    let mut written = Written::default();
+    let report = args.report.as_deref().zip(render);
+    written.file(report.map(|r| r.0), |_| Ok(report.map(|r| r.1(&found.report())).unwrap_or_default()));
+    written.file(args.svg.as_deref(), |_| {
+        found.svg().ok_or_else(|| Problem::new("secant::region", "there is nothing to draw"))
+    });
+    written.certificate(args.certificate.as_deref(), || found.certificate().map(|(text, family)| (text, Some(family))));
+    written
 }
 
 /// The writer of a report that its ending names.

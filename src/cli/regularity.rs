@@ -1,6 +1,7 @@
 //! `secant regularity`.
 
-use super::output::{complain, print, settle, write_certificate};
+use super::files::Written;
+use super::output::{complain, print, settle};
 use super::{BAD_INPUT, PROVED, RegularityArgs, UNDETERMINED};
 use crate::ask::{Smooth, certified_regularity, dilated_regularity};
 use crate::diagnostic::Problem;
@@ -11,13 +12,14 @@ use std::path::Path;
 pub fn run(args: &RegularityArgs) -> u8 {
     let inputs = inputs(args);
     let [(what, parameters)] = inputs.as_slice() else { return settle(many(args, &inputs)) };
+    let mut written = Written::default();
     let answer = match &args.certificate {
-        Some(path) => certified(what, parameters, args, path),
+        Some(path) => certified(what, parameters, args, path, &mut written),
         None => dilated_regularity(what, parameters, args.arity, args.dilation.as_deref()),
     };
     settle(answer.map(|a| {
         print(&shown(args, what, &a));
-        if a.decided { PROVED } else { UNDETERMINED }
+        written.code(if a.decided { PROVED } else { UNDETERMINED })
     }))
 }
 
@@ -88,9 +90,23 @@ fn many(args: &RegularityArgs, inputs: &[(String, Vec<String>)]) -> Result<u8, P
     Ok(code)
 }
 
-/// The answer for a case file, whose certificate is written.
-fn certified(what: &str, parameters: &[String], args: &RegularityArgs, path: &Path) -> Result<Smooth, Problem> {
-    let (smooth, certificate, beside) = certified_regularity(what, parameters, args.arity, args.dilation.as_deref())?;
-    write_certificate(path, certificate, beside)?;
-    Ok(smooth)
+/// The answer for a case file, whose certificate is written; where there is none the answer without it.
+fn certified(
+    what: &str,
+    parameters: &[String],
+    args: &RegularityArgs,
+    path: &Path,
+    written: &mut Written,
+) -> Result<Smooth, Problem> {
+    match certified_regularity(what, parameters, args.arity, args.dilation.as_deref()) {
+        Ok((smooth, certificate, beside)) => {
+            written.certificate(Some(path), || Ok((certificate, beside)));
+            Ok(smooth)
+        }
+        Err(problem) => {
+            let smooth = dilated_regularity(what, parameters, args.arity, args.dilation.as_deref())?;
+            written.done(Err(problem));
+            Ok(smooth)
+        }
+    }
 }

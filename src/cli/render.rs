@@ -28,7 +28,7 @@ const ROUNDED_BITS: u64 = 128;
 pub struct RenderArgs {
     /// A case file, or what stands for one, as for `certify`.
     #[arg(required = true, value_name = "CASE")]
-    cases: Vec<PathBuf>,
+    pub(super) cases: Vec<PathBuf>,
     /// Write a file, the format of which its ending says: .svg, .png, .obj or .ply; may be given several times.
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
@@ -92,6 +92,14 @@ fn by_ending(mut args: RenderArgs) -> Result<RenderArgs, Problem> {
         )?;
     }
     Ok(RenderArgs { cases: joined(args.cases), ..args })
+}
+
+impl RenderArgs {
+    /// The files that are to be written.
+    pub(super) fn outputs(&self) -> Vec<&Path> {
+        let named = [&self.svg, &self.png, &self.obj, &self.ply].into_iter().flatten();
+        self.output.iter().chain(named).map(PathBuf::as_path).collect()
+    }
 }
 
 /// Refuses what cannot be written before anything is computed.

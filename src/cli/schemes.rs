@@ -50,6 +50,10 @@ fn entry(name: &str, summary: &str, parameters: &[scheme::Parameter], source: &s
 }
 
 fn written(name: &str, parameters: &[String]) -> Result<String, String> {
+    if let Some(own) = crate::case::unaliased(name) {
+        let words: Vec<String> = own.split_whitespace().map(str::to_owned).collect();
+        return written(&words[0], &[&words[1..], parameters].concat());
+    }
     if scheme::mesh_rules().iter().any(|r| r.name == name) {
         return Err(format!("`{name}` is a mesh rule: write a case with [scheme] mesh = \"{name}\" and its valence"));
     }

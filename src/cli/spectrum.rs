@@ -1,6 +1,7 @@
 //! `secant spectrum`: eigenvalues, multiplicities, Jordan blocks, chains and modulus classes of a matrix or of a case.
 
-use super::output::{deliver, write_certificate};
+use super::files::Written;
+use super::output::{print, remark, settle};
 use super::progress::Waiting;
 use super::{PROVED, SpectrumArgs, UNDETERMINED};
 use crate::approx::{ApproxSpectrum, approximate_spectrum};
@@ -12,11 +13,15 @@ use crate::report::{field_spectrum, spectrum as report};
 /// Prints the spectra of a matrix file, or of all operators of a case that map a state into itself.
 pub fn run(args: &SpectrumArgs) -> u8 {
     let code = if args.approx { UNDETERMINED } else { PROVED };
-    deliver(all(args).map(|text| (text, code)))
+    let mut written = Written::default();
+    settle(all(args, &mut written).map(|text| {
+        print(&text);
+        written.code(code)
+    }))
 }
 
 /// The spectra of all files; of several matrices a list in JSON.
-fn all(args: &SpectrumArgs) -> Result<String, Problem> {
+fn all(args: &SpectrumArgs, written: &mut Written) -> Result<String, Problem> {
     if args.certificate.is_some() && args.files.len() > 1 {
         return Err(Problem::new("secant::usage", "--certificate is for a single file")
             .with_help("write the certificates one by one"));
@@ -26,7 +31,7 @@ fn all(args: &SpectrumArgs) -> Result<String, Problem> {
         if args.files.len() > 1 && !args.json {
             parts.push(format!("== {}\n", path.display()));
         }
-        parts.extend(rendered(args, &path.to_string_lossy())?);
+        parts.extend(rendered(args, &path.to_string_lossy(), written)?);
     }
     Ok(match (args.json, parts.as_slice()) {
         (true, [one]) => one.clone(),
@@ -35,10 +40,10 @@ fn all(args: &SpectrumArgs) -> Result<String, Problem> {
     })
 }
 
-fn rendered(args: &SpectrumArgs, what: &str) -> Result<Vec<String>, Problem> {
+fn rendered(args: &SpectrumArgs, what: &str, written: &mut Written) -> Result<Vec<String>, Problem> {
     let input = Matrices::ask(what)?;
     if input.decimals > 0 {
-        eprintln!("note: {} decimals were read as the exact fractions that they write", input.decimals);
+        remark(&format!("note: {} decimals were read as the exact fractions that they write", input.decimals));
     }
     if args.approx {
         let parts = input.list.iter().map(|m| approximate(args, &m.entries).map(|s| report::approximate_text(&s)));
@@ -52,9 +57,7 @@ fn rendered(args: &SpectrumArgs, what: &str) -> Result<Vec<String>, Problem> {
     let found: Result<Vec<ExactSpectrum>, Problem> = input.list.iter().map(|m| one(&m.entries, &m.name)).collect();
     waiting.finish();
     let found = found?;
-    if let Some(path) = args.certificate.as_deref() {
-        write_certificate(path, input.certificate(&found)?, input.beside.clone())?;
-    }
+    written.certificate(args.certificate.as_deref(), || Ok((input.certificate(&found)?, input.beside.clone())));
     Ok(found.iter().zip(&input.list).map(|(f, m)| render(args, f, what, &m.name)).collect())
 }
 

@@ -1,5 +1,6 @@
 //! What was found, and having it proved again.
 
+use super::deciding_claims;
 use crate::algebraic::Real;
 use crate::answer::Verdict;
 use crate::case::{Case, VertexCase};
@@ -49,8 +50,8 @@ impl Findings {
     #[must_use]
     pub fn verdict_on(&self, required: &Required) -> Verdict {
         match self {
-            Self::Tangents { found, .. } => required.verdict(&found.claims),
-            Self::OverField { found, .. } => required.verdict(&found.claims),
+            Self::Tangents { case, found } => required.verdict(&deciding_claims(case, &found.claims, required)),
+            Self::OverField { case, found } => required.verdict(&deciding_claims(case, &found.claims, required)),
             Self::Vertices { found, every, .. } => {
                 let overall = overall(found, every.as_ref());
                 required.at_vertices(overall, overall)

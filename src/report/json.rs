@@ -10,6 +10,7 @@ use crate::algebraic::Root;
 use crate::case::Case;
 use crate::diagnostic::Problem;
 use crate::jordan::Spectral;
+use crate::prove::deciding_claims;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
@@ -29,7 +30,7 @@ pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requ
         "case": case.name,
         "title": case.title,
         "mask": case.mask().map(|m| json!({ "arity": m.arity(), "coefficients": rationals(m.coefficients()) })),
-        "verdict": required.verdict(&found.claims).word(),
+        "verdict": required.verdict(&deciding_claims(case, &found.claims, required)).word(),
         "required": required.to_string(),
         "tangents": found.verdict.word(),
         "claim": found.claims.first().map(|c| claims::assertion(&c.what)),

@@ -9,7 +9,7 @@ use crate::mesh::{AtVertex, Bad, Boundary, Found, Ground, Kind, Model, Number, R
 use crate::picture::mesh::svg;
 use crate::vertex::decimal;
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Rows of a list in the terminal and in a report.
 const LISTED: [usize; 2] = [12, 400];
@@ -130,10 +130,12 @@ pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Docu
         blocks.push(Block::List(bad.iter().take(most).map(|v| listed(v)).collect()));
         blocks.extend(rest(bad.len(), most));
     }
-    if !found.patches.bad.is_empty() {
-        blocks.push(Block::heading(2, "Patches that are not proved"));
-        blocks.push(Block::List(found.patches.bad.iter().take(most).map(|b| words(patch(b))).collect()));
-        blocks.extend(rest(found.patches.bad.len(), most));
+    let mut faces = BTreeSet::new();
+    let bad: Vec<&Bad> = found.patches.bad.iter().filter(|b| faces.insert(b.face)).collect();
+    if !bad.is_empty() {
+        blocks.push(Block::heading(2, "Patches that are not proved, the first of each face"));
+        blocks.push(Block::List(bad.iter().take(most).map(|b| words(patch(b))).collect()));
+        blocks.extend(rest(bad.len(), most));
     }
     if whole {
         blocks.push(Block::heading(2, "Limits"));
@@ -203,10 +205,13 @@ fn claims(found: &Found) -> Vec<Line> {
     let p = &found.patches;
     let [vertices, whole] = claim_words(found);
     let mut surface = one(found.regular(), whole);
-    if let Some(bad) = found.first_bad() {
-        surface.extend(words(format!("; {}", patch(bad))));
-    } else if !found.closed && found.boundary.is_none() {
-        surface.extend(words("; the mesh has a border, and no rule is given there"));
+    let ruleless = !found.closed && found.boundary.is_none();
+    match found.first_bad() {
+        Some(bad) if !(ruleless && matches!(bad.found, Regular::Open(_))) => {
+            surface.extend(words(format!("; {}", patch(bad))));
+        }
+        _ if ruleless => surface.extend(words("; the border has no rule: add --boundary edge or edge-and-corner")),
+        _ => {}
     }
     let tested = format!(
         "{} tested, {} proved regular by floats with bounds, {} more exactly",

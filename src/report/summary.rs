@@ -12,9 +12,13 @@ use super::words::{
     spectrum_line, statement, tone,
 };
 use crate::case::{Case, Origin};
+use crate::prove::{deciding_claims, of_longer_polygons};
 use crate::shape::{CellKind, Frame};
 use crate::theorem::local::LocalSide;
-use crate::theorem::{BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict};
+use crate::theorem::{
+    Assertion, BranchReport, Certified, Claim, Kind, Outcome, PointReport, Required, Role, Side, Verdict,
+};
+use std::borrow::Cow;
 
 /// Points in the table at the top; all of them follow one by one.
 const MAX_POINTS: usize = 12;
@@ -35,6 +39,7 @@ pub fn summary<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Req
     blocks.extend(mask_line(case).map(Block::Paragraph));
     blocks.push(Block::heading(2, "Claims"));
     blocks.push(claims_table(case, found));
+    blocks.extend(longer_line(case, found).map(Block::Paragraph));
     blocks.extend(points_table(case, found));
     blocks.push(Block::heading(2, "Shape"));
     blocks.push(Block::Facts(shape_facts(case, found)));
@@ -53,7 +58,7 @@ pub fn summary<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Req
         blocks.extend(super::surface::summary(surface, verbose));
     }
     blocks.push(Block::heading(2, "Verdict"));
-    blocks.push(Block::Paragraph(overall_line(found, required)));
+    blocks.push(Block::Paragraph(overall_line(case, found, required)));
     let limits: Vec<Line> = found.limits().iter().map(|limit| words(claims::limit(limit))).collect();
     if !limits.is_empty() {
         blocks.push(Block::List(limits));
@@ -72,8 +77,9 @@ pub fn brief<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requi
     let rows = found.claims.iter().map(row).collect();
     let mut blocks: Vec<Block> = mask_line(case).map(Block::Paragraph).into_iter().collect();
     blocks.push(Block::Table(Table { caption: Line::new(), header, rows }));
+    blocks.extend(longer_line(case, found).map(Block::Paragraph));
     blocks.extend(points_table(case, found).or_else(|| E::results(case, found)));
-    blocks.push(Block::Paragraph(overall_line(found, required)));
+    blocks.push(Block::Paragraph(overall_line(case, found, required)));
     Document { title: case.name.clone(), blocks }
 }
 
@@ -94,6 +100,21 @@ pub(super) fn mask_line<E>(case: &Case<E>) -> Option<Line> {
         let points = count(case.shape.states[case.shape.start].dim, "control point");
         out.extend(words(format!("; one span of its curves, on {points}")));
     }
+    Some(out)
+}
+
+/// Where one span of a scheme is a polynomial, how smooth its curves on longer polygons are.
+fn longer_line<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Line> {
+    found.claims.iter().find(|c| matches!(c.what, Assertion::Polynomial(_)) && c.verdict() == Verdict::Proved)?;
+    let scheme = of_longer_polygons(case)?.ok()?;
+    let holds = match scheme.smoothness() {
+        None => "whether they are continuous was not shown".to_owned(),
+        Some(k) if scheme.smoothness_is_exact() => format!("C^{k}, not C^{}", k + 1),
+        Some(k) => format!("C^{k}"),
+    };
+    let mut out = words(format!("This is one span. Curves of longer polygons: {holds} ("));
+    out.extend(code("secant regularity"));
+    out.extend(words("); an order that is required is one of theirs."));
     Some(out)
 }
 
@@ -153,14 +174,20 @@ fn points_table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Blo
 
 /// What holds, what fails, what is open, and what decides.
 #[must_use]
-pub fn overall_line<E: Reported>(found: &Certified<E>, required: &Required) -> Line {
+pub fn overall_line<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Required) -> Line {
     let of = |verdict: Verdict| {
         let labels: Vec<String> =
             found.claims.iter().filter(|c| c.verdict() == verdict).map(|c| claims::label(&c.what)).collect();
         (!labels.is_empty()).then(|| listed(&labels))
     };
-    let verdict = required.verdict(&found.claims);
-    let deciding: Vec<String> = required.deciding(&found.claims).into_iter().map(|c| claims::label(&c.what)).collect();
+    let decide = deciding_claims(case, &found.claims, required);
+    let verdict = required.verdict(&decide);
+    let of_scheme = matches!(decide, Cow::Owned(_));
+    let label = |c: &Claim| match of_scheme && c.what.is_of_parameter() {
+        true => format!("{} of longer polygons", claims::label(&c.what)),
+        false => claims::label(&c.what),
+    };
+    let deciding: Vec<String> = required.deciding(&decide).into_iter().map(label).collect();
     let mut out = vec![mark(verdict)];
     out.extend(words(match (verdict, deciding.as_slice()) {
         (_, []) => ", as what is required is not claimed of this shape.".to_owned(),

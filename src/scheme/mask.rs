@@ -255,7 +255,12 @@ fn check_sum_rules(arity: usize, coefficients: &[Rational]) -> Result<(), Scheme
     }
     let Some(residue) = sums.iter().position(|s| *s != 1) else { return Ok(()) };
     let sum = sums[residue].clone();
-    let hint = if sums.iter().all(|s| *s == sum) && sum != 0 {
+    let near = |x: &Rational, digits: i64| crate::arith::abs(x) < Rational::from_signeds(1, digits);
+    let hint = if sums.iter().all(|s| near(&(s - Rational::from(1)), 1000)) {
+        "; are these decimals of fractions? Write \"1/6\" for 0.1667; `secant regularity` takes decimals".to_owned()
+    } else if arity == 2 && sums.iter().all(|s| *s > 0 && near(&(s * s * Rational::from(2) - Rational::from(1)), 100)) {
+        "; these sums are near 1/√2, as those of a filter: `secant regularity` takes it as it is".to_owned()
+    } else if sums.iter().all(|s| *s == sum) && sum != 0 {
         format!("; all classes have this sum, so the mask must be divided by {sum}")
     } else {
         String::new()

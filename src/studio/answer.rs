@@ -253,7 +253,7 @@ fn tangents<E: Reported>(case: &Case<E>, found: &Certified<E>, answered: &Answer
     });
     let mut value = json!({
         "verdict": required.verdict(&found.claims).word(),
-        "overall": plain(&summary::overall_line(found, &required)),
+        "overall": plain(&summary::overall_line(case, found, &required)),
         "claims": found.claims.iter().map(|c| claim(c, claims::reason(case, found, c))).collect::<Vec<_>>(),
         "limits": found.limits().iter().map(claims::limit).collect::<Vec<_>>(),
         "points": points.collect::<Vec<_>>(),

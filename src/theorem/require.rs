@@ -207,6 +207,12 @@ impl Required {
         self.judged(Vec::new(), found)
     }
 
+    /// Whether an order of smoothness is named.
+    #[must_use]
+    pub fn names_order(&self) -> bool {
+        self.topics.iter().any(|w| matches!(w.topic, Topic::C(_)))
+    }
+
     /// Whether nothing is named but what a shape has anyway.
     #[must_use]
     pub fn is_of_all_tangents(&self) -> bool {

@@ -235,7 +235,7 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     blocks.push(Block::List(found.claims.iter().map(|c| claim_line(case, found, c)).collect()));
     let required = Required::default();
     let mut verdict = words("Verdict: ");
-    verdict.extend(overall_line(found, &required));
+    verdict.extend(overall_line(case, found, &required));
     verdict.extend(words(match required.verdict(&found.claims) {
         Verdict::Proved => " Every number below is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
         Verdict::Refuted => " The witness is given below. Every number is exact unless it is marked by ≈ or given as a decimal bound rounded outwards.",
