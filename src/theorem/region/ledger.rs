@@ -153,6 +153,7 @@ impl<'a> Ledger<'a> {
                 return (own, Known::Open);
             }
         }
+        // Without a fact no more is known.
         match self.fact_on(&mut own, 0) {
             Some(fact) => (own, fact),
             None => (own, Known::Contracts),

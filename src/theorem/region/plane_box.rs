@@ -110,8 +110,8 @@ impl Waiting {
             self.signs.resize(guards.len(), None);
         }
         let (first, second) = (&self.area.first, &self.area.second);
-        let asked = || guards[k].strict_sign(first, second).map_or(0, i32::signum);
-        let sign = *self.signs[k].get_or_insert_with(asked);
+        // 0 where it has none.
+        let sign = *self.signs[k].get_or_insert_with(|| guards[k].strict_sign(first, second).into_iter().sum());
         Some(sign).filter(|s| *s != 0)
     }
 
