@@ -52,6 +52,8 @@ pub struct Budget {
     pub cone_steps: usize,
     /// Surfaces: cells in which zeros of the leading functionals are looked for (120).
     pub witness_cells: usize,
+    /// Surfaces: coordinates of a star of cells, for cones around planes (30).
+    pub star_dimensions: usize,
     /// Vertices: binary places of enclosures in the first attempt and in the second (192, 768).
     pub places: [u64; 2],
     /// Vertices: how often a patch is halved (14).
@@ -88,6 +90,7 @@ impl Budget {
             levels: 4,
             cone_steps: 300_000_000,
             witness_cells: 120,
+            star_dimensions: 30,
             places: [192, 768],
             halvings: 14,
             ring_cells: 40_000,
@@ -97,8 +100,12 @@ impl Budget {
         };
         match effort {
             Effort::Normal => normal,
-            Effort::Quick => Self { places: [192, 192], halvings: 10, levels: 2, ..normal.scaled(1, 4) },
-            Effort::Hard => Self { places: [192, 3072], halvings: 20, levels: 6, ..normal.scaled(8, 1) },
+            Effort::Quick => {
+                Self { places: [192, 192], halvings: 10, levels: 2, star_dimensions: 16, ..normal.scaled(1, 4) }
+            }
+            Effort::Hard => {
+                Self { places: [192, 3072], halvings: 20, levels: 6, star_dimensions: 40, ..normal.scaled(8, 1) }
+            }
         }
     }
 
@@ -140,7 +147,17 @@ mod tests {
         let limits = |effort| {
             let b = Budget::of(effort);
             let places = b.places.map(|p| usize::try_from(p).expect("small"));
-            let counts = [b.words, b.work, b.cells, b.first_cells, b.joints, b.levels, b.cone_steps, b.witness_cells];
+            let counts = [
+                b.words,
+                b.work,
+                b.cells,
+                b.first_cells,
+                b.joints,
+                b.levels,
+                b.cone_steps,
+                b.witness_cells,
+                b.star_dimensions,
+            ];
             [counts.as_slice(), &places, &[b.halvings, b.ring_cells, b.first_surface_cells(), b.regions.hulls]].concat()
         };
         let all = [Effort::Quick, Effort::Normal, Effort::Hard].map(limits);

@@ -86,7 +86,7 @@ pub mod studio;
 pub mod theorem;
 pub mod vertex;
 
-pub use secant_exact::{algebraic, arith, jordan, linalg, poly, ring, stop};
+pub use secant_exact::{algebraic, arith, jordan, linalg, parallel, poly, ring, stop};
 
 pub use prove::{Findings, prove};
 

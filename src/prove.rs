@@ -20,6 +20,9 @@ use crate::theorem::{Certified, certify_within};
 use crate::vertex::{AtValence, Every, Ground, at_valence_within, every};
 use std::sync::Arc;
 
+/// Most coordinates of stars of cells at vertices of mesh rules.
+const SMALL_STARS: usize = 16;
+
 /// Answers a question: the verdict depends on the case and the budget only.
 ///
 /// # Errors
@@ -46,8 +49,14 @@ pub fn prove_with(question: &Question, budget: &Budget, step: &(dyn Fn() + Sync)
     match question {
         Question::Tangents { case, further } => {
             let addresses = [case.examine.as_slice(), further].concat();
-            let mut found = certify_complex_within(&case.complex(), &addresses, budget)
-                .map_err(|error| model_problem(case, &error))?;
+            let certified = |budget: &Budget| {
+                certify_complex_within(&case.complex(), &addresses, budget).map_err(|error| model_problem(case, &error))
+            };
+            let mut found = match &case.scheme {
+                // Theorem 7 is cheaper than the forms of large stars.
+                Some(Origin::Mesh { .. }) => certified(&Budget { star_dimensions: SMALL_STARS, ..budget.clone() })?,
+                _ => certified(budget)?,
+            };
             settle_around_vertex(case, &mut found, budget);
             Ok(Findings::Tangents { case: Arc::clone(case), found: Box::new(found) })
         }

@@ -149,6 +149,7 @@ statements! {
     FamilyCurves = "family-curves",
     ConeEnds = "cone-ends",
     TangentsJump = "tangents-jump",
+    FamilyPlane = "family-plane",
     FamilyVertex = "family-vertex",
     LatticeMask = "lattice-mask",
     StableShifts = "stable-shifts",

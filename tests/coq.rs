@@ -24,7 +24,7 @@ fn written(case: &str) -> String {
     std::fs::read_to_string(file).unwrap()
 }
 
-const REPLAYED: [(&str, &[&str]); 9] = [
+const REPLAYED: [(&str, &[&str]); 10] = [
     ("cases/thesis/half-tangent.toml", &["half_tangent", "cusp (automaton", "levels_0_0_1", "Not stated: every point"]),
     ("cases/two-parameter/quarter-quarter.toml", &["regular (automaton", "levels_0_0_1", "tangent_at_every_address"]),
     ("cases/classical/takagi.toml", &["lead := Block (1#2)", "cusp (automaton"]),
@@ -36,6 +36,24 @@ const REPLAYED: [(&str, &[&str]); 9] = [
     // Both sides of a point inside a cell; secants that turn for ever.
     ("cases/two-parameter/interior-periodic.toml", &["passes (automaton", "passes_ok"]),
     ("cases/classical/levy.toml", &["no_tangent (automaton"]),
+    // Eigenvalues and tangents over Q(√2), the joints of all levels among them.
+    (
+        "cases/irrational/regular-sqrt-2.toml",
+        &[
+            "radicand := 2;",
+            "quadratic_ray_ok",
+            "quadratic_regular_ok",
+            "levels_0_0_1",
+            "(vval left_end_evidence_root ([1; 0], [0; 1#2]))",
+        ],
+    ),
+];
+
+/// The other kinds of points with such numbers.
+const QUADRATIC: [(&str, &[&str]); 3] = [
+    ("cases/irrational/cusp-sqrt-2.toml", &["quadratic_cusp_ok"]),
+    ("cases/irrational/interior-01.toml", &["radicand := 73;", "quadratic_passes_ok"]),
+    ("cases/irrational/lebesgue-sqrt-2.toml", &["quadratic_corner_ok"]),
 ];
 
 /// A curve at whose ends a complex pair dominates that is no multiple of a root of unity.
@@ -60,7 +78,7 @@ fn oblique() -> String {
 
 #[test]
 fn files_state_what_was_found_about_the_matrices_of_the_case() {
-    for (case, pieces) in REPLAYED {
+    for (case, pieces) in REPLAYED.into_iter().chain(QUADRATIC) {
         let text = written(case);
         for piece in pieces {
             assert!(text.contains(piece), "{case}: {piece} is missing in\n{text}");
@@ -76,7 +94,8 @@ fn files_state_what_was_found_about_the_matrices_of_the_case() {
 #[test]
 fn what_has_no_formal_theorem_is_refused_and_nothing_is_written() {
     for (case, why) in [
-        ("cases/irrational/regular-sqrt-2.toml", "irrational"),
+        ("cases/fields/db2.toml", "irrational entries"),
+        ("cases/irrational/two-fields.toml", "irrational numbers of two fields"),
         ("cases/contraction/long-words.toml", "Lemma 1"),
         ("cases/counterexamples/uniformity.toml", "refutation other than"),
         ("cases/surfaces/bicubic-space.toml", "surface"),
@@ -134,7 +153,10 @@ fn coq_accepts_the_files_and_no_changed_one() {
     let seen = written("cases/control/bezier-cusp.toml");
     let inside = written("cases/two-parameter/interior-periodic.toml");
     let spiral = oblique();
-    assert!(coqc(&spiral).0, "{spiral}");
+    let irrational = written("cases/irrational/regular-sqrt-2.toml");
+    for accepted in QUADRATIC.map(|(case, _)| written(case)).iter().chain([&spiral]) {
+        assert!(coqc(accepted).0, "{accepted}");
+    }
     for (text, from, to) in [
         // Another matrix, with columns that still sum to 1; a column that does not.
         (&thesis, "[5#4; 1#2; 0]; [-1#4; 1#2; 5#4]", "[5#4; 1#4; 0]; [-1#4; 3#4; 5#4]"),
@@ -163,6 +185,23 @@ fn coq_accepts_the_files_and_no_changed_one() {
         (&inside, "(qv [-2; 1; 1])", "(qv [2; -1; -1])"),
         (&spiral, "trace := 1;", "trace := 2;"),
         (&spiral, "norm := 29#100", "norm := 1#5"),
+        // Irrational numbers: another ray, its conjugate, another matrix, the root of another number, an interval without the root,
+        // another eigenvalue, another vector of what is seen of a joint at all levels.
+        (
+            &irrational,
+            "(vval left_end_evidence_root ([1; 0], [0; 1#2]))",
+            "(vval left_end_evidence_root ([1; 0], [0; 1#3]))",
+        ),
+        (
+            &irrational,
+            "(vval left_end_evidence_root ([1; 0], [0; 1#2]))",
+            "(vval left_end_evidence_root ([1; 0], [0; -1#2]))",
+        ),
+        (&irrational, "[1; 11#20; 1#2]; [0; 2#5; 1#10]", "[1; 13#20; 1#2]; [0; 3#10; 1#10]"),
+        (&irrational, "radicand := 2;", "radicand := 3;"),
+        (&irrational, "radicand := 2; below := ", "radicand := 2; below := 2 + "),
+        (&irrational, "q_lead := (2#5, 1#20)", "q_lead := (2#5, -1#20)"),
+        (&irrational, "views : list qmat := [[[", "views : list qmat := [[]; [["),
     ] {
         let (accepted, said) = coqc(&changed(text, from, to));
         assert!(!accepted, "Coq accepts the file with {to} in the place of {from}");

@@ -58,6 +58,8 @@ mod readers;
 mod refinement;
 #[path = "regions.rs"]
 mod regions;
+#[path = "regions_plane.rs"]
+mod regions_plane;
 #[path = "regions_vertex.rs"]
 mod regions_vertex;
 #[path = "regularity.rs"]

@@ -4,7 +4,7 @@
 Usage: check_curves.py CASE.toml CERTIFICATE.json     (exit 0 accepted, 1 rejected, 2 unreadable)
 
 It covers the certificates of curves and sets (but boundary operators of vertices), of spectra and of unknown entries; its neighbours
-those of radii, lattices, regions and vertices.  It is written for reading, not for hostile input: use secant-check where limits matter.
+those of radii, lattices, regions, surfaces and vertices.  It is written for reading, not for hostile input: use secant-check where limits matter.
 """
 import json
 import sys
@@ -466,7 +466,11 @@ class Model:
         if all(isinstance(code, dict) for *_, code in codes):
             self.polytopes([(e, code) for e, _, _, code in codes], True)
             codes = []
-        if any(hull is not None for _, hull in hulls):
+        if all(hull == "simplex" for _, hull in hulls):
+            # Columns of sum 1 without negative entries keep the simplices of the unit vectors.
+            need(all(x >= 0 for e, _ in hulls for p in self.states[e][1] for row in p[1] for x in row), "hull")
+            self.hull = {e: identity(self.case.dims[e]) for e, _ in hulls}
+        elif any(hull is not None for _, hull in hulls):
             self.polytopes(hulls, False)
         while codes:
             start, e, op, tree = codes.pop()
@@ -654,7 +658,7 @@ class Top:
     def pair(self, linear, r, count, m, centre, error, vectors):
         ring, (x, y), e = Ring(poly(m, 65)), vector(centre, 2), rational(error)
         need(y > e > 0 and x * x + y * y > (r + e) ** 2 and root_near(ring.m, (x, y), e), "top-pair")
-        self.vectors = ring.chain(linear, 1, vectors, "top-pair")
+        self.ring, self.vectors = ring, ring.chain(linear, 1, vectors, "top-pair")
         self.value = ((x - e, x + e), (y - e, y + e))
         need(2 * len(self.vectors) == count, "top-pair")
         need(any(map(i_sign, sum(self.directions(identity(self.n)), []))), "top-pair")

@@ -5,6 +5,8 @@ mod branch;
 mod chart;
 mod cones;
 mod derivative;
+mod faces;
+mod glue;
 mod product;
 
 use crate::base::{Accepted, Checked, Matrix, Node, Verdict, need, together};
@@ -83,12 +85,13 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
     let shape = &case.shape;
     let model =
         if contraction.is_null() { Model::unenclosed(shape, &())? } else { Model::read(shape, &(), &contraction)? };
-    let chart = Chart::read(source, shape)?;
+    let faces = Chart::read(source, shape)?;
+    let chart = faces.as_ref().filter(|c| c.is_patch());
     let factors = if product.is_null() { Vec::new() } else { product.fields::<2>("first second")?.into() };
     let curves = factors.iter().map(product::curve).collect::<Checked<Vec<_>>>()?;
     let read = |chart| Product::read(shape, chart, &curves, &factors);
     let (cover, flat) = (!contraction.is_null(), curves.is_empty());
-    let product = chart.as_ref().filter(|_| !flat).map(read).transpose()?;
+    let product = chart.filter(|_| !flat).map(read).transpose()?;
     let known = product.is_some() || (cover && flat);
     contraction.need(known, "contraction", "a reason is needed, or a patch with parameters that is a product")?;
     let surface = Surface { model: &model, product, cover };
@@ -102,7 +105,7 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         item.need(new, "answers", "the address is not in its normal form, or was asked for before")?;
         addresses.push(address);
     }
-    let (asked, places) = questions(&model, chart.as_ref(), addresses)?;
+    let (asked, places) = questions(&model, chart, addresses)?;
     let root = Root { state: shape.start, view: shape.view.clone() };
     let mut found_at: Vec<Decided> = Vec::new();
     for (item, place) in points.exactly(places.len(), "points")?.iter().zip(&places) {
@@ -111,11 +114,11 @@ pub fn check(source: &str, node: &Node<'_>) -> Checked<Accepted> {
         found_at.push(Claim::PlaneOfCells(place.clone()).is(verdict));
     }
     dense.need(chart.is_some() || dense.is_null(), "dense", "a shape without parameters has no vertices inside")?;
-    let every = every.map(|every| surface.every(&root, chart.as_ref(), &found_at, &every)).transpose()?;
+    let every = every.map(|every| surface.every(&root, faces.as_ref(), &found_at, &every)).transpose()?;
     let planes = every == Some(Verdict::Proved);
     let mut found: Vec<Decided> = Vec::new();
     for (item, question) in answers.exactly(asked.len(), "answers")?.iter().zip(asked) {
-        let decided = match (question, &chart) {
+        let decided = match (question, chart) {
             (Question::Points(claim, numbers), _) => claim.is(together(numbers.iter().map(|&k| found_at[k].verdict))),
             (Question::Dense, Some(chart)) => surface.dense_set(chart, &dense, planes)?,
             (Question::Dense, None) => {
@@ -170,7 +173,9 @@ impl Surface<'_> {
     /// Whether the surface is G¹: a point without a tangent plane, or the curves of a product.
     fn every(&self, root: &Root, chart: Option<&Chart>, points: &[Decided], node: &Node<'_>) -> Checked<Verdict> {
         let chart = node.some(chart, "every", "a patch with parameters is needed")?;
-        let found = match node.tag("by")? {
+        let by = node.tag("by")?;
+        node.need(chart.is_patch() || by == "cones", "every", "the start is no patch")?;
+        let found = match by {
             "derivative" => {
                 node.need(self.cover, "contraction", "without contraction only a product has an answer")?;
                 derivative::check(self.model, chart, node)?;

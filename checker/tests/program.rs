@@ -124,3 +124,8 @@ fn the_python_scripts_agree_on_lattices_and_borders() {
 fn the_python_scripts_agree_on_regions() {
     agree("check_regions.py", &["region"], [3, 5]);
 }
+
+#[test]
+fn the_python_scripts_agree_on_surfaces() {
+    agree("check_surfaces.py", &["surface"], [9, 8]);
+}

@@ -21,6 +21,10 @@ Definition automaton_of (S : system) : automaton := {|
   mat := fun e i => qm (snd (piece S e i))
 |}.
 
+(** A computation that succeeds does not go on. *)
+Lemma or_lazy (a b : bool) : (if a then true else b) = true <-> a = true \/ b = true.
+Proof. destruct a; simpl; intuition discriminate. Qed.
+
 Section Check.
 Variable case : system.
 Notation A := (automaton_of case).
@@ -61,7 +65,7 @@ Definition radius e := nth e radii 0%Q.
 
 Fixpoint check_word (fuel e0 e : nat) (M : qmat) : bool :=
   let t := qtau N (dim A e) M in
-  (Qle_bool t theta && Qle_bool (qnrm N (qsub N (qact N M (centre e)) (centre e0)) + t * radius e) (radius e0)) ||
+  if Qle_bool t theta && Qle_bool (qnrm N (qsub N (qact N M (centre e)) (centre e0)) + t * radius e) (radius e0) then true else
   match fuel with
   | O => false
   | S f => forallb (fun i => check_word f e0 (dst A e i) (qmul N M (mt e i))) (seq 0 (deg A e))
@@ -79,7 +83,7 @@ Lemma check_word_ok fuel : well_formed A -> (forall e, (e < states A)%nat -> (le
     nrm N (sub (act N (qm M) (W A e s k (qv (centre (st A e s k))))) (qv (centre e0))) + t * Q2R (radius (st A e s k))
       <= Q2R (radius e0).
 Proof.
-  intros Hwf Hc. induction fuel as [|f IH]; intros e0 e M He0 He HM H s Hs; simpl in H; rewrite orb_true_iff in H;
+  intros Hwf Hc. induction fuel as [|f IH]; intros e0 e M He0 He HM H s Hs; simpl in H; rewrite or_lazy in H;
     (destruct H as [H|H]; [
       rewrite andb_true_iff in H; destruct H as [H1 H2]; exists O, (Q2R (qtau N (dim A e) M));
       split; [lia|]; split; [split; [apply qtau_ge0|apply Q2R_le; auto]|]; split;
@@ -225,7 +229,7 @@ Definition check_cell (m : mode) (e : nat) (h : qvec) (mid low : Q) : bool :=
 
 Fixpoint check_far (fuel : nat) (m : mode) (rest : option (list nat)) (e : nat) (h : qvec) (mid low : Q) : bool :=
   match rest with Some [] => true | _ =>
-    check_cell m e h mid low ||
+    if check_cell m e h mid low then true else
     match fuel with
     | O => false
     | S f => forallb (fun i => check_far f (turned_to m rest i) (next rest i) (dst A e i) (qrow N h (mt e i)) mid low) (seq 0 (deg A e))
@@ -286,10 +290,10 @@ Proof.
     - apply Hover in H. pose proof (Rle_abs (x - Q2R mid)). simpl in *. lra.
     - apply Hunder in H. pose proof (Rle_abs (- (x - Q2R mid))) as Ha3. rewrite Rabs_Ropp in Ha3. simpl in *. lra. }
   induction fuel as [|f IH]; intros m rest e h mid low He H s Hs; simpl in H.
-  - destruct rest as [[|a r]|]; [left; exists []; simpl; auto| |]; rewrite orb_false_r in H; apply Hleaf; auto.
+  - destruct rest as [[|a r]|]; [left; exists []; simpl; auto| |]; rewrite or_lazy in H; (destruct H as [H|H]; [|discriminate]); apply Hleaf; auto.
   - assert (Hstep : rest = Some [] \/ check_cell m e h mid low = true \/
       forallb (fun i => check_far f (turned_to m rest i) (next rest i) (dst A e i) (qrow N h (mt e i)) mid low) (seq 0 (deg A e)) = true).
-    { destruct rest as [[|a r]|]; auto; rewrite orb_true_iff in H; tauto. }
+    { destruct rest as [[|a r]|]; auto; rewrite or_lazy in H; tauto. }
     destruct Hstep as [->|[H1|H1]]; [left; exists []; simpl; auto|apply Hleaf; auto|].
     pose proof (Hs O) as Hs0. simpl in Hs0. pose proof (forall_lt _ _ H1 (s O) Hs0) as H2. cbv beta in H2.
     assert (Hd : (dst A e (s O) < states A)%nat) by (apply (dst_ok A (wf A Hsys)); auto).

@@ -384,7 +384,7 @@ def region(
     Raises
     ------
     InputError
-        If it is no family with one parameter that is left free.
+        If it is no family with one parameter that is left free. (In the plane of two, `secant region CASE` answers.)
 
     Examples
     --------

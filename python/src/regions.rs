@@ -5,7 +5,7 @@ use crate::work::outside;
 use pyo3::prelude::*;
 use secant::arith::{Rational, parse_rational};
 use secant::ask::{Asked, Family};
-use secant::case::{Valences, setting};
+use secant::case::{FamilyForm, PlaneFamilyCase, Valences, setting};
 use secant::diagnostic::Problem;
 use secant::radius::family::Search;
 use secant::report::text;
@@ -74,10 +74,16 @@ pub fn region(
         let valences = valences.map(|text| Valences::parse(&text).map_err(|e| {
             Problem::new("secant::usage::valence", e).with_help("as in valences=[3, 4, 5] or valences=\"3..12\"")
         })).transpose()?;
-        let asked = Asked { order, valences };
+        let asked = Asked { order, valences, depth: None };
         let found = match text {
-            Some(text) => Family::of_text(&name, &text, &set, &asked, &search, &budget)?,
-            None => Family::ask(&name, &set, &asked, &search, &budget)?,
+            Some(text) => {
+                if FamilyForm::of(&text) == FamilyForm::Curve && PlaneFamilyCase::parse(&name, &text, &set)?.is_some() {
+                    return Err(Problem::new("secant::python::plane", format!("{name}: two parameters are left free"))
+                        .with_help("give one of them a value; `secant region CASE` answers in the plane of two"));
+                }
+                Family::of_text(&name, &text, &set, &asked, &search, &budget, &|_| {})?
+            }
+            None => Family::ask(&name, &set, &asked, &search, &budget, &|_| {})?,
         };
         let (data, verdict) = (found.data().to_string(), found.verdict().word().to_owned());
         Ok((RegionFindings(Arc::new(found)), data, verdict))

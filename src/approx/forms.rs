@@ -22,6 +22,8 @@ pub struct FormArrow {
 pub struct FormProblem {
     /// The dimensions of the spaces.
     pub dims: Vec<usize>,
+    /// By space: the scalar products of its basis, row after row.
+    pub products: Vec<Vec<f64>>,
     /// The operators.
     pub arrows: Vec<FormArrow>,
     /// By space: vectors on which the form is to be positive.
@@ -38,37 +40,88 @@ pub struct ProposedForms {
 }
 
 /// Most vectors that are taken of each space.
-const SECANTS: usize = 300;
+const SECANTS: usize = 150;
 /// Arrows keep this part of the room that is kept on the vectors.
 const ARROWS: f64 = 0.002;
 /// Steps of the method.
-const STEPS: usize = 120;
-/// Where it begins, by how much it is sharpened each time, and where a form with some room is good enough.
-const SHARP: [f64; 3] = [100.0, 10.0, 10_000.0];
+const STEPS: usize = 100;
+/// Where it begins, by how much it is sharpened each time, where a form with some room is good enough, and where it ends.
+const SHARP: [f64; 4] = [1_000.0, 10.0, 10_000.0, 10_000_000.0];
+/// The square of the length of Newton's step below which it is sharpened.
+const NEAR: f64 = 3.0;
 
 impl FormProblem {
-    /// Forms for some choices of `κ` in the window between the third and the second growth, the likeliest first.
-    pub fn proposals(&self) -> impl Iterator<Item = ProposedForms> {
-        [0.5, 0.75, 0.25].into_iter().filter_map(|part| self.proposal(part))
+    /// Forms for some choices of `κ` in the window between the third and the second growth, the likeliest first, or spaces that lead to
+    /// one another for which there are none. They are looked for in orthonormal coordinates.
+    pub fn proposals(&self) -> impl Iterator<Item = Result<ProposedForms, Vec<usize>>> {
+        let normal = self.orthonormal();
+        [0.5, 0.75, 0.25].into_iter().filter_map(move |part| {
+            let (problem, factors) = normal.as_ref()?;
+            let mut found = match problem.proposal(part) {
+                Ok(found) => found,
+                Err(component) => return Some(Err(component)),
+            };
+            for (form, l) in found.forms.iter_mut().zip(factors) {
+                let back = l * Dense::from_column_slice(l.nrows(), l.nrows(), form) * l.transpose();
+                // It is symmetric: columns are rows.
+                *form = back.as_slice().to_vec();
+            }
+            Some(Ok(found))
+        })
     }
 
-    fn proposal(&self, part: f64) -> Option<ProposedForms> {
+    /// The same problem in the coordinates `Lᵗ v`, where `L Lᵗ` are the scalar products, and all `L`.
+    fn orthonormal(&self) -> Option<(Self, Vec<Dense>)> {
+        let square = |(&d, m): (&usize, &Vec<f64>)| Some(Dense::from_row_slice(d, d, m).cholesky()?.l());
+        let factors: Vec<Dense> = self.dims.iter().zip(&self.products).map(square).collect::<Option<_>>()?;
+        let arrow = |a: &FormArrow| {
+            let map = Dense::from_row_slice(self.dims[a.from], self.dims[a.to], &a.map);
+            // Rows of the new map are the columns of its transpose.
+            let turned = factors[a.to].solve_lower_triangular(&(map.transpose() * &factors[a.from]))?;
+            Some(FormArrow { from: a.from, to: a.to, map: turned.as_slice().to_vec() })
+        };
+        let secants =
+            self.secants.iter().zip(&factors).map(|(all, l)| {
+                all.iter().map(|v| l.tr_mul(&DVector::from_column_slice(v)).as_slice().to_vec()).collect()
+            });
+        let unit = |d: &usize| Dense::identity(*d, *d).as_slice().to_vec();
+        let problem = Self {
+            dims: self.dims.clone(),
+            products: self.dims.iter().map(unit).collect(),
+            arrows: self.arrows.iter().map(arrow).collect::<Option<_>>()?,
+            secants: secants.collect(),
+        };
+        Some((problem, factors))
+    }
+
+    fn proposal(&self, part: f64) -> Result<ProposedForms, Vec<usize>> {
         let mut forms: Vec<Option<Dense>> = vec![None; self.dims.len()];
         let mut ratios = vec![0.0; self.arrows.len()];
         while let Some(component) = self.next_component(&forms) {
-            let ratio = self.window(&component, part)?;
-            let mut program = Program::new(self, &component, ratio, &forms);
-            let x = program.solve()?;
-            for (k, &s) in component.iter().enumerate() {
-                forms[s] = Some(program.form(&x, k));
-            }
-            for (a, arrow) in self.arrows.iter().enumerate().filter(|(_, a)| component.contains(&a.from)) {
-                ratios[a] = if component.contains(&arrow.to) { ratio } else { program.outer(&x, a)? };
-            }
+            self.of_component(&component, part, &mut forms, &mut ratios).ok_or(component)?;
         }
         // They are symmetric: columns are rows.
-        let forms = forms.into_iter().map(|q| Some(q?.as_slice().to_vec())).collect::<Option<_>>()?;
-        Some(ProposedForms { forms, ratios })
+        let forms = forms.into_iter().flatten().map(|q| q.as_slice().to_vec()).collect();
+        Ok(ProposedForms { forms, ratios })
+    }
+
+    fn of_component(
+        &self,
+        component: &[usize],
+        part: f64,
+        forms: &mut [Option<Dense>],
+        ratios: &mut [f64],
+    ) -> Option<()> {
+        let ratio = self.window(component, part)?;
+        let mut program = Program::new(self, component, ratio, forms);
+        let x = program.solve()?;
+        for (k, &s) in component.iter().enumerate() {
+            forms[s] = Some(program.form(&x, k));
+        }
+        for (a, arrow) in self.arrows.iter().enumerate().filter(|(_, a)| component.contains(&a.from)) {
+            ratios[a] = if component.contains(&arrow.to) { ratio } else { program.outer(&x, a)? };
+        }
+        Some(())
     }
 
     /// Spaces that lead to one another, all of whose other successors have their forms.
@@ -258,7 +311,7 @@ impl Program {
         x[self.variables - 1] = -1.0;
         for block in &self.blocks {
             if let To::Outer { variable, .. } = block.to {
-                x[variable] = 1.0 / 64.0;
+                x[variable] = ARROWS / 4.0;
             }
         }
         // A form that is 0 leaves −κ q' in an outer block.
@@ -286,15 +339,15 @@ impl Program {
             };
             x = moved;
             steps += 1;
-            if gain >= 1.0 && steps < STEPS {
+            if gain >= NEAR && steps < STEPS {
                 continue;
             }
             let t = x[self.variables - 1];
             if t > 0.0 && sharp >= SHARP[2] {
                 return Some(x);
             }
-            // What is best is at most `count / sharp` above.
-            if steps >= STEPS || t + 2.0 * count as f64 / sharp < 0.0 {
+            // What is best is about `count / sharp` above at most.
+            if steps >= STEPS || sharp >= SHARP[3] || t + 4.0 * count as f64 / sharp < 0.0 {
                 return None;
             }
             sharp *= SHARP[1];

@@ -1,19 +1,22 @@
 //! For which values of a parameter a scheme converges and is smooth.
 
+use super::region_plane::{RegionsInPlane, plane_regions_of_case};
 use super::region_vertex::{RegionsAtVertices, vertex_regions_of_case};
 use crate::answer::Verdict;
 use crate::budget::Budget;
 use crate::case::{
-    self, CurveFamilyCase, FamilyForm, MaskFamilyCase, Setting, Valences, VertexFamilyCase, named_family,
+    self, CurveFamilyCase, FamilyForm, MaskFamilyCase, PlaneFamilyCase, Setting, Valences, VertexFamilyCase,
+    named_family,
 };
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::family::Search;
 use crate::report::document::Document;
 use crate::report::region as report;
 use crate::report::region_curve as curve_report;
+use crate::report::region_plane as plane_report;
 use crate::report::region_vertex as vertex_report;
 use crate::scheme;
-use crate::theorem::region::{CurveFamily, CurveRegions, MaskFamily, OrderRegion};
+use crate::theorem::region::{CurveFamily, CurveRegions, MaskFamily, OrderRegion, PlaneLimits};
 use serde_json::Value;
 use std::path::Path;
 
@@ -189,6 +192,19 @@ impl RegionsOfCurve {
     }
 }
 
+/// How often the plane is halved in both directions unless it is told otherwise.
+pub const DEPTH: usize = 7;
+/// The same at most.
+pub const MAX_DEPTH: usize = 10;
+/// Work of the search that stands for one box.
+const BOX: u64 = 1_000_000;
+
+fn plane_limits(asked: &Asked, search: &Search, budget: &Budget) -> PlaneLimits {
+    let boxes = usize::try_from(search.work / BOX).map_or(usize::MAX, |n| n);
+    let depth = asked.depth.unwrap_or(DEPTH).min(MAX_DEPTH);
+    PlaneLimits { depth, boxes, time: search.time, lines: Some((search.clone(), budget.clone())) }
+}
+
 /// What `secant region` answers.
 #[derive(Debug, Clone)]
 pub enum Family {
@@ -198,6 +214,8 @@ pub enum Family {
     Curve(Box<RegionsOfCurve>),
     /// At vertices of meshes.
     Vertex(Box<RegionsAtVertices>),
+    /// Of a curve with two parameters.
+    Plane(Box<RegionsInPlane>),
 }
 
 /// What is asked of a family beside its range.
@@ -207,6 +225,8 @@ pub struct Asked {
     pub order: Option<usize>,
     /// The valences at vertices of meshes, in the place of those of the file.
     pub valences: Option<Valences>,
+    /// How often the plane of two parameters is halved; [`DEPTH`] without it.
+    pub depth: Option<usize>,
 }
 
 impl Asked {
@@ -220,7 +240,8 @@ impl Asked {
 }
 
 impl Family {
-    /// The regions of what stands for a family.
+    /// The regions of what stands for a family. `step` is told how much of the plane of two parameters was done, in boxes of the
+    /// smallest size.
     ///
     /// # Errors
     /// A [`Problem`] where it is none.
@@ -230,6 +251,7 @@ impl Family {
         asked: &Asked,
         search: &Search,
         budget: &Budget,
+        step: &dyn Fn(usize),
     ) -> Result<Self, Problem> {
         if scheme::list().iter().any(|s| s.name == what) {
             asked.no_valences(what)?;
@@ -239,7 +261,7 @@ impl Family {
             return Err(no_family(what));
         }
         let source = SourceText::read(Path::new(what))?;
-        Self::of_text(&source.name, &source.text, set, asked, search, budget)
+        Self::of_text(&source.name, &source.text, set, asked, search, budget, step)
     }
 
     /// The same of the text of a case.
@@ -253,6 +275,7 @@ impl Family {
         asked: &Asked,
         search: &Search,
         budget: &Budget,
+        step: &dyn Fn(usize),
     ) -> Result<Self, Problem> {
         let form = FamilyForm::of(text);
         if form != FamilyForm::Vertex {
@@ -264,6 +287,10 @@ impl Family {
                 Self::Mask(Box::new(regions_of_case(case, asked.order.unwrap_or(usize::MAX), search)?))
             }
             FamilyForm::Curve => {
+                if let Some(case) = PlaneFamilyCase::parse(name, text, set)? {
+                    let found = plane_regions_of_case(case, &plane_limits(asked, search, budget), step)?;
+                    return Ok(Self::Plane(Box::new(found)));
+                }
                 let case = CurveFamilyCase::parse(name, text, set)?;
                 Self::Curve(Box::new(curve_regions_of_case(case, search, budget)?))
             }
@@ -282,6 +309,7 @@ impl Family {
             Self::Mask(r) => r.verdict(),
             Self::Curve(r) => r.verdict(),
             Self::Vertex(r) => r.verdict(),
+            Self::Plane(r) => r.verdict(),
         }
     }
 
@@ -292,6 +320,7 @@ impl Family {
             Self::Mask(r) => r.document(),
             Self::Curve(r) => curve_report::document(&r.case, &r.found),
             Self::Vertex(r) => vertex_report::document(&r.case, &r.found),
+            Self::Plane(r) => plane_report::document(&r.case, &r.found),
         }
     }
 
@@ -302,6 +331,7 @@ impl Family {
             Self::Mask(r) => r.report(),
             Self::Curve(r) => curve_report::report(&r.case, &r.found),
             Self::Vertex(r) => vertex_report::report(&r.case, &r.found),
+            Self::Plane(r) => plane_report::report(&r.case, &r.found),
         }
     }
 
@@ -312,6 +342,7 @@ impl Family {
             Self::Mask(r) => r.svg(),
             Self::Curve(r) => curve_report::picture(&r.case, &r.found).map(|p| p.0),
             Self::Vertex(r) => vertex_report::picture(&r.case, &r.found).map(|p| p.0),
+            Self::Plane(r) => Some(plane_report::picture(&r.case, &r.found).0),
         }
     }
 
@@ -322,6 +353,7 @@ impl Family {
             Self::Mask(r) => r.data(),
             Self::Curve(r) => curve_report::data(&r.case, &r.found),
             Self::Vertex(r) => vertex_report::data(&r.case, &r.found),
+            Self::Plane(r) => plane_report::data(&r.case, &r.found),
         }
     }
 
@@ -333,6 +365,11 @@ impl Family {
         match self {
             Self::Mask(r) => r.certificate(),
             Self::Curve(r) => r.certificate(),
+            Self::Plane(r) => Err(Problem::new(
+                "secant::region::certificate",
+                format!("{}: there is no certificate format for regions in the plane", r.case.name),
+            )
+            .with_help("a line through it has one: give one of the parameters a value")),
             Self::Vertex(r) => Err(Problem::new(
                 "secant::region::certificate",
                 format!("{}: there is no certificate format for regions at vertices", r.case.name),

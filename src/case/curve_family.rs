@@ -1,8 +1,9 @@
 //! Curves with a parameter that is left free: `[parameters]` with maps or operators.
 
-use super::member::{degree, member_text};
+use super::free::{degree, one_free};
+use super::member::member_text;
 use super::node::{File, Table};
-use super::parameters::{Setting, one_free};
+use super::parameters::Setting;
 use super::{Case, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};

@@ -1,8 +1,8 @@
 //! One case of a case with `[parameters]`: with a value for each of them, written out.
 
 use super::MAX_BYTES;
-use super::node::{File, Table, clipped};
-use super::parameters::{FORMULA_WORDS, Free, Setting, parameters};
+use super::node::{File, Table};
+use super::parameters::{Setting, parameters};
 use crate::algebraic::field::polynomial;
 use crate::arith::parse_rational;
 use crate::diagnostic::{Problem, SourceText};
@@ -158,7 +158,7 @@ fn identifiers(text: &str) -> Vec<Range<usize>> {
     found
 }
 
-fn mentions(text: &str, is_meant: impl Fn(&str) -> bool) -> bool {
+pub(super) fn mentions(text: &str, is_meant: impl Fn(&str) -> bool) -> bool {
     identifiers(text).into_iter().any(|span| is_meant(&text[span]))
 }
 
@@ -229,41 +229,6 @@ fn collect(
         },
         _ => {}
     }
-}
-
-/// Highest degree of the expressions in the free parameter, from 1 to `most`.
-///
-/// # Errors
-/// A [`Problem`] where it is another, or an expression is no polynomial, such as `1/(1+p^2)`.
-pub(super) fn degree(case: &Table<'_>, text: &str, free: &Free, most: usize) -> Result<usize, Problem> {
-    let Ok(table) = DeTable::parse(text) else { return Ok(0) };
-    let name = &free.parameter;
-    let single = "regions are found for polynomials; single values can be asked: `secant certify CASE p=1/16`";
-    let mut degree = 0;
-    for (span, expression) in expressions(&table, &free.names) {
-        match expression {
-            Expression::Polynomial(f) => degree = degree.max(f.degree().unwrap_or(0)),
-            Expression::Formula(text) if mentions(&text, |word| word == name) => {
-                let formula = case.get("vertex").is_some() && mentions(&text, |word| FORMULA_WORDS.contains(&word));
-                let message = match formula {
-                    true => format!(
-                        "`{}` has the parameter `{name}` and the valence in one weight, which regions do not take yet",
-                        clipped(&text)
-                    ),
-                    false => format!("`{}` is no polynomial in `{name}`", clipped(&text)),
-                };
-                return Err(case.file.problem("parameters", message, span, "this expression").with_help(single));
-            }
-            Expression::Formula(_) => {}
-        }
-    }
-    if !(1..=most).contains(&degree) {
-        let message = format!("the expressions are polynomials of degree {degree} in `{name}`");
-        return Err(case
-            .problem("parameters", message, "this case")
-            .with_help(format!("regions of such cases are found for degrees from 1 to {most}")));
-    }
-    Ok(degree)
 }
 
 #[cfg(test)]

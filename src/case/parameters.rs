@@ -4,6 +4,7 @@
 //! numbers, may be expressions in parameters. With a value for each of them the case is one case, written out; with one of them
 //! left free a mask is a family.
 
+use super::free::one_free;
 use super::node::{File, Node, Table, clipped};
 use super::scheme::refused;
 use crate::algebraic::field::polynomial;
@@ -171,39 +172,6 @@ pub(super) fn with_settings(text: &str) -> Result<Option<(PathBuf, Vec<(String, 
         }
     }
     Ok(None)
-}
-
-/// The one parameter that is left free, and what every name stands for: the free one for itself.
-pub(super) struct Free {
-    pub parameter: String,
-    pub range: (Rational, Rational),
-    pub names: BTreeMap<String, Poly>,
-}
-
-/// The parameters of a family.
-pub(super) fn one_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Free, Problem> {
-    let all = parameters(case, set)?;
-    let free: Vec<(&String, &Rational, &Rational)> = all
-        .iter()
-        .filter_map(|(n, s)| match s {
-            Setting::Range(from, to) => Some((n, from, to)),
-            Setting::Value(_) => None,
-        })
-        .collect();
-    let [(parameter, from, to)] = free.as_slice() else {
-        let message = format!("{} parameters are left free, and exactly one is needed", free.len());
-        return Err(case.problem("parameters", message, "this case").with_help(
-            "give one of them a range, behind the case as in  w=-1/2..1/2  or under [parameters] as in  w = \"-1/2..1/2\", and the \
-             others values",
-        ));
-    };
-    let variable = Poly::linear(&Rational::from(0));
-    let value = |(n, s): &(String, Setting)| match s {
-        Setting::Value(q) => (n.clone(), Poly::constant(q.clone())),
-        Setting::Range(..) => (n.clone(), variable.clone()),
-    };
-    let names = all.iter().map(value).collect();
-    Ok(Free { parameter: (*parameter).clone(), range: ((*from).clone(), (*to).clone()), names })
 }
 
 impl MaskFamilyCase {

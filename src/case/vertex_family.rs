@@ -1,9 +1,9 @@
 //! Rules on meshes with a parameter that is left free: `[parameters]` with `[vertex]`.
 
 use super::curve_family::at_value;
-use super::member::degree;
+use super::free::{degree, one_free};
 use super::node::{File, Table};
-use super::parameters::{Setting, one_free};
+use super::parameters::Setting;
 use super::{Valences, VertexCase, read};
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};

@@ -18,7 +18,7 @@ pub fn curve_region_certificate(name: &str, found: &CurveRegions) -> Certificate
     };
     let contraction = table(Subject::Contraction);
     let claims = CurveClaim::ALL.map(|c| json!({"claim": claim(c), "parts": table(Subject::Curve(c))}));
-    let facts: Vec<Value> = found.facts.iter().map(fact).collect();
+    let facts: Vec<Value> = found.facts.iter().filter(|f| !f.evidence.beyond).map(fact).collect();
     let verdict = Verdict::all(all.len(), all);
     let proof = json!({"hulls": hulls, "contraction": contraction, "facts": facts, "claims": claims});
     Certificate::new("region", name, verdict.word(), proof)
@@ -52,6 +52,7 @@ fn fact(fact: &Fact) -> Value {
         Why::Cusp(k) => ("cusp", vec![*k]),
         Why::Spiral(end) => ("spiral", vec![number(*end)]),
         Why::Alternates(end) => ("alternates", vec![number(*end)]),
+        Why::Segment => ("segment", Vec::new()),
         Why::Jumps(_) => ("jumps", own.place.iter().flat_map(|p| [p.0, p.1]).collect()),
     };
     let values: Vec<Value> = own.values.iter().map(|v| v.as_ref().map_or(Value::Null, poly)).collect();
@@ -73,7 +74,10 @@ fn part(found: &CurveRegions, part: &CurvePart, all: &mut Vec<Verdict>) -> Value
     let (verdict, rule, by) = match (&part.basis, part.fact) {
         (Basis::Hull(k), _) => (Verdict::Proved, "hull", json!([k])),
         (Basis::Word(k), _) => (Verdict::Refuted, "word", json!(found.radius.crossings[*k].word)),
-        (Basis::Argument(_), Some((fact, hull))) => (part.verdict, "fact", json!([fact, hull])),
+        (Basis::Argument(_), Some((fact, hull))) if !found.facts[fact].evidence.beyond => {
+            let place = found.facts[..fact].iter().filter(|f| !f.evidence.beyond).count();
+            (part.verdict, "fact", json!([place, hull]))
+        }
         _ => (Verdict::Undetermined, "none", json!([])),
     };
     all.push(verdict);

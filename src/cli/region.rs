@@ -2,11 +2,12 @@
 
 use super::files::Written;
 use super::output::{print, settle, shown};
+use super::progress::Progress;
 use super::question::effort;
 use super::{PROVED, REFUTED, UNDETERMINED};
 use crate::answer::Verdict;
 use crate::arith::{Rational, parse_rational};
-use crate::ask::{Asked, Family};
+use crate::ask::{Asked, DEPTH, Family, MAX_DEPTH};
 use crate::budget::{Budget, Effort};
 use crate::case::{Valences, setting};
 use crate::diagnostic::Problem;
@@ -34,6 +35,12 @@ pub struct RegionArgs {
     /// The valences of a case about vertices, in the place of those of the file: 5, 3..12 or 3,5,8.
     #[arg(long, value_name = "LIST", value_parser = Valences::parse)]
     valence: Option<Valences>,
+    /// With two parameters: how often the plane is halved in both directions, at most 10; 7 without it.
+    #[arg(long, value_name = "COUNT")]
+    depth: Option<usize>,
+    /// No progress bar.
+    #[arg(long, short)]
+    quiet: bool,
     /// Gaps that are narrower are left.
     #[arg(long, value_name = "WIDTH", value_parser = width, default_value = "1e-6")]
     width: Rational,
@@ -53,7 +60,7 @@ pub struct RegionArgs {
     /// Write the tables with the statements to a file: .html, .md or .tex.
     #[arg(long, value_name = "FILE")]
     pub(super) report: Option<PathBuf>,
-    /// Draw a bar for each order, claim or valence, coloured by verdict.
+    /// Draw a bar for each order, claim or valence, or the plane of two parameters, coloured by verdict.
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
     /// Write a certificate that secant-check proves again (docs/certificate.md), and the family beside it.
@@ -86,8 +93,12 @@ fn answered(args: &RegionArgs) -> Result<u8, Problem> {
         search = search.within(seconds);
     }
     search.hulls = args.hulls.unwrap_or(search.hulls);
-    let asked = Asked { order: args.order, valences: args.valence.clone() };
-    let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort))?;
+    let asked = Asked { order: args.order, valences: args.valence.clone(), depth: args.depth };
+    let bar = Progress::of(1 << (2 * args.depth.unwrap_or(DEPTH).min(MAX_DEPTH)), "boxes", args.quiet);
+    let step = |count| bar.advance(count);
+    let found = Family::ask(&args.what, &set, &asked, &search, &Budget::of(args.effort), &step);
+    bar.finish();
+    let found = found?;
     let written = files(args, &found, render);
     if args.json {
         print(&format!("{:#}\n", found.data()));

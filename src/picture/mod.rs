@@ -10,6 +10,7 @@ mod frame;
 mod germ;
 mod invariant;
 pub mod mesh;
+pub mod plane;
 mod plot;
 #[cfg(feature = "png")]
 mod png;

@@ -1,36 +1,42 @@
 //! What is stated of a whole curve: the joints of all levels (Theorem 5), and a tangent at every point (Theorem 6).
 
-use super::evidence::{self, Evidence, independent};
-use super::refuted::undone;
-use super::{Model, NoTheorem, place};
+use super::evidence::{self, Evidence};
+use super::field::{Field, Pairs};
+use super::{Model, NoTheorem, decided, place};
 use crate::arith::{Rational, sign};
 use crate::linalg::Matrix;
 use crate::shape::End;
-use crate::theorem::{BranchReport, Certified, Kind, PointReport, Role, Verdict, primitive};
+use crate::theorem::{BranchReport, Certified, Kind, PointReport, Role, Verdict};
 
-/// A first-level joint of a state in that state's own space.
+/// A first-level joint of a state, as it is seen in that state.
 pub(super) struct OwnJoint {
     pub state: usize,
     pub pieces: (usize, usize),
     pub cusp: bool,
     pub before: Own,
     pub after: Own,
+    /// What is seen of the point, and a vector of the state's space of which the direction after the point is seen.
     pub point: Vec<Rational>,
+    pub lift: Pairs,
 }
 
 /// A branch from the joint's state.
 pub(super) struct Own {
     pub prefix: Vec<usize>,
     pub cycle: Vec<usize>,
-    pub direction: Vec<Rational>,
+    pub direction: Pairs,
     pub evidence: Evidence,
 }
 
-/// Theorem 5: the joints, and left inverses of all operators and of the control points.
+/// Theorem 5: the joints; what is seen of each state; and that the control points and all operators show as much, by matrices
+/// that make each of the other.
 pub(super) struct Levels {
     pub joints: Vec<OwnJoint>,
-    pub inverses: Vec<Vec<Matrix>>,
-    pub net: Matrix,
+    pub views: Vec<Matrix>,
+    pub pairs: Vec<Vec<(Matrix, Matrix)>>,
+    pub net: (Matrix, Matrix),
+    /// By state in the order of the file, a word that leads to a state with a joint.
+    pub ways: Vec<Vec<usize>>,
 }
 
 /// Theorem 6, by state in the order of the file.
@@ -51,18 +57,61 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
     if found.dense_claim().is_none_or(|c| c.verdict() != Verdict::Proved) {
         return Err(none("joints that are not all proved to have tangents"));
     }
-    let basis = |e: usize| &model.spaces.of(e).basis;
-    let net = undone(&model.net, basis(model.shape.start));
-    let net = net.ok_or_else(|| none("control points that are not injective"))?;
-    let pieces = |e: &usize| model.shape.states[*e].pieces.iter();
-    let of = |e: &usize| pieces(e).map(|p| undone(&p.op, basis(p.target))).collect::<Option<Vec<_>>>();
-    let inverses = model.states.iter().map(of).collect::<Option<Vec<_>>>();
-    let inverses = inverses.ok_or_else(|| none("operators that are not injective"))?;
+    let start = model.shape.start;
+    let shown = |e: usize, seen: &Matrix| {
+        let basis = &model.spaces.of(e).basis;
+        Some((
+            through(&(&view(model, e) * basis), &(seen * basis))?,
+            through(&(seen * basis), &(&view(model, e) * basis))?,
+        ))
+    };
+    let net = shown(start, &model.net).ok_or_else(|| none("control points that are not injective"))?;
+    let of = |e: &usize| {
+        let pieces = model.shape.states[*e].pieces.iter();
+        pieces.map(|p| shown(p.target, &(&view(model, *e) * &p.op))).collect::<Option<Vec<_>>>()
+    };
+    let pairs = model.states.iter().map(of).collect::<Option<Vec<_>>>();
+    let pairs = pairs.ok_or_else(|| none("operators that are not injective"))?;
     if dense.joints.is_empty() {
         return Err(none("a curve without joints"));
     }
     let joints = dense.joints.iter().map(|k| own(model, &found.points[*k])).collect::<Result<Vec<_>, _>>()?;
-    Ok(Levels { joints, inverses, net })
+    let views = model.states.iter().map(|e| view(model, *e)).collect();
+    let ways = model.states.iter().map(|e| way(model, *e, &joints)).collect::<Option<Vec<_>>>();
+    let ways = ways.ok_or_else(|| none("a state from which no joint is reached"))?;
+    Ok(Levels { joints, views, pairs, net, ways })
+}
+
+/// A shortest word from a state to one with a joint.
+fn way(model: &Model<'_>, state: usize, joints: &[OwnJoint]) -> Option<Vec<usize>> {
+    let mut open = vec![(state, Vec::new())];
+    let mut next = 0;
+    while let Some((e, word)) = open.get(next).cloned() {
+        if joints.iter().any(|j| j.state == e) {
+            return Some(word);
+        }
+        for (letter, piece) in model.shape.states[e].pieces.iter().enumerate() {
+            if open.iter().all(|(known, _)| *known != piece.target) {
+                open.push((piece.target, word.iter().copied().chain([letter]).collect()));
+            }
+        }
+        next += 1;
+    }
+    None
+}
+
+/// What is seen of a state: the rows of its visible quotient.
+fn view(model: &Model<'_>, state: usize) -> Matrix {
+    let space = model.spaces.of(state);
+    &space.visible * &space.coordinates
+}
+
+/// A matrix `X` with `X from = to`, where there is one.
+fn through(from: &Matrix, to: &Matrix) -> Option<Matrix> {
+    if from.cols() == 0 {
+        return Some(Matrix::zero(to.rows(), from.rows()));
+    }
+    Some(from.transpose().solve(&to.transpose())?.transpose())
 }
 
 fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
@@ -74,21 +123,43 @@ fn own(model: &Model<'_>, point: &PointReport) -> Result<OwnJoint, NoTheorem> {
     if !matches!(point.kind, Kind::Regular | Kind::Cusp) {
         return Err(none("a joint without one ray on each side"));
     }
-    let side = |b: &BranchReport| -> Result<(Own, Vec<Rational>), NoTheorem> {
-        let prefix = b.address.prefix.strip_prefix(&path[..]).ok_or_else(|| none("an address outside its state"))?;
-        let (transport, _) = model.shape.product(*state, prefix);
-        let (evidence, direction) = evidence::in_its_state(model.given(), b, &transport)
-            .map_err(|what| NoTheorem { what, place: place.clone() })?;
-        let at = transport.apply(&b.fixed);
-        Ok((Own { prefix: prefix.to_vec(), cycle: b.address.cycle.clone(), direction, evidence }, at))
-    };
-    let ((before, at), (after, _)) = (side(before)?, side(after)?);
-    if independent(&before.direction, &after.direction).is_some() {
-        return Err(none("rays on different lines before the control points"));
-    }
+    let (before, after, at) = decided(point, &place, |field| {
+        let (before, at) = side(model, (*state, path), before, field)?;
+        let (after, _) = side(model, (*state, path), after, field)?;
+        Ok((before, after, at))
+    })?;
     let cusp = before.direction == after.direction;
-    Ok(OwnJoint { state: *state, pieces: (*left, *right), cusp, before, after, point: at })
+    if !cusp && before.direction != after.direction.negated() {
+        return Err(none("rays on different lines in a state of their own"));
+    }
+    let space = model.spaces.of(*state);
+    let lifted = |v: &[Rational]| {
+        let column = Matrix::from_columns(v.len(), &[v.to_vec()]);
+        Some(space.basis.apply(&space.visible.solve(&column)?.column(0)))
+    };
+    let parts = (lifted(&after.direction.plain), lifted(&after.direction.rooted));
+    let (Some(plain), Some(rooted)) = parts else { return Err(none("a ray that is not seen")) };
+    let lift = Pairs { plain, rooted };
+    Ok(OwnJoint { state: *state, pieces: (*left, *right), cusp, before, after, point: at, lift })
 }
+
+/// A branch read from the state of a joint, and its point there.
+fn side(
+    model: &Model<'_>,
+    (state, path): (usize, &[usize]),
+    branch: &BranchReport,
+    field: &Field,
+) -> Result<(Own, Vec<Rational>), String> {
+    let prefix = branch.address.prefix.strip_prefix(path).ok_or("an address outside its state")?;
+    let (inside, _) = model.shape.product(state, prefix);
+    let transport = &view(model, state) * &inside;
+    let (evidence, direction) = evidence::in_its_state(model.given(), branch, field, &transport)?;
+    let at = transport.apply(&branch.fixed);
+    Ok((Own { prefix: prefix.to_vec(), cycle: branch.address.cycle.clone(), direction, evidence }, at))
+}
+
+/// Digits of all numbers of the cones, so that Coq takes less than a minute.
+const MAX_DIGITS: usize = 150_000;
 
 /// The cones of Theorem 6, or why they are not stated.
 pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoTheorem> {
@@ -126,16 +197,12 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
         firsts.push(model.shape.end_point(*e, End::Start).ok_or_else(missing)?);
         lasts.push(model.shape.end_point(*e, End::Finish).ok_or_else(missing)?);
     }
+    let numbers = rays.iter().chain(maps.iter().flatten()).flat_map(Matrix::entries);
+    if numbers.map(|x| x.to_string().len()).sum::<usize>() > MAX_DIGITS {
+        return Err(none("cones whose numbers have too many digits"));
+    }
     let start = cone.cones.iter().find(|c| c.state == model.shape.start).ok_or_else(missing)?;
     let own = || model.shape.control.is_none().then(|| start.functional.clone());
     let seen_by = cone.view.clone().or_else(own).ok_or_else(|| none("cones that the control points do not show"))?;
     Ok(Cones { rays, maps, firsts, lasts, chords, ratio, seen_by })
-}
-
-/// The vector with coprime integer coordinates on the same ray, and the positive number by which it was divided.
-pub(super) fn reduced(v: &[Rational]) -> Option<(Vec<Rational>, Rational)> {
-    let lead = v.iter().position(|x| *x != 0)?;
-    let direction = primitive(v);
-    let factor = &v[lead] / &direction[lead];
-    Some((direction, factor))
 }

@@ -5,6 +5,7 @@
 
 mod curve;
 mod evidence;
+mod field;
 mod refuted;
 mod write;
 
@@ -12,8 +13,9 @@ use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
 use crate::shape::{Address, CellKind, Contraction, Shape, Spaces, word_text};
-use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict, primitive};
-use evidence::{Balls, Evidence, Given, Mode, independent};
+use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict};
+use evidence::{Balls, Evidence, Given, Mode};
+use field::{Field, Pairs};
 use refuted::Refuted;
 use thiserror::Error;
 
@@ -49,7 +51,7 @@ enum Statement {
 struct Replayed {
     prefix: Vec<usize>,
     cycle: Vec<usize>,
-    direction: Vec<Rational>,
+    direction: Pairs,
     evidence: Evidence,
 }
 
@@ -180,80 +182,108 @@ fn place(point: &PointReport) -> String {
     }
 }
 
+/// Binary places of an interval for the root of irrational numbers, until they are enough.
+const PLACES: [u64; 3] = [24, 64, 160];
+
+/// What is decided in a field of all numbers of a point.
+fn decided<T>(point: &PointReport, place: &str, decide: impl Fn(&Field) -> Result<T, String>) -> Result<T, NoTheorem> {
+    let rays = point.left.iter().chain(&point.right).chain(&point.tangent);
+    let irrational = rays.filter(|d| d.rational().is_none()).map(|d| &d.root);
+    let numbers: Vec<_> = point.branches.iter().filter_map(evidence::eigenvalue).chain(irrational).collect();
+    let mut reason = String::new();
+    for places in PLACES {
+        let field = Field::of(numbers.iter().copied(), places).or_else(|what| none(what, place))?;
+        match decide(&field) {
+            Ok(found) => return Ok(found),
+            Err(what) => reason = what,
+        }
+        if field.is_rational() {
+            break;
+        }
+    }
+    none(reason, place)
+}
+
 fn stated(model: &Model<'_>, point: &PointReport, name: String) -> Result<Stated, NoTheorem> {
     let place = place(point);
     let image = point.image.clone().unwrap_or_else(|| point.position.clone());
-    let ray = |rays: &[Direction]| -> Result<Vec<Rational>, NoTheorem> {
-        match rays {
-            [one] => match one.rational() {
-                Some(coords) => Ok(primitive(&coords)),
-                None => none("a direction with irrational coordinates", &*place),
-            },
-            _ => none("a side with several rays", &*place),
-        }
+    let statement = match point.kind {
+        Kind::NoTangent => no_tangent(model, point, &place)?,
+        _ => decided(point, &place, |field| with_tangent(model, point, field))?,
     };
-    let line = || -> Result<Vec<Rational>, NoTheorem> {
-        match point.tangent.as_ref().and_then(Direction::rational) {
-            Some(coords) => Ok(primitive(&coords)),
-            None => none("a direction with irrational coordinates", &*place),
-        }
+    Ok(Stated { name, place, statement, image })
+}
+
+fn with_tangent(model: &Model<'_>, point: &PointReport, field: &Field) -> Result<Statement, String> {
+    let direction = |d: &Direction| field.direction(d).ok_or("a direction in another field");
+    let ray = |rays: &[Direction]| match rays {
+        [one] => direction(one),
+        _ => Err("a side with several rays"),
     };
-    let statement = match (point.kind, &point.branches[..]) {
+    let line = || direction(point.tangent.as_ref().ok_or("a line that is not known")?);
+    let replayed =
+        |branch: &BranchReport, direction: Pairs, mode: Mode| replayed(model, branch, field, direction, mode);
+    Ok(match (point.kind, &point.branches[..]) {
         (Kind::SmoothEnd | Kind::HalfTangent, [branch]) => {
             let rays = if point.left.is_empty() { &point.right } else { &point.left };
-            Statement::Ray { branch: replayed(model, branch, ray(rays)?, Mode::Above, &place)? }
+            Statement::Ray { branch: replayed(branch, ray(rays)?, Mode::Above)? }
         }
         (Kind::Cusp, [branch]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
             if left != right {
-                return none("rays that do not fit their kind", &*place);
+                return Err("rays that do not fit their kind".to_owned());
             }
-            Statement::Ray { branch: replayed(model, branch, right, Mode::Above, &place)? }
+            Statement::Ray { branch: replayed(branch, right, Mode::Above)? }
         }
         (Kind::Regular, [branch]) if model.forward() => {
-            Statement::Passes { branch: replayed(model, branch, ray(&point.right)?, Mode::Sides, &place)? }
+            Statement::Passes { branch: replayed(branch, ray(&point.right)?, Mode::Sides)? }
         }
         (Kind::Regular | Kind::Oscillating | Kind::Line, [branch]) => {
-            Statement::Line { branch: replayed(model, branch, line()?, Mode::Apart, &place)? }
+            Statement::Line { branch: replayed(branch, line()?, Mode::Apart)? }
         }
         (Kind::Regular | Kind::Cusp | Kind::Corner, [before, after]) => {
             let (left, right) = (ray(&point.left)?, ray(&point.right)?);
-            let minor = independent(&left, &right);
-            let before = replayed(model, before, left, Mode::Above, &place)?;
-            let after = replayed(model, after, right, Mode::Above, &place)?;
-            if (point.kind == Kind::Corner) != minor.is_some() {
-                return none("rays that do not fit their kind", &*place);
+            let minor = field.independent(&left, &right);
+            let fits = match point.kind {
+                Kind::Regular => left == right.negated(),
+                Kind::Cusp => left == right,
+                _ => minor.is_some(),
+            };
+            if !fits {
+                return Err("rays that do not fit their kind".to_owned());
             }
+            let before = replayed(before, left, Mode::Above)?;
+            let after = replayed(after, right, Mode::Above)?;
             Statement::Joint { kind: point.kind, before, after, minor: minor.unwrap_or((0, 0)) }
         }
-        (Kind::NoTangent, branches) => {
-            let mut reason = "a point without a tangent line and without branches".to_owned();
-            let several = branches.iter().find_map(|b| match refuted::of(model.shape, b) {
-                Ok(refuted) => Some((b, refuted)),
-                Err(what) => {
-                    reason = what;
-                    None
-                }
-            });
-            let Some((branch, refuted)) = several else { return none(reason, &*place) };
-            Statement::NoTangent { address: branch.address.clone(), point: branch.fixed.clone(), refuted }
-        }
         (kind, branches) => {
-            return none(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()), &*place);
+            return Err(format!("a point of the kind “{}” with {} branches", kind.word(), branches.len()));
         }
-    };
-    Ok(Stated { name, place, statement, image })
+    })
+}
+
+fn no_tangent(model: &Model<'_>, point: &PointReport, place: &str) -> Result<Statement, NoTheorem> {
+    let mut reason = "a point without a tangent line and without branches".to_owned();
+    let several = point.branches.iter().find_map(|b| match refuted::of(model.shape, b) {
+        Ok(refuted) => Some((b, refuted)),
+        Err(what) => {
+            reason = what;
+            None
+        }
+    });
+    let Some((branch, refuted)) = several else { return none(reason, place) };
+    Ok(Statement::NoTangent { address: branch.address.clone(), point: branch.fixed.clone(), refuted })
 }
 
 fn replayed(
     model: &Model<'_>,
     branch: &BranchReport,
-    direction: Vec<Rational>,
+    field: &Field,
+    direction: Pairs,
     mode: Mode,
-    place: &str,
-) -> Result<Replayed, NoTheorem> {
-    let evidence = evidence::of(model.given(), branch, &direction, mode)
-        .map_err(|what| NoTheorem { what, place: format!("{place}, branch {}", branch.address) })?;
+) -> Result<Replayed, String> {
+    let evidence = evidence::of(model.given(), branch, field, &direction, mode)
+        .map_err(|what| format!("{what} at the branch {}", branch.address))?;
     let (prefix, cycle) = (branch.address.prefix.clone(), branch.address.cycle.clone());
     Ok(Replayed { prefix, cycle, direction, evidence })
 }

@@ -221,14 +221,3 @@ fn words(shape: &Shape, state: usize, length: usize) -> Vec<Vec<usize>> {
     }
     all
 }
-
-/// A left inverse of an operator on the span of the columns of `basis`, where there is one.
-pub(super) fn undone(operator: &Matrix, basis: &Matrix) -> Option<Matrix> {
-    if basis.cols() == 0 {
-        return Some(Matrix::zero(basis.rows(), operator.rows()));
-    }
-    let images = operator * basis;
-    let inverse = images.transpose().solve(&basis.transpose())?.transpose();
-    debug_assert_eq!(&inverse * &images, *basis);
-    Some(inverse)
-}

@@ -2,6 +2,7 @@
 
 use super::curve::{Cones, Levels, Own, OwnJoint};
 use super::evidence::{Chart, Evidence, Top};
+use super::field::{Field, Pair, Pairs};
 use super::refuted::{Limit, Refuted, Spiral};
 use super::{Model, Replayed, Stated, Statement, Whole};
 use crate::arith::Rational;
@@ -93,7 +94,7 @@ fn heading(out: &mut String, case: &Case, found: &Certified, whole: &Whole) {
         plain(&cones),
     );
     out.push_str(
-        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
+        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Quadratic Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
     );
 }
 
@@ -134,11 +135,31 @@ fn definitions(out: &mut String, model: &Model<'_>) {
 }
 
 fn top(t: &Top) -> String {
-    let (value, row, lead) = (number(&t.value), vector(&t.row), vector(&t.vector));
+    let (value, row, lead) = (number(&t.value.plain), vector(&t.row.plain), vector(&t.vector.plain));
     match &t.chain {
         None => format!("Simple ({value}) {row} {lead}"),
         Some((other, second)) => format!("Block ({value}) {} {row} {lead} {}", vector(other), vector(second)),
     }
+}
+
+fn pair(x: &Pair) -> String {
+    format!("({}, {})", number(&x.plain), number(&x.rooted))
+}
+
+/// A vector, or the pair of its parts where numbers are irrational.
+fn coordinates(field: &Field, v: &Pairs) -> String {
+    if field.is_rational() { vector(&v.plain) } else { format!("({}, {})", vector(&v.plain), vector(&v.rooted)) }
+}
+
+/// The real vector that a statement is about.
+fn real(name: &str, field: &Field, v: &Pairs) -> String {
+    let coordinates = coordinates(field, v);
+    if field.is_rational() { format!("(qv {coordinates})") } else { format!("(vval {name}_root {coordinates})") }
+}
+
+/// What is put before the names of theorems, and of fields of evidence.
+fn words(field: &Field) -> (&'static str, &'static str) {
+    if field.is_rational() { ("", "") } else { ("quadratic_", "q_") }
 }
 
 fn chart(c: &Chart) -> String {
@@ -147,18 +168,35 @@ fn chart(c: &Chart) -> String {
 }
 
 fn evidence(out: &mut String, name: &str, e: &Evidence) {
+    let field = &e.field;
+    let lead = if field.is_rational() {
+        format!("lead := {}", top(&e.top))
+    } else {
+        let [radicand, below, above] = [&field.radicand, &field.below, &field.above].map(number);
+        let _ = writeln!(
+            out,
+            "Definition {name}_root : Quadratic.root := {{| radicand := {radicand}; below := {below}; above := {above} |}}."
+        );
+        format!(
+            "q_root := {name}_root; q_lead := {}; q_row := {}; q_vector := {}",
+            pair(&e.top.value),
+            coordinates(field, &e.top.row),
+            coordinates(field, &e.top.vector)
+        )
+    };
+    let (_, q) = words(field);
+    let scale = if field.is_rational() { number(&e.scale.plain) } else { pair(&e.scale) };
     let _ = writeln!(
         out,
-        "Definition {name} : evidence := {{| value := {}; view := {}; lead := {}; power := {}; rate := {}; low := {}; depth := {}; exit := {}; scale := {} |}}.",
+        "Definition {name} : {} := {{| {q}value := {}; {q}view := {}; {lead}; {q}power := {}; {q}rate := {}; {q}low := {}; {q}depth := {}; {q}exit := {}; {q}scale := {scale} |}}.",
+        if field.is_rational() { "evidence" } else { "quadratic" },
         vector(&e.point),
         chart(&e.chart),
-        top(&e.top),
         e.power,
         number(&e.rate),
         number(&e.low),
         e.depth,
         word(&e.exit),
-        number(&e.scale),
     );
 }
 
@@ -180,51 +218,11 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
         )
     };
     match statement {
-        Statement::Ray { branch: b } => {
-            let ((claim, proof), of, d) =
-                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
-            let cells = "[exact contracts|vm_compute; reflexivity..]";
-            (
-                format!("{claim}half_tangent {ABOUT} {of} (qv {d})"),
-                format!("{proof}apply (half_tangent_ok {GIVEN} _ {name}_evidence); {cells}."),
-            )
-        }
-        Statement::Passes { branch: b } => {
-            let ((claim, proof), of, d) =
-                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
-            let cells = "[exact contracts|vm_compute; reflexivity..]";
-            (
-                format!("{claim}passes {ABOUT} {of} (qv {d})"),
-                format!("{proof}apply (passes_ok {GIVEN} _ {name}_evidence); {cells}."),
-            )
-        }
-        Statement::Line { branch: b } => {
-            let ((claim, proof), of, d) =
-                (single(out, name, b, &at), branch(&b.prefix, &b.cycle), vector(&b.direction));
-            (
-                format!("{claim}tangent_line {ABOUT} {of} (qv {d})"),
-                format!("{proof}apply (tangent_line_ok {GIVEN} _ {name}_evidence); {BY_COMPUTATION}."),
-            )
-        }
+        Statement::Ray { branch: b } => single(out, name, b, ("half_tangent", "ray"), &at),
+        Statement::Passes { branch: b } => single(out, name, b, ("passes", "passes"), &at),
+        Statement::Line { branch: b } => single(out, name, b, ("tangent_line", "line"), &at),
         Statement::Joint { kind, before, after, minor } => {
-            evidence(out, &format!("{name}_before"), &before.evidence);
-            evidence(out, &format!("{name}_after"), &after.evidence);
-            let (b1, b2) = (branch(&before.prefix, &before.cycle), branch(&after.prefix, &after.cycle));
-            let (d1, d2) = (vector(&before.direction), vector(&after.direction));
-            let (claim, proof) = at(&b2, &format!("(value {name}_after)"));
-            let (word, dirs, last) = match kind {
-                Kind::Corner => {
-                    ("corner", format!("(qv {d1}) (qv {d2})"), format!("{d1} {d2} {} {}", minor.0, minor.1))
-                }
-                Kind::Cusp => ("cusp", format!("(qv {d2})"), d2),
-                _ => ("regular", format!("(qv {d2})"), d2),
-            };
-            (
-                format!("{claim}{word} {ABOUT}\n    {b1}\n    {b2} {dirs}"),
-                format!(
-                    "{proof}apply ({word}_ok {GIVEN} _ _ {name}_before {name}_after {image} {last}); {BY_COMPUTATION}."
-                ),
-            )
+            joint(out, name, &image, (*kind, before, after, *minor), &at)
         }
         Statement::NoTangent { address, point, refuted } => no_tangent(out, name, address, point, refuted, &at),
     }
@@ -232,9 +230,53 @@ fn stated(out: &mut String, theorem: &Stated) -> (String, String) {
 
 type At<'a> = dyn Fn(&str, &str) -> (String, String) + 'a;
 
-fn single(out: &mut String, name: &str, b: &Replayed, at: &At<'_>) -> (String, String) {
-    evidence(out, &format!("{name}_evidence"), &b.evidence);
-    at(&branch(&b.prefix, &b.cycle), &format!("(value {name}_evidence)"))
+/// One branch: the word of the statement, and that of the theorem for irrational numbers.
+fn single(
+    out: &mut String,
+    name: &str,
+    b: &Replayed,
+    (said, irrational): (&str, &str),
+    at: &At<'_>,
+) -> (String, String) {
+    let own = format!("{name}_evidence");
+    let field = &b.evidence.field;
+    evidence(out, &own, &b.evidence);
+    let of = branch(&b.prefix, &b.cycle);
+    let (_, q) = words(field);
+    let (claim, proof) = at(&of, &format!("({q}value {own})"));
+    let theorem = if field.is_rational() { format!("{said}_ok") } else { format!("quadratic_{irrational}_ok") };
+    (
+        format!("{claim}{said} {ABOUT} {of} {}", real(&own, field, &b.direction)),
+        format!("{proof}apply ({theorem} {GIVEN} _ {own}); [exact contracts|vm_compute; reflexivity..]."),
+    )
+}
+
+/// Both sides of a joint.
+fn joint(
+    out: &mut String,
+    name: &str,
+    image: &str,
+    (kind, before, after, minor): (Kind, &Replayed, &Replayed, (usize, usize)),
+    at: &At<'_>,
+) -> (String, String) {
+    let [first, second] = ["before", "after"].map(|side| format!("{name}_{side}"));
+    evidence(out, &first, &before.evidence);
+    evidence(out, &second, &after.evidence);
+    let field = &after.evidence.field;
+    let (b1, b2) = (branch(&before.prefix, &before.cycle), branch(&after.prefix, &after.cycle));
+    let (theorem, q) = words(field);
+    let (claim, proof) = at(&b2, &format!("({q}value {second})"));
+    let [d1, d2] = [before, after].map(|b| coordinates(field, &b.direction));
+    let [r1, r2] = [before, after].map(|b| real(&second, field, &b.direction));
+    let (word, dirs, last) = match kind {
+        Kind::Corner => ("corner", format!("{r1} {r2}"), format!("{d1} {d2} {} {}", minor.0, minor.1)),
+        Kind::Cusp => ("cusp", r2, d2),
+        _ => ("regular", r2, d2),
+    };
+    (
+        format!("{claim}{word} {ABOUT}\n    {b1}\n    {b2} {dirs}"),
+        format!("{proof}apply ({theorem}{word}_ok {GIVEN} _ _ {first} {second} {image} {last}); {BY_COMPUTATION}."),
+    )
 }
 
 fn no_tangent(
@@ -302,30 +344,64 @@ fn spiral(out: &mut String, name: &str, s: &Spiral) {
 
 /// Theorem 5: every joint in its own state, and in all copies of the state.
 fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut Vec<String>) {
-    let inverses = list(&levels.inverses, |of| list(of, matrix));
-    let _ = writeln!(out, "(* The joints of all levels (Theorem 5): left inverses on the vectors of sum 0. *)");
-    let _ = writeln!(out, "Definition inverses : list (list qmat) := {inverses}.");
-    let _ = writeln!(out, "Definition net_inverse : qmat := {}.\n", matrix(&levels.net));
+    let pair = |(c, d): &(Matrix, Matrix)| format!("({}, {})", matrix(c), matrix(d));
+    let (views, pairs) = (list(&levels.views, matrix), list(&levels.pairs, |of| list(of, pair)));
+    let _ = writeln!(
+        out,
+        "(* The joints of all levels (Theorem 5): what is seen of each state, and that the control points and all operators show as much. *)"
+    );
+    let _ = writeln!(out, "Definition views : list qmat := {views}.");
+    let _ = writeln!(out, "Definition pairs : list (list (qmat * qmat)) := {pairs}.");
+    let _ = writeln!(out, "Definition net_pair : qmat * qmat := {}.\n", pair(&levels.net));
     for joint in &levels.joints {
         let state = model.number(joint.state);
-        let OwnJoint { pieces, before, after, cusp, point, .. } = joint;
+        let OwnJoint { pieces, before, after, cusp, point, lift, .. } = joint;
         let name = format!("levels_{state}_{}_{}", pieces.0, pieces.1);
         evidence(out, &format!("{name}_before"), &before.evidence);
         evidence(out, &format!("{name}_after"), &after.evidence);
         let of = |b: &Own| branch(&b.prefix, &b.cycle);
-        let (b1, b2, d) = (of(before), of(after), vector(&after.direction));
+        let field = &after.evidence.field;
+        let (theorem, q) = words(field);
+        let (b1, b2, d) = (of(before), of(after), coordinates(field, &after.direction));
+        let named = format!("{name}_after");
+        let (r, lifted) = (real(&named, field, &after.direction), real(&named, field, lift));
+        let seen = if field.is_rational() {
+            format!("lift_ok case spaces {state} views {} {d}", vector(&lift.plain))
+        } else {
+            format!("lift_pair_ok case spaces {state} views {named}_root {} {d}", coordinates(field, lift))
+        };
         let word = if *cusp { "cusp" } else { "regular" };
-        let values = format!("(value {name}_before) (value {name}_after)");
+        let values = format!("({q}value {name}_before) ({q}value {name}_after)");
         let claim = format!(
-            "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u (qv {d})))"
+            "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u {lifted}))"
         );
         let proof = format!(
-            "refine ({word}_levels {GIVEN} {state} inverses net_inverse _ _ {values} _ _ _ _); [exact contracts|vm_compute; reflexivity|].\n  apply ({word}_ok case centres radii spaces (qid (ambient case)) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
+            "refine ({word}_levels {GIVEN} {state} views pairs net_pair _ _ {values} {lifted} {r} _ _ _ _); [exact contracts|vm_compute; reflexivity|apply ({seen}); vm_compute; reflexivity|].\n  apply ({theorem}{word}_ok case centres radii spaces (view_of views {state}) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
             vector(point)
         );
         finished(out, &name, &claim, &proof);
         names.push(name);
     }
+    everywhere_dense(out, model, levels);
+    names.push("dense".to_owned());
+}
+
+/// That the joints of all levels come near every point.
+fn everywhere_dense(out: &mut String, model: &Model<'_>, levels: &Levels) {
+    let joints = list(&levels.joints, |joint| {
+        let state = model.number(joint.state);
+        let (_, q) = words(&joint.before.evidence.field);
+        let named = format!("levels_{state}_{}_{}_before", joint.pieces.0, joint.pieces.1);
+        format!("({state}%nat, ({}, {q}value {named}))", branch(&joint.before.prefix, &joint.before.cycle))
+    });
+    let _ = writeln!(
+        out,
+        "(* They come as near as one likes to every point: a word from each state to one with a joint. *)"
+    );
+    let _ = writeln!(out, "Definition joints : list (nat * (branch * qvec)) := {joints}.");
+    let _ = writeln!(out, "Definition ways : list (list nat) := {}.", list(&levels.ways, |w| word(w)));
+    let proof = format!("apply (joints_dense_ok case centres radii spaces net start joints ways); {BY_COMPUTATION}.");
+    finished(out, "dense", "joints_dense case net start joints", &proof);
 }
 
 /// Theorem 6.

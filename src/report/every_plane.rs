@@ -7,7 +7,7 @@ use super::words::{count, listed, mark};
 use crate::answer::Answer;
 use crate::statement::Statement;
 use crate::theorem::Certified;
-use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface};
+use crate::theorem::surface::{EverySurfaceBreak, EverySurfaceProof, Surface, SurfaceForms};
 use serde_json::{Value, json};
 
 /// What is claimed, in a few words.
@@ -28,8 +28,9 @@ fn proof(surface: &Surface) -> Option<String> {
             d.share
         )),
         Answer::Proved(EverySurfaceProof::Forms(f)) => Some(format!(
-            "quadratic forms of signature (2, ·) on {} of cells, which their operators expand, make cones around planes that shrink to the \
-             tangent planes ({})",
+            "{}quadratic forms of signature (2, ·) on {} of cells, which their operators expand, make cones around planes that shrink to \
+             the tangent planes ({})",
+            glued(f).map_or_else(String::new, |text| format!("of the {text}: ")),
             count(f.forms.len() - 1, "star"),
             Statement::SurfaceCones.short_name()
         )),
@@ -45,6 +46,14 @@ fn proof(surface: &Surface) -> Option<String> {
         )),
         Answer::Refuted(_) | Answer::Open(_) => None,
     }
+}
+
+/// The faces of a set, and along how many sides they are glued; `None` where the start is one face.
+#[must_use]
+pub fn glued(f: &SurfaceForms) -> Option<String> {
+    let cells = f.stars.list.first()?.cells.len();
+    (cells > 1)
+        .then(|| format!("{} of the start, glued along {}", count(cells, "face"), count(f.stars.seams(), "side")))
 }
 
 /// Why a curve is G¹.

@@ -23,6 +23,7 @@ pub mod radius;
 pub mod reasons;
 pub mod region;
 pub mod region_curve;
+pub mod region_plane;
 pub mod region_vertex;
 pub mod regularity;
 pub mod reported;

@@ -1,5 +1,6 @@
 //! The words of why branches, points, curves and surfaces are refuted or open.
 
+use super::words::listed;
 use crate::answer::Answer;
 use crate::jordan::Scalar;
 use crate::shape::word_text;
@@ -172,7 +173,7 @@ pub fn every_surface(surface: &Surface) -> Option<String> {
             Some(format!("{} curve of the product: {what}", ordinal(*curve)))
         }
         Answer::Open(gaps) if gaps.is_empty() => Some(UNKNOWN.to_owned()),
-        Answer::Open(gaps) => Some(gaps.iter().map(|g| every_surface_gap(*g)).collect::<Vec<_>>().join("; ")),
+        Answer::Open(gaps) => Some(gaps.iter().map(every_surface_gap).collect::<Vec<_>>().join("; ")),
     }
 }
 
@@ -180,7 +181,7 @@ fn ordinal(curve: usize) -> &'static str {
     if curve == 0 { "the first" } else { "the second" }
 }
 
-fn every_surface_gap(gap: EverySurfaceGap) -> String {
+fn every_surface_gap(gap: &EverySurfaceGap) -> String {
     match gap {
         EverySurfaceGap::Unparametrised => {
             "the shape has no parameters: it starts at no face, or its faces are not divided evenly".to_owned()
@@ -192,7 +193,7 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
             "the tensor product is seen through control points that fold some of its relevant space".to_owned()
         }
         EverySurfaceGap::Curve(curve) => {
-            format!("it is not decided whether {} curve of the product is G¹", ordinal(curve))
+            format!("it is not decided whether {} curve of the product is G¹", ordinal(*curve))
         }
         EverySurfaceGap::Large => "there are too many coordinates for the derivative in the parameters".to_owned(),
         EverySurfaceGap::Unequal => {
@@ -209,8 +210,13 @@ fn every_surface_gap(gap: EverySurfaceGap) -> String {
             "the derivative in the parameters is continuous, but the control points are not seen to keep its rank".to_owned()
         }
         EverySurfaceGap::LargeStars => "there are too many stars of cells, or coordinates, for cones around planes".to_owned(),
-        EverySurfaceGap::NoForms => {
-            "no quadratic forms of signature (2, ·) were found that all stars of cells expand from their children".to_owned()
+        EverySurfaceGap::NoForms { star } => {
+            let cells: Vec<String> = star.iter().map(|word| word_text(word)).collect();
+            format!(
+                "no quadratic forms of signature (2, ·) were found that all stars of cells expand from their children; a star \
+                 without one first occurs at the cells {}",
+                listed(&cells)
+            )
         }
         EverySurfaceGap::Secants => {
             "the quadratic forms that were found are not seen to be positive on all secants between cells that do not meet"

@@ -67,7 +67,8 @@ fn because(found: &CurveRegions, part: &CurvePart) -> String {
     }
 }
 
-fn argument(why: &Why) -> String {
+/// What an argument says.
+pub(super) fn argument(why: &Why) -> String {
     match why {
         Why::InCone => "secants stay in a cone on which the leading coefficients have one sign".to_owned(),
         Why::Cones { slow: false } => "common cones, and regular joints".to_owned(),
@@ -76,6 +77,7 @@ fn argument(why: &Why) -> String {
         Why::Spiral(end) => format!("{}: the leading eigenvalues are not real", end_name(*end)),
         Why::Alternates(end) => format!("{}: the leading eigenvalue is negative, two rays", end_name(*end)),
         Why::Cusp(k) => format!("the joint between the pieces {k} and {}: both sides have one ray", k + 1),
+        Why::Segment => "all pieces lie on one line and go forwards".to_owned(),
         Why::Jumps(word) => format!("the tangents of joints do not tend to that of ({})", word_text(word)),
     }
 }
@@ -84,21 +86,39 @@ fn statement(basis: &Basis) -> Option<Statement> {
     Some(match basis {
         Basis::Hull(_) => Statement::FamilyHulls,
         Basis::Word(_) => Statement::FamilyWords,
-        Basis::Argument(why) => match why {
-            Why::InCone => Statement::ConeEnds,
-            Why::Cones { slow: false } => Statement::Theorem6,
-            Why::Cones { slow: true } => Statement::Theorem6Slow,
-            Why::Corner(_) => Statement::LowerBounds,
-            Why::Spiral(_) | Why::Alternates(_) | Why::Cusp(_) => Statement::Corollary,
-            Why::Jumps(_) => Statement::TangentsJump,
-        },
+        Basis::Argument(why) => argument_statement(why),
         Basis::NoContraction | Basis::Member | Basis::Irrational | Basis::Gap | Basis::Search => return None,
     })
+}
+
+/// The statement that an argument uses.
+pub(super) fn argument_statement(why: &Why) -> Statement {
+    match why {
+        Why::InCone => Statement::ConeEnds,
+        Why::Cones { slow: false } | Why::Segment => Statement::Theorem6,
+        Why::Cones { slow: true } => Statement::Theorem6Slow,
+        Why::Corner(_) => Statement::LowerBounds,
+        Why::Spiral(_) | Why::Alternates(_) | Why::Cusp(_) => Statement::Corollary,
+        Why::Jumps(_) => Statement::TangentsJump,
+    }
 }
 
 fn rows(m: &Matrix<Poly>, parameter: &str) -> String {
     let row = |i: usize| m.row(i).iter().map(|f| f.display(parameter)).collect::<Vec<_>>().join(", ");
     (0..m.rows()).map(row).collect::<Vec<_>>().join("; ")
+}
+
+/// A table in print.
+pub(super) fn table_block(found: &CurveRegions, table: &CurveTable, parameter: &str) -> Block {
+    let row = |part: &CurvePart| {
+        let mark: Line = vec![Inline::Mark(tone(part.verdict), part.verdict.word().to_owned())];
+        vec![code(place(&part.from, &part.to)), mark, words(because(found, part))]
+    };
+    Block::Table(Table {
+        caption: words(format!("For which {parameter} {}", claim(table.subject))),
+        header: vec![code(parameter), words("verdict"), words("because")],
+        rows: table.parts.iter().map(row).collect(),
+    })
 }
 
 /// All tables as a document.
@@ -115,26 +135,22 @@ pub fn document(case: &CurveFamilyCase, found: &CurveRegions) -> Document {
     let mut blocks = vec![Block::Facts(facts)];
     for table in &found.tables {
         blocks.push(Block::Heading(2, words(heading(table.subject))));
-        let row = |part: &CurvePart| {
-            let mark: Line = vec![Inline::Mark(tone(part.verdict), part.verdict.word().to_owned())];
-            vec![code(place(&part.from, &part.to)), mark, words(because(found, part))]
-        };
-        blocks.push(Block::Table(Table {
-            caption: words(format!("For which {p} {}", claim(table.subject))),
-            header: vec![code(p), words("verdict"), words("because")],
-            rows: table.parts.iter().map(row).collect(),
-        }));
+        blocks.push(table_block(found, table, p));
     }
     let parts = found.tables.iter().flat_map(|t| &t.parts).map(|part| (&part.from, &part.to));
     blocks.extend(ends(parts, "Ends of intervals", p));
     Document { title: format!("Regions of {}", case.name), blocks }
 }
 
+/// The statements that are applied.
+pub(super) fn statements(found: &CurveRegions) -> impl Iterator<Item = Statement> {
+    found.tables.iter().flat_map(|t| &t.parts).filter_map(|part| statement(&part.basis))
+}
+
 /// The document with the statements and the picture, for a file.
 #[must_use]
 pub fn report(case: &CurveFamilyCase, found: &CurveRegions) -> Document {
-    let parts = found.tables.iter().flat_map(|t| &t.parts);
-    let own = iter::once(Statement::FamilyCurves).chain(parts.filter_map(|part| statement(&part.basis)));
+    let own = iter::once(Statement::FamilyCurves).chain(statements(found));
     complete(document(case, found), picture(case, found), ("claim", &case.parameter), own)
 }
 
@@ -160,13 +176,18 @@ fn basis_data(found: &CurveRegions, part: &CurvePart) -> Value {
     Value::Object(data)
 }
 
-/// All tables as data.
-#[must_use]
-pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
+/// The tables as data.
+pub(super) fn claims(found: &CurveRegions) -> Value {
     let table = |t: &CurveTable| {
         let parts: Vec<Value> = t.parts.iter().map(|part| basis_data(found, part)).collect();
         json!({"claim": id(t.subject), "statement": claim(t.subject), "table": parts})
     };
+    found.tables.iter().map(table).collect()
+}
+
+/// All tables with what they are about, as data.
+#[must_use]
+pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
     let operator = |m: &Matrix<Poly>| -> Vec<Vec<String>> {
         (0..m.rows()).map(|i| m.row(i).iter().map(|f| f.display(&case.parameter)).collect()).collect()
     };
@@ -177,7 +198,7 @@ pub fn data(case: &CurveFamilyCase, found: &CurveRegions) -> Value {
         "range": [case.range.0.to_string(), case.range.1.to_string()],
         "pieces": case.operators.iter().map(operator).collect::<Vec<_>>(),
         "reversed": case.reversed,
-        "claims": found.tables.iter().map(table).collect::<Vec<_>>(),
+        "claims": claims(found),
         "left_out": [],
     })
 }

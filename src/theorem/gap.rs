@@ -92,7 +92,7 @@ pub enum EveryGap {
 }
 
 /// Why it is open whether a surface is G¹.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum EverySurfaceGap {
     /// It has no parameters: it starts at no face, or its parts are not placed evenly.
@@ -122,7 +122,10 @@ pub enum EverySurfaceGap {
     /// There are too many stars for cones around planes, or too many coordinates.
     LargeStars,
     /// No forms of signature (2, ·) were found that all stars expand from their children.
-    NoForms,
+    NoForms {
+        /// The cells of a star without one where it first occurs, as words from the start.
+        star: Vec<Vec<usize>>,
+    },
     /// The forms that were found are not seen to be positive on all secants between parts that do not meet.
     Secants,
     /// The control points, or the coordinates of the face, are not seen to keep the cones apart from 0.

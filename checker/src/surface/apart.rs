@@ -123,7 +123,8 @@ impl Cells<'_> {
     fn positive(&self, a: usize, b: usize) -> Checked<bool> {
         let (a, b) = (&self.list[a], &self.list[b]);
         let (m, n) = (a.points.len(), b.points.len());
-        spend(m * n * self.form.len() / 4 + m * m * n * n / 32, 0)?;
+        // Most that are not positive are left early.
+        spend(m * n * self.form.len() / 8 + m * m * n * n / 64, 0)?;
         let mixed: Vec<Vec<i128>> = a.images.iter().map(|x| b.points.iter().map(|y| product(x, y)).collect()).collect();
         let error = 8 * self.sum * (2 * self.limit + 1);
         for (i, row) in mixed.iter().enumerate() {

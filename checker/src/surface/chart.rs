@@ -13,6 +13,7 @@ const MAX_STEPS: usize = 20_000;
 pub struct Chart {
     maps: Shape,
     triangle: bool,
+    patch: bool,
 }
 
 /// The corners of a square or a triangle as parameters, in their order.
@@ -126,20 +127,30 @@ fn side(triangle: bool) -> &'static str {
 }
 
 impl Chart {
-    /// The chart of a case that starts at a face, where all faces that are reached have their sides and each piece is placed by a
-    /// symmetry; `None` where the case has no parameters. Some state that is reached must be a face.
+    /// The chart of a case that starts at a face, or at a set of faces to which nothing leads back, where all faces that are reached have
+    /// their sides and each piece is placed by a symmetry; `None` where the case has no parameters. Some state that is reached must be a
+    /// face. The pieces of a set have no place: each face has parameters of its own.
     pub fn read(source: &str, shape: &Shape) -> Checked<Option<Self>> {
         case::states(source, |states| {
             let face = |e: usize| states[e].get("kind").is_some_and(|kind| kind.text() == Ok("face"));
             let surface = shape.states[shape.start].kind == Kind::Set && !states.is_empty();
             need(surface && shape.reachable.iter().any(|&e| face(e)), "surface", "the case is no surface")?;
-            let triangle = states[shape.start].get(side(true)).is_some();
+            let patch = face(shape.start);
+            let first =
+                if patch { Some(shape.start) } else { shape.states[shape.start].pieces.first().map(|p| p.target) };
+            let triangle = first.is_some_and(|e| states[e].get(side(true)).is_some());
             let state = |s: &State| State { kind: s.kind, dim: 3, pieces: Vec::new(), ends: [None, None] };
             let mut maps: Vec<State> = shape.states.iter().map(state).collect();
             let named = |name: &str| states.iter().position(|s| s.get("name").is_some_and(|n| n.text() == Ok(name)));
             let (mut by_shares, mut any_turned) = (false, false);
             for &e in &shape.reachable {
                 let pieces = &shape.states[e].pieces;
+                if e == shape.start && !patch && pieces.iter().all(|p| face(p.target)) {
+                    let own =
+                        |p: &Piece| Piece { target: p.target, op: Matrix::identity(3), reversed: false, share: None };
+                    maps[e].pieces = pieces.iter().map(own).collect();
+                    continue;
+                }
                 let found = if face(e) { divided(&states[e], pieces, triangle, &named, shape)? } else { None };
                 let Some((pieces, own, turned)) = found else { return Ok(None) };
                 maps[e].pieces = pieces;
@@ -148,8 +159,13 @@ impl Chart {
             if by_shares && any_turned {
                 return Ok(None);
             }
-            Ok(Some(Self { maps: Shape::new(maps, shape.start, Matrix::identity(3)), triangle }))
+            Ok(Some(Self { maps: Shape::new(maps, shape.start, Matrix::identity(3)), triangle, patch }))
         })
+    }
+
+    /// Whether the case starts at a face.
+    pub fn is_patch(&self) -> bool {
+        self.patch
     }
 
     /// The corners of a face, in their order.

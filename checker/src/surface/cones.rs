@@ -2,7 +2,8 @@
 
 use super::apart;
 use super::chart::Chart;
-use super::derivative::continuous;
+use super::faces::continuous;
+use super::glue::seams;
 use crate::base::{Checked, Matrix, Node, Q, need, primitive, some, spend};
 use crate::curve::Model;
 use num_bigint::BigInt;
@@ -58,15 +59,13 @@ struct Seen {
 /// Checks `{"by": "cones", "verdict", "stars"}`: it proves that the surface is G¹ or is rejected.
 pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
     let [_, _, list] = node.fields("by verdict stars")?;
-    continuous(model, chart)?;
     let items = list.list()?;
     list.need((2..=MAX_STARS.0).contains(&items.len()), "stars", "these are too few stars, or too many")?;
     let mut stars = Vec::new();
     for (s, item) in items.iter().enumerate() {
         stars.push(star(model, chart, item, s, items.len())?);
     }
-    let corners: Vec<usize> = (0..chart.corners().len()).collect();
-    list.need(stars[0].cells == [(model.shape.start, corners)], "stars", "the first one is the start")?;
+    continuous(model, chart, items[0].at(seams(model, chart, &stars[0].cells))?)?;
     let mut all_parts = Vec::new();
     for (item, star) in items.iter().zip(&stars) {
         let own = parts(model, chart, star)?;
@@ -198,11 +197,24 @@ fn blocks(model: &Model<'_>, star: &Star<'_>, rows: &Matrix) -> Vec<Matrix> {
     star.cells.iter().map(|(face, _)| block(*face)).collect()
 }
 
+/// How the points of the start are seen, on the coordinates of its cells: a face alone, or the pieces of a set.
+fn start(model: &Model<'_>, first: &Star<'_>) -> Checked<Matrix> {
+    let (shape, view) = (&model.shape, &model.shape.view);
+    if first.cells[0].0 == shape.start {
+        return Ok(view.clone());
+    }
+    let mut all = view.part(0..view.rows, 0..0);
+    for piece in &shape.states[shape.start].pieces {
+        all = all.beside(&view.times(&piece.op)?);
+    }
+    Ok(all)
+}
+
 /// The visible quotients: rows that the view makes of all words of stars, on the span of the differences of points.
 fn seen(model: &Model<'_>, stars: &[Star<'_>]) -> Checked<Vec<Seen>> {
     let size = |s: &Star<'_>| s.cells.iter().map(|(face, _)| model.shape.states[*face].dim).sum();
     let mut rows: Vec<Matrix> = stars.iter().map(|s| Matrix::empty(size(s))).collect();
-    rows[0] = model.shape.view.echelon()?.0;
+    rows[0] = start(model, &stars[0])?.echelon()?.0;
     let mut grown = true;
     while std::mem::take(&mut grown) {
         for (s, star) in stars.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! Patches that are C¹ in their parameters and immersed (docs/certificate.md, section 8.1, every point).
 
 use super::chart::Chart;
+use super::faces::{Faces, Level};
 use crate::base::{Checked, Matrix, Node, Q, need, some, whole};
 use crate::curve::{Model, Way, close, kronecker};
 use crate::jsr::{System, bounds};
@@ -10,18 +11,11 @@ use num_traits::{One, Signed, Zero};
 const MAX_WORDS: (usize, usize) = (6, 5_000);
 /// Most cells of a cover, and the most letters of one.
 const MAX_CELLS: (usize, usize) = (20_000, 12);
-/// Most pairs of faces.
-const MAX_PAIRS: usize = 500;
-
-/// The surfaces of all states: what pieces do to points or to derivatives, by state and letter, and vectors of each state, as rows.
-struct Level {
-    maps: Vec<Vec<Matrix>>,
-}
-
 /// A patch whose pieces are placed by `x ↦ U x / N + p`, `U` a turn where a piece leads back to its face.
 struct Patch<'a> {
     model: &'a Model<'a>,
     chart: &'a Chart,
+    faces: Faces<'a>,
     /// `1/N`.
     share: Q,
     /// By state and letter: `U^-t`, which goes with the derivative as two rows.
@@ -30,32 +24,19 @@ struct Patch<'a> {
     scaled: Vec<Vec<Matrix>>,
     /// What pieces make of derivatives, one row after the other.
     derivatives: Level,
-    /// `T_i` on barycentric coordinates.
-    points: Level,
     /// By state: the two differences of corners as rows, and the differences of the derivative in echelon form.
     chords: Vec<Matrix>,
     families: Vec<Matrix>,
 }
-
-/// Two faces that share an edge, with the place of the second one in the parameters of the first one.
-#[derive(Clone, PartialEq)]
-struct Pair {
-    states: [usize; 2],
-    place: Matrix,
-}
-
-/// A step along an edge: the two letters, and the pair of these pieces.
-type Step = ([usize; 2], usize);
 
 /// Checks `{"by": "derivative", "verdict", "radius", "length", "cells"}`: it proves that the surface is G¹ or is rejected.
 pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
     let [_, _, radius, length, cells] = node.fields("by verdict radius length cells")?;
     let patch = Patch::read(model, chart)?;
     radius.need(patch.radius(&radius)? < patch.share, "every", "the radius is not below 1/N")?;
-    let (pairs, steps, inner) = patch.pairs()?;
-    need(!inner.is_empty(), "every", "a face without inner edges")?;
-    patch.meets(&patch.points, &pairs, &steps, &inner, &|e, word| patch.point(e, word))?;
-    patch.meets(&patch.derivatives, &pairs, &steps, &inner, &|e, word| patch.derivative(e, word))?;
+    let edges = patch.faces.edges(Vec::new())?;
+    edges.meet(patch.faces.points(), &|e, word| patch.faces.point(e, word))?;
+    edges.meet(&patch.derivatives, &|e, word| patch.derivative(e, word))?;
     if cells.is_null() {
         length.need(length.is_null(), "every", "words bound the derivative where there are cells")?;
         let seen = patch.view()?.transpose();
@@ -68,15 +49,6 @@ pub fn check(model: &Model<'_>, chart: &Chart, node: &Node<'_>) -> Checked<()> {
     cells.at(patch.covered(&radii, &cells))
 }
 
-/// All faces are divided into the same number of parts along every side, and the points of parts that share an edge are the same
-/// there.
-pub fn continuous(model: &Model<'_>, chart: &Chart) -> Checked<()> {
-    let patch = Patch::read(model, chart)?;
-    let (pairs, steps, inner) = patch.pairs()?;
-    need(!inner.is_empty(), "every", "a face without inner edges")?;
-    patch.meets(&patch.points, &pairs, &steps, &inner, &|e, word| patch.point(e, word))
-}
-
 impl<'a> Patch<'a> {
     fn read(model: &'a Model<'a>, chart: &'a Chart) -> Checked<Self> {
         let shape = model.shape;
@@ -84,11 +56,11 @@ impl<'a> Patch<'a> {
         let mut patch = Self {
             model,
             chart,
+            faces: Faces::new(model, chart),
             share: chart.share()?,
             turns: none(),
             scaled: none(),
             derivatives: Level { maps: none() },
-            points: Level { maps: none() },
             chords: shape.no_rows(),
             families: shape.no_rows(),
         };
@@ -98,7 +70,6 @@ impl<'a> Patch<'a> {
             let turn = some(turn.solve(&Matrix::identity(2))?, "every", "a piece that is no cell")?.transpose();
             let scaled = model.spaces.on_visible(e, piece)?.scaled(&scale);
             patch.derivatives.maps[e].push(kronecker(&turn, &scaled)?);
-            patch.points.maps[e].push(piece.op.clone());
             patch.scaled[e].push(scaled);
             patch.turns[e].push(turn);
         }
@@ -176,125 +147,6 @@ impl<'a> Patch<'a> {
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
         Ok(bounds(&System { name: String::new(), dims, arrows }, node)?.upper)
-    }
-
-    /// The pairs of faces that share an edge, how each is divided, and the inner edges of faces with their pairs.
-    fn pairs(&self) -> Checked<(Vec<Pair>, Vec<Vec<Step>>, Vec<(usize, Step)>)> {
-        let (mut pairs, mut steps, mut inner): (Vec<Pair>, Vec<Vec<Step>>, Vec<_>) = Default::default();
-        let number = |pairs: &mut Vec<Pair>, pair: Pair| -> Checked<usize> {
-            if let Some(known) = pairs.iter().position(|p| *p == pair) {
-                return Ok(known);
-            }
-            need(pairs.len() < MAX_PAIRS, "limit", "too many pairs of faces")?;
-            pairs.push(pair);
-            Ok(pairs.len() - 1)
-        };
-        for &e in &self.model.shape.reachable {
-            for ([i, j], pair, _) in self.divided(&Pair { states: [e, e], place: Matrix::identity(3) })? {
-                if i < j {
-                    inner.push((e, ([i, j], number(&mut pairs, pair)?)));
-                }
-            }
-        }
-        while steps.len() < pairs.len() {
-            let whole = pairs[steps.len()].clone();
-            let (mut own, mut parts) = (Vec::new(), Q::zero());
-            for (letters, pair, length) in self.divided(&whole)? {
-                own.push((letters, number(&mut pairs, pair)?));
-                parts += length;
-            }
-            let edge = self.edge(&whole)?.map(|ends| length(&ends));
-            need(edge == Some(parts), "every", "two faces are divided differently along an edge")?;
-            steps.push(own);
-        }
-        Ok((pairs, steps, inner))
-    }
-
-    /// The pieces of two faces that share an edge, and how long it is in the parameters of the first face.
-    fn divided(&self, pair: &Pair) -> Checked<Vec<([usize; 2], Pair, Q)>> {
-        let pieces = |k: usize| &self.model.shape.states[pair.states[k]].pieces;
-        let mut found = Vec::new();
-        for (i, first) in pieces(0).iter().enumerate() {
-            for (j, second) in pieces(1).iter().enumerate() {
-                let map = self.chart.map(pair.states[0], i);
-                let there = pair.place.times(self.chart.map(pair.states[1], j))?;
-                let place = some(map.solve(&there)?, "every", "a place that is no cell")?;
-                let inner = Pair { states: [first.target, second.target], place };
-                if let Some([p, q]) = self.edge(&inner)? {
-                    found.push(([i, j], inner, length(&[map.times(&p)?, map.times(&q)?])));
-                }
-            }
-        }
-        Ok(found)
-    }
-
-    /// The two corners that two faces share, where they share two, in the parameters of the first one.
-    fn edge(&self, pair: &Pair) -> Checked<Option<[Matrix; 2]>> {
-        let corners = self.chart.corners();
-        let mut common = Vec::new();
-        for corner in &corners {
-            let there = pair.place.times(corner)?;
-            if corners.contains(&there) {
-                common.push(there);
-            }
-        }
-        Ok(common.try_into().ok())
-    }
-
-    /// Whether what two pieces of a face that share an edge have along it is the same, for every such edge: on the span of the values
-    /// at both sides, which is the closure of those at one of its points.
-    fn meets(
-        &self,
-        level: &Level,
-        pairs: &[Pair],
-        steps: &[Vec<Step>],
-        inner: &[(usize, Step)],
-        value: &dyn Fn(usize, &[Vec<usize>; 2]) -> Checked<Matrix>,
-    ) -> Checked<()> {
-        let mut spans = Vec::new();
-        for (start, pair) in pairs.iter().enumerate() {
-            let [first, second] = along(steps, start);
-            let both = value(pair.states[0], &first)?.beside(&value(pair.states[1], &second)?);
-            spans.push(both.echelon()?.0);
-        }
-        let mut grown = true;
-        while std::mem::take(&mut grown) {
-            for (from, own) in steps.iter().enumerate() {
-                for &([i, j], to) in own {
-                    let [e, d] = pairs[from].states;
-                    let width = level.maps[e][i].cols;
-                    let (a, b) = (
-                        spans[to].part(0..spans[to].rows, 0..width),
-                        spans[to].part(0..spans[to].rows, width..spans[to].cols),
-                    );
-                    let image =
-                        a.times(&level.maps[e][i].transpose())?.beside(&b.times(&level.maps[d][j].transpose())?);
-                    if let Some((joined, _)) = spans[from].joined(&image)? {
-                        (spans[from], grown) = (joined, true);
-                    }
-                }
-            }
-        }
-        for (e, ([i, j], pair)) in inner {
-            let width = level.maps[*e][*i].cols;
-            let span = &spans[*pair];
-            let first = span.part(0..span.rows, 0..width).times(&level.maps[*e][*i].transpose())?;
-            let second = span.part(0..span.rows, width..span.cols).times(&level.maps[*e][*j].transpose())?;
-            need(
-                first == second,
-                "every",
-                format_args!("pieces {i} and {j} of state {e} do not fit along their edge"),
-            )?;
-        }
-        Ok(())
-    }
-
-    /// The point with an eventually periodic address, as a row.
-    fn point(&self, e: usize, [prefix, cycle]: &[Vec<usize>; 2]) -> Checked<Matrix> {
-        let (before, home) = self.model.shape.product(e, prefix)?;
-        let (turn, _) = self.model.shape.product(home, cycle)?;
-        let fixed = some(turn.fixed_point()?, "every", "the fixed point of a cycle is not unique")?;
-        Ok(before.times(&fixed)?.transpose())
     }
 
     /// The derivative there, one row after the other: that of the cycle is the fixed one in `c + F`.
@@ -403,30 +255,8 @@ impl<'a> Patch<'a> {
     }
 }
 
-/// The length of a segment, of two points; of segments of one line only, as the sum of those of its coordinates.
-fn length([p, q]: &[Matrix; 2]) -> Q {
-    column_norm(&p.minus(q))
-}
-
 /// The largest 1-norm of a column.
-fn column_norm(m: &Matrix) -> Q {
+pub fn column_norm(m: &Matrix) -> Q {
     let column = |j: usize| (0..m.rows).fold(whole(0), |s, i| s + m.at(i, j).abs());
     (0..m.cols).map(column).fold(Q::zero(), Q::max)
-}
-
-/// The addresses on both sides of an edge, along its first parts: prefix and cycle of each.
-fn along(steps: &[Vec<Step>], start: usize) -> [[Vec<usize>; 2]; 2] {
-    let (mut seen, mut letters): (Vec<usize>, Vec<[usize; 2]>) = (vec![start], Vec::new());
-    loop {
-        let (pair, next) = steps[seen[seen.len() - 1]][0];
-        letters.push(pair);
-        if let Some(k) = seen.iter().position(|p| *p == next) {
-            let side = |s: usize| {
-                let all: Vec<usize> = letters.iter().map(|l| l[s]).collect();
-                [all[..k].to_vec(), all[k..].to_vec()]
-            };
-            return [side(0), side(1)];
-        }
-        seen.push(next);
-    }
 }

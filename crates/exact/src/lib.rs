@@ -27,7 +27,7 @@ pub mod algebraic;
 pub mod arith;
 pub mod jordan;
 pub mod linalg;
-mod parallel;
+pub mod parallel;
 pub mod poly;
 pub mod ring;
 pub mod stop;

@@ -84,8 +84,11 @@ fn cones(found: &SurfaceForms) -> Evidence {
     let cells = listed(&lists.list.iter().skip(1).map(|s| s.cells.len().to_string()).collect::<Vec<_>>());
     let children = lists.children.iter().skip(1).map(Vec::len).sum::<usize>();
     let dims = listed(&found.forms.iter().skip(1).map(|q| q.rows().to_string()).collect::<Vec<_>>());
+    let glued = every_plane::glued(found)
+        .map_or_else(String::new, |text| format!(" There are {text}: their points are the same there."));
+    let patch = format!("all faces are divided evenly, into the same number of parts along every side.{glued}");
     Evidence::of(Statement::SurfaceCones)
-        .holds("patch", "all faces are divided evenly, into the same number of parts along every side.", [])
+        .holds("patch", &patch, [])
         .holds("stars", &format!("there are {} of {cells} cells, with {children} children.", count(stars, "star")), [])
         .holds("signature", &format!("the forms have the dimensions {dims}, star by star."), [])
         .holds("growth", &format!("elimination has positive pivots only, for all {children} children."), [])

@@ -1,43 +1,42 @@
 //! What holds of a curve at one value of its parameter, and on the interval around it on which nothing changes its sign.
 
 use super::cones::Rays;
-use super::curve::{CurveFamily, Germ, apply, polynomial_eigenvalues};
-use super::fact::{CurveClaim, CurveEnd, Fact, Why};
-use super::signs::{At, adjugate, determinant, dot, is_stable, scaled};
-use crate::algebraic::Root;
+use super::curve::{CurveFamily, Germ, apply};
+use super::fact::{CurveClaim, CurveEnd, Evidence, Fact, Why};
+use super::signs::{Signs, adjugate, determinant, dot, horner, is_stable, scaled, without_root};
+use super::symbol::Symbol;
 use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::poly::Poly;
-use crate::ring::{Polynomials, Ring};
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// A product along a word with its eigenvalues that are polynomials.
-struct Word {
-    matrix: Matrix<Poly>,
-    chi: Vec<Poly>,
-    eigenvalues: Vec<Poly>,
+struct Word<P> {
+    matrix: Matrix<P>,
+    chi: Vec<P>,
+    eigenvalues: Vec<P>,
 }
 
-/// The leading eigenvalue of a word, real, simple and alone, with `ψ(λ) adj(λ − T)`: a positive multiple of the projection to its
-/// eigenvector.
-pub(super) struct Leading {
-    pub value: Poly,
+/// The leading eigenvalue of a word, real, with one Jordan block and alone, with `ψ(λ) adj(λ − T)`, `ψ` the characteristic
+/// polynomial without its factors `x − λ`: a positive multiple of the projection to its eigenvector, or, with a block of length 2, of
+/// that to the block followed by `T − λ`.
+pub(super) struct Leading<P> {
+    pub value: P,
     pub positive: bool,
-    pub projection: Matrix<Poly>,
+    pub projection: Matrix<P>,
 }
 
 /// What is known of an end of the curve.
-pub(super) enum EndGerm {
+pub(super) enum EndGerm<P> {
     /// The line of the leading eigenvector: the ray on which the curve leaves the end, whether the eigenvalue is positive, and the
     /// leading coefficient where its cycle lives, positive on that side.
     Line {
-        value: Poly,
-        ray: Vec<Poly>,
+        value: P,
+        ray: Vec<P>,
         positive: bool,
-        row: Vec<Poly>,
+        row: Vec<P>,
         forward: i32,
     },
     /// A plane.
@@ -46,34 +45,37 @@ pub(super) enum EndGerm {
 }
 
 /// The two sides of a joint.
-pub(super) struct Joint {
-    pub left: Option<(Vec<Poly>, bool)>,
-    pub right: Option<(Vec<Poly>, bool)>,
+pub(super) struct Joint<P> {
+    pub left: Option<(Vec<P>, bool)>,
+    pub right: Option<(Vec<P>, bool)>,
 }
 
 /// The arguments about one family; products of words are kept.
-pub(super) struct Arguments<'a> {
-    pub family: &'a CurveFamily,
+pub(super) struct Arguments<'a, P> {
+    pub family: &'a CurveFamily<P>,
     /// Searches for constant rays that are left.
     pub searches: Cell<usize>,
-    words: RefCell<BTreeMap<Vec<usize>, Rc<Word>>>,
+    /// Whether something was used that certificates of regions have no form for.
+    beyond: Cell<bool>,
+    words: RefCell<BTreeMap<Vec<usize>, Rc<Word<P>>>>,
 }
 
-impl<'a> Arguments<'a> {
-    pub fn new(family: &'a CurveFamily) -> Self {
-        Self { family, searches: Cell::new(SEARCHES), words: RefCell::default() }
+impl<'a, P: Symbol> Arguments<'a, P> {
+    pub fn new(family: &'a CurveFamily<P>) -> Self {
+        Self { family, searches: Cell::new(SEARCHES), beyond: Cell::new(false), words: RefCell::default() }
     }
 
-    /// What is decided at a value: around it too, or there only. All of it rests on contraction.
-    pub fn facts(&self, point: &Root, around: bool) -> Vec<Fact> {
-        let at = At::new(point, around);
-        let Some((chord, span)) = self.premises(&at) else { return Vec::new() };
-        let germs = [0, 1].map(|end| self.germ(&at, &self.family.germs[end], &chord));
-        let joints = self.joints(&at, &germs);
-        let mut facts = self.refuted(&at, &germs, &joints);
-        let known = |facts: &[Fact], claim| facts.iter().any(|f: &Fact| f.claim == claim);
+    /// What is decided at a value. All of it rests on contraction.
+    pub fn facts(&self, at: &impl Signs<P>) -> Vec<Fact<P>> {
+        self.beyond.set(false);
+        let other = at.fork();
+        let Some((chord, span)) = self.premises(at) else { return self.on_a_line(&other) };
+        let germs = [0, 1].map(|end| self.germ(at, &self.family.germs[end], &chord));
+        let joints = self.joints(at, &germs);
+        let mut facts = self.refuted(at, &germs, &joints);
+        let known = |facts: &[Fact<P>], claim| facts.iter().any(|f: &Fact<P>| f.claim == claim);
         if !known(&facts, CurveClaim::G1) {
-            facts.extend(self.jumps(&at, &joints));
+            facts.extend(self.jumps(at, &joints));
         }
         for rays in Rays::ALL {
             if CurveClaim::ALL.iter().all(|c| known(&facts, *c)) {
@@ -84,19 +86,38 @@ impl<'a> Arguments<'a> {
             let found = self.in_cone(&own, &rays, &chord, &germs, &joints);
             facts.extend(found.into_iter().filter(|f| !known(&facts, f.claim)).collect::<Vec<_>>());
         }
-        let value = |germ: &EndGerm| match germ {
+        let value = |germ: &EndGerm<P>| match germ {
             EndGerm::Line { value, .. } => Some(value.clone()),
             EndGerm::Plane | EndGerm::Unknown => None,
         };
         for fact in &mut facts {
             fact.evidence.span.clone_from(&span);
             fact.evidence.values = germs.each_ref().map(value);
+            fact.evidence.beyond = self.beyond.get();
         }
         facts
     }
 
+    /// A curve on the line of its chord whose pieces all go forwards: a segment.
+    fn on_a_line(&self, at: &impl Signs<P>) -> Vec<Fact<P>> {
+        let family = self.family;
+        if family.chord_guards.iter().any(|f| at.sign(f) == 0) {
+            return Vec::new();
+        }
+        let Some(chord) = at.primitive(&family.chord) else { return Vec::new() };
+        let forwards = |letter: usize| {
+            let image = apply(&family.linear[letter], &chord);
+            at.parallel(&image, &chord) && at.sign(&dot(&image, &chord)) * family.sign(&[letter]) > 0
+        };
+        if !(0..family.linear.len()).all(forwards) {
+            return Vec::new();
+        }
+        let facts = CurveClaim::ALL.into_iter().filter_map(|c| Fact::of(at, c, Verdict::Proved, Why::Segment));
+        facts.map(|f| Fact { evidence: Evidence { beyond: true, ..f.evidence }, ..f }).collect()
+    }
+
     /// The chord, where the relevant space is the space of all differences and no piece is a point.
-    fn premises(&self, at: &At<'_>) -> Option<(Vec<Poly>, Vec<Vec<usize>>)> {
+    fn premises(&self, at: &impl Signs<P>) -> Option<(Vec<P>, Vec<Vec<usize>>)> {
         let family = self.family;
         if family.chord_guards.iter().any(|f| at.sign(f) == 0) {
             return None;
@@ -106,14 +127,13 @@ impl<'a> Arguments<'a> {
             return None;
         }
         // Words are chosen at a rational value near by; the determinant decides.
-        let near = at.point().rational().unwrap_or_else(|| at.point().enclosure(64).0.mid());
         let n = family.dim();
         let mut queue: std::collections::VecDeque<Vec<usize>> = [Vec::new()].into();
         let (mut columns, mut words, mut rows) = (Vec::new(), Vec::new(), Matrix::zero(0, n));
         while columns.len() < n {
             let word = queue.pop_front().filter(|w| w.len() <= n + 1)?;
             let image = word.iter().rev().fold(chord.clone(), |v, &l| apply(&family.linear[l], &v));
-            let value: Vec<Rational> = image.iter().map(|f| f.eval(&near)).collect();
+            let value: Vec<Rational> = image.iter().map(|f| at.near(f)).collect();
             let joined = rows.stack(&Matrix::from_rows(n, vec![value]));
             if joined.rank() > rows.rows() {
                 rows = joined;
@@ -126,72 +146,82 @@ impl<'a> Arguments<'a> {
         (at.sign(&determinant(&whole)) != 0).then_some((chord, words))
     }
 
-    fn word(&self, word: &[usize]) -> Rc<Word> {
+    fn word(&self, word: &[usize]) -> Rc<Word<P>> {
         if let Some(known) = self.words.borrow().get(word) {
             return Rc::clone(known);
         }
         let matrix = self.family.product(word);
-        let chi = matrix.char_poly_over(&Polynomials);
-        let eigenvalues = polynomial_eigenvalues(&matrix, &chi);
+        let chi = matrix.char_poly_over(&P::ring());
+        let eigenvalues = P::eigenvalues(&matrix, &chi);
         let made = Rc::new(Word { matrix, chi, eigenvalues });
         self.words.borrow_mut().insert(word.to_vec(), Rc::clone(&made));
         made
     }
 
-    /// The leading eigenvalue, where it is a polynomial, simple, and larger than all others in modulus.
-    pub fn leading(&self, at: &At<'_>, word: &[usize]) -> Option<Leading> {
+    /// The leading eigenvalue, where it is a polynomial with one Jordan block of length 1 or 2, and larger than all others in
+    /// modulus.
+    pub fn leading(&self, at: &impl Signs<P>, word: &[usize]) -> Option<Leading<P>> {
         let own = self.word(word);
         own.eigenvalues.iter().find_map(|value| {
-            // The attempts of other eigenvalues fail at the value, and their guards say for how long.
-            let sign = at.sign(value);
-            if sign == 0 {
-                return None;
+            let mark = at.mark();
+            let found = self.leads(at, &own, value);
+            if found.is_none() {
+                at.forget(mark);
             }
-            // χ = (x − λ) ψ, from the highest coefficient down.
-            let mut psi: Vec<Poly> = Vec::new();
-            for c in own.chi[1..].iter().rev() {
-                let next = psi.last().map_or_else(|| c.clone(), |p| &(p * value) + c);
-                psi.push(next);
-            }
-            psi.reverse();
-            let mut power = Polynomials.one();
-            let mut shrunk = Vec::new();
-            for c in &psi {
-                shrunk.push(c * &power);
-                power = &power * value;
-            }
-            if !is_stable(at, shrunk) {
-                return None;
-            }
-            let at_value = psi.iter().rev().fold(Poly::zero(), |v, c| &(&v * value) + c);
-            let side = at.sign(&at_value);
-            let projection = adjugate(&own.matrix, &own.chi, value).map(|f| f.scale(&Rational::from(side)));
-            (side != 0).then_some(Leading { value: value.clone(), positive: sign > 0, projection })
+            found
         })
     }
 
+    fn leads(&self, at: &impl Signs<P>, own: &Word<P>, value: &P) -> Option<Leading<P>> {
+        let sign = at.sign(value);
+        if sign == 0 {
+            return None;
+        }
+        let mut rest = without_root(&own.chi, value);
+        let chain = horner(&rest, value).vanishes();
+        if chain {
+            rest = without_root(&rest, value);
+        }
+        let mut power = P::number(Rational::from(1));
+        let mut shrunk = Vec::new();
+        for c in &rest {
+            shrunk.push(c.times(&power));
+            power = power.times(value);
+        }
+        if !is_stable(at, shrunk) {
+            return None;
+        }
+        let side = at.sign(&horner(&rest, value));
+        let projection = adjugate(&own.matrix, &own.chi, value).map(|f| f.multiple(&Rational::from(side)));
+        if side == 0 || (chain && !at.is_not_zero(projection.entries())) {
+            return None;
+        }
+        self.beyond.set(self.beyond.get() || chain);
+        Some(Leading { value: value.clone(), positive: sign > 0, projection })
+    }
+
     /// Differences from an end to points of the curve.
-    fn differences(&self, chord: &[Poly], germ: &Germ) -> Vec<Vec<Poly>> {
+    fn differences(&self, chord: &[P], germ: &Germ) -> Vec<Vec<P>> {
         let family = self.family;
         let forward = if germ.at_start { 1 } else { -1 };
         let mut all = vec![scaled(chord, forward)];
         let letters: Vec<usize> =
             if germ.at_start { (0..family.linear.len()).collect() } else { (0..family.linear.len()).rev().collect() };
-        let mut sum: Vec<Poly> = vec![Poly::zero(); chord.len()];
+        let mut sum: Vec<P> = vec![P::nought(); chord.len()];
         for l in &letters[..letters.len() - 1] {
             let step = scaled(&apply(&family.linear[*l], chord), forward * family.sign(&[*l]));
-            sum = sum.iter().zip(&step).map(|(a, b)| a + b).collect();
+            sum = sum.iter().zip(&step).map(|(a, b)| a.plus(b)).collect();
             all.push(sum.clone());
         }
         all
     }
 
-    fn germ(&self, at: &At<'_>, germ: &Germ, chord: &[Poly]) -> EndGerm {
+    fn germ(&self, at: &impl Signs<P>, germ: &Germ, chord: &[P]) -> EndGerm<P> {
         let through = self.family.product(&germ.prefix);
         let Some(lead) = self.leading(at, &germ.cycle) else {
             let own = self.word(&germ.cycle);
             let [c, b, _] = own.chi.as_slice() else { return EndGerm::Unknown };
-            let spiral = &(b * b) - &c.scale(&Rational::from(4));
+            let spiral = b.times(b).minus(&c.multiple(&Rational::from(4)));
             let plane = at.sign(&spiral) < 0 && at.sign(&determinant(&through)) != 0;
             return if plane { EndGerm::Plane } else { EndGerm::Unknown };
         };
@@ -210,7 +240,7 @@ impl<'a> Arguments<'a> {
         EndGerm::Unknown
     }
 
-    fn joints(&self, at: &At<'_>, germs: &[EndGerm; 2]) -> Vec<Joint> {
+    fn joints(&self, at: &impl Signs<P>, germs: &[EndGerm<P>; 2]) -> Vec<Joint<P>> {
         let family = self.family;
         let side = |letter: usize, finish: bool| match &germs[usize::from(finish != family.reversed[letter])] {
             EndGerm::Line { ray, positive, .. } => {
@@ -223,10 +253,10 @@ impl<'a> Arguments<'a> {
     }
 
     /// What known directions refute, without a ring condition.
-    fn refuted(&self, at: &At<'_>, germs: &[EndGerm; 2], joints: &[Joint]) -> Vec<Fact> {
-        let mut facts: Vec<Fact> = Vec::new();
+    fn refuted(&self, at: &impl Signs<P>, germs: &[EndGerm<P>; 2], joints: &[Joint<P>]) -> Vec<Fact<P>> {
+        let mut facts: Vec<Fact<P>> = Vec::new();
         let mut push = |claim, why| {
-            if !facts.iter().any(|f: &Fact| f.claim == claim) {
+            if !facts.iter().any(|f: &Fact<P>| f.claim == claim) {
                 facts.extend(Fact::of(at, claim, Verdict::Refuted, why));
             }
         };
@@ -253,7 +283,7 @@ impl<'a> Arguments<'a> {
     }
 
     /// A cycle at which a tangent line is that of its leading eigenvector, while a joint that comes nearer keeps another direction.
-    fn jumps(&self, at: &At<'_>, joints: &[Joint]) -> Option<Fact> {
+    fn jumps(&self, at: &impl Signs<P>, joints: &[Joint<P>]) -> Option<Fact<P>> {
         let letters = self.family.linear.len();
         let pairs = (0..letters).flat_map(|a| (0..letters).map(move |b| vec![a, b]));
         let words: Vec<Vec<usize>> = (0..letters).map(|l| vec![l]).chain(pairs.filter(|w| w[0] != w[1])).collect();

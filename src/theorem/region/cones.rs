@@ -3,12 +3,11 @@
 use super::argue::{Arguments, EndGerm, Joint};
 use super::curve::{apply, outline};
 use super::fact::{CurveClaim, Fact, Why};
-use super::signs::{At, adjugate, determinant, dot, scaled};
+use super::signs::{Signs, adjugate, determinant, dot, scaled};
+use super::symbol::Symbol;
 use crate::answer::Verdict;
 use crate::arith::Rational;
 use crate::linalg::Matrix;
-use crate::poly::Poly;
-use crate::ring::Polynomials;
 use crate::shape::Spaces;
 use crate::theorem::cone::{CommonCone, ConeAnswer, ConeMap, common_cone};
 use crate::theorem::slow::{self, MAX_WINDOW};
@@ -35,12 +34,18 @@ impl Rays {
     pub const ALL: [Self; 5] = [Self::Ends, Self::Steps, Self::Axes, Self::Pairs, Self::Found];
 }
 
-impl Arguments<'_> {
+impl<P: Symbol> Arguments<'_, P> {
     /// Rays of a cone, as many as dimensions.
-    pub(super) fn rays(&self, at: &At<'_>, kind: Rays, germs: &[EndGerm; 2], chord: &[Poly]) -> Option<Vec<Vec<Poly>>> {
+    pub(super) fn rays(
+        &self,
+        at: &impl Signs<P>,
+        kind: Rays,
+        germs: &[EndGerm<P>; 2],
+        chord: &[P],
+    ) -> Option<Vec<Vec<P>>> {
         let (n, last) = (self.family.dim(), self.family.linear.len() - 1);
-        let constant = |k: i64| Poly::constant(Rational::from(k));
-        let entries = |entry: &dyn Fn(usize, usize) -> i64| -> Vec<Vec<Poly>> {
+        let constant = |k: i64| P::number(Rational::from(k));
+        let entries = |entry: &dyn Fn(usize, usize) -> i64| -> Vec<Vec<P>> {
             (0..n).map(|k| (0..n).map(|i| constant(entry(k, i))).collect()).collect()
         };
         match kind {
@@ -57,14 +62,16 @@ impl Arguments<'_> {
                 if n == 2 { Some(vec![ray([0, last])?, ray([last, 0])?]) } else { None }
             }
             Rays::Found => {
-                let p = at.point().rational().filter(|_| at.is_around() && self.searches.get() > 0)?;
+                if !at.is_around() || self.searches.get() == 0 {
+                    return None;
+                }
                 self.searches.set(self.searches.get() - 1);
-                let shape = self.family.member(&p);
+                let shape = self.family.shape(|f| at.near(f));
                 shape.check_curves().ok()?;
                 let spaces = Spaces::new(&shape)?;
                 let Some(ConeAnswer::Proved(found)) = common_cone(&shape, &spaces, CONE_STEPS) else { return None };
                 let rays = &found.cones.first()?.rays;
-                let ray = |j: usize| rays.column(j)[1..].iter().map(|q| Poly::constant(q.clone())).collect();
+                let ray = |j: usize| rays.column(j)[1..].iter().map(|q| P::number(q.clone())).collect();
                 (rays.cols() == n).then(|| (0..n).map(ray).collect())
             }
         }
@@ -73,17 +80,17 @@ impl Arguments<'_> {
     /// What follows from a cone.
     pub(super) fn in_cone(
         &self,
-        at: &At<'_>,
-        rays: &[Vec<Poly>],
-        chord: &[Poly],
-        germs: &[EndGerm; 2],
-        joints: &[Joint],
-    ) -> Vec<Fact> {
+        at: &impl Signs<P>,
+        rays: &[Vec<P>],
+        chord: &[P],
+        germs: &[EndGerm<P>; 2],
+        joints: &[Joint<P>],
+    ) -> Vec<Fact<P>> {
         let Some(patterns) = self.invariant(at, rays, chord) else { return Vec::new() };
         let mut facts = Vec::new();
         let weak = at.fork();
         // Every difference from an end goes on within the cone, so that the leading coefficient stays positive.
-        let end = |germ: &EndGerm| match germ {
+        let end = |germ: &EndGerm<P>| match germ {
             EndGerm::Line { row, positive: true, forward, .. } => {
                 rays.iter().all(|r| weak.sign(&dot(row, r)) * forward >= 0)
             }
@@ -126,23 +133,23 @@ impl Arguments<'_> {
     }
 
     /// `ε T_i G = G B_i` with `B_i ≥ 0`, without columns 0, and the chord in the cone: which entries are positive, by letter.
-    fn invariant(&self, at: &At<'_>, rays: &[Vec<Poly>], chord: &[Poly]) -> Option<Vec<Matrix>> {
+    fn invariant(&self, at: &impl Signs<P>, rays: &[Vec<P>], chord: &[P]) -> Option<Vec<Matrix>> {
         let n = chord.len();
         let cone = Matrix::from_fn(n, n, |i, j| rays[j][i].clone());
         let det = at.sign(&determinant(&cone));
         if det == 0 {
             return None;
         }
-        let chi = cone.char_poly_over(&Polynomials);
+        let chi = cone.char_poly_over(&P::ring());
         // adj(−G) = (−1)^(n−1) adj(G).
         let turned = if n.is_multiple_of(2) { -det } else { det };
-        let inverse = adjugate(&cone, &chi, &Poly::zero()).map(|f| f.scale(&Rational::from(turned)));
+        let inverse = adjugate(&cone, &chi, &P::nought()).map(|f| f.multiple(&Rational::from(turned)));
         if apply(&inverse, chord).iter().any(|c| at.sign(c) < 0) {
             return None;
         }
         let mut patterns = Vec::new();
         for (l, m) in self.family.linear.iter().enumerate() {
-            let b = inverse.mul_over(&Polynomials, m).mul_over(&Polynomials, &cone);
+            let b = inverse.mul_over(&P::ring(), m).mul_over(&P::ring(), &cone);
             let mut signs = Matrix::zero(n, n);
             for i in 0..n {
                 for j in 0..n {
@@ -164,10 +171,10 @@ impl Arguments<'_> {
     /// Why the cones shrink to rays along every address: the window, and the cycles without positive products.
     fn shrinks(
         &self,
-        at: &At<'_>,
-        rays: &[Vec<Poly>],
+        at: &impl Signs<P>,
+        rays: &[Vec<P>],
         patterns: &[Matrix],
-    ) -> Option<(usize, Vec<(Vec<usize>, Poly)>)> {
+    ) -> Option<(usize, Vec<(Vec<usize>, P)>)> {
         let map = |(letter, m): (usize, &Matrix)| ConeMap {
             state: 0,
             letter,
@@ -185,14 +192,21 @@ impl Arguments<'_> {
     }
 
     /// The leading eigenvalue of a cycle that pulls all rays to one.
-    fn pulls(&self, at: &At<'_>, rays: &[Vec<Poly>], word: &[usize]) -> Option<Poly> {
+    fn pulls(&self, at: &impl Signs<P>, rays: &[Vec<P>], word: &[usize]) -> Option<P> {
         let lead = self.leading(at, word)?;
         if lead.positive != (self.family.sign(word) > 0) {
             return None;
         }
-        let n = rays.len();
-        let k = (0..n).find(|&k| at.sign(&dot(lead.projection.row(k), &rays[0])) != 0)?;
-        let signs: Vec<i32> = rays.iter().map(|r| at.sign(&dot(lead.projection.row(k), r))).collect();
-        signs.iter().all(|s| *s == signs[0]).then_some(lead.value)
+        let images: Vec<Vec<P>> = rays.iter().map(|r| apply(&lead.projection, r)).collect();
+        // The images are multiples of one vector; a ray of a longer chain may lie on it itself.
+        let first = images.iter().find(|v| v.iter().any(|x| !x.vanishes()))?;
+        let (k, sign) = first.iter().enumerate().map(|(k, x)| (k, at.sign(x))).find(|(_, s)| *s != 0)?;
+        let pulled = |(ray, image): (&Vec<P>, &Vec<P>)| {
+            if image.iter().all(P::vanishes) {
+                return at.parallel(ray, first) && at.sign(&dot(ray, first)) > 0;
+            }
+            at.sign(&image[k]) == sign
+        };
+        rays.iter().zip(&images).all(pulled).then_some(lead.value)
     }
 }

@@ -1,10 +1,10 @@
 //! A curve of one state whose operators are polynomials in a parameter.
 
+use super::symbol::Symbol;
 use crate::arith::Rational;
-use crate::linalg::{Matrix, char_poly};
-use crate::poly::{Poly, factor};
+use crate::linalg::Matrix;
+use crate::poly::Poly;
 use crate::radius::family::Pencil;
-use crate::ring::{Polynomials, Ring};
 use crate::shape::{CellKind, End, Shape};
 use thiserror::Error;
 
@@ -46,29 +46,29 @@ pub(super) struct Germ {
 
 /// A curve with a parameter: one state, with its pieces in order.
 #[derive(Debug, Clone)]
-pub struct CurveFamily {
+pub struct CurveFamily<P = Poly> {
     /// The operators; the columns add up to 1.
-    pub operators: Vec<Matrix<Poly>>,
+    pub operators: Vec<Matrix<P>>,
     /// Which pieces are run backwards.
     pub reversed: Vec<bool>,
     /// The control points, if there are any.
     pub control: Option<Matrix>,
     /// What the operators do with differences, in the coordinates but the first.
-    pub(super) linear: Vec<Matrix<Poly>>,
+    pub(super) linear: Vec<Matrix<P>>,
     /// The germs at the start and at the end.
     pub(super) germs: [Germ; 2],
     /// The chord times a positive square of polynomials, and the polynomials that must not vanish for it.
-    pub(super) chord: Vec<Poly>,
-    pub(super) chord_guards: Vec<Poly>,
+    pub(super) chord: Vec<P>,
+    pub(super) chord_guards: Vec<P>,
 }
 
-impl CurveFamily {
+impl<P: Symbol> CurveFamily<P> {
     /// A family of curves with one state.
     ///
     /// # Errors
     /// [`CurveFamilyError`].
     pub fn new(
-        operators: Vec<Matrix<Poly>>,
+        operators: Vec<Matrix<P>>,
         reversed: Vec<bool>,
         control: Option<Matrix>,
     ) -> Result<Self, CurveFamilyError> {
@@ -81,8 +81,8 @@ impl CurveFamily {
             return Err(CurveFamilyError::Control);
         }
         let on_differences =
-            |m: &Matrix<Poly>| Matrix::from_fn(d - 1, d - 1, |i, j| &m[(i + 1, j + 1)] - &m[(i + 1, 0)]);
-        let linear: Vec<Matrix<Poly>> = operators.iter().map(on_differences).collect();
+            |m: &Matrix<P>| Matrix::from_fn(d - 1, d - 1, |i, j| m[(i + 1, j + 1)].minus(&m[(i + 1, 0)]));
+        let linear: Vec<Matrix<P>> = operators.iter().map(on_differences).collect();
         let germ = |end| germ(&reversed, end).ok_or(CurveFamilyError::NoEnd);
         let germs = [germ(End::Start)?, germ(End::Finish)?];
         let mut family =
@@ -90,9 +90,9 @@ impl CurveFamily {
         let points = [family.point(0)?, family.point(1)?];
         family.meets(&points)?;
         let sums = points.each_ref().map(|q| sum(q));
-        let scaled = |k: usize, i: usize| &points[k][i] * &sums[1 - k];
-        let both = &sums[0] * &sums[1];
-        family.chord = (1..d).map(|i| &(&scaled(1, i) - &scaled(0, i)) * &both).collect();
+        let scaled = |k: usize, i: usize| points[k][i].times(&sums[1 - k]);
+        let both = sums[0].times(&sums[1]);
+        family.chord = (1..d).map(|i| scaled(1, i).minus(&scaled(0, i)).times(&both)).collect();
         family.chord_guards = sums.to_vec();
         Ok(family)
     }
@@ -103,6 +103,55 @@ impl CurveFamily {
         self.linear[0].rows()
     }
 
+    /// The member at a value of the parameters, which is given by what polynomials are there.
+    pub(super) fn shape(&self, value: impl Fn(&P) -> Rational) -> Shape {
+        let operators = self.operators.iter().map(|m| m.map(&value)).collect();
+        Shape { control: self.control.clone(), ..single(operators, &self.reversed) }
+    }
+
+    /// The product along a word on differences.
+    pub(super) fn product(&self, word: &[usize]) -> Matrix<P> {
+        word.iter().fold(identity(self.dim()), |m, &l| m.mul_over(&P::ring(), &self.linear[l]))
+    }
+
+    /// The sign of a word: the product of -1 for each piece run backwards.
+    pub(super) fn sign(&self, word: &[usize]) -> i32 {
+        word.iter().map(|&l| if self.reversed[l] { -1 } else { 1 }).product()
+    }
+
+    /// An end as a vector that is a multiple of it: a fixed vector of its cycle, led to the end.
+    fn point(&self, end: usize) -> Result<Vec<P>, CurveFamilyError> {
+        let germ = &self.germs[end];
+        let d = self.operators[0].rows();
+        let along = |word: &[usize], v: Vec<P>| word.iter().rev().fold(v, |v, &l| apply(&self.operators[l], &v));
+        let one = P::number(Rational::from(1));
+        let cycle = germ.cycle.iter().fold(identity(d), |m, &l| m.mul_over(&P::ring(), &self.operators[l]));
+        let chi = cycle.char_poly_over(&P::ring());
+        let fixed = (0..d)
+            .map(|column| cycle.adjugate_column_over(&P::ring(), &chi, column, &one))
+            .find(|v| !sum(v).vanishes());
+        let fixed = fixed.ok_or(CurveFamilyError::NoEnd)?;
+        Ok(along(&germ.prefix, P::shortened(&fixed)))
+    }
+
+    /// Whether every piece begins where the one before ends.
+    fn meets(&self, points: &[Vec<P>; 2]) -> Result<(), CurveFamilyError> {
+        let image = |letter: usize, end: End| {
+            let own = if self.reversed[letter] { end.other() } else { end };
+            apply(&self.operators[letter], &points[usize::from(own == End::Finish)])
+        };
+        for letter in 1..self.operators.len() {
+            let (a, b) = (image(letter - 1, End::Finish), image(letter, End::Start));
+            let (s, t) = (sum(&a), sum(&b));
+            if a.iter().zip(&b).any(|(x, y)| x.times(&t) != y.times(&s)) {
+                return Err(CurveFamilyError::Apart(letter));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl CurveFamily {
     /// What the operators do with differences, for the search of words and hulls.
     #[must_use]
     pub fn pencil(&self) -> Option<Pencil> {
@@ -112,68 +161,20 @@ impl CurveFamily {
     /// The member at a value of the parameter.
     #[must_use]
     pub fn member(&self, p: &Rational) -> Shape {
-        let operators = self.operators.iter().map(|m| m.map(|f| f.eval(p))).collect();
-        Shape { control: self.control.clone(), ..single(operators, &self.reversed) }
-    }
-
-    /// The product along a word on differences.
-    pub(super) fn product(&self, word: &[usize]) -> Matrix<Poly> {
-        let one = Polynomials.one();
-        let identity = Matrix::from_fn(self.dim(), self.dim(), |i, j| if i == j { one.clone() } else { Poly::zero() });
-        word.iter().fold(identity, |m, &l| m.mul_over(&Polynomials, &self.linear[l]))
-    }
-
-    /// The sign of a word: the product of -1 for each piece run backwards.
-    pub(super) fn sign(&self, word: &[usize]) -> i32 {
-        word.iter().map(|&l| if self.reversed[l] { -1 } else { 1 }).product()
-    }
-
-    /// An end as a vector that is a multiple of it: a fixed vector of its cycle, led to the end.
-    fn point(&self, end: usize) -> Result<Vec<Poly>, CurveFamilyError> {
-        let germ = &self.germs[end];
-        let d = self.operators[0].rows();
-        let along = |word: &[usize], v: Vec<Poly>| word.iter().rev().fold(v, |v, &l| apply(&self.operators[l], &v));
-        let one = Polynomials.one();
-        let identity = Matrix::from_fn(d, d, |i, j| if i == j { one.clone() } else { Poly::zero() });
-        let cycle = germ.cycle.iter().fold(identity, |m, &l| m.mul_over(&Polynomials, &self.operators[l]));
-        let chi = cycle.char_poly_over(&Polynomials);
-        let fixed = (0..d)
-            .map(|column| cycle.adjugate_column_over(&Polynomials, &chi, column, &one))
-            .find(|v| !sum(v).is_zero());
-        let fixed = fixed.ok_or(CurveFamilyError::NoEnd)?;
-        Ok(along(&germ.prefix, divided(&fixed)))
-    }
-
-    /// Whether every piece begins where the one before ends.
-    fn meets(&self, points: &[Vec<Poly>; 2]) -> Result<(), CurveFamilyError> {
-        let image = |letter: usize, end: End| {
-            let own = if self.reversed[letter] { end.other() } else { end };
-            apply(&self.operators[letter], &points[usize::from(own == End::Finish)])
-        };
-        for letter in 1..self.operators.len() {
-            let (a, b) = (image(letter - 1, End::Finish), image(letter, End::Start));
-            let (s, t) = (sum(&a), sum(&b));
-            if a.iter().zip(&b).any(|(x, y)| x * &t != y * &s) {
-                return Err(CurveFamilyError::Apart(letter));
-            }
-        }
-        Ok(())
+        self.shape(|f| f.eval(p))
     }
 }
 
-fn sum(v: &[Poly]) -> Poly {
-    v.iter().fold(Poly::zero(), |s, x| &s + x)
+fn sum<P: Symbol>(v: &[P]) -> P {
+    v.iter().fold(P::nought(), |s, x| s.plus(x))
 }
 
-/// A vector divided by the common divisor of its coordinates.
-fn divided(v: &[Poly]) -> Vec<Poly> {
-    let common = v.iter().fold(Poly::zero(), |g, x| g.gcd(x));
-    if common.is_zero() { v.to_vec() } else { v.iter().map(|x| x.div_rem(&common).0).collect() }
+fn identity<P: Symbol>(n: usize) -> Matrix<P> {
+    Matrix::from_fn(n, n, |i, j| P::number(Rational::from(u64::from(i == j))))
 }
 
-pub(super) fn apply(m: &Matrix<Poly>, v: &[Poly]) -> Vec<Poly> {
-    let dot = |row: &[Poly]| row.iter().zip(v).fold(Poly::zero(), |s, (a, b)| &s + &(a * b));
-    (0..m.rows()).map(|i| dot(m.row(i))).collect()
+pub(super) fn apply<P: Symbol>(m: &Matrix<P>, v: &[P]) -> Vec<P> {
+    (0..m.rows()).map(|i| super::signs::dot(m.row(i), v)).collect()
 }
 
 /// Whether control points keep all differences apart.
@@ -200,40 +201,4 @@ fn germ(reversed: &[bool], end: End) -> Option<Germ> {
     let address = outline(reversed).end_address(0, end, |_| false)?;
     let side = address.prefix.iter().fold(end, |side, &l| if reversed[l] { side.other() } else { side });
     Some(Germ { at_start: side == End::Start, prefix: address.prefix, cycle: address.cycle })
-}
-
-/// Most choices of rational eigenvalues that are tried.
-const MAX_CHOICES: usize = 4096;
-
-/// The eigenvalues of a matrix of polynomials that are polynomials themselves, as all those are that are rational functions.
-pub(super) fn polynomial_eigenvalues(m: &Matrix<Poly>, chi: &[Poly]) -> Vec<Poly> {
-    let degree = m.entries().iter().filter_map(Poly::degree).fold(0, usize::max);
-    // The coefficient of `x^(n−k)` has the degree `k · degree` at most, so that a root has the degree `degree`.
-    let at: Vec<Rational> = (0..=degree).map(|k| Rational::from(k as u64) + crate::arith::ratio(3, 7)).collect();
-    let rational = |p: &Rational| -> Vec<Rational> {
-        let member = m.map(|f| f.eval(p));
-        let linear = |(f, _): &(Poly, usize)| (f.degree() == Some(1)).then(|| -(f.coeff(0) / f.coeff(1)));
-        factor(&char_poly(&member)).iter().filter_map(linear).collect()
-    };
-    let values: Vec<Vec<Rational>> = at.iter().map(rational).collect();
-    let count = values.iter().try_fold(1_usize, |n, v| n.checked_mul(v.len()));
-    if count.is_none_or(|n| n == 0 || n > MAX_CHOICES) {
-        return Vec::new();
-    }
-    let mut choices: Vec<Vec<Rational>> = vec![Vec::new()];
-    for own in &values {
-        choices = choices
-            .iter()
-            .flat_map(|c| own.iter().map(move |v| [c.as_slice(), std::slice::from_ref(v)].concat()))
-            .collect();
-    }
-    let is_root = |f: &Poly| chi.iter().rev().fold(Poly::zero(), |v, c| &(&v * f) + c).is_zero();
-    let mut found: Vec<Poly> = Vec::new();
-    for choice in choices {
-        let f = Poly::through(&at, choice);
-        if is_root(&f) && !found.contains(&f) {
-            found.push(f);
-        }
-    }
-    found
 }

@@ -1,6 +1,7 @@
 //! What arguments about a curve decide, and what they rest on.
 
-use super::signs::At;
+use super::signs::Signs;
+use super::symbol::Symbol;
 use crate::answer::Verdict;
 use crate::poly::Poly;
 
@@ -40,6 +41,8 @@ pub enum Why {
     Cusp(usize),
     /// The tangents of a joint do not tend to the only line that a tangent at this cycle can have.
     Jumps(Vec<usize>),
+    /// All pieces lie on the line of the chord and go forwards.
+    Segment,
 }
 
 /// An end of the curve.
@@ -53,7 +56,7 @@ pub enum CurveEnd {
 
 /// A claim that is decided at a value, and as long as none of some polynomials vanishes.
 #[derive(Debug, Clone)]
-pub struct Fact {
+pub struct Fact<P = Poly> {
     /// The claim.
     pub claim: CurveClaim,
     /// The verdict.
@@ -61,31 +64,41 @@ pub struct Fact {
     /// Why.
     pub why: Why,
     /// The polynomials.
-    pub guards: Vec<Poly>,
+    pub guards: Vec<P>,
     /// What a checker needs.
-    pub evidence: Evidence,
+    pub evidence: Evidence<P>,
 }
 
 /// What is chosen in an argument; everything else follows from the family.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Evidence {
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Evidence<P = Poly> {
     /// Words whose images of the chord are independent.
     pub span: Vec<Vec<usize>>,
     /// The leading eigenvalues at the start and at the end, where they are polynomials.
-    pub values: [Option<Poly>; 2],
+    pub values: [Option<P>; 2],
     /// The rays of the cone.
-    pub rays: Vec<Vec<Poly>>,
+    pub rays: Vec<Vec<P>>,
     /// The length of words in which factors with positive products are looked for; 0 where none are.
     pub window: usize,
     /// Cycles with their leading eigenvalues: of addresses without such factors, or the one at which tangents jump.
-    pub cycles: Vec<(Vec<usize>, Poly)>,
+    pub cycles: Vec<(Vec<usize>, P)>,
     /// The joint and the side of it (0: left) whose tangents jump.
     pub place: Option<(usize, usize)>,
+    /// Whether it rests on a longer Jordan chain, or on less than the space of all differences, for which certificates of regions have
+    /// no form.
+    pub beyond: bool,
 }
 
-impl Fact {
+impl<P> Default for Evidence<P> {
+    fn default() -> Self {
+        let (span, rays, cycles) = (Vec::new(), Vec::new(), Vec::new());
+        Self { span, values: [None, None], rays, window: 0, cycles, place: None, beyond: false }
+    }
+}
+
+impl<P: Symbol> Fact<P> {
     /// A claim that is decided with the signs that were asked for.
-    pub(super) fn of(at: &At<'_>, claim: CurveClaim, verdict: Verdict, why: Why) -> Option<Self> {
+    pub(super) fn of(at: &impl Signs<P>, claim: CurveClaim, verdict: Verdict, why: Why) -> Option<Self> {
         at.kept().map(|guards| Self { claim, verdict, why, guards, evidence: Evidence::default() })
     }
 }

@@ -11,12 +11,20 @@ mod cones;
 mod curve;
 mod fact;
 mod independence;
+mod ledger;
+mod line;
+mod plane;
+mod plane_box;
 mod signs;
+mod symbol;
 mod table;
 
 pub use curve::{CurveFamily, CurveFamilyError};
 pub use fact::{CurveClaim, CurveEnd, Evidence, Fact, Why};
 pub use independence::Independence;
+pub use line::{LineRegion, PlaneLine};
+pub use plane::{Area, Known, PlaneBox, PlaneLimits, PlaneRegion};
+pub use symbol::Symbol;
 pub use table::{Basis, CurvePart, CurveRegions, CurveTable, Subject, member_verdict};
 
 use super::regularity::{Regularity, digits, regularity};

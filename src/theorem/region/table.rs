@@ -5,11 +5,13 @@
 use super::argue::Arguments;
 use super::curve::CurveFamily;
 use super::fact::{CurveClaim, Fact, Why};
+use super::signs::At;
 use super::{MEMBERS, Purse, RegionError};
 use crate::algebraic::{Root, between, cmp_real, lies_within, roots_within, sorted};
 use crate::answer::Verdict;
 use crate::arith::{Rational, ratio, to_f64};
 use crate::budget::Budget;
+use crate::poly::Poly;
 use crate::radius::family::{Below, Place, Search, below};
 use crate::theorem::{Assertion, Certified, certify_within};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
@@ -109,7 +111,7 @@ struct Known {
 struct Covering<'a> {
     family: &'a CurveFamily,
     range: (Rational, Rational),
-    arguments: Arguments<'a>,
+    arguments: Arguments<'a, Poly>,
     radius: Below,
     known: Vec<Known>,
     failed: Vec<(CurveClaim, Root)>,
@@ -242,7 +244,7 @@ impl Covering<'_> {
         let at = |part| &from + (&to - &from) * part;
         let p = Rational::simplest_rational_in_open_interval(&at(ratio(2, 5)), &at(ratio(3, 5)));
         let point = Root::from_rational(&p);
-        for fact in self.arguments.facts(&point, true) {
+        for fact in self.arguments.facts(&At::new(&point, true)) {
             let (from, to) = self.component(&fact, &point);
             self.known.push(Known { fact, from, to });
         }
@@ -314,7 +316,7 @@ impl Covering<'_> {
         if let Some(q) = p.rational() {
             return (borders.member(self.family, &q, claim), Basis::Member, None);
         }
-        let found = borders.purse.timed(|| self.arguments.facts(p, false));
+        let found = borders.purse.timed(|| self.arguments.facts(&At::new(p, false)));
         match found.into_iter().flatten().find(|f| f.claim == claim) {
             Some(fact) => {
                 let said = (fact.verdict, Basis::Argument(fact.why.clone()));

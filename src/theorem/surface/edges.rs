@@ -146,7 +146,8 @@ fn along(patch: &Patch, pairs: &Pairs, start: usize) -> Option<Matrix> {
     }
 }
 
-fn diagonal(a: &Matrix, b: &Matrix) -> Matrix {
+/// Both maps, on the coordinates of both.
+pub(super) fn diagonal(a: &Matrix, b: &Matrix) -> Matrix {
     let zero = |r: usize, c: usize| Matrix::zero(r, c);
     a.beside(&zero(a.rows(), b.cols())).stack(&zero(b.rows(), a.cols()).beside(b))
 }

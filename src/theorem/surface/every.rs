@@ -7,7 +7,7 @@ use super::place::{Chart, Spot};
 use super::tensor::Product;
 use super::verdict::{Surface, SurfacePoint};
 use crate::answer::Answer;
-use crate::shape::{Shape, Spaces};
+use crate::shape::{CellKind, Shape, Spaces};
 use crate::statement::Statement;
 use crate::theorem::{
     Assertion, Certified, Claim, Dimension, EverySurfaceGap, Kind, PointReport, Reason, Verdict, Viewpoint,
@@ -106,7 +106,9 @@ fn decide(setting: &Setting, chart: &Chart, product: Option<&Product>, surface: 
         Some(product) => of_product(setting, product),
         None => Answer::Open(vec![EverySurfaceGap::NoProduct]),
     };
+    let shape = setting.cx.shape;
     let found = match by_product {
+        _ if shape.states[shape.start].kind != CellKind::Face => by_stars(setting, chart, Vec::new()),
         Answer::Open(gaps) => by_patch(setting, chart, surface, gaps),
         decided => decided,
     };
@@ -128,11 +130,17 @@ fn by_patch(setting: &Setting, chart: &Chart, surface: &Surface, mut gaps: Vec<E
         Ok(found) => return Answer::Proved(EverySurfaceProof::Derivative(Box::new(found))),
         Err(gap) => gaps.push(gap),
     }
-    if !surface.points.iter().any(broken) {
-        match forms(setting, chart) {
-            Ok(found) => return Answer::Proved(EverySurfaceProof::Forms(Box::new(found))),
-            Err(gap) => gaps.push(gap),
-        }
+    match surface.points.iter().any(broken) {
+        true => Answer::Open(gaps),
+        false => by_stars(setting, chart, gaps),
+    }
+}
+
+/// By cones around planes, of a patch, or of faces glued along sides.
+fn by_stars(setting: &Setting, chart: &Chart, mut gaps: Vec<EverySurfaceGap>) -> EverySurface {
+    match forms(setting, chart) {
+        Ok(found) => return Answer::Proved(EverySurfaceProof::Forms(Box::new(found))),
+        Err(gap) => gaps.push(gap),
     }
     Answer::Open(gaps)
 }

@@ -2,9 +2,10 @@
 
 use super::apart::pairs;
 use super::branch::Setting;
+use super::glue::start;
 use super::place::Chart;
 use super::star_space::StarSpaces;
-use super::stars::{Stars, parts};
+use super::stars::{Part, Stars, parts};
 use crate::approx::{FormArrow, FormProblem, ProposedForms};
 use crate::arith::{Rational, to_f64};
 use crate::linalg::Matrix;
@@ -13,27 +14,25 @@ use crate::shape::difference;
 use crate::theorem::{Context, EverySurfaceGap};
 use malachite_base::num::arithmetic::traits::Floor;
 
-/// Most dimensions of what is seen of a star.
-const MAX_DIMENSIONS: usize = 16;
 /// Most points of a star between which secants are tried.
-const MAX_SAMPLES: usize = 100;
+const MAX_SAMPLES: usize = 120;
 /// Most words of stars through which control points are looked at, and the longest of them.
 const MAX_VIEWS: (usize, usize) = (2_000, 5);
 /// Binary digits of the entries of the forms, tried one after the other.
-const DIGITS: [i64; 3] = [16, 22, 28];
+const DIGITS: [i64; 3] = [16, 24, 32];
 
 /// The hypotheses of Theorem 16, as found.
 #[derive(Debug, Clone)]
 pub struct SurfaceForms {
-    /// The face, number 0, and the stars.
+    /// The start, number 0, and the stars.
     pub stars: Stars,
-    /// The forms, of integers, in coordinates of the visible quotients; of the face there is none (0 × 0).
+    /// The forms, of integers, in coordinates of the visible quotients; of the start there is none (0 × 0).
     pub forms: Vec<Matrix>,
-    /// By star and child, `κ`; none for the face.
+    /// By star and child, `κ`; none for the start.
     pub ratios: Vec<Vec<Rational>>,
     /// How many pairs of cells that do not meet have been looked at.
     pub pairs: usize,
-    /// After how many words of stars the control points, or the face, are seen not to fold the cones.
+    /// After how many words of stars the control points, or the start, are seen not to fold the cones.
     pub views: usize,
 }
 
@@ -43,20 +42,32 @@ pub struct SurfaceForms {
 /// The hypothesis that is not shown to hold.
 pub fn forms(setting: &Setting, chart: &Chart) -> Result<SurfaceForms, EverySurfaceGap> {
     let (cx, shape) = (&setting.cx, setting.cx.shape);
+    let start = start(setting.complex, chart).ok_or(EverySurfaceGap::Unparametrised)?;
     chart.share(&shape.reachable()).ok_or(EverySurfaceGap::Unequal)?;
     let largest = shape.reachable().iter().map(|&e| cx.spaces.of(e).basis.cols()).max();
-    if largest.is_none_or(|d| d > MAX_DIMENSIONS) {
+    let most = cx.budget.star_dimensions;
+    if largest.is_none_or(|d| d > most) {
         return Err(EverySurfaceGap::LargeStars);
     }
-    let stars = Stars::of(shape, chart).ok_or(EverySurfaceGap::LargeStars)?;
+    let stars = Stars::of(shape, chart, start).ok_or(EverySurfaceGap::LargeStars)?;
     let spaces = StarSpaces::new(cx, &stars).ok_or(EverySurfaceGap::LargeStars)?;
     let dims: Vec<usize> = (0..stars.list.len()).map(|s| spaces.dim(s)).collect();
-    if dims.iter().any(|d| *d > MAX_DIMENSIONS) {
+    if dims.iter().any(|d| *d > most) {
         return Err(EverySurfaceGap::LargeStars);
     }
-    let problem = problem(cx, &stars, &spaces);
-    let mut reason = EverySurfaceGap::NoForms;
+    let problem = problem(cx, chart, &stars, &spaces);
+    let none = |star: usize| EverySurfaceGap::NoForms { star: stars.words(shape, star) };
+    let mut reason = none(1);
     for proposal in problem.proposals() {
+        let proposal = match proposal {
+            Ok(proposal) => proposal,
+            Err(spaces) => {
+                if matches!(reason, EverySurfaceGap::NoForms { .. }) {
+                    reason = none(spaces.first().map_or(1, |s| s + 1));
+                }
+                continue;
+            }
+        };
         for digits in DIGITS {
             let found = rounded(&stars, &spaces, &problem, &proposal, digits).filter(|f| f.holds(&spaces));
             let Some(mut found) = found else { continue };
@@ -75,7 +86,7 @@ pub fn forms(setting: &Setting, chart: &Chart) -> Result<SurfaceForms, EverySurf
 }
 
 /// The search for forms in floats.
-fn problem(cx: &Context, stars: &Stars, spaces: &StarSpaces) -> FormProblem {
+fn problem(cx: &Context, chart: &Chart, stars: &Stars, spaces: &StarSpaces) -> FormProblem {
     let floats = |m: &Matrix| m.entries().iter().map(to_f64).collect::<Vec<f64>>();
     let mut arrows = Vec::new();
     for (s, children) in stars.children.iter().enumerate().skip(1) {
@@ -83,23 +94,36 @@ fn problem(cx: &Context, stars: &Stars, spaces: &StarSpaces) -> FormProblem {
             arrows.push(FormArrow { from: s - 1, to: child.star - 1, map: floats(map) });
         }
     }
-    let secants = (1..stars.list.len()).map(|s| secants(cx, stars, spaces, s)).collect();
-    FormProblem { dims: (1..stars.list.len()).map(|s| spaces.dim(s)).collect(), arrows, secants }
+    let all = 1..stars.list.len();
+    FormProblem {
+        dims: all.clone().map(|s| spaces.dim(s)).collect(),
+        products: all.clone().map(|s| floats(&(&spaces.bases[s] * &spaces.bases[s].transpose()))).collect(),
+        arrows,
+        secants: all.map(|s| secants(cx, chart, stars, spaces, s)).collect(),
+    }
 }
 
-/// Differences of points of a star, as floats.
-fn secants(cx: &Context, stars: &Stars, spaces: &StarSpaces, star: usize) -> Vec<Vec<f64>> {
-    let cells = stars.list[star].cells.iter().enumerate();
-    let mut layer: Vec<(Matrix, usize)> = cells.map(|(cell, (e, _))| (spaces.cell(star, cell), *e)).collect();
+/// Differences of points of parts of a star that do not meet, as floats.
+fn secants(cx: &Context, chart: &Chart, stars: &Stars, spaces: &StarSpaces, star: usize) -> Vec<Vec<f64>> {
+    let cells = &stars.list[star].cells;
+    let parts = parts(cx.shape, chart, &stars.list[star]);
     let pieces = |e: usize| &cx.shape.states[e].pieces;
-    while layer.iter().map(|(_, e)| pieces(*e).len()).sum::<usize>() <= MAX_SAMPLES {
-        let divided =
-            |(map, e): &(Matrix, usize)| pieces(*e).iter().map(|p| (map * &p.op, p.target)).collect::<Vec<_>>();
-        layer = layer.iter().flat_map(divided).collect();
-    }
-    let points: Vec<Vec<Rational>> = layer.iter().map(|(map, e)| map.apply(&cx.spaces.of(*e).base)).collect();
-    let both = (0..points.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
-    both.map(|(a, b)| difference(&points[a], &points[b]).iter().map(to_f64).collect()).collect()
+    let fine = parts.iter().map(|p| pieces(p.state).len()).sum::<usize>() <= MAX_SAMPLES;
+    let points = |part: &Part| {
+        let [cell, letter] = part.from;
+        let map = &spaces.cell(star, cell) * &pieces(cells[cell].0)[letter].op;
+        let base = |map: &Matrix, e: usize| map.apply(&cx.spaces.of(e).base);
+        match fine {
+            true => pieces(part.state).iter().map(|p| base(&(&map * &p.op), p.target)).collect(),
+            false => vec![base(&map, part.state)],
+        }
+    };
+    let points: Vec<Vec<Vec<Rational>>> = parts.iter().map(points).collect();
+    let apart = (0..parts.len()).flat_map(|a| (0..a).map(move |b| (a, b))).filter(|&(a, b)| !parts[a].meets(&parts[b]));
+    let pairs = apart.flat_map(|(a, b)| {
+        points[a].iter().flat_map(|x| points[b].iter().map(move |y| (x, y)).collect::<Vec<_>>()).collect::<Vec<_>>()
+    });
+    pairs.map(|(x, y)| difference(x, y).iter().map(to_f64).collect()).collect()
 }
 
 /// A proposal in integers and short fractions.

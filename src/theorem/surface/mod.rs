@@ -7,6 +7,7 @@ mod derivative;
 mod edges;
 mod every;
 mod forms;
+mod glue;
 mod place;
 mod span;
 mod star_space;
@@ -106,12 +107,13 @@ pub fn certify_complex_within(
         every: Answer::Open(Vec::new()),
     };
     let start_is_face = shape.states[shape.start].kind == CellKind::Face;
-    let chart = chart.as_ref().ok().filter(|_| start_is_face);
+    let faces = chart.as_ref().ok();
+    let chart = faces.filter(|_| start_is_face);
     match chart {
         Some(chart) => parametrised(&setting, chart, product.as_ref(), &asked, &mut surface, &mut found.claims),
         None => branches_only(&setting, &asked, &mut surface, &mut found.claims),
     }
-    let (every, claim) = every::claim(&setting, chart, product.as_ref(), &surface);
+    let (every, claim) = every::claim(&setting, faces, product.as_ref(), &surface);
     surface.every = every;
     if let Answer::Proved(EverySurfaceProof::Derivative(_)) = &surface.every {
         // Planes at every point are planes at a dense set.

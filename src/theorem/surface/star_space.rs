@@ -6,10 +6,12 @@ use crate::linalg::{Matrix, closures};
 use crate::shape::difference;
 use crate::theorem::Context;
 
-/// The visible quotients `W` of all stars, that of the face, number 0, included.
+/// The visible quotients `W` of all stars, that of the start, number 0, included.
 pub(super) struct StarSpaces {
     /// By star: coordinates in `W` of differences of its points, on the coordinates of all its cells one after the other.
     pub charts: Vec<Matrix>,
+    /// By star: the basis of `W`, as rows, in coordinates in which points of different weights have different unit vectors.
+    pub bases: Vec<Matrix>,
     /// By star and child: the map from the quotient of the child.
     pub maps: Vec<Vec<Matrix>>,
     /// By star: where the coordinates of each cell begin.
@@ -41,7 +43,7 @@ impl StarSpaces {
         };
         let arrows: Vec<_> = stars.arrows().map(|(s, child)| (s, child.star, operator(s, child))).collect();
         let mut rows: Vec<Matrix> = (0..stars.list.len()).map(|s| Matrix::zero(0, size(s))).collect();
-        rows[0] = cx.from.map().clone();
+        rows[0] = seen_from_start(cx, stars);
         let rows = closures(rows, &arrows);
         let spans: Vec<_> = (0..rows.len()).map(|s| span(cx, stars, s, &rows[s], &offsets[s]).echelon()).collect();
         let chosen = |s: usize, m: &Matrix| {
@@ -60,7 +62,8 @@ impl StarSpaces {
             maps[*s].push(map);
         }
         let charts = (0..rows.len()).map(|s| chosen(s, &rows[s])).collect();
-        Some(Self { charts, maps, offsets })
+        let bases = spans.into_iter().map(|s| s.rows).collect();
+        Some(Self { charts, bases, maps, offsets })
     }
 
     pub fn dim(&self, star: usize) -> usize {
@@ -72,6 +75,17 @@ impl StarSpaces {
         let (from, to) = (self.offsets[star][cell], self.offsets[star][cell + 1]);
         Matrix::from_fn(self.dim(star), to - from, |i, j| self.charts[star][(i, from + j)].clone())
     }
+}
+
+/// How the points of the start are seen, on the coordinates of its cells: a face alone, or the pieces of a set.
+fn seen_from_start(cx: &Context, stars: &Stars) -> Matrix {
+    let start = &cx.shape.states[cx.shape.start];
+    let view = cx.from.map();
+    if matches!(&stars.list[0].cells[..], [(e, _)] if *e == cx.shape.start) {
+        return view.clone();
+    }
+    let pieces = start.pieces.iter().map(|p| view * &p.op);
+    pieces.fold(Matrix::zero(view.rows(), 0), |all, piece| all.beside(&piece))
 }
 
 /// Vectors, as rows, that span the differences of the points of a star as they are seen.

@@ -25,7 +25,7 @@ pub struct Child {
     pub cells: Vec<[usize; 2]>,
 }
 
-/// A face, number 0, and all stars into which it and they are divided: parts that have a node in common lie in one child.
+/// The start, number 0, and all stars into which it and they are divided: parts that have a node in common lie in one child.
 #[derive(Debug, Clone)]
 pub struct Stars {
     /// The stars.
@@ -50,9 +50,8 @@ impl Part {
 
 impl Stars {
     /// `None` where there are too many, or parts around a node are not linked by sides.
-    pub fn of(shape: &Shape, chart: &Chart) -> Option<Self> {
-        let corners = (0..chart.corners(shape.start).len()).collect();
-        let mut stars = Self { list: vec![Star { cells: vec![(shape.start, corners)] }], children: Vec::new() };
+    pub fn of(shape: &Shape, chart: &Chart, start: Star) -> Option<Self> {
+        let mut stars = Self { list: vec![start], children: Vec::new() };
         while stars.children.len() < stars.list.len() {
             crate::stop::check();
             let parts = parts(shape, chart, &stars.list[stars.children.len()]);
@@ -68,8 +67,34 @@ impl Stars {
         Some(stars)
     }
 
+    /// The cells of a star as words from the start, where it first occurs.
+    pub(super) fn words(&self, shape: &Shape, star: usize) -> Vec<Vec<usize>> {
+        let alone = |(k, (e, _)): (usize, &(usize, Vec<usize>))| if *e == shape.start { Vec::new() } else { vec![k] };
+        let mut found: Vec<Option<Vec<Vec<usize>>>> = vec![None; self.list.len()];
+        found[0] = Some(self.list[0].cells.iter().enumerate().map(alone).collect());
+        // A star is listed after one of which it is a child.
+        for (s, child) in self.arrows() {
+            if let (None, Some(own)) = (&found[child.star], &found[s]) {
+                let word = |&[cell, letter]: &[usize; 2]| [own[cell].as_slice(), &[letter]].concat();
+                found[child.star] = Some(child.cells.iter().map(word).collect());
+            }
+        }
+        found.swap_remove(star).into_iter().flatten().collect()
+    }
+
+    /// Along how many sides the cells of the start are glued.
+    #[must_use]
+    pub fn seams(&self) -> usize {
+        let ends = |(_, nodes): &(usize, Vec<usize>)| {
+            let next = nodes.iter().cycle().skip(1);
+            nodes.iter().zip(next).map(|(a, b)| [*a.min(b), *a.max(b)]).collect::<Vec<_>>()
+        };
+        let all: Vec<[usize; 2]> = self.list.first().iter().flat_map(|s| s.cells.iter().flat_map(ends)).collect();
+        (0..all.len()).filter(|&k| all[..k].contains(&all[k])).count()
+    }
+
     fn index(&mut self, star: Star) -> Option<usize> {
-        // The face itself is no star.
+        // The start itself is no star.
         if let Some(known) = self.list.iter().skip(1).position(|s| *s == star) {
             return Some(known + 1);
         }
@@ -170,12 +195,14 @@ fn arranged(chart: &Chart, parts: &[&Part], first: usize) -> Option<(Star, Vec<u
 
 #[cfg(test)]
 mod tests {
+    use super::super::glue::start;
     use super::*;
     use crate::scheme::{mesh_rule, patch};
 
     fn stars(rule: &str, valence: usize) -> Stars {
         let complex = patch(&mesh_rule(rule, &[].into()).unwrap(), valence).unwrap();
-        Stars::of(&complex.shape, &Chart::new(&complex).unwrap()).unwrap()
+        let chart = Chart::new(&complex).unwrap();
+        Stars::of(&complex.shape, &chart, start(&complex, &chart).unwrap()).unwrap()
     }
 
     /// Two by two cells with nine children; at an extraordinary vertex one of them has it at its outer corner.
@@ -196,7 +223,7 @@ mod tests {
         for (rule, valence) in [("loop", 6), ("loop", 3), ("doo-sabin", 3)] {
             let complex = patch(&mesh_rule(rule, &[].into()).unwrap(), valence).unwrap();
             let chart = Chart::new(&complex).unwrap();
-            let stars = Stars::of(&complex.shape, &chart).unwrap();
+            let stars = Stars::of(&complex.shape, &chart, start(&complex, &chart).unwrap()).unwrap();
             for (star, children) in stars.list.iter().zip(&stars.children) {
                 let parts = parts(&complex.shape, &chart, star);
                 for a in &parts {

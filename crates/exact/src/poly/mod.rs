@@ -5,7 +5,9 @@ mod factor;
 mod hensel;
 pub(crate) mod ints;
 pub(crate) mod modp;
+mod two;
 
 pub use dense::Poly;
 pub use factor::{factor, rational_roots};
 pub use ints::IntPoly;
+pub use two::Two;

@@ -31,7 +31,7 @@ pub use models::{Model, Models};
 use crate::algebraic::Elem;
 use crate::algebraic::field::NumberField;
 use crate::arith::{Integer, Rational};
-use crate::poly::Poly;
+use crate::poly::{Poly, Two};
 
 /// A commutative ring with 1.
 pub trait Ring {
@@ -169,6 +169,34 @@ impl Ring for Polynomials {
 
     fn neg(&self, a: &Poly) -> Poly {
         -a
+    }
+}
+
+/// The ring of the polynomials in two variables over the rationals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Plane;
+
+impl Ring for Plane {
+    type E = Two;
+
+    fn integer(&self, n: &Integer) -> Two {
+        Two::number(Rational::from(n))
+    }
+
+    fn add(&self, a: &Two, b: &Two) -> Two {
+        a.plus(b)
+    }
+
+    fn sub(&self, a: &Two, b: &Two) -> Two {
+        a.minus(b)
+    }
+
+    fn mul(&self, a: &Two, b: &Two) -> Two {
+        a.times(b)
+    }
+
+    fn is_zero(&self, a: &Two) -> Option<bool> {
+        Some(a.is_zero())
     }
 }
 

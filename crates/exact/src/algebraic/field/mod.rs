@@ -21,7 +21,7 @@ pub use expression::{ExpressionError, polynomial};
 pub use extension::Extension;
 pub(crate) use extension::place;
 pub use matrix::FieldMatrix;
-pub use named::{cosine, cosine_polynomial, real_root};
+pub use named::{cosine, cosine_polynomial, real_root, square_part};
 
 use super::{Elem, Root};
 use crate::arith::{Interval, Rational, sign, to_f64};

@@ -9,8 +9,9 @@ use std::cmp::Ordering;
 /// Square factors of primes up to this bound are taken out of a square root.
 const TRIAL: u64 = 10_000;
 
-/// Writes a positive rational as `s^2 c` with an integer `c` that has no square factor of a small prime.
-pub(super) fn square_part(q: &Rational) -> (Rational, Integer) {
+/// Writes a rational as `s^2 c` with an integer `c` that has no square factor of a small prime.
+#[must_use]
+pub fn square_part(q: &Rational) -> (Rational, Integer) {
     let denominator = q.denominator_ref();
     let mut core = q.numerator_ref() * denominator;
     let mut side = Natural::from(1u32);
