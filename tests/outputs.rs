@@ -118,7 +118,7 @@ fn a_file_that_cannot_be_made_takes_no_answer_with_it() {
         (&["jsr", "np.txt", "--certificate", "c.json", "--svg", "c.svg"][..], "1.6180"),
         (&["regularity", "db2", "--certificate", "c.json"], "0.55"),
         (&["spectrum", "golden.txt", "--certificate", "c.json"], "moduli"),
-        (&["region", "lv.toml", "--effort", "quick", "--certificate", "c.json", "--report", "c.md"], "valence"),
+        (&["region", "lv.toml", "--effort", "quick", "--certificate", "c.json", "--report", "c.md"], "Valence 4"),
         (&["certify", "four-point", "--coq", "no/such/c.v", "--svg", "c.svg"], "Verdict"),
     ] {
         let (out, err) = run(dir, args, 2);
