@@ -153,8 +153,11 @@ impl<'a> Ledger<'a> {
                 return (own, Known::Open);
             }
         }
-        let fact = self.fact_on(&mut own, 0);
-        (own, fact.unwrap_or(Known::Contracts))
+        // Without a fact no more is known.
+        match self.fact_on(&mut own, 0) {
+            Some(fact) => (own, fact),
+            None => (own, Known::Contracts),
+        }
     }
 
     /// A fact, of those from one on, whose guards have its signs on the whole box.

@@ -110,10 +110,8 @@ impl Waiting {
             self.signs.resize(guards.len(), None);
         }
         let (first, second) = (&self.area.first, &self.area.second);
-        let sign = *self.signs[k].get_or_insert_with(|| match guards[k].strict_sign(first, second) {
-            Some(sign) => sign,
-            None => 0,
-        });
+        // 0 where it has none.
+        let sign = *self.signs[k].get_or_insert_with(|| guards[k].strict_sign(first, second).into_iter().sum());
         Some(sign).filter(|s| *s != 0)
     }
 
