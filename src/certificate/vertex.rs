@@ -27,7 +27,7 @@ const BOUND: u64 = 40;
 const FACTOR_STEPS: usize = 6;
 
 /// Differences shrink slowly in these steps where they keep more than this part.
-const SLOW: (i64, i64) = (7, 20);
+const SLOW: (i64, i64) = (9, 20);
 
 /// So many words of steps the checker looks at.
 const MAX_WORDS: usize = 1000;
