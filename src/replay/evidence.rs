@@ -72,7 +72,7 @@ pub(super) struct Evidence {
 
 /// The largest power of an operator that is tried, and the most cells of a ring.
 pub(super) const MAX_POWER: usize = 64;
-const MAX_CELLS: usize = 20_000;
+const MAX_CELLS: usize = 4000;
 const MAX_DEPTH: usize = 60;
 
 /// Digits of a number in a chart, so that Coq takes less than a minute.
