@@ -289,7 +289,7 @@ fn covered(case: &VertexCase, found: &[AtValence]) -> Result<Covered, Unsupporte
     Ok(Covered { certificate, listed: claims.into_iter().map(|(n, _)| n).collect(), verdict })
 }
 
-/// The certificate of the valences for which the format has a rule; the others are left out.
+/// The certificate of the valences for which the format has a rule; the others are left out. `found` is in ascending order.
 ///
 /// # Errors
 /// [`Unsupported`] where there is none of them.
@@ -297,7 +297,8 @@ pub fn vertex_certificate(case: &VertexCase, found: &[AtValence]) -> Result<Cert
     covered(case, found).map(|c| c.certificate)
 }
 
-/// Has the verdicts at the valences for which the format has a rule checked by `secant-check`, and marks them as checked.
+/// Has the verdicts at the valences for which the format has a rule checked by `secant-check`, and marks them as checked. `found` is
+/// in ascending order.
 ///
 /// # Errors
 /// [`Doubt::Unsupported`] where the format has a rule for none of them; the other doubts where the checker does not accept the
