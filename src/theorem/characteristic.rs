@@ -1,13 +1,18 @@
 //! The characteristic map of a curve at a point: the leading coefficient as a function of the parameter (theory, “The
 //! characteristic map of a curve”).
 
+use super::branch::apply;
 use super::cone::Cone;
 use super::ring::Position;
+use super::side::{SideCell, ring_on};
 use super::verdict::{BranchReport, Outcome};
 use crate::algebraic::{Elem, Root};
 use crate::arith::Rational;
+use crate::jordan::Spectral;
+use crate::linalg::Matrix;
 use crate::shape::{End, Shape, difference};
 use crate::statement::Statement;
+use std::collections::VecDeque;
 
 /// Most cells whose chords and cones are looked at on one side.
 const MAX_CELLS: usize = 600;
@@ -44,7 +49,8 @@ struct Cell {
 /// Some hundred products of a row with the rays of a cone.
 #[must_use]
 pub fn characteristic(shape: &Shape, cones: &[Cone], branch: &BranchReport, place: Position) -> Option<Characteristic> {
-    let Outcome::Line { statement: Statement::Theorem2, functional, holder, proof: Some(_), .. } = &branch.outcome
+    let Outcome::Line { statement: Statement::Theorem2, eigenvalue, functional, holder, proof: Some(_), .. } =
+        &branch.outcome
     else {
         return None;
     };
@@ -52,17 +58,27 @@ pub fn characteristic(shape: &Shape, cones: &[Cone], branch: &BranchReport, plac
     if root.sign() != branch.cycle_sign {
         return None;
     }
-    let mut cells = ring(shape, branch, functional, place)?;
+    let over = branch.spectrum.part(eigenvalue.0).over;
+    let through = |op: &Matrix, row: &[Elem]| apply(&op.transpose(), row, over);
+    let on_state = through(&branch.chart, functional);
+    let cell = |own: SideCell| Cell {
+        word: own.word,
+        state: own.state,
+        row: through(&own.op, &on_state),
+        forwards: own.slope > 0,
+    };
+    // Cells of one level after the other, so that opposite changes far from one another are seen.
+    let mut cells: VecDeque<Cell> = ring_on(shape, branch, place)?.into_iter().map(cell).collect();
     let (mut positive, mut negative): (Option<Vec<usize>>, Option<Vec<usize>>) = (None, None);
     let (mut seen, mut leaves) = (0, 0);
-    while let Some(cell) = cells.pop() {
+    while let Some(cell) = cells.pop_front() {
         seen += 1;
         if seen > MAX_CELLS {
             return Some(Characteristic::Open);
         }
         let chord = chord(shape, &cell)?;
         let known = if cell.forwards { chord } else { chord.iter().map(|x| -x).collect() };
-        match value(&cell.row, &known, &root.clone()) {
+        match value(&cell.row, &known, root) {
             0 => return Some(Characteristic::Not { words: vec![cell.word] }),
             1 => positive = positive.or_else(|| Some(cell.word.clone())),
             _ => negative = negative.or_else(|| Some(cell.word.clone())),
@@ -73,7 +89,12 @@ pub fn characteristic(shape: &Shape, cones: &[Cone], branch: &BranchReport, plac
         if one_sign(cones, &cell, root) {
             leaves += 1;
         } else {
-            cells.extend(parts(shape, &cell));
+            cells.extend(shape.states[cell.state].pieces.iter().enumerate().map(|(letter, piece)| Cell {
+                word: [cell.word.as_slice(), &[letter]].concat(),
+                state: piece.target,
+                row: through(&piece.op, &cell.row),
+                forwards: cell.forwards != piece.reversed,
+            }));
         }
     }
     Some(Characteristic::Injective { cells: leaves })
@@ -95,51 +116,4 @@ fn one_sign(cones: &[Cone], cell: &Cell, root: &Root) -> bool {
     let Some(cone) = cones.iter().find(|c| c.state == cell.state) else { return false };
     let mut signs = (0..cone.rays.cols()).map(|j| value(&cell.row, &cone.rays.column(j), root));
     signs.next().is_some_and(|first| first != 0 && signs.all(|s| s == first))
-}
-
-/// The cells of the first level of a cell.
-fn parts(shape: &Shape, cell: &Cell) -> Vec<Cell> {
-    let part = |(letter, piece): (usize, &crate::shape::Piece)| Cell {
-        word: [cell.word.as_slice(), &[letter]].concat(),
-        state: piece.target,
-        row: through(&piece.op, &cell.row),
-        forwards: cell.forwards != piece.reversed,
-    };
-    shape.states[cell.state].pieces.iter().enumerate().map(part).collect()
-}
-
-/// A row before an operator.
-fn through(op: &crate::linalg::Matrix, row: &[Elem]) -> Vec<Elem> {
-    let entry = |j: usize| row.iter().enumerate().fold(Elem::zero(), |sum, (i, r)| sum.add(&r.scale(&op[(i, j)])));
-    (0..op.cols()).map(entry).collect()
-}
-
-/// The cells of the ring on one side; `None` where they do not fill it.
-fn ring(shape: &Shape, branch: &BranchReport, functional: &[Elem], place: Position) -> Option<Vec<Cell>> {
-    let (turn, shift) = shape.parameter_map(branch.state, &branch.address.cycle)?;
-    let point = shift / (Rational::from(1) - &turn);
-    let row = through(&branch.chart, functional);
-    let own = if place == Position::Before { point } else { Rational::from(1) - point };
-    let left = if branch.cycle_sign > 0 { crate::arith::abs(&turn) } else { &turn * &turn };
-    let mut covered = Rational::from(0);
-    let mut cells = Vec::new();
-    for piece in &branch.ring {
-        let (mut slope, _) = shape.parameter_map(branch.state, &piece.word)?;
-        let (mut word, mut own_row) = (piece.word.clone(), through(&piece.op, &row));
-        if piece.position != place {
-            if branch.cycle_sign > 0 {
-                continue;
-            }
-            // One more turn brings it to this side.
-            slope *= &turn;
-            word = [branch.address.cycle.as_slice(), &word].concat();
-            own_row = through(&(&branch.cycle_operator * &piece.op), &row);
-        }
-        if piece.collapses {
-            return None;
-        }
-        covered += crate::arith::abs(&slope);
-        cells.push(Cell { word, state: piece.end, row: own_row, forwards: slope > 0 });
-    }
-    (!cells.is_empty() && covered == own * (Rational::from(1) - left)).then_some(cells)
 }

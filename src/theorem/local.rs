@@ -3,6 +3,7 @@
 use super::characteristic::{Characteristic, characteristic};
 use super::cone::Cone;
 use super::ring::Position;
+use super::side::ring_on;
 use super::verdict::{BranchReport, Certified, Outcome, Side};
 use crate::algebraic::Elem;
 use crate::arith::{Integer, Interval, Rational, abs, exp, ln};
@@ -197,43 +198,23 @@ impl Germ<'_> {
         (*a != 0 && size != 0).then(|| row.iter().map(|x| x / &size).collect())
     }
 
-    /// The cells of the ring on one side.
+    /// The cells of the ring on one side, at their distances from the point in the curve.
     fn cells(&self, place: Position, row: &[Rational]) -> Option<Vec<Cell>> {
         let (branch, shape) = (self.branch, self.shape);
-        let (turn, shift) = shape.parameter_map(branch.state, &branch.address.cycle)?;
-        let point = shift / (Rational::from(1) - &turn);
         let stretch = abs(&shape.parameter_map(shape.start, &branch.address.prefix)?.0);
+        let outwards = if place == Position::Before { -stretch } else { stretch };
         let on_state = branch.chart.transpose().apply(row);
         let at_point = dot(&on_state, &branch.fixed);
         let mut cells = Vec::new();
-        let own = if place == Position::Before { point.clone() } else { Rational::from(1) - &point };
-        let turned = if branch.cycle_sign > 0 { abs(&turn) } else { &turn * &turn };
-        let mut covered = Rational::from(0);
-        for piece in &branch.ring {
-            let (slope, offset) = shape.parameter_map(branch.state, &piece.word)?;
-            let (mut slope, mut offset, mut op) = (slope, offset - &point, piece.op.clone());
-            if piece.position != place {
-                if branch.cycle_sign > 0 {
-                    continue;
-                }
-                // One more turn brings it to this side.
-                (slope, offset, op) = (&turn * slope, &turn * offset, &branch.cycle_operator * &op);
-            }
-            if piece.collapses {
+        for own in ring_on(shape, branch, place)? {
+            let (from, slope) = (own.offset * &outwards, own.slope * &outwards);
+            if from.clone().min(&from + &slope) <= 0 {
                 return None;
             }
-            covered += abs(&slope);
-            let sign = if place == Position::Before { -&stretch } else { stretch.clone() };
-            let (from, slope) = (offset * &sign, slope * &sign);
-            let nearest = from.clone().min(&from + &slope);
-            if nearest <= 0 {
-                return None;
-            }
-            let row = op.transpose().apply(&on_state).into_iter().map(|x| x - &at_point).collect();
-            cells.push(Cell { state: piece.end, row, from, slope });
+            let row = own.op.transpose().apply(&on_state).into_iter().map(|x| x - &at_point).collect();
+            cells.push(Cell { state: own.state, row, from, slope });
         }
-        // The ring fills the side from one turn to the next.
-        (!cells.is_empty() && covered == own * (Rational::from(1) - turned)).then_some(cells)
+        Some(cells)
     }
 
     fn end(&self, cell: &Cell, end: End) -> Option<(Rational, Rational)> {

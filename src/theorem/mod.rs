@@ -29,6 +29,7 @@ pub mod region;
 pub mod regularity;
 mod require;
 mod ring;
+mod side;
 mod sign;
 mod similarity;
 mod slow;
