@@ -2,14 +2,9 @@
 
 use super::mask::verify;
 use super::{MAX_DEGREE, SchemeError};
-use crate::arith::{Rational, ratio};
+use crate::arith::{Rational, binomial, ratio};
 use crate::linalg::Matrix;
 use crate::shape::{Boundary, CellKind, Frame, Piece, Shape, State};
-
-/// `C(n, k)`.
-fn binomial(n: usize, k: usize) -> Rational {
-    (0..k).fold(Rational::from(1), |b, i| b * Rational::from((n - i) as u64) / Rational::from((i + 1) as u64))
-}
 
 fn power(base: &Rational, exponent: usize) -> Rational {
     (0..exponent).fold(Rational::from(1), |p, _| p * base)

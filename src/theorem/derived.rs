@@ -3,7 +3,7 @@
 
 use super::frames::component;
 use super::smoothness::{CurveOrder, CurveRegularityError, Jump, Outcome, Seen, Shares};
-use crate::arith::{Interval, Rational, abs};
+use crate::arith::{Interval, Rational, abs, binomial};
 use crate::linalg::{Matrix, closures};
 use crate::radius::{Arrow, JointRadius, Options, System, joint_radius};
 use crate::shape::{CellKind, End, Frame, Piece, Shape, Spaces, difference};
@@ -12,10 +12,9 @@ use std::collections::VecDeque;
 /// The difference of order `k` of the unit vectors from number `j` on.
 fn alternating(dim: usize, j: usize, k: usize) -> Vec<Rational> {
     let mut out = vec![Rational::from(0); dim];
-    let mut binomial = Rational::from(1);
-    for i in (0..=k).rev() {
-        out[j + i] = binomial.clone();
-        binomial = -binomial * Rational::from(i) / Rational::from(k - i + 1);
+    for i in 0..=k {
+        let size = binomial(k, i);
+        out[j + i] = if (k - i).is_multiple_of(2) { size } else { -size };
     }
     out
 }

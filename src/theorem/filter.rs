@@ -4,7 +4,7 @@ use super::enclosed::BITS;
 use super::regularity::factored;
 use crate::algebraic::Elem;
 use crate::algebraic::field::{ExpressionError, FieldBuilder, Number, NumberField};
-use crate::arith::{Integer, Interval, Rational, abs, parse_rational};
+use crate::arith::{Integer, Interval, Rational, abs, binomial, parse_rational};
 use crate::linalg::Matrix;
 use crate::scheme::{MAX_ARITY, Normalisation};
 use malachite_base::num::arithmetic::traits::{Floor, Pow};
@@ -245,10 +245,6 @@ impl Near {
         };
         factor.iter().enumerate().map(wide).collect()
     }
-}
-
-fn binomial(n: usize, k: usize) -> Rational {
-    (0..k).fold(Rational::from(1), |p, j| p * Rational::from((n - j) as u64) / Rational::from((j + 1) as u64))
 }
 
 /// Divides by `1 + z` at most `count` times.

@@ -1,7 +1,7 @@
 //! Bernstein–Bézier nets of polynomials on triangles and squares: derivatives, products, halves, signs.
 
 use super::field::Field;
-use crate::arith::{Integer, Rational, ratio};
+use crate::arith::{Rational, binomial, ratio};
 
 /// The Bernstein coefficients of a polynomial on a square or triangle.
 ///
@@ -15,16 +15,12 @@ pub struct Net<E> {
     pub rows: Vec<Vec<E>>,
 }
 
-fn binomial(n: usize, k: usize) -> Integer {
-    (0..k).fold(Integer::from(1), |b, i| b * Integer::from((n - i) as u64) / Integer::from((i + 1) as u64))
-}
-
 impl<E: Clone> Net<E> {
     /// The factor of the monomial behind a basis function.
     fn weight(&self, r: usize, s: usize) -> Rational {
         let (columns, rows) = (self.rows[0].len() - 1, self.rows.len() - 1);
         let inner = if self.triangle { columns - r } else { columns };
-        Rational::from(binomial(rows, r) * binomial(inner, s))
+        binomial(rows, r) * binomial(inner, s)
     }
 
     /// The same net of other values.

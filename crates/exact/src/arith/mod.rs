@@ -51,6 +51,19 @@ pub fn abs(x: &Rational) -> Rational {
     x.abs()
 }
 
+/// The binomial coefficient `C(n, k)`; 0 where `k > n`.
+///
+/// ```
+/// use secant_exact::arith::binomial;
+/// assert_eq!((0..=4).map(|k| binomial(4, k).to_string()).collect::<Vec<_>>(), ["1", "4", "6", "4", "1"]);
+/// assert_eq!(binomial(2, 3), 0);
+/// ```
+#[must_use]
+pub fn binomial(n: usize, k: usize) -> Rational {
+    use malachite_base::num::arithmetic::traits::BinomialCoefficient;
+    Rational::from(Natural::binomial_coefficient(Natural::from(n), Natural::from(k)))
+}
+
 /// The nearest `f64`, for display and for proposing candidates, never for deciding.
 #[must_use]
 pub fn to_f64(x: &Rational) -> f64 {
