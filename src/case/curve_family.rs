@@ -1,6 +1,6 @@
 //! Curves with a parameter that is left free: `[parameters]` with maps or operators.
 
-use super::free::{degree, one_free};
+use super::free::{degree, one_free, samples};
 use super::member::member_text;
 use super::node::{File, Table};
 use super::parameters::Setting;
@@ -103,11 +103,9 @@ impl CurveFamilyCase {
         let (name, free) = (read::name(case)?, one_free(case, set)?);
         let text = &file.source.text;
         let degree = degree(case, text, &free, MAX_DEGREE)?;
-        let (lo, hi) = &free.range;
-        let count = degree + 1 + FURTHER;
-        let at: Vec<Rational> =
-            (0..count).map(|k| lo + (hi - lo) * Rational::from(k as u64) / Rational::from(count as u64)).collect();
-        let member = |p: &Rational| Case::parse(&file.source.name, &at_value(&file.source, set, &free.parameter, p)?);
+        let at = samples(&free.range, degree + 1 + FURTHER);
+        let member =
+            |p: &Rational| Case::parse(&file.source.name, &at_value(&file.source, set, &[(&free.parameter, p)])?);
         let members = at.iter().map(member).collect::<Result<Vec<_>, _>>()?;
         let shapes: Vec<&Shape> = members.iter().map(|m| &m.shape).collect();
         // Entries of operators and maps that are written out are sums of products of numbers of the file with constants, so that
@@ -153,16 +151,15 @@ impl CurveFamilyCase {
     }
 }
 
-/// The text of a case with a value for the parameter that is left free.
+/// The text of a case with values for what is left free.
 pub(super) fn at_value(
     source: &SourceText,
     set: &[(String, Setting)],
-    parameter: &str,
-    p: &Rational,
+    values: &[(&String, &Rational)],
 ) -> Result<String, Problem> {
     let mut set = set.to_vec();
-    set.retain(|(n, _)| n != parameter);
-    set.push((parameter.to_owned(), Setting::Value(p.clone())));
+    set.retain(|(n, _)| values.iter().all(|(name, _)| *name != n));
+    set.extend(values.iter().map(|(name, value)| ((*name).clone(), Setting::Value((*value).clone()))));
     Ok(member_text(&source.name, &source.text, &set)?.unwrap_or_else(|| source.text.to_string()))
 }
 

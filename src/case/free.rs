@@ -67,6 +67,11 @@ pub(super) fn two_free(case: &Table<'_>, set: &[(String, Setting)]) -> Result<Op
     Ok(Some(TwoFree { parameters: [p, q], ranges: [first, second], names }))
 }
 
+/// So many values of a range in equal steps, from its lower end on.
+pub(super) fn samples((lo, hi): &(Rational, Rational), count: usize) -> Vec<Rational> {
+    (0..count).map(|k| lo + (hi - lo) * Rational::from_unsigneds(k as u64, count as u64)).collect()
+}
+
 /// Highest degree of the expressions in the free parameter, from 1 to `most`.
 ///
 /// # Errors

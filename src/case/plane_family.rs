@@ -1,7 +1,7 @@
 //! Curves with two parameters that are left free.
 
-use super::free::{total_degree, two_free};
-use super::member::member_text;
+use super::curve_family::at_value;
+use super::free::{samples, total_degree, two_free};
 use super::node::{File, Table};
 use super::parameters::Setting;
 use super::{Case, read};
@@ -68,10 +68,7 @@ impl PlaneFamilyCase {
             text: file.source.clone(),
             set: set.to_vec(),
         };
-        let count = (degree + 1 + FURTHER) as u64;
-        let at = found.ranges.each_ref().map(|(lo, hi)| -> Vec<Rational> {
-            (0..count).map(|k| lo + (hi - lo) * Rational::from_unsigneds(k, count)).collect()
-        });
+        let at = found.ranges.each_ref().map(|range| samples(range, degree + 1 + FURTHER));
         let row = |q: &Rational| at[0].iter().map(|p| found.member(p, q)).collect::<Result<Vec<_>, _>>();
         let members = at[1].iter().map(row).collect::<Result<Vec<_>, _>>()?;
         // Entries of operators and maps that are written out have no higher degree than the expressions; those of a scheme may.
@@ -95,15 +92,8 @@ impl PlaneFamilyCase {
     /// # Errors
     /// A [`Problem`] where it is no case.
     pub fn member(&self, p: &Rational, q: &Rational) -> Result<Case, Problem> {
-        let mut set = self.set.clone();
-        set.retain(|(n, _)| !self.parameters.contains(n));
-        for (name, value) in self.parameters.iter().zip([p, q]) {
-            set.push((name.clone(), Setting::Value(value.clone())));
-        }
-        match member_text(&self.text.name, &self.text.text, &set)? {
-            Some(own) => Case::parse(&self.text.name, &own),
-            None => Case::parse(&self.text.name, &self.text.text),
-        }
+        let [first, second] = &self.parameters;
+        Case::parse(&self.text.name, &at_value(&self.text, &self.set, &[(first, p), (second, q)])?)
     }
 }
 

@@ -81,7 +81,7 @@ impl VertexFamilyCase {
             weights.extend(found.map(|f| (key, f.display(&free.parameter))));
         }
         let first =
-            VertexCase::parse(&file.source.name, &at_value(&file.source, set, &free.parameter, &free.range.0)?)?;
+            VertexCase::parse(&file.source.name, &at_value(&file.source, set, &[(&free.parameter, &free.range.0)])?)?;
         if first.border.is_some() {
             return Err(case
                 .problem("parameters", "regions are found at vertices inside, not on the border", "this case")
@@ -105,7 +105,7 @@ impl VertexFamilyCase {
     /// # Errors
     /// A [`Problem`] where the rule does not take the value.
     pub fn member(&self, p: &Rational) -> Result<MeshRule, Problem> {
-        let text = at_value(&self.text, &self.set, &self.parameter, p)?;
+        let text = at_value(&self.text, &self.set, &[(&self.parameter, p)])?;
         Ok(VertexCase::parse(&self.text.name, &text)?.rule)
     }
 }

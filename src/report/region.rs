@@ -81,6 +81,11 @@ pub(super) fn complete(
         let caption = words("Green: proved. Red: refuted. Violet: undetermined. A vertical line is a single point.");
         document.blocks.insert(1, Block::Figure { svg, tikz, alt, caption });
     }
+    with_statements(document, statements)
+}
+
+/// The document with the statements that are applied, each once.
+pub(super) fn with_statements(mut document: Document, statements: impl IntoIterator<Item = Statement>) -> Document {
     let mut own: Vec<Statement> = Vec::new();
     for statement in statements {
         if !own.contains(&statement) {

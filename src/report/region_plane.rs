@@ -1,7 +1,7 @@
 //! The answers of `secant region` about two parameters as a document and as data.
 
 use super::document::{Block, Document, Inline, Line, Table, code, words};
-use super::region::tone;
+use super::region::{tone, with_statements};
 use super::region_curve::{argument, argument_statement, claims, statements, table_block};
 use crate::answer::Verdict;
 use crate::arith::{Rational, to_f64};
@@ -135,19 +135,9 @@ pub fn report(case: &PlaneFamilyCase, found: &PlaneRegion) -> Document {
         Known::Curve(_, why) => Some(argument_statement(why)),
         Known::Expands(_) | Known::Contracts | Known::Open => None,
     };
-    let mut own = vec![Statement::FamilyPlane];
-    if !found.lines.is_empty() {
-        own.push(Statement::FamilyCurves);
-    }
-    let all = found.boxes.iter().filter_map(of_box).chain(found.lines.iter().flat_map(|l| statements(&l.found)));
-    for statement in all {
-        if !own.contains(&statement) {
-            own.push(statement);
-        }
-    }
-    document.blocks.push(Block::Heading(2, words("Statements")));
-    document.blocks.extend(own.into_iter().map(Block::Statement));
-    document
+    let on_lines = (!found.lines.is_empty()).then_some(Statement::FamilyCurves);
+    let applied = [Statement::FamilyPlane].into_iter().chain(on_lines).chain(found.boxes.iter().filter_map(of_box));
+    with_statements(document, applied.chain(found.lines.iter().flat_map(|l| statements(&l.found))))
 }
 
 /// The plane as SVG and TikZ.

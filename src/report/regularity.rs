@@ -263,18 +263,11 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
 #[must_use]
 pub fn polygons(shape: &Shape, o: &CurveOrder) -> Option<String> {
     let factors = o.polygons.as_ref()?;
-    let named = |(e, m): (usize, &Rational)| match factors.len() {
-        1 => format!("{m} times"),
-        _ => format!("{m} times (in state {})", shape.states[e].name),
-    };
-    let same = factors.iter().all(|m| *m == factors[0]);
-    let times = match same {
+    let named = |(e, m): (usize, &Rational)| format!("{m} times (in state {})", shape.states[e].name);
+    let times = match factors.iter().all(|m| *m == factors[0]) {
         true if factors[0] == 1 => String::new(),
         true => format!("{} times ", factors[0]),
-        false => {
-            let all: Vec<String> = shape.reachable().into_iter().zip(factors).map(named).collect();
-            format!("{} ", listed(&all))
-        }
+        false => format!("{} ", listed(&shape.reachable().into_iter().zip(factors).map(named).collect::<Vec<_>>())),
     };
     let k = o.order;
     let by = match k {

@@ -68,7 +68,7 @@ impl<'a, P: Symbol> Arguments<'a, P> {
     /// What is decided at a value. All of it rests on contraction.
     pub fn facts(&self, at: &impl Signs<P>) -> Vec<Fact<P>> {
         self.beyond.set(false);
-        let other = at.fork();
+        let other = at.clone();
         let Some((chord, span)) = self.premises(at) else { return self.on_a_line(&other) };
         let germs = [0, 1].map(|end| self.germ(at, &self.family.germs[end], &chord));
         let joints = self.joints(at, &germs);
@@ -81,7 +81,7 @@ impl<'a, P: Symbol> Arguments<'a, P> {
             if CurveClaim::ALL.iter().all(|c| known(&facts, *c)) {
                 break;
             }
-            let own = at.fork();
+            let own = at.clone();
             let Some(rays) = self.rays(&own, rays, &germs, &chord) else { continue };
             let found = self.in_cone(&own, &rays, &chord, &germs, &joints);
             facts.extend(found.into_iter().filter(|f| !known(&facts, f.claim)).collect::<Vec<_>>());
@@ -291,7 +291,7 @@ impl<'a, P: Symbol> Arguments<'a, P> {
         for (place, side) in sides {
             let Some((line, _)) = side else { continue };
             for word in &words {
-                let own = at.fork();
+                let own = at.clone();
                 let Some(lead) = self.leading(&own, word) else { continue };
                 let image = apply(&self.word(word).matrix, line);
                 let Some(image) = own.primitive(&image) else { continue };

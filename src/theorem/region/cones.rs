@@ -88,7 +88,7 @@ impl<P: Symbol> Arguments<'_, P> {
     ) -> Vec<Fact<P>> {
         let Some(patterns) = self.invariant(at, rays, chord) else { return Vec::new() };
         let mut facts = Vec::new();
-        let weak = at.fork();
+        let weak = at.clone();
         // Every difference from an end goes on within the cone, so that the leading coefficient stays positive.
         let end = |germ: &EndGerm<P>| match germ {
             EndGerm::Line { row, positive: true, forward, .. } => {
@@ -106,7 +106,7 @@ impl<P: Symbol> Arguments<'_, P> {
                 facts.extend(Fact::of(&weak, CurveClaim::Joints, Verdict::Proved, Why::InCone));
             }
         }
-        let strict = at.fork();
+        let strict = at.clone();
         let regular = joints.iter().all(|j| match (&j.left, &j.right) {
             (Some((a, true)), Some((b, true))) => strict.parallel(a, b) && strict.sign(&dot(a, b)) < 0,
             _ => false,

@@ -1,45 +1,38 @@
 //! What is known of one box of two parameters: signs of polynomials, and contraction.
 
 use super::plane::{Area, Known};
-use super::signs::Signs;
+use super::signs::{Asked, Signs};
 use crate::arith::{Integer, Interval, Rational, ratio};
 use crate::linalg::Matrix;
 use crate::poly::{Poly, Two};
 use crate::ring::{Enclosures, Field, Fixed, Ring};
 use malachite_q::rational::arithmetic::traits::SimplestRationalInInterval;
-use std::cell::{Cell, RefCell};
 use std::collections::VecDeque;
 
 /// Signs at a rational value of two parameters.
+#[derive(Clone)]
 pub(super) struct Spot<'a> {
     at: &'a (Rational, Rational),
-    guards: RefCell<Vec<Two>>,
-    special: Cell<bool>,
+    asked: Asked<Two>,
 }
 
 impl<'a> Spot<'a> {
     pub fn new(at: &'a (Rational, Rational)) -> Self {
-        Self { at, guards: RefCell::default(), special: Cell::new(false) }
+        Self { at, asked: Asked::new() }
     }
 }
 
 impl Signs<Two> for Spot<'_> {
-    fn fork(&self) -> Self {
-        let guards = RefCell::new(self.guards.borrow().clone());
-        Self { at: self.at, guards, special: Cell::new(self.special.get()) }
-    }
-
     fn mark(&self) -> (usize, bool) {
-        (self.guards.borrow().len(), self.special.get())
+        self.asked.mark()
     }
 
-    fn forget(&self, (count, special): (usize, bool)) {
-        self.guards.borrow_mut().truncate(count);
-        self.special.set(special);
+    fn forget(&self, mark: (usize, bool)) {
+        self.asked.forget(mark);
     }
 
     fn kept(&self) -> Option<Vec<Two>> {
-        (!self.special.get()).then(|| self.guards.borrow().clone())
+        self.asked.kept()
     }
 
     fn sign(&self, f: &Two) -> i32 {
@@ -47,14 +40,7 @@ impl Signs<Two> for Spot<'_> {
         if f.is_number() {
             return sign;
         }
-        if sign == 0 {
-            self.special.set(true);
-        }
-        let mut guards = self.guards.borrow_mut();
-        let f = f.monic();
-        if !guards.contains(&f) {
-            guards.push(f);
-        }
+        self.asked.note(f.monic(), sign == 0);
         sign
     }
 

@@ -8,10 +8,7 @@ use crate::poly::Poly;
 use std::cell::{Cell, RefCell};
 
 /// Signs at one value of the parameters; all that were asked for are kept.
-pub(super) trait Signs<P: Symbol>: Sized {
-    /// A branch of the argument.
-    fn fork(&self) -> Self;
-
+pub(super) trait Signs<P: Symbol>: Clone {
     /// The polynomials that were asked for; `None` where one vanished that must not.
     fn kept(&self) -> Option<Vec<P>>;
 
@@ -42,40 +39,68 @@ pub(super) trait Signs<P: Symbol>: Sized {
     }
 }
 
+/// The polynomials that were asked for, each once, and whether one vanished that must not.
+#[derive(Clone)]
+pub(super) struct Asked<P> {
+    guards: RefCell<Vec<P>>,
+    special: Cell<bool>,
+}
+
+impl<P: Symbol> Asked<P> {
+    pub fn new() -> Self {
+        Self { guards: RefCell::default(), special: Cell::new(false) }
+    }
+
+    /// Takes down a polynomial, and whether it vanishes where it must not.
+    pub fn note(&self, monic: P, vanishes: bool) {
+        if vanishes {
+            self.special.set(true);
+        }
+        let mut guards = self.guards.borrow_mut();
+        if !guards.contains(&monic) {
+            guards.push(monic);
+        }
+    }
+
+    pub fn kept(&self) -> Option<Vec<P>> {
+        (!self.special.get()).then(|| self.guards.borrow().clone())
+    }
+
+    pub fn mark(&self) -> (usize, bool) {
+        (self.guards.borrow().len(), self.special.get())
+    }
+
+    pub fn forget(&self, (count, special): (usize, bool)) {
+        self.guards.borrow_mut().truncate(count);
+        self.special.set(special);
+    }
+}
+
 /// Signs at one value of one parameter.
+#[derive(Clone)]
 pub(super) struct At<'a> {
     point: &'a Root,
     /// Whether what is found is to hold around the value too: then a polynomial that vanishes there must be 0.
     around: bool,
-    guards: RefCell<Vec<Poly>>,
-    special: Cell<bool>,
+    asked: Asked<Poly>,
 }
 
 impl<'a> At<'a> {
     pub fn new(point: &'a Root, around: bool) -> Self {
-        Self { point, around, guards: RefCell::default(), special: Cell::new(false) }
+        Self { point, around, asked: Asked::new() }
     }
 }
 
 impl Signs<Poly> for At<'_> {
-    fn fork(&self) -> Self {
-        Self {
-            point: self.point,
-            around: self.around,
-            guards: RefCell::new(self.guards.borrow().clone()),
-            special: Cell::new(self.special.get()),
-        }
-    }
-
     fn mark(&self) -> (usize, bool) {
-        (self.guards.borrow().len(), self.special.get())
+        self.asked.mark()
     }
 
     /// Everything stays: a checker follows the attempts one by one.
     fn forget(&self, _: (usize, bool)) {}
 
     fn kept(&self) -> Option<Vec<Poly>> {
-        (!self.special.get()).then(|| self.guards.borrow().clone())
+        self.asked.kept()
     }
 
     fn sign(&self, f: &Poly) -> i32 {
@@ -83,14 +108,7 @@ impl Signs<Poly> for At<'_> {
             return crate::arith::sign(&f.coeff(0));
         }
         let sign = Elem::reduced(f, self.point.minpoly()).sign(self.point);
-        if sign == 0 && self.around {
-            self.special.set(true);
-        }
-        let mut guards = self.guards.borrow_mut();
-        let f = f.monic();
-        if !guards.contains(&f) {
-            guards.push(f);
-        }
+        self.asked.note(f.monic(), sign == 0 && self.around);
         sign
     }
 
