@@ -597,6 +597,19 @@ class Germ:
         need(parts, "ring")
         return self.coordinates(self.model.point(self.state, addr)), parts[0]
 
+    def group(self, radius, rows, cover):
+        """Rows that read the eigenvalues of modulus above a radius, and have no common zero on the ring: their span."""
+        r, rows = rational(radius), [vector(v, self.n) for v in rows]
+        need(r > 0 and rows, "disc")
+        space, pivots = echelon(rows)
+        images = mul(space, self.linear)
+        inner = [[v[p] for p in pivots] for v in images]
+        need(mul(inner, space) == images, "group")
+        outside = lambda m: len(m) - inside([c * r ** k for k, c in enumerate(characteristic(m))])
+        need(len(space) == outside(self.linear) == outside(inner), "group")
+        self.cover([(self.on_points(v), Q(0)) for v in rows], cover)
+        return space, pivots
+
     def cover(self, functionals, items, part=None):
         pieces_seen = [piece for piece in self.ring if part in (None, piece[2])]
         need(isinstance(items, list) and len(items) == len(pieces_seen), "cover")
@@ -836,15 +849,7 @@ class Branch:
                 pieces.append(next(p for p in germ.ring if [letter(addr, k) for k in range(len(p[0]))] == p[0]))
             need(pieces[0][0] == pieces[1][0], "sign-change")
             linked(model, pieces[0][1], links)
-        r, rows = rational(radius), [vector(v, germ.n) for v in rows]
-        need(r > 0 and rows, "disc")
-        space, pivots = echelon(rows)
-        images = mul(space, germ.linear)
-        inner = [[v[p] for p in pivots] for v in images]
-        need(mul(inner, space) == images, "group")
-        outside = lambda m: len(m) - inside([c * r ** k for k, c in enumerate(characteristic(m))])
-        need(len(space) == outside(germ.linear) == outside(inner), "group")
-        germ.cover([(germ.on_points(v), Q(0)) for v in rows], cover)
+        space, pivots = germ.group(radius, rows, cover)
         # The sum of the eigenspaces outside is the image of the characteristic polynomial of L on the common kernel.
         image, free = identity(germ.n), [k for k in range(germ.n) if k not in pivots]
         if free:

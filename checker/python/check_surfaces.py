@@ -13,8 +13,8 @@ from itertools import combinations
 
 import check_curves
 from check_curves import (
-    ARCS, COMPONENTS, DERIVATIVE, SHARES, Case, Certificate, Germ, Model, Top, address, apply, characteristic, check_point, combine,
-    echelon, envelope, fields, grow, horner_complex, i_add, i_mul, i_sign, i_sub, identity, index, inside, mul, need, place_of,
+    ARCS, COMPONENTS, DERIVATIVE, SHARES, Case, Certificate, Germ, Model, Top, address, apply, check_point, combine,
+    echelon, envelope, fields, grow, horner_complex, i_add, i_mul, i_sign, i_sub, identity, index, mul, need, place_of,
     rational, sub, transpose, vector, weighted)
 
 
@@ -251,17 +251,7 @@ class Part:
         return germ.on_points([(lo + hi) / 2 for lo, hi in values]), error
 
     def group(self, top, radius, rows, cover):
-        germ, r = self.germ, rational(radius)
-        rows = [vector(v, germ.n) for v in rows]
-        need(r > 0 and rows, "disc")
-        space, pivots = echelon(rows)
-        images = mul(space, germ.linear)
-        inner = [[v[p] for p in pivots] for v in images]
-        need(mul(inner, space) == images, "group")
-        outside = lambda m: len(m) - inside([c * r ** k for k, c in enumerate(characteristic(m))])
-        need(len(space) == outside(germ.linear) == outside(inner), "group")
-        germ.cover([(germ.on_points(v), Q(0)) for v in rows], cover)
-        return len(space)
+        return len(self.germ.group(radius, rows, cover)[0])
 
 
 # ---- products --------------------------------------------------------------------------------------------------------
