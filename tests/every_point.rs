@@ -211,3 +211,18 @@ fn a_tangent_that_is_not_pulled_along_is_not_claimed() {
     let found = certify(&steep.shape, &[]).unwrap();
     assert!(found.everywhere.is_none_or(|e| e.verdict != Verdict::Proved));
 }
+
+#[test]
+fn what_is_known_of_the_parameter_decides_curves_with_many_coordinates_or_pieces() {
+    let decided = |name: &str, parameters: &str| {
+        let case = scheme(name, parameters, "");
+        let found = certify(&case.shape, &[]).unwrap();
+        let every = found.everywhere.as_ref().unwrap();
+        assert!(every.verdict == Verdict::Proved && every.cone.is_none(), "{name} {parameters}");
+        assert!(confirm(&case, &found).is_ok(), "{name} {parameters}");
+        (every.hodograph.is_some(), every.derivative.is_some())
+    };
+    assert_eq!(decided("bspline", "degree = 18"), (true, false));
+    assert_eq!(decided("bspline", "degree = 3\narity = 24"), (true, false));
+    assert_eq!(decided("dubuc-deslauriers", "points = 8"), (false, true));
+}

@@ -74,6 +74,21 @@ pub fn approximate_spectrum(a: &Matrix) -> Result<ApproxSpectrum, ApproxError> {
     Ok(ApproxSpectrum { eigenvalues, residual, ill_conditioned })
 }
 
+/// Whether the largest modulus may belong to something else than one simple positive eigenvalue; `false` where that eigenvalue
+/// clearly stands out. A guess.
+#[must_use]
+pub fn may_have_several_leaders(a: &Matrix) -> bool {
+    let Ok(found) = approximate_spectrum(a) else { return true };
+    let modulus = |e: &ApproxEigenvalue| e.re.hypot(e.im);
+    let size = a.entries().iter().map(|x| to_f64(x).abs()).fold(0.0, f64::max);
+    let [first, rest @ ..] = found.eigenvalues.as_slice() else { return true };
+    let clear = first.im == 0.0 && first.re > 1e-6 * size;
+    !clear || rest.first().is_some_and(|second| modulus(second) > CLEARLY_LESS * first.re)
+}
+
+/// What stands out is not next to an eigenvalue of this part of its modulus: rounding tears blocks apart, but not that far.
+const CLEARLY_LESS: f64 = 0.9;
+
 fn with_gap(index: usize, z: Complex<f64>, all: &[Complex<f64>]) -> ApproxEigenvalue {
     let others = all.iter().enumerate().filter(|(j, _)| *j != index);
     let gap = others.map(|(_, w)| (z - w).norm()).fold(f64::INFINITY, f64::min);
@@ -130,6 +145,19 @@ mod tests {
         let b = Matrix::from_fn(3, 3, |i, j| ratio([[1, 2, 0], [1, 3, 1], [0, 1, 2]][i][j], 1));
         let c = &(&b * &a) * &b.inverse().unwrap();
         assert!(approximate_spectrum(&c).unwrap().ill_conditioned);
+    }
+
+    #[test]
+    fn leaders_that_stand_out() {
+        let several =
+            |rows: [[i64; 3]; 3]| may_have_several_leaders(&Matrix::from_fn(3, 3, |i, j| ratio(rows[i][j], 4)));
+        assert!(!several([[4, 1, 5], [0, 2, 1], [0, 0, -3]]));
+        for tied in
+            [[[4, 1, 5], [0, 2, 1], [0, 0, -4]], [[4, 1, 0], [0, 4, 1], [0, 0, 4]], [[0, -4, 0], [4, 0, 0], [0, 0, 1]]]
+        {
+            assert!(several(tied));
+        }
+        assert!(several([[-4, 0, 0], [0, 1, 0], [0, 0, 1]]) && several([[0, 1, 0], [0, 0, 1], [0, 0, 0]]));
     }
 
     #[test]

@@ -3,7 +3,9 @@
 use super::joint::{radius_proof, stated};
 use super::{Certificate, Unsupported, contraction, number, numbers, unsupported};
 use crate::algebraic::Root;
+use crate::arith::Rational;
 use crate::case::Case;
+use crate::poly::Poly;
 use crate::radius::{JointRadius, Lower, System};
 use crate::shape::{Balls, Contraction, Spaces};
 use crate::theorem::Measure;
@@ -81,12 +83,20 @@ pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
 /// Powers of the leading word that are tried.
 const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 
+/// Whether a power of a number is rational.
+fn is_rational_power(root: &Root, exponent: usize) -> bool {
+    let monomial = (0..=exponent).map(|k| Rational::from(u8::from(k == exponent))).collect();
+    let (_, rest) = Poly::new(monomial).div_rem(root.minpoly());
+    rest.degree().is_none_or(|d| d == 0)
+}
+
 /// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
 /// words a certificate says more than an inequality with room.
 pub(super) fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
     let irrational = radius.lower.as_ref().filter(|l| l.rational().is_none());
     let power = irrational.and_then(|lower| {
-        let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
+        let powers = POWERS.iter().filter(|k| lower.root().is_some_and(|root| is_rational_power(root, **k)));
+        let powers = powers.filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));
         powers.into_iter().find(|l| l.root().and_then(Root::rational).is_some())
     });
     JointRadius { lower: power.or_else(|| radius.lower.clone()), ..radius.clone() }

@@ -5,8 +5,8 @@
 use super::{Arrow, System};
 use crate::arith::Rational;
 use crate::arith::modular::{PrimeField, large_primes};
-use crate::jordan::Spectrum;
-use crate::linalg::Matrix;
+use crate::linalg::{Matrix, char_poly};
+use crate::poly::factor;
 
 /// A diagonal block: the arrows keep, as labels, their positions in the whole system.
 #[derive(Debug, Clone)]
@@ -189,11 +189,11 @@ fn split(part: &Part) -> Split {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     for trial in 0..12 {
         let Some(element) = random_element(system, home, &mut random, trial) else { return Split::Unknown };
-        let spectrum = Spectrum::of(&element);
-        let mut factors: Vec<_> = spectrum.factors.iter().collect();
-        factors.sort_by_key(|f| (f.poly.degree(), f.multiplicity));
-        for factor in factors.into_iter().take(3) {
-            let value = super::leading::polynomial_at(factor.poly.coeffs(), &element);
+        let mut factors = factor(&char_poly(&element));
+        factors.sort();
+        factors.sort_by_key(|(f, multiplicity)| (f.degree(), *multiplicity));
+        for (f, _) in factors.into_iter().take(3) {
+            let value = super::leading::polynomial_at(f.coeffs(), &element);
             let kernel = value.kernel();
             if kernel.cols() == 0 {
                 continue;
@@ -209,7 +209,7 @@ fn split(part: &Part) -> Split {
             if proper(system, &family) {
                 return parts(part, &oriented(system, family, true));
             }
-            if factor.poly.degree() == Some(kernel.cols()) {
+            if f.degree() == Some(kernel.cols()) {
                 return Split::Irreducible;
             }
         }

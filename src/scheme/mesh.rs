@@ -86,6 +86,11 @@ impl Mesh {
 
     /// The mesh of `rings` rings of faces around vertex 0, with one sector after the other; vertex 1 lies on the first spoke.
     pub fn disc(sectors: &[Sector], rings: usize) -> Self {
+        Self::uneven_disc(sectors, |_| rings)
+    }
+
+    /// The same with a number of rings for each sector.
+    pub fn uneven_disc(sectors: &[Sector], rings: impl Fn(usize) -> usize) -> Self {
         let mut index: BTreeMap<(usize, usize, usize), usize> = BTreeMap::new();
         let mut id = |s: usize, i: usize, j: usize| {
             let key = match (i, j) {
@@ -100,6 +105,7 @@ impl Mesh {
         id(0, 1, 0);
         let mut faces = Vec::new();
         for (s, kind) in sectors.iter().enumerate() {
+            let rings = rings(s);
             for i in 0..rings {
                 for j in 0..rings {
                     match kind {

@@ -108,6 +108,11 @@ pub fn cosine_stencils(
     Ok(Some(found))
 }
 
+/// Sectors on either side of sector 0 on whose points its new points may depend, but for those around the centre.
+const NEAR: usize = 3;
+/// Rings of faces around the centre that are kept in all sectors.
+const INNER: usize = 5;
+
 fn gathered<W: Number>(
     rule: &MeshRule,
     valence: usize,
@@ -124,8 +129,28 @@ fn gathered<W: Number>(
         let expected = format!("this rule has a meaning from valence {least} on");
         return Err(SchemeError::value("valence", &valence, &expected));
     }
+    // All stars of a part of a mesh that close are those of the mesh, so that a part is enough or is seen to be too small.
+    if valence > 2 * NEAR + 1
+        && let Ok(found) = on_disc(rule, valence, rings, true, &refine)
+    {
+        return Ok(found);
+    }
+    on_disc(rule, valence, rings, false, &refine)
+}
+
+/// The stencils from a disc, or from a part of one: all sectors near the centre, and a few of them farther out.
+fn on_disc<W: Number>(
+    rule: &MeshRule,
+    valence: usize,
+    rings: usize,
+    part: bool,
+    refine: &impl Fn(&Mesh, Centre, usize) -> Result<Refined<W>, SchemeError>,
+) -> Result<SectorStencils<W>, SchemeError> {
+    let sector = rule.sector();
     let too_small = || SchemeError::Mesh { rule: rule.name().to_owned(), message: "the mesh is too small".to_owned() };
-    let disc = Mesh::disc(&vec![sector; valence], rings + 3);
+    let far = |s: usize| part && s.min(valence - s) > NEAR;
+    let size = |s: usize| if far(s) { INNER.min(rings + 3) } else { rings + 3 };
+    let disc = Mesh::uneven_disc(&vec![sector; valence], size);
     let (mesh, centre) =
         if rule.dual() { disc.dual(0, 1).ok_or_else(too_small)? } else { (disc, Centre::Vertex(0, 1)) };
     let mut current = refine(&mesh, centre, 0)?;
@@ -145,7 +170,12 @@ fn gathered<W: Number>(
         // Turns beyond half a circle count backwards.
         let shift = if 2 * turn > valence { turn as i64 - valence as i64 } else { turn as i64 };
         for (orbit, place) in places.iter().enumerate() {
-            old.insert(locate(&mesh, view, sector, *place).ok_or_else(too_small)?, (orbit, shift));
+            match locate(&mesh, view, sector, *place) {
+                Some(v) => drop(old.insert(v, (orbit, shift))),
+                // Were it needed, no place would be known for it below.
+                None if part => {}
+                None => return Err(too_small()),
+            }
         }
     }
     let middle = match centre {
@@ -291,4 +321,24 @@ fn sort<W: Number>(
         }
     }
     Ok((weights, own))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scheme::mesh_rule;
+
+    #[test]
+    fn a_part_of_a_disc_gives_the_same_stencils() {
+        for (name, rings) in [("catmull-clark", 4), ("loop", 4), ("sqrt3", 7), ("butterfly", 5), ("doo-sabin", 4)] {
+            let rule = mesh_rule(name, &[].into()).unwrap();
+            let stencils = |part| {
+                let refine = |mesh: &Mesh, centre, turn| rule.refine(mesh, centre, turn);
+                let mut found = on_disc(&rule, 12, rings, part, &refine).unwrap();
+                found.rows.iter_mut().for_each(|row| row.sort());
+                (found.places, found.rows, found.from_centre, found.centre)
+            };
+            assert!(stencils(true) == stencils(false), "{name}");
+        }
+    }
 }

@@ -10,6 +10,7 @@ use crate::linalg::{Matrix, dot};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 use crate::statement::Statement;
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor};
+use std::collections::BTreeSet;
 
 /// The image of a cone by one piece: `ε T_i G_target = G_e B`, `B >= 0` without a zero column.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -231,6 +232,7 @@ fn frame(shape: &Shape, spaces: &Spaces, steps: usize) -> Option<Frame> {
         dims: Vec::new(),
         chords: Vec::new(),
         maps: Vec::new(),
+        steps,
         budget: std::cell::Cell::new(steps),
     };
     for (k, &e) in states.iter().enumerate() {
@@ -497,6 +499,7 @@ impl Cone {
 
 /// A short cycle whose product admits no strictly invariant pointed cone.
 fn obstacle(frame: &Frame) -> Option<ConeObstacle> {
+    let mut seen = BTreeSet::new();
     let mut layer: Vec<(usize, usize, Vec<usize>, Matrix)> =
         (0..frame.dims.len()).map(|s| (s, s, Vec::new(), Matrix::identity(frame.dims[s]))).collect();
     for _ in 0..MAX_CYCLE {
@@ -506,7 +509,10 @@ fn obstacle(frame: &Frame) -> Option<ConeObstacle> {
                 let mut word = word.clone();
                 word.push(*letter);
                 let product = &product * matrix;
+                // What leads depends neither on where a cycle begins nor on how often it is run through.
                 if *to == start
+                    && turned(frame, start, &word).is_some_and(|cycle| seen.insert(cycle))
+                    && crate::approx::may_have_several_leaders(&product)
                     && let Some((leading, reason)) = defect(&product)
                 {
                     return Some(ConeObstacle { state: frame.states[start], word, product, leading, reason });
@@ -520,6 +526,20 @@ fn obstacle(frame: &Frame) -> Option<ConeObstacle> {
         }
     }
     None
+}
+
+/// The least of the turned cycles with the states of their letters; `None` of a cycle that is run through several times.
+fn turned(frame: &Frame, start: usize, word: &[usize]) -> Option<Vec<(usize, usize)>> {
+    let mut at = start;
+    let mut cycle = Vec::with_capacity(word.len());
+    for letter in word {
+        cycle.push((at, *letter));
+        at = frame.maps.iter().find(|m| (m.0, m.1) == (at, *letter))?.2;
+    }
+    let n = cycle.len();
+    let turn = |k: usize| [&cycle[k..], &cycle[..k]].concat();
+    let repeated = (1..n).any(|k| n.is_multiple_of(k) && turn(k) == cycle);
+    if repeated { None } else { (0..n).map(turn).min() }
 }
 
 fn defect(product: &Matrix) -> Option<(Vec<Root>, Defect)> {

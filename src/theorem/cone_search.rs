@@ -14,19 +14,28 @@ pub(super) struct Frame {
     pub chords: Vec<Vec<Rational>>,
     /// State, letter, target (both as positions in `states`), signed linear part.
     pub maps: Vec<(usize, usize, usize, Matrix)>,
-    /// How much arithmetic the search may still do.
+    /// How much arithmetic each of the two searches may do.
+    pub steps: usize,
+    /// What is left of it.
     pub budget: Cell<usize>,
 }
 
 impl Frame {
     /// Takes the cost of about one linear program over `rays` out of the budget; `None` where it is spent.
     fn spend(&self, rays: &Rays) -> Option<()> {
+        self.spend_times(1, rays)
+    }
+
+    fn spend_times(&self, factor: usize, rays: &Rays) -> Option<()> {
         let dim = rays.first().map_or(1, Vec::len);
-        let left = self.budget.get().checked_sub(3 * dim * dim * rays.len())?;
+        let left = self.budget.get().checked_sub(3 * factor * dim * dim * rays.len())?;
         self.budget.set(left);
         Some(())
     }
 }
+
+/// How much more a combination costs than a linear program, when it is exact.
+const EXACT: usize = 20;
 
 type Rays = Vec<Vec<f64>>;
 
@@ -40,17 +49,19 @@ pub(super) fn propose_closed(frame: &Frame) -> Option<Vec<Vec<Vec<Rational>>>> {
             cones[state].push(scaled(&ray)?);
         }
     }
+    frame.budget.set(frame.steps);
     // Rays up to this number have their images by a map in the cone, which only grows.
     let mut mapped = vec![0; frame.maps.len()];
     for _ in 0..CLOSING_ROUNDS {
         for rays in &mut cones {
-            rays.prune()?;
+            rays.prune(frame)?;
         }
         let mut grown = false;
         for ((from, _, to, matrix), mapped) in frame.maps.iter().zip(&mut mapped) {
             let next = cones[*to].fan.next;
             for ray in cones[*to].newer(*mapped) {
                 let image = scaled(&matrix.apply(&ray))?;
+                frame.spend_times(EXACT, &cones[*from].fan.rays)?;
                 if cones[*from].combine(&image).is_none() {
                     cones[*from].push(image);
                     grown = true;
@@ -155,13 +166,13 @@ impl ExactRays {
         let rest = used.iter().filter(|k| !chosen.contains(k));
         let order: Vec<usize> = chosen.iter().chain(rest).copied().collect();
         let columns: Vec<Vec<Rational>> = order.iter().map(|k| self.rays[*k].clone()).collect();
-        let pivots = Matrix::from_columns(x.len(), &columns).pivots();
+        let pivots = Matrix::from_columns(x.len(), &columns).independent_columns();
         let independent = (0..chosen.len()).all(|k| pivots.get(k) == Some(&k));
         Ok(if independent { pivots.into_iter().map(|p| order[p]).collect() } else { chosen })
     }
 
     /// Removes the rays that the others combine; `None` where the rays lie in no half-space, or are too many.
-    fn prune(&mut self) -> Option<()> {
+    fn prune(&mut self, frame: &Frame) -> Option<()> {
         let positive: Vec<f64> = functional(&self.rays)?.iter().map(to_f64).collect();
         let mut k = 0;
         while k < self.rays.len() && self.rays.len() > 1 {
@@ -170,6 +181,7 @@ impl ExactRays {
                 k += 1;
                 continue;
             }
+            frame.spend_times(EXACT, &self.fan.rays)?;
             match self.combine_by(&others, &self.rays[k]) {
                 Ok(_) => {
                     self.rays.remove(k);

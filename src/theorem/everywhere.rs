@@ -5,7 +5,7 @@ use super::components::{Components, components};
 use super::cone::{CommonCone, ConeAnswer, ConeObstacle, common_cone, most_pieces};
 use super::dense::first_level_joint;
 use super::gap::EveryGap;
-use super::graph::{graph_over_parameter, graph_over_shares};
+use super::graph::{graph_of_order, graph_over_parameter, graph_over_shares};
 use super::hodograph::{Hodograph, hodograph};
 use super::parameter::Parameter;
 use super::smoothness::CurveOrder;
@@ -92,6 +92,11 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
     if !edges {
         return None;
     }
+    if is_large(cx)
+        && let Some(every) = without_search(cx, found)
+    {
+        return Some(every);
+    }
     // Where a point has no half-tangent, or both rays agree, no cone exists before the projection.
     let hopeless = cx.shape.control.is_none() && found.points.iter().any(has_no_cone) || found.similarities.is_some();
     let answer =
@@ -107,6 +112,32 @@ pub fn everywhere(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
     let every = if open(&every) && !rough { as_graph(cx, every, graph_over_parameter) } else { every };
     let every = if open(&every) { as_graph(cx, every, graph_over_shares) } else { every };
     Some(if open(&every) { by_components(cx, every) } else { every })
+}
+
+/// Above these, coordinates of a relevant space and pieces of a state, cones take long to find.
+const LARGE: (usize, usize) = (8, 16);
+
+fn is_large(cx: &Context) -> bool {
+    cx.shape
+        .reachable()
+        .into_iter()
+        .any(|e| cx.spaces.of(e).basis.cols() > LARGE.0 || cx.shape.states[e].pieces.len() > LARGE.1)
+}
+
+/// Decides G¹ by what is known of the curve in its parameter, where that is enough.
+fn without_search(cx: &Context, found: &mut Certified) -> Option<Everywhere> {
+    let Some(Parameter::Orders(orders)) = &found.parameter else { return None };
+    if found.points.iter().any(breaks) || orders.is_smooth(1) != Some(true) {
+        return None;
+    }
+    let (polynomial, first) = (orders.polynomial, orders.orders.get(1).cloned());
+    let open = without_cone(cx, found, None);
+    if polynomial {
+        let every = by_derivative(cx, found, open);
+        return (every.verdict != Verdict::Undetermined).then_some(every);
+    }
+    let derivative = first.and_then(|order| graph_of_order(cx.shape, cx.spaces, order))?;
+    Some(Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(derivative)), ..open })
 }
 
 /// Proves G¹ of a curve state by state.

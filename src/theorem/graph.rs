@@ -1,7 +1,7 @@
 //! Curves that are graphs over a parameter of their own (theory §11, Theorem 12): equal shares for all pieces, or the shares that
 //! positions give which every piece keeps in order.
 
-use super::derived::Curve;
+use super::derived::{Chords, Curve, Families};
 use super::smoothness::{CurveOrder, Outcome, Shares};
 use crate::arith::Rational;
 use crate::jordan::modulus_classes;
@@ -17,6 +17,18 @@ use crate::shape::{CellKind, End, Shape, Spaces, difference};
 #[must_use]
 pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
     graph(&Curve::new(shape, spaces).ok()?, shape, spaces, options)
+}
+
+/// The same where the order 1 of the curve is known to hold already.
+///
+/// # Cost
+/// Some linear algebra.
+#[must_use]
+pub fn graph_of_order(shape: &Shape, spaces: &Spaces, order: CurveOrder) -> Option<CurveOrder> {
+    let curve = Curve::new(shape, spaces).ok()?;
+    let (_, chords) = curve.first().ok()?;
+    let own = order.order == 1 && order.outcome == Outcome::Holds;
+    (own && is_graph(&curve.differences(1, &chords), &chords, &curve, shape, spaces)).then_some(order)
 }
 
 /// The same over a parameter of which the pieces take other shares, those that positions give.
@@ -38,6 +50,19 @@ fn are_equal(shares: &Shares) -> bool {
 fn graph(curve: &Curve<'_>, shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
     let (_, chords) = curve.first().ok()?;
     let families = curve.differences(1, &chords);
+    if !is_graph(&families, &chords, curve, shape, spaces) {
+        return None;
+    }
+    let mut order = curve.order(1, &families, options);
+    if !order.is_below() || curve.joints(1, &curve.ends(1, &families, &chords)?).is_some() {
+        return None;
+    }
+    order.outcome = Outcome::Holds;
+    Some(order)
+}
+
+/// Whether no chord lies in the differences of the derivative, nor that of the start where it is seen.
+fn is_graph(families: &Families, chords: &Chords, curve: &Curve<'_>, shape: &Shape, spaces: &Spaces) -> bool {
     let outside = |family: &Matrix, chord: &[Rational]| {
         family.stack(&Matrix::from_rows(chord.len(), vec![chord.to_vec()])).rank() > family.rank()
     };
@@ -48,15 +73,7 @@ fn graph(curve: &Curve<'_>, shape: &Shape, spaces: &Spaces, options: &Options) -
     let view = Matrix::from_fn(view.rows(), pivots.len(), |i, j| view[(i, pivots[j])].clone());
     let home = curve.position(shape.start);
     let seen = outside(&(&families[home] * &view.transpose()), &view.apply(&chords[home]));
-    if !seen || !families.iter().zip(&chords).all(|(f, c)| outside(f, c)) {
-        return None;
-    }
-    let mut order = curve.order(1, &families, options);
-    if !order.is_below() || curve.joints(1, &curve.ends(1, &families, &chords)?).is_some() {
-        return None;
-    }
-    order.outcome = Outcome::Holds;
-    Some(order)
+    seen && families.iter().zip(chords).all(|(f, c)| outside(f, c))
 }
 
 /// Most choices of factors for the pieces from a state to itself.

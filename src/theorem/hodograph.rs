@@ -10,7 +10,7 @@ use crate::shape::{Address, CellKind};
 /// Most spans of a curve.
 const MAX_SPANS: usize = 64;
 /// Largest dimension of the relevant space of a state.
-const MAX_DEGREE: usize = 16;
+const MAX_DEGREE: usize = 32;
 /// Binary digits after which a root is not told from an end.
 const MAX_BITS: u64 = 4_096;
 

@@ -8,7 +8,7 @@ use super::verdict::{Certified, Role, Verdict};
 use crate::statement::Statement;
 
 /// Largest number of coordinates of all visible quotients together for which this is tried.
-const MAX_DIMENSIONS: usize = 24;
+const MAX_DIMENSIONS: usize = 32;
 
 /// What is known of a curve in its parameter.
 #[derive(Debug, Clone)]

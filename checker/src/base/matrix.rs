@@ -8,6 +8,21 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 use std::ops::Range;
 
+/// Makes entry `j` of a row 0 by another row.
+fn clear<T: Whole>(row: &mut Vec<T>, by: &[T], j: usize) -> Checked<()> {
+    if row[j].vanishes() {
+        return Ok(());
+    }
+    let (own, factor) = (by[j].clone(), row[j].clone());
+    let entry = |(x, p): (&T, &T)| match (x.vanishes(), p.vanishes()) {
+        (true, true) => x.clone(),
+        (false, true) => x.times(&own),
+        _ => x.times(&own).minus(&factor.times(p)),
+    };
+    *row = T::short(row.iter().zip(by).map(entry).collect())?;
+    Ok(())
+}
+
 /// A matrix, stored by rows; a point is a matrix with one column.
 #[derive(Debug, Clone)]
 pub struct Matrix<T = BigInt> {
@@ -155,18 +170,22 @@ impl<T: Whole> Matrix<T> {
     /// The product.
     pub fn times(&self, other: &Self) -> Checked<Self> {
         spend(self.rows * self.cols * other.cols, self.bits().max(other.bits()))?;
+        let den = &self.den * &other.den;
+        if let Some(data) = T::product_of_words(self, other) {
+            return Ok(Self { rows: self.rows, cols: other.cols, data, den });
+        }
         let mut data = Vec::with_capacity(self.rows * other.cols);
         for i in 0..self.rows {
-            let row = self.integers(i);
+            let used: Vec<(usize, &T)> = self.integers(i).iter().enumerate().filter(|(_, a)| !a.vanishes()).collect();
             for j in 0..other.cols {
                 let mut sum = T::integer(BigInt::zero());
-                for (a, b) in row.iter().zip(other.data.iter().skip(j).step_by(other.cols)) {
-                    sum.add_product(a, b);
+                for (k, a) in &used {
+                    sum.add_product(a, &other.data[k * other.cols + j]);
                 }
                 data.push(sum);
             }
         }
-        Ok(Self { rows: self.rows, cols: other.cols, data, den: &self.den * &other.den })
+        Ok(Self { rows: self.rows, cols: other.cols, data, den })
     }
 
     /// `self + factor · other`.
@@ -240,15 +259,16 @@ impl<T: Whole> Matrix<T> {
             rows.swap(top, found);
             let bits = widest(rows.iter().flatten());
             spend(rows.len() * self.cols, bits)?;
-            let pivot = rows[top].clone();
-            for (i, row) in rows.iter_mut().enumerate() {
-                if i != top && !row[j].vanishes() {
-                    let factor = row[j].clone();
-                    let entries = row.iter().zip(&pivot).map(|(x, p)| x.times(&pivot[j]).minus(&factor.times(p)));
-                    *row = T::short(entries.collect())?;
-                }
-            }
+            let (above, below) = rows.split_at_mut(top + 1);
+            below.iter_mut().try_for_each(|row| clear(row, &above[top], j))?;
             pivots.push(j);
+        }
+        rows.truncate(pivots.len());
+        // From the last row upwards those below have zeros at the pivots between.
+        for i in (0..rows.len()).rev() {
+            let (above, below) = rows.split_at_mut(i + 1);
+            spend(below.len() * self.cols, widest(above[i].iter().chain(below.iter().flatten())))?;
+            below.iter().zip(&pivots[i + 1..]).try_for_each(|(lower, &j)| clear(&mut above[i], lower, j))?;
         }
         let mut inverses = Vec::new();
         for (&j, row) in pivots.iter().zip(&rows) {

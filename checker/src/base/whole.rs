@@ -27,6 +27,10 @@ pub trait Whole: Clone + Debug + Sized {
     fn times(&self, other: &Self) -> Self;
     /// `self += a * b`.
     fn add_product(&mut self, a: &Self, b: &Self);
+    /// The products of the rows of a matrix and the columns of another where all of it fits into words.
+    fn product_of_words(_: &Matrix<Self>, _: &Matrix<Self>) -> Option<Vec<Self>> {
+        None
+    }
     /// A multiple.
     fn multiple(&self, factor: &BigInt) -> Self;
     /// The number over an integer that divides its coefficients.
@@ -134,6 +138,22 @@ impl Whole for BigInt {
     fn reciprocal(&self) -> Checked<Fraction<Self>> {
         need(!Zero::is_zero(self), "field", "a division by 0")?;
         Ok((self.signum(), self.abs()))
+    }
+    fn product_of_words(left: &Matrix, right: &Matrix) -> Option<Vec<Self>> {
+        // Sums of fewer than 2^24 products of numbers below 2^51 stay below 2^126.
+        let words = |m: &Matrix| {
+            let word = |x: &Self| i64::try_from(x).ok().filter(|x| x.unsigned_abs() < 1 << 51);
+            m.data.iter().map(word).collect::<Option<Vec<i64>>>()
+        };
+        let (a, b) = (words(left)?, words(right)?);
+        if left.cols == 0 || left.cols >= 1 << 24 {
+            return None;
+        }
+        let entry = |row: &[i64], j: usize| {
+            let factors = row.iter().zip(b.iter().skip(j).step_by(right.cols));
+            Self::from(factors.map(|(x, y)| i128::from(*x) * i128::from(*y)).sum::<i128>())
+        };
+        Some(a.chunks(left.cols).flat_map(|row| (0..right.cols).map(move |j| entry(row, j))).collect())
     }
     fn short(numbers: Vec<Self>) -> Checked<Vec<Self>> {
         Ok(primitive(numbers))

@@ -144,6 +144,7 @@ mod tests {
             let (integral, plain) = (a.echelon(), a.echelon_over(&Rationals).unwrap());
             assert_eq!((&integral.rows, &integral.pivots), (&plain.rows, &plain.pivots));
             assert_eq!(a.pivots(), plain.pivots);
+            assert_eq!((a.rank(), a.independent_columns()), (plain.pivots.len(), plain.pivots));
         }
     }
 }

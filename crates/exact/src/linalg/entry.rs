@@ -44,6 +44,10 @@ pub trait Entry: Clone + Ord + Hash + fmt::Debug + fmt::Display + Send + Sync + 
     fn echelon(a: &Matrix<Self>) -> Echelon<Self>;
     /// The columns of its leading ones.
     fn pivots(a: &Matrix<Self>) -> Vec<usize>;
+    /// The rank.
+    fn rank(a: &Matrix<Self>) -> usize {
+        Self::pivots(a).len()
+    }
 
     /// The image of an integer.
     #[must_use]

@@ -312,7 +312,7 @@ impl<E: Entry> Matrix<E> {
     /// The rank.
     #[must_use]
     pub fn rank(&self) -> usize {
-        self.pivots().len()
+        E::rank(self)
     }
 
     /// A basis of `{x : self x = 0}`, as the columns of the result.

@@ -1,9 +1,11 @@
 //! Matrices over the rationals: sums and eliminations over one denominator.
 
+use super::echelon::ModEchelon;
 use super::elimination;
 use super::entry::Entry;
 use super::matrix::{Echelon, Matrix};
 use super::sums::Line;
+use crate::arith::modular::{PrimeField, large_primes};
 use crate::arith::{Integer, Interval, Natural, Rational};
 use crate::poly::ints;
 
@@ -24,6 +26,26 @@ impl Matrix {
         (d, scaled)
     }
 
+    /// Independent columns, each but few of those that are no combination of independent ones before it: those that are found
+    /// modulo a large prime, without exact elimination. They are as many as the rank, but for primes that divide a minor.
+    ///
+    /// ```
+    /// use secant_exact::{arith::ratio, linalg::Matrix};
+    ///
+    /// let a = Matrix::from_fn(2, 3, |i, j| ratio((i * i + 1) as i64, [3, 5, 7][j]));
+    /// assert_eq!(a.independent_columns(), [0]);
+    /// ```
+    #[must_use]
+    pub fn independent_columns(&self) -> Vec<usize> {
+        let modulo = |p: u64| {
+            let field = PrimeField::new(p);
+            let row = |i: usize| self.row(i).iter().map(|x| field.from_rational(x)).collect::<Option<Vec<u64>>>();
+            let rows = (0..self.rows()).map(row).collect::<Option<Vec<_>>>()?;
+            Some(ModEchelon::new(&field, rows).pivots)
+        };
+        large_primes().take(PRIMES).find_map(modulo).unwrap_or_else(|| self.pivots())
+    }
+
     /// The rows, each times its common denominator.
     fn cleared_rows(&self) -> Vec<Vec<Integer>> {
         let cleared = |row: &[Rational]| {
@@ -33,6 +55,9 @@ impl Matrix {
         (0..self.rows()).map(|i| cleared(self.row(i))).collect()
     }
 }
+
+/// How many primes are tried that may divide a denominator.
+const PRIMES: usize = 3;
 
 impl Entry for Rational {
     type Product = super::Scaled;
@@ -106,6 +131,12 @@ impl Entry for Rational {
 
     fn pivots(a: &Matrix) -> Vec<usize> {
         elimination::upper(a.cleared_rows(), a.cols()).1
+    }
+
+    fn rank(a: &Matrix) -> usize {
+        // Columns that are independent modulo a prime are so: where they are as many as can be, that is the rank.
+        let most = a.rows().min(a.cols());
+        if most > 1 && a.independent_columns().len() == most { most } else { a.pivots().len() }
     }
 
     fn is_zero(&self) -> bool {
