@@ -1,7 +1,9 @@
 //! Whole verdicts: curves of high degree, of many pieces and of many states, a patch, vertices of high valence.
 
 use criterion::{Criterion, criterion_group, criterion_main};
+use secant::arith::{Rational, ratio};
 use secant::case::{Question, Valences};
+use secant::linalg::Matrix;
 use secant::prelude::*;
 use std::fmt::Write;
 use std::hint::black_box;
@@ -25,6 +27,27 @@ fn states() -> String {
         }
     }
     text
+}
+
+/// 64 pieces: the words of six letters of a corner cutting scheme with other weights in each letter.
+fn words() -> String {
+    let weights = [3, 4, 5, 4, 3, 5];
+    let mut pieces = vec![Matrix::identity(3)];
+    for weight in weights {
+        let (a, r, zero) = (ratio(weight, 17), ratio(17 - weight, 17), ratio(0, 1));
+        let row = |entries: [&Rational; 3]| entries.map(Rational::clone).to_vec();
+        let first = vec![row([&r, &a, &zero]), row([&a, &r, &r]), row([&zero, &zero, &a])];
+        let second = vec![row([&a, &zero, &zero]), row([&r, &r, &a]), row([&zero, &a, &r])];
+        let letters = [first, second].map(|rows| Matrix::from_rows(3, rows));
+        pieces = pieces.iter().flat_map(|word| letters.iter().map(move |letter| word * letter)).collect();
+    }
+    let line = |m: &Matrix, i: usize| {
+        let entries: Vec<String> = m.row(i).iter().map(|x| format!("\"{x}\"")).collect();
+        format!("[{}]", entries.join(", "))
+    };
+    let matrix = |m: &Matrix| format!("[{}]", (0..3).map(|i| line(m, i)).collect::<Vec<_>>().join(", "));
+    let list: Vec<String> = pieces.iter().map(matrix).collect();
+    format!("name = \"words\"\nconvention = \"columns\"\npieces = [\n{}\n]\n", list.join(",\n"))
 }
 
 fn case(name: &str) -> std::path::PathBuf {
@@ -52,6 +75,7 @@ fn benches(c: &mut Criterion) {
         "corner-cutting a=-1/4 b=1/2",
     ];
     let mut list: Vec<_> = curves.into_iter().map(named).collect();
+    list.push(("64 words", Question::parse("words", &words()).expect("a case")));
     list.push(("64 states", Question::parse("states", &states()).expect("a case")));
     group(c, "curves", list);
     let read = |name: &str| Question::read(&case(name)).expect("a case");

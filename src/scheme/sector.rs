@@ -330,15 +330,22 @@ mod tests {
 
     #[test]
     fn a_part_of_a_disc_gives_the_same_stencils() {
-        for (name, rings) in [("catmull-clark", 4), ("loop", 4), ("sqrt3", 7), ("butterfly", 5), ("doo-sabin", 4)] {
-            let rule = mesh_rule(name, &[].into()).unwrap();
+        let named = |name: &str| mesh_rule(name, &[].into()).unwrap();
+        let rules = [
+            (named("catmull-clark"), 4),
+            (named("loop").with_near(Rational::from(2)), 4),
+            (named("sqrt3").with_near(Rational::from(2)), 7),
+            (named("butterfly").regular(), 5),
+            (named("doo-sabin").with_corners(vec![Rational::from(1) / Rational::from(12); 12]), 4),
+        ];
+        for (rule, rings) in rules {
             let stencils = |part| {
                 let refine = |mesh: &Mesh, centre, turn| rule.refine(mesh, centre, turn);
                 let mut found = on_disc(&rule, 12, rings, part, &refine).unwrap();
                 found.rows.iter_mut().for_each(|row| row.sort());
                 (found.places, found.rows, found.from_centre, found.centre)
             };
-            assert!(stencils(true) == stencils(false), "{name}");
+            assert!(stencils(true) == stencils(false), "{}", rule.name());
         }
     }
 }

@@ -103,7 +103,11 @@ const MAX_CYCLE: usize = 6;
 #[must_use]
 pub fn common_cone(shape: &Shape, spaces: &Spaces, steps: usize) -> Option<ConeAnswer> {
     let frame = frame(shape, spaces, steps)?;
-    let attempts = if frame.dims.iter().any(|d| *d > 5) { 3 } else { 8 };
+    let attempts = match frame.dims.iter().max() {
+        Some(0..=5) => 8,
+        Some(0..=16) => 3,
+        _ => 1,
+    };
     for attempt in 0..attempts {
         if let Some(rays) = propose(&frame, attempt) {
             // Short numbers make short proofs; the margin of the proposal often allows them.
@@ -112,7 +116,7 @@ pub fn common_cone(shape: &Shape, spaces: &Spaces, steps: usize) -> Option<ConeA
                 return Some(ConeAnswer::Proved(cone));
             }
         }
-        if attempt == 1
+        if attempt == 1.min(attempts - 1)
             && let Some(obstacle) = obstacle(&frame)
         {
             let cone = closed_cone(shape, spaces, &frame);

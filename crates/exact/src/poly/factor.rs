@@ -47,9 +47,28 @@ fn near_zero(mut f: IntPoly) -> Vec<(Poly, usize)> {
         out.push((Poly::new(vec![0.into(), 1.into()]), zeros));
     }
     for (part, exponent) in ints::squarefree(&f) {
-        out.extend(irreducible_factors(part).iter().map(|g| (Poly::from_ints(g).monic(), exponent)));
+        out.extend(without_units(part).iter().map(|g| (Poly::from_ints(g).monic(), exponent)));
     }
     out.sort();
+    out
+}
+
+/// The irreducible factors of a primitive square-free polynomial with nonzero constant term. The roots 1 and −1, as stochastic
+/// matrices have them, are taken out first: what is left is often irreducible by its degrees modulo primes alone.
+fn without_units(mut f: IntPoly) -> Vec<IntPoly> {
+    let mut out = Vec::new();
+    for unit in [1, -1] {
+        let linear = vec![Integer::from(-unit), Integer::from(1)];
+        let signed = |(k, c): (usize, &Integer)| if unit < 0 && k % 2 == 1 { -c } else { c.clone() };
+        if f.len() > 4
+            && f.iter().enumerate().map(signed).sum::<Integer>() == 0
+            && let Some(rest) = ints::div_exact(&f, &linear)
+        {
+            out.push(linear);
+            f = rest;
+        }
+    }
+    out.extend(irreducible_factors(f));
     out
 }
 
@@ -272,6 +291,9 @@ mod tests {
         check(&p(&[4, 0, 0, 0, 1]), &[(2, 1), (2, 1)]);
         check(&(&p(&[-1, 3]).pow(3) * &p(&[0, 0, 1, 1])), &[(1, 3), (1, 2), (1, 1)]);
         check(&p(&[7]), &[]);
+        // 1 and −1 once, and several times.
+        check(&(&p(&[-1, 0, 1]) * &p(&[3, 5, 0, 1, 7])), &[(1, 1), (1, 1), (4, 1)]);
+        check(&(&(&p(&[1, 1]).pow(2) * &p(&[-1, 1]).pow(3)) * &p(&[2, 0, 0, 0, 0, 1])), &[(1, 3), (1, 2), (5, 1)]);
     }
 
     #[test]
