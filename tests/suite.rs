@@ -50,6 +50,8 @@ mod meshes;
 mod outputs;
 #[path = "questions.rs"]
 mod questions;
+#[path = "radius_field.rs"]
+mod radius_field;
 #[path = "radius.rs"]
 mod radius;
 #[path = "readers.rs"]

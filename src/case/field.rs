@@ -58,7 +58,7 @@ impl Case<Real> {
             samples.push((at, Case::parse_as(name, text, |source| File::sampled(source, sample))?.closed()?));
         }
         let first = &samples[0].1;
-        let plain = matches!(first.scheme, None | Some(Origin::Mask(_)));
+        let plain = matches!(first.scheme, None | Some(Origin::Mask(_) | Origin::Filter(..)));
         let faces = first.shape.states.iter().any(|s| s.kind == CellKind::Face);
         let shapes: Vec<(&Rational, &Shape)> = samples.iter().map(|(t, case)| (t, &case.shape)).collect();
         let mut asked: Vec<Elem> = builder.asked().iter().map(|x| builder.elem(x)).collect();

@@ -49,7 +49,7 @@ pub use vertex_family::VertexFamilyCase;
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
 use crate::linalg::Entry;
-use crate::scheme::{Heading, Interpolation, Mask, MeshRule, case_text, complex_text};
+use crate::scheme::{Heading, Interpolation, Mask, MeshRule, Normalisation, case_text, complex_text};
 use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -159,6 +159,8 @@ pub enum Origin {
     Named(String),
     /// A univariate mask, given or named.
     Mask(Mask),
+    /// The mask of a filter whose sums are not those of the normalisation that it names, but those of this one, which was taken.
+    Filter(Mask, Normalisation),
     /// A polygon of control points, a curve of several spans; with its mask where the spans are those of one.
     Polygon(Option<Mask>),
     /// The tensor product of two curves.
@@ -307,7 +309,7 @@ impl Case {
     }
 
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
-    /// symmetries among its maps, or states that name schemes or are
+    /// a filter in another normalisation than it names, symmetries among its maps, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
@@ -321,6 +323,7 @@ impl Case {
                     | Origin::Graphs
                     | Origin::Symmetric { .. }
                     | Origin::States
+                    | Origin::Filter(..)
             )
         );
         let member = member::is_member(&self.text.text);
@@ -349,7 +352,7 @@ impl<E> Case<E> {
     #[must_use]
     pub fn mask(&self) -> Option<&Mask> {
         match &self.scheme {
-            Some(Origin::Mask(mask) | Origin::Polygon(Some(mask))) => Some(mask),
+            Some(Origin::Mask(mask) | Origin::Filter(mask, _) | Origin::Polygon(Some(mask))) => Some(mask),
             _ => None,
         }
     }

@@ -304,8 +304,6 @@ pub enum Reason {
     Broken(usize),
     /// No common cone was found; with irrational entries nothing else is looked for.
     NoCone,
-    /// There are irrational entries, with which this is not looked at.
-    Irrational,
     /// What was found about every point of the curve ([`super::Certified::everywhere`]).
     EveryPoint,
     /// The same, where it is refuted at a point that is neither an end nor a joint, so that no other claim speaks of it.
