@@ -28,9 +28,17 @@ fn other_coordinates_change_nothing() {
             "",
         ),
         // The radius 1 is rational, and the polytope closes on its boundary.
-        ("[[[\"1/2\",\"1/4\"],[0,1]],[[1,0],[1,\"1/2\"]]]", "[[[\"1/2\",\"sqrt(2)/8\"],[0,1]],[[1,0],[\"sqrt(2)\",\"1/2\"]]]", ""),
+        (
+            "[[[\"1/2\",\"1/4\"],[0,1]],[[1,0],[1,\"1/2\"]]]",
+            "[[[\"1/2\",\"sqrt(2)/8\"],[0,1]],[[1,0],[\"sqrt(2)\",\"1/2\"]]]",
+            "",
+        ),
         // A leading eigenvalue that turns.
-        ("[[[\"1/2\",\"-3/4\"],[\"4/5\",\"1/3\"]],[[\"1/5\",\"1/7\"],[0,\"1/4\"]]]", "[[[\"1/2\",\"-3/8*sqrt(2)\"],[\"4/5*sqrt(2)\",\"1/3\"]],[[\"1/5\",\"1/14*sqrt(2)\"],[0,\"1/4\"]]]", ""),
+        (
+            "[[[\"1/2\",\"-3/4\"],[\"4/5\",\"1/3\"]],[[\"1/5\",\"1/7\"],[0,\"1/4\"]]]",
+            "[[[\"1/2\",\"-3/8*sqrt(2)\"],[\"4/5*sqrt(2)\",\"1/3\"]],[[\"1/5\",\"1/14*sqrt(2)\"],[0,\"1/4\"]]]",
+            "",
+        ),
         // Long Jordan blocks: marginal growth.
         ("[[[1,1],[0,1]],[[\"1/2\",0],[0,\"1/3\"]]]", "[[[1,\"sqrt(2)/2\"],[0,1]],[[\"1/2\",0],[0,\"1/3\"]]]", ""),
     ] {
@@ -52,7 +60,10 @@ fn subspaces_over_the_field_are_found() {
         "[[[0,1],[\"1/2\",0]],[[\"1/2\",\"sqrt(2)/2\"],[\"-sqrt(2)/4\",\"3/2\"]],[[0,\"1/2\"],[\"1/4\",0]],[[\"1/3\",\"1/7\"],[\"1/14\",\"1/3\"]]]",
     );
     let data = radius.json();
-    assert_eq!((&data["rational"], &data["growth"], &data["jordan_block"]), (&json!("1"), &json!("marginal"), &json!(2)));
+    assert_eq!(
+        (&data["rational"], &data["growth"], &data["jordan_block"]),
+        (&json!("1"), &json!("marginal"), &json!(2))
+    );
 }
 
 /// The spectral radius of a product of 2x2 matrices.
@@ -196,8 +207,7 @@ fn forged_orders_over_fields_are_rejected() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("golden.toml");
     std::fs::copy("cases/fields/de-rham-golden.toml", &path).unwrap();
-    let (smooth, certificate, beside) =
-        ask::certified_regularity(&path.display().to_string(), &[], 2, None).unwrap();
+    let (smooth, certificate, beside) = ask::certified_regularity(&path.display().to_string(), &[], 2, None).unwrap();
     let text = beside.unwrap_or_else(|| std::fs::read_to_string(&path).unwrap());
     assert!(smooth.decided, "{}", smooth.text);
     let certificate: Value = serde_json::from_str(&certificate).unwrap();
@@ -227,9 +237,39 @@ fn filters_are_read_by_their_sums() {
     let (other, ..) = certified(&coiflet.replace("\"N\"", "\"root\""));
     let words = |claims: &[Claim]| claims.iter().map(|c| format!("{c:?}")).collect::<Vec<_>>();
     assert_eq!(words(&one), words(&other));
-    let rational = "name = \"chaikin\"\n[scheme]\nfilter = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"]\nnormalisation = \"one\"\n";
-    let (claims, ..) = certified(rational);
-    assert_eq!(smooth(&claims, 1), Some(Verdict::Proved));
+    let rational =
+        "name = \"chaikin\"\n[scheme]\nfilter = [\"1/4\", \"3/4\", \"3/4\", \"1/4\"]\nnormalisation = \"N\"\n";
+    let (one, ..) = certified(&rational.replace('N', "arity"));
+    let (other, ..) = certified(&rational.replace("\"N\"", "\"one\""));
+    assert_eq!(words(&one), words(&other));
+    // The sums of no normalisation.
+    let wrong = rational.replace("\"3/4\", \"1/4\"", "\"3/4\", \"1/2\"").replace('N', "one");
+    assert_eq!(Question::parse("wrong.toml", &wrong).unwrap_err().id(), "secant::case::sum-rule");
+}
+
+/// A tension of the four-point scheme: C¹ and no more, with the exponent of the rational members on both sides between theirs.
+#[test]
+fn tensions_over_fields_lie_between_rational_ones() {
+    let exponent = |w: &str| {
+        let question = Question::ask(&format!("four-point w={w}")).unwrap();
+        let found = prove(&question, &secant::budget::Budget::default()).unwrap();
+        let claims = found.claims();
+        assert_eq!((smooth(&claims, 1), smooth(&claims, 2)), (Some(Verdict::Proved), Some(Verdict::Refuted)), "{w}");
+        claims.iter().find_map(|c| if let Assertion::Exponent(b, _) = &c.what { b.clone() } else { None }).unwrap()
+    };
+    let (low, own, high) = (exponent("708/10000"), exponent("sqrt(2)/20"), exponent("707/10000"));
+    assert!(low.hi < own.lo && own.hi < high.lo, "{low:?} {own:?} {high:?}");
+}
+
+/// A polygon of several spans is the curve of its mask on each.
+#[test]
+fn polygons_have_spans_over_fields() {
+    let text = "name = \"db2 polygon\"\ncontrol = [[0, 0], [1, 2], [2, 0], [3, 1], [4, 0]]\n[scheme]\n\
+                mask = [\"(1+sqrt(3))/4\", \"(3+sqrt(3))/4\", \"(3-sqrt(3))/4\", \"(1-sqrt(3))/4\"]\n";
+    let (claims, _, findings) = certified(text);
+    let Findings::OverField { case, .. } = &findings else { panic!("over a field") };
+    assert!(case.shape.states.len() > 1);
+    assert_eq!(smooth(&claims, 1), Some(Verdict::Refuted));
 }
 
 /// The wavelets with 4 and 6 taps are curves as their masks are.

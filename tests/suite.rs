@@ -50,10 +50,10 @@ mod meshes;
 mod outputs;
 #[path = "questions.rs"]
 mod questions;
-#[path = "radius_field.rs"]
-mod radius_field;
 #[path = "radius.rs"]
 mod radius;
+#[path = "radius_field.rs"]
+mod radius_field;
 #[path = "readers.rs"]
 mod readers;
 #[path = "refinement.rs"]

@@ -1,8 +1,8 @@
 //! Bounds of a joint spectral radius: a disc that holds an eigenvalue of a product, and a norm for every diagonal block.
 
 use crate::base::{
-    Accepted, Checked, Ground, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Surd, Verdict, Whole, absolute, bits,
-    file, fraction, has_root_near, index, list, matrix, need, spend, whole, word,
+    Accepted, Checked, Ground, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Surd, Verdict, Whole, absolute,
+    bits, file, fraction, has_root_near, index, list, matrix, need, spend, whole, word,
 };
 use crate::claim::{Claim, Decided};
 use crate::curve::positive_definite;
@@ -349,13 +349,7 @@ impl<T: Whole> System<T> {
 
     /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,
     /// everything being nonnegative.
-    fn polytope(
-        &self,
-        ground: &T::Ground,
-        node: &Node<'_>,
-        kind: &'static str,
-        bound: &Q,
-    ) -> Checked<&'static str> {
+    fn polytope(&self, ground: &T::Ground, node: &Node<'_>, kind: &'static str, bound: &Q) -> Checked<&'static str> {
         let [_, points, inclusions, axes] = node.fields("norm points inclusions axes")?;
         let monotone = kind == "monotone";
         let hull = Polytope::read(&points, if kind == "balanced" { 2 } else { 1 }, &self.dims, ground)?;
@@ -378,7 +372,11 @@ impl<T: Whole> System<T> {
             let under = !monotone || !negative && !rest.data.iter().any(|x| x.sgn() > 0);
             item.need(under, "inclusion", "the image does not lie below the combination")?;
             let far = total.plus(&Q::one(), &interior[*from].times(&norm(&rest))?);
-            item.need(!rational(bound).minus(&far).has_negative(), "inclusion", "the image lies outside the multiple of the polytope")?;
+            item.need(
+                !rational(bound).minus(&far).has_negative(),
+                "inclusion",
+                "the image lies outside the multiple of the polytope",
+            )?;
             seen[k][a] = true;
         }
         for (k, (state, _)) in hull.points.iter().enumerate() {
@@ -396,7 +394,8 @@ impl<T: Whole> System<T> {
         let [_, forms, square] = node.fields("norm forms square")?;
         let square = square.rational()?;
         // A space 0 has one form.
-        let mut read: Vec<Option<Matrix<T>>> = self.dims.iter().map(|d| (*d == 0).then(|| Matrix::identity(0))).collect();
+        let mut read: Vec<Option<Matrix<T>>> =
+            self.dims.iter().map(|d| (*d == 0).then(|| Matrix::identity(0))).collect();
         for item in forms.list()? {
             let [state, form] = item.fields("state form")?;
             let s = state.index(self.dims.len())?;

@@ -2,7 +2,8 @@
 //! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
 use crate::base::{
-    Accepted, Checked, Ground, Matrix, Node, Q, Surd, Verdict, Whole, bits, list, need, number, some, spend, total, whole,
+    Accepted, Checked, Ground, Matrix, Node, Q, Surd, Verdict, Whole, bits, list, need, number, some, spend, total,
+    whole,
 };
 use crate::claim::Claim;
 use crate::curve::case;

@@ -1,10 +1,10 @@
 //! Bounds of the joint spectral radius of the matrices of a file.
 
+use crate::algebraic::Real;
+use crate::arith::Rational;
 use crate::case::matrix_file;
 use crate::certificate::{Written, radius_certificate};
 use crate::diagnostic::{Problem, SourceText};
-use crate::algebraic::Real;
-use crate::arith::Rational;
 use crate::radius::{JointRadius, Options, file, joint_radius};
 use crate::report::radius as report;
 use serde_json::Value;

@@ -112,6 +112,8 @@ pub struct Case<E = Rational> {
     pub reversals: BTreeMap<usize, Reversal>,
     /// The scheme that the case names under `[scheme]`.
     pub scheme: Option<Origin>,
+    /// The normalisation in which a filter was read, where it is not the one that it names.
+    pub taken: Option<Normalisation>,
     /// The values of the roots and cosines in the text that a checker reads; `None` where one does not lie in the field of the
     /// entries.
     pub numbers: Option<Vec<E>>,
@@ -141,6 +143,7 @@ impl<E> Case<E> {
             faces: self.faces.clone(),
             reversals: self.reversals.clone(),
             scheme: None,
+            taken: self.taken,
             numbers: Some(Vec::new()),
             flat: None,
             unknown: self.unknown.clone(),

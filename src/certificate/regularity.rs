@@ -49,7 +49,11 @@ fn exponent<E: Written>(bound: &Option<ExponentBound<E>>) -> Result<Value, Unsup
 }
 
 /// The bounds of the radius of a system; `null` where all spaces are 0.
-pub fn radius<E: Written>(system: Option<&System<E>>, found: Option<&JointRadius<E>>, place: &str) -> Result<Value, Unsupported> {
+pub fn radius<E: Written>(
+    system: Option<&System<E>>,
+    found: Option<&JointRadius<E>>,
+    place: &str,
+) -> Result<Value, Unsupported> {
     match (system, found) {
         (None, _) => Ok(Value::Null),
         (Some(system), Some(found)) => radius_proof(system, &radius_with_a_rational_word(system, found)),

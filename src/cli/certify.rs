@@ -7,7 +7,7 @@ use super::question::question;
 use super::{BAD_INPUT, CertifyArgs, Drawn, PROVED, REFUTED, ReportLevel, UNDETERMINED, approximate, many, mesh};
 use crate::answer::Verdict;
 use crate::ask::{Answered, ONCE, answered};
-use crate::case::{Case, Origin, Question, Valences};
+use crate::case::{Case, Question, Valences};
 use crate::diagnostic::Problem;
 use crate::guard::guarded;
 use crate::mesh::is_mesh;
@@ -16,6 +16,7 @@ use crate::prove::Findings;
 use crate::report::proof::Level;
 use crate::report::words::{self, listed};
 use crate::report::{findings, html, json, latex, markdown};
+use crate::scheme::Normalisation;
 use std::path::{Path, PathBuf};
 
 /// The exit code of a verdict.
@@ -107,18 +108,19 @@ fn note(answered: &Answered) {
     match &answered.findings {
         Findings::Tangents { case, .. } => {
             note_dangling(case);
-            note_filter(case.scheme.as_ref(), &case.name);
+            note_filter(case.taken, &case.name);
         }
-        Findings::OverField { case, .. } => note_filter(case.scheme.as_ref(), &case.name),
+        Findings::OverField { case, .. } => note_filter(case.taken, &case.name),
         Findings::Vertices { .. } => {}
     }
 }
 
 /// Says so where a filter was read in another normalisation than it names.
-fn note_filter(origin: Option<&Origin>, name: &str) {
-    if let Some(Origin::Filter(_, taken)) = origin {
+fn note_filter(taken: Option<Normalisation>, name: &str) {
+    if let Some(taken) = taken {
         let word = taken.word();
-        let message = format!("{name}: the sums of the filter are those of normalisation = \"{word}\", which was taken");
+        let message =
+            format!("{name}: the sums of the filter are those of normalisation = \"{word}\", which was taken");
         complain(
             &Problem::new("secant::case::normalisation", message)
                 .with_help(format!("write normalisation = \"{word}\", or correct the coefficients")),

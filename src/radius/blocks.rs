@@ -233,12 +233,7 @@ impl Random {
 }
 
 /// A small combination of products over cycles at a state.
-fn random_element<E: Radial>(
-    system: &System<E>,
-    home: usize,
-    random: &mut Random,
-    trial: usize,
-) -> Option<Matrix<E>> {
+fn random_element<E: Radial>(system: &System<E>, home: usize, random: &mut Random, trial: usize) -> Option<Matrix<E>> {
     let dim = system.dims[home];
     let mut sum: Matrix<E> = Matrix::zero(dim, dim);
     for _ in 0..(2 + trial % 3) {

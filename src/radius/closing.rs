@@ -76,9 +76,7 @@ impl<E: Radial> Closing<'_, E> {
                 return None;
             }
             points.push(match &v.origin {
-                Origin::Root(k) => {
-                    self.roots[*k].vector.enclosure(PLACES + 40).iter().map(Fixed::of).collect()
-                }
+                Origin::Root(k) => self.roots[*k].vector.enclosure(PLACES + 40).iter().map(Fixed::of).collect(),
                 Origin::Axis { axis, exponent } => {
                     axis_point(self.system.dims[v.state], *axis, *exponent).iter().map(Fixed::point).collect()
                 }

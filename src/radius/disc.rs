@@ -67,9 +67,8 @@ impl Disc {
     pub fn around<E: Entry>(chi: &[E], x: &Rational, y: &Rational) -> Option<Self> {
         let (u, v) = (E::of(x), E::of(y));
         let square = |p: &[E]| {
-            let step = |(a, b): (E, E), c: &E| {
-                (a.times(&u).minus(&b.times(&v)).plus(c), a.times(&v).plus(&b.times(&u)))
-            };
+            let step =
+                |(a, b): (E, E), c: &E| (a.times(&u).minus(&b.times(&v)).plus(c), a.times(&v).plus(&b.times(&u)));
             let (a, b) = p.iter().rev().fold((E::zero(), E::zero()), step);
             a.times(&a).plus(&b.times(&b))
         };
@@ -103,7 +102,11 @@ fn size<E: Entry>(m: &Matrix<E>) -> Option<Rational> {
             .zip(i64::try_from(x.denominator_ref().significant_bits()).ok())
     };
     let entries = m.entries().iter().filter(|x| !x.is_zero());
-    let exponent = entries.map(|x| log(&x.enclosure(PLACES).hi).map(|(n, d)| n - d)).collect::<Option<Vec<_>>>()?.into_iter().max()?;
+    let exponent = entries
+        .map(|x| log(&x.enclosure(PLACES).hi).map(|(n, d)| n - d))
+        .collect::<Option<Vec<_>>>()?
+        .into_iter()
+        .max()?;
     Some(Rational::from(2).pow(exponent))
 }
 

@@ -127,9 +127,7 @@ pub(super) fn polished<E: Radial>(
     let mut inclusions: Vec<Inclusion<E>> = Vec::new();
     for (k, v) in grown.vertices.iter().enumerate() {
         let coordinates = match &v.origin {
-            Origin::Root(k) => {
-                roots[*k].vector.enclosure(FINE + 40).iter().map(|x| E::of(&fine(&x.mid()))).collect()
-            }
+            Origin::Root(k) => roots[*k].vector.enclosure(FINE + 40).iter().map(|x| E::of(&fine(&x.mid()))).collect(),
             Origin::Axis { axis, exponent } => lifted(&axis_point(system.dims[v.state], *axis, *exponent)),
             Origin::Free(point) => lifted(point),
             Origin::Image { parent, arrow } => {

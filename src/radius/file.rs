@@ -288,9 +288,8 @@ fn arrow<E: Entry>(label: usize, value: &Value, matrices: &[Matrix<E>]) -> Resul
 
 fn matrix<E: Entry>(index: usize, value: &Value, reader: Reader<'_, E>) -> Result<Matrix<E>, FileError> {
     let rows = array(Some(value), "matrices", &value.span())?;
-    let mut row = |row: &Value| {
-        array(Some(row), "matrices", &row.span())?.iter().map(|x| entry(index, x, reader)).collect()
-    };
+    let mut row =
+        |row: &Value| array(Some(row), "matrices", &row.span())?.iter().map(|x| entry(index, x, reader)).collect();
     rectangular(index, rows.iter().map(&mut row).collect::<Result<_, FileError>>()?, value.span())
 }
 
@@ -346,7 +345,11 @@ fn plain<E: Entry>(text: &str, reader: Reader<'_, E>) -> Result<File<E>, FileErr
     }
     let matrices = blocks.into_iter().enumerate().map(|(k, (mut rows, span))| {
         let size = rows.len() - 1;
-        if size > 0 && rows[0].len() == 1 && rows[0][0].rational() == Some(Rational::from(size)) && rows[1].len() == size {
+        if size > 0
+            && rows[0].len() == 1
+            && rows[0][0].rational() == Some(Rational::from(size))
+            && rows[1].len() == size
+        {
             rows.remove(0);
         }
         rectangular(k, rows, span)

@@ -12,7 +12,7 @@ use crate::poly::Poly;
 
 /// Entries of matrices whose joint spectral radii can be bounded.
 pub trait Radial: Scalar {
-    /// About the time of a product and a sum, in nanoseconds.
+    /// What a product and a sum are counted as, in nanoseconds: over a field fewer than they take, so that as much is tried.
     const PRODUCT: u64;
 
     /// An eigenvalue of largest modulus, a positive one before others; `None` where it is 0.
@@ -71,7 +71,7 @@ impl Radial for Rational {
 }
 
 impl Radial for Real {
-    const PRODUCT: u64 = 1500;
+    const PRODUCT: u64 = 100;
 
     fn largest(product: &Matrix<Self>) -> Option<Root> {
         if let Some(entries) = product.entries().iter().map(Self::rational).collect::<Option<Vec<_>>>() {

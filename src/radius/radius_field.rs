@@ -148,7 +148,9 @@ impl<'a, E: Radial> Field<'a, E> {
     fn times(&self, entry: &E, x: &Elem) -> Elem {
         match entry.rational() {
             Some(q) => x.scale(&q),
-            None => entry.scaled(x, crate::jordan::Over { modulus: &self.over.modulus, alpha: self.over.alpha.as_ref() }),
+            None => {
+                entry.scaled(x, crate::jordan::Over { modulus: &self.over.modulus, alpha: self.over.alpha.as_ref() })
+            }
         }
     }
 

@@ -7,9 +7,9 @@
 use super::answer::Proof;
 use super::budget::Budget;
 use super::quadratic::Quadratic;
+use super::radial::Radial;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use super::system::System;
-use super::radial::Radial;
 use crate::algebraic::nearest;
 use crate::arith::{Rational, to_f64};
 use crate::linalg::Matrix;

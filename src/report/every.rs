@@ -14,7 +14,8 @@ use crate::theorem::{
 use serde_json::{Value, json};
 
 /// What Theorem 12 says.
-pub(super) const GRAPH: &str = "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)";
+pub(super) const GRAPH: &str =
+    "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)";
 /// Places of an exponent.
 const PLACES: u64 = 6;
 

@@ -14,8 +14,8 @@ use crate::prove::deciding_claims;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role, Side,
-    Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role,
+    Side, Verdict, Witness,
 };
 use serde_json::{Value, json};
 

@@ -302,7 +302,7 @@ pub enum Reason {
     Similarities,
     /// What breaks at a point.
     Broken(usize),
-    /// No common cone was found; with irrational entries nothing else is looked for.
+    /// No common cone was found, nor a derivative (Theorem 12); with irrational entries nothing else is looked for.
     NoCone,
     /// What was found about every point of the curve ([`super::Certified::everywhere`]).
     EveryPoint,

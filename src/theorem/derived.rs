@@ -185,8 +185,9 @@ impl<'a, E: Radial> Curve<'a, E> {
             let offset = Matrix::from_rows(image.len(), vec![difference(&image, &chords[from])]);
             families[from] = families[from].stack(&offset).echelon().rows;
         }
-        let arrow =
-            |(from, letter, _, to): (usize, usize, &Piece<E>, usize)| (to, from, self.operators[from][letter].transpose());
+        let arrow = |(from, letter, _, to): (usize, usize, &Piece<E>, usize)| {
+            (to, from, self.operators[from][letter].transpose())
+        };
         let arrows: Vec<_> = self.arrows().map(arrow).collect();
         closures(families, &arrows)
     }
@@ -201,14 +202,7 @@ impl<'a, E: Radial> Curve<'a, E> {
 
     /// The limit of `(ε N)^k T c` along the address of an end: the fixed vector of its cycle in `c + F`, unique because the
     /// radius on `F` is below `N^−k`, carried along the prefix.
-    fn limit(
-        &self,
-        k: usize,
-        state: usize,
-        end: End,
-        families: &[Matrix<E>],
-        chords: &Chords<E>,
-    ) -> Option<Vec<E>> {
+    fn limit(&self, k: usize, state: usize, end: End, families: &[Matrix<E>], chords: &Chords<E>) -> Option<Vec<E>> {
         let address = self.shape.end_address(state, end, |_| false)?;
         let (prefix, home) = self.product(k, self.position(state), &address.prefix);
         let (cycle, _) = self.product(k, home, &address.cycle);

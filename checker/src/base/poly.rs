@@ -394,6 +394,6 @@ mod tests {
         // 0 · |1| ≤ e · |0| holds anywhere, but constants have no roots; nor has a product of size 0 x 0 eigenvalues.
         let constant = Matrix::new(1, 1, &[whole(1)]);
         assert!(!has_root_near(&constant, &[whole(5), whole(0)], &whole(100)).unwrap());
-        assert!(!has_root_near(&Matrix::identity(0).characteristic().unwrap(), &z, &whole(1)).unwrap());
+        assert!(!has_root_near(&Matrix::<BigInt>::identity(0).characteristic().unwrap(), &z, &whole(1)).unwrap());
     }
 }
