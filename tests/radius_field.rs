@@ -264,7 +264,7 @@ fn tensions_over_fields_lie_between_rational_ones() {
 /// A polygon of several spans is the curve of its mask on each.
 #[test]
 fn polygons_have_spans_over_fields() {
-    let text = "name = \"db2 polygon\"\ncontrol = [[0, 0], [1, 2], [2, 0], [3, 1], [4, 0]]\n[scheme]\n\
+    let text = "name = \"db2-polygon\"\ncontrol = [[0, 0], [1, 2], [2, 0], [3, 1], [4, 0]]\n[scheme]\n\
                 mask = [\"(1+sqrt(3))/4\", \"(3+sqrt(3))/4\", \"(3-sqrt(3))/4\", \"(1-sqrt(3))/4\"]\n";
     let (claims, _, findings) = certified(text);
     let Findings::OverField { case, .. } = &findings else { panic!("over a field") };

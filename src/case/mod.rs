@@ -312,7 +312,7 @@ impl Case {
     }
 
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
-    /// a filter in another normalisation than it names, symmetries among its maps, or states that name schemes or are
+    /// symmetries among its maps, or states that name schemes or are
     /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
@@ -326,7 +326,6 @@ impl Case {
                     | Origin::Graphs
                     | Origin::Symmetric { .. }
                     | Origin::States
-                    | Origin::Filter(..)
             )
         );
         let member = member::is_member(&self.text.text);
