@@ -41,6 +41,8 @@ pub(super) struct Levels {
 
 /// Theorem 6, by state in the order of the file.
 pub(super) struct Cones {
+    /// The pieces that run backwards.
+    pub backwards: Vec<Vec<bool>>,
     pub rays: Vec<Matrix>,
     pub maps: Vec<Vec<Matrix>>,
     pub firsts: Vec<Vec<Rational>>,
@@ -158,6 +160,23 @@ fn side(
     Ok((Own { prefix: prefix.to_vec(), cycle: branch.address.cycle.clone(), direction, evidence }, at))
 }
 
+/// Whether all joints of all states are among these, and smooth.
+pub(super) fn smooth(
+    model: &Model<'_>,
+    levels: &Result<Levels, NoTheorem>,
+    cones: &Result<Cones, NoTheorem>,
+) -> Result<(), NoTheorem> {
+    cones.as_ref().map_err(Clone::clone)?;
+    let joints = &levels.as_ref().map_err(Clone::clone)?.joints;
+    let none = |what: &str| NoTheorem { what: what.to_owned(), place: "every point".to_owned() };
+    if joints.iter().any(|j| j.cusp) {
+        return Err(none("a joint that is a cusp"));
+    }
+    let known = |e: usize, left: usize| joints.iter().any(|j| j.state == e && j.pieces == (left, left + 1));
+    let all = model.states.iter().all(|&e| (1..model.shape.states[e].pieces.len()).all(|i| known(e, i - 1)));
+    if all { Ok(()) } else { Err(none("a joint that is not listed")) }
+}
+
 /// Digits of all numbers of the cones, so that Coq takes less than a minute.
 const MAX_DIGITS: usize = 150_000;
 
@@ -169,10 +188,9 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     if cone.window != 1 || !cone.slow.is_empty() {
         return Err(none("cones that shrink slowly"));
     }
-    if !model.forward() {
-        return Err(none("pieces that run backwards"));
-    }
     let missing = || none("a state without a cone");
+    let turned = |e: &usize| model.shape.states[*e].pieces.iter().map(|p| p.reversed).collect();
+    let backwards = model.states.iter().map(turned).collect();
     let (mut rays, mut maps, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
     let (mut lasts, mut chords, mut ratio) = (Vec::new(), Vec::new(), Rational::from(1));
     for e in &model.states {
@@ -204,5 +222,5 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     let start = cone.cones.iter().find(|c| c.state == model.shape.start).ok_or_else(missing)?;
     let own = || model.shape.control.is_none().then(|| start.functional.clone());
     let seen_by = cone.view.clone().or_else(own).ok_or_else(|| none("cones that the control points do not show"))?;
-    Ok(Cones { rays, maps, firsts, lasts, chords, ratio, seen_by })
+    Ok(Cones { backwards, rays, maps, firsts, lasts, chords, ratio, seen_by })
 }
