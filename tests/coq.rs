@@ -25,8 +25,14 @@ fn written(case: &str) -> String {
 }
 
 const REPLAYED: [(&str, &[&str]); 12] = [
-    ("cases/thesis/half-tangent.toml", &["half_tangent", "cusp (automaton", "levels_0_0_1", "Not stated: the curve is G¹"]),
-    ("cases/two-parameter/quarter-quarter.toml", &["regular (automaton", "levels_0_0_1", "tangent_at_every_address", "g1 (automaton"]),
+    (
+        "cases/thesis/half-tangent.toml",
+        &["half_tangent", "cusp (automaton", "levels_0_0_1", "Not stated: the curve is G¹"],
+    ),
+    (
+        "cases/two-parameter/quarter-quarter.toml",
+        &["regular (automaton", "levels_0_0_1", "tangent_at_every_address", "g1 (automaton"],
+    ),
     ("cases/classical/takagi.toml", &["lead := Block (1#2)", "cusp (automaton"]),
     ("cases/two-parameter/corner-3-5.toml", &["corner (automaton", "verdict: refuted"]),
     ("cases/bspline/degree-3.toml", &["regular (automaton", "tangent_at_every_address"]),

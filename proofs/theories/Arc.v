@@ -1,197 +1,15 @@
-(** A curve with common cones is an arc: only the addresses of the joints meet, so that the curve is G¹ where the joints of all
-    levels are smooth (Theorem 6). *)
+(** A curve with common cones is an arc: only the addresses of the joints meet, and at a smooth joint they have one ray. *)
 From Coq Require Import Reals Lra Lia List Bool FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
-From Secant Require Export Cones Levels.
+From Secant Require Export Cones Extreme.
 From Secant Require Import Vec Automaton Leading Germ Replay.
 Import ListNotations.
 Open Scope R_scope.
 
-(** At the point of an address there is one ray to which the secants of both sides, directed forward, tend uniformly: those to the
-    points of the addresses that share [m] letters, before and after it in the order of the curve. [rev] says which pieces run
-    backwards. *)
-Definition tangent_at (A : automaton) (rev : nat -> nat -> bool) (P : matrix) (s : nat) (a : address) (d : vec) :=
-  0 < nrm (N A) d /\
-  forall eps, 0 < eps -> exists m, forall t, adm A s t -> (forall j, (j < m)%nat -> a j = t j) ->
-  forall x, (ahead A rev s a t /\ x = act (N A) P (sub (phi A s t) (phi A s a))) \/
-            (ahead A rev s t a /\ x = act (N A) P (sub (phi A s a) (phi A s t))) ->
-  0 < nrm (N A) x -> exists c, 0 < c /\ nrm (N A) (sub x (scl c d)) <= eps * nrm (N A) x.
-
-Definition tangent_at_every_address (A : automaton) (rev : nat -> nat -> bool) (P : matrix) (s : nat) :=
-  forall a, adm A s a -> exists d, tangent_at A rev P s a d.
-
-(** G¹: a tangent at every address, which depends continuously on the address (so on the parameter), and is the same for all
-    addresses of one point. *)
-Definition g1 (A : automaton) (rev : nat -> nat -> bool) (P : matrix) (s : nat) := exists tg : address -> vec,
-  (forall a, adm A s a -> tangent_at A rev P s a (tg a)) /\
-  (forall eps, 0 < eps -> exists m, forall a b, adm A s a -> adm A s b -> (forall j, (j < m)%nat -> a j = b j) ->
-    nrm (N A) (sub (tg a) (tg b)) <= eps) /\
-  (forall a b, adm A s a -> adm A s b -> act (N A) P (phi A s a) = act (N A) P (phi A s b) -> nrm (N A) (sub (tg a) (tg b)) = 0).
-
-(** The last address of a state, in the order of the curve, where [late], and the first one otherwise. *)
-Definition extreme (A : automaton) (rev : nat -> nat -> bool) (late : bool) (e : nat) (s : address) :=
-  forall n, s n = if xorb late (turned A rev e s n) then (deg A (st A e s n) - 1)%nat else O.
-
-(** Two addresses that meet in a joint: the letters differ by one, and each goes on to the end of its piece at which they meet. *)
-Definition joint_of (A : automaton) (rev : nat -> nat -> bool) (s k : nat) (a b : address) :=
-  (forall j, (j < k)%nat -> a j = b j) /\ b k = S (a k) /\
-  let e := st A s a k in
-  extreme A rev (negb (rev e (a k))) (dst A e (a k)) (drop (S k) a) /\ extreme A rev (rev e (b k)) (dst A e (b k)) (drop (S k) b).
-
-(** Vectors near to which one and the same vectors are, up to positive factors. *)
-Lemma one_ray n d1 d2 : 0 < nrm n d1 -> (forall eps, 0 < eps -> exists x c1 c2, 0 < nrm n x /\ 0 < c1 /\ 0 < c2 /\
-  nrm n (sub x (scl c1 d1)) <= eps * nrm n x /\ nrm n (sub x (scl c2 d2)) <= eps * nrm n x) ->
-  nrm n (sub (scl (nrm n d2) d1) (scl (nrm n d1) d2)) = 0.
-Proof.
-  intros H1 H. apply Rle_antisym; [|apply nrm_ge0]. set (p := nrm n d1) in *. set (q := nrm n d2).
-  assert (Hq : 0 <= q) by apply nrm_ge0.
-  apply Rnot_lt_le. intros Hpos. set (w := nrm n (sub (scl q d1) (scl p d2))) in *.
-  set (eps := Rmin (1 / 2) (w / (40 * (p * q + 1)))).
-  assert (Hpq : 0 <= p * q) by (apply Rmult_le_pos; lra).
-  assert (He : 0 < eps) by (unfold eps; apply Rmin_glb_lt; [lra|apply Rdiv_lt_0_compat; lra]).
-  assert (He1 : eps <= 1 / 2) by apply Rmin_l.
-  assert (He2 : eps * (p * q + 1) <= w / 40).
-  { apply Rle_trans with (w / (40 * (p * q + 1)) * (p * q + 1)); [apply Rmult_le_compat_r; [lra|apply Rmin_r]|right; field; lra]. }
-  destruct (H eps He) as (x & c1 & c2 & Hx & Hc1 & Hc2 & A1 & A2). set (r := nrm n x) in *.
-  (* [|r - c1 p| <= eps r], [|r - c2 q| <= eps r]. *)
-  assert (B : forall c d, 0 < c -> nrm n (sub x (scl c d)) <= eps * r -> r - c * nrm n d <= eps * r /\ c * nrm n d - r <= eps * r).
-  { intros c d Hc Hd. assert (E : nrm n (scl c d) = c * nrm n d) by (rewrite nrm_scl, Rabs_pos_eq; lra). rewrite <- E. split.
-    - pose proof (nrm_back n x (scl c d)) as Hb. fold r in Hb. lra.
-    - pose proof (nrm_back n (scl c d) x) as Hb. rewrite nrm_sub_sym in Hb. fold r in Hb. lra. }
-  destruct (B c1 d1 Hc1 A1) as [B1 B2]. destruct (B c2 d2 Hc2 A2) as [B3 B4]. fold p in B1, B2. fold q in B3, B4.
-  (* [c1 c2 (q d1 - p d2) = c2 q (c1 d1 - x) + (c2 q - c1 p) x + c1 p (x - c2 d2)]. *)
-  assert (Hw : c1 * c2 * w <= c2 * q * (eps * r) + 2 * eps * r * r + c1 * p * (eps * r)).
-  { unfold w. rewrite <- (Rabs_pos_eq (c1 * c2)) at 1 by (apply Rmult_le_pos; lra). rewrite <- nrm_scl.
-    replace (scl (c1 * c2) (sub (scl q d1) (scl p d2))) with
-      (add (add (scl (c2 * q) (sub (scl c1 d1) x)) (scl (c2 * q - c1 * p) x)) (scl (c1 * p) (sub x (scl c2 d2))))
-      by (extensionality i; unfold add, sub, scl; ring).
-    assert (Hs : Rabs (c2 * q - c1 * p) <= 2 * eps * r) by (apply Rabs_le; lra).
-    eapply Rle_trans; [apply nrm_add|]. apply Rplus_le_compat; [eapply Rle_trans; [apply nrm_add|]; apply Rplus_le_compat|].
-    - rewrite nrm_scl, Rabs_pos_eq by (apply Rmult_le_pos; lra). apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|].
-      rewrite nrm_sub_sym. exact A1.
-    - rewrite nrm_scl. apply Rmult_le_compat_r; [unfold r in *; lra|exact Hs].
-    - rewrite nrm_scl, Rabs_pos_eq by (apply Rmult_le_pos; lra). apply Rmult_le_compat_l; [apply Rmult_le_pos; lra|exact A2]. }
-  assert (Hq0 : 0 < q) by (destruct (Rle_lt_or_eq_dec 0 q Hq) as [|E]; auto; rewrite <- E in B3; nra).
-  (* [r <= 2 c1 p], [r <= 2 c2 q], and both products are at most [3/2 r]. *)
-  assert (C1 : r <= 2 * (c1 * p)) by nra. assert (C2 : r <= 2 * (c2 * q)) by nra.
-  assert (C3 : c1 * p <= 3 / 2 * r) by nra. assert (C4 : c2 * q <= 3 / 2 * r) by nra.
-  assert (D : c1 * c2 * w <= 5 * eps * (r * r)).
-  { eapply Rle_trans; [exact Hw|]. assert (0 <= eps * r) by (apply Rmult_le_pos; lra). nra. }
-  assert (E : r * r <= 4 * (c1 * c2) * (p * q)).
-  { apply Rle_trans with (2 * (c1 * p) * (2 * (c2 * q))); [apply Rmult_le_compat; lra|right; ring]. }
-  assert (F : 0 < c1 * c2) by (apply Rmult_lt_0_compat; auto).
-  assert (G : c1 * c2 * w <= c1 * c2 * (20 * (eps * (p * q)))).
-  { eapply Rle_trans; [exact D|]. apply Rle_trans with (5 * eps * (4 * (c1 * c2) * (p * q))); [apply Rmult_le_compat_l; lra|right; ring]. }
-  apply Rmult_le_reg_l in G; auto. assert (eps * (p * q) <= w / 40 - eps) by lra.
-  assert (Hw2 : w <= 20 * (w / 40 - eps)) by lra. lra.
-Qed.
-
-(** A vector that is near to multiples of another one: that is not 0. *)
-Lemma near_pos n x c d : 0 < nrm n x -> nrm n (sub x (scl c d)) <= 1 / 2 * nrm n x -> 0 < nrm n d.
-Proof.
-  intros Hx H. destruct (Rle_lt_or_eq_dec 0 (nrm n d) (nrm_ge0 n d)) as [|E]; auto. exfalso.
-  pose proof (nrm_back n x (scl c d)) as Hb. rewrite nrm_scl, <- E, Rmult_0_r in Hb. lra.
-Qed.
-
-Lemma first_difference (a b : address) : a = b \/ exists k, (forall j, (j < k)%nat -> a j = b j) /\ a k <> b k.
-Proof.
-  destruct (LPO (fun n => a n <> b n)) as [(n & H)|H].
-  - intros n. destruct (Nat.eq_dec (a n) (b n)); [right|left]; auto.
-  - right. induction n as [n IH] using (well_founded_induction lt_wf).
-    assert (Hd : forall m, (forall j, (j < m)%nat -> a j = b j) \/ exists j, (j < m)%nat /\ a j <> b j).
-    { induction m as [|m [Hm|(j & Hj & Hn)]]; [left; intros; lia| |right; exists j; split; auto].
-      destruct (Nat.eq_dec (a m) (b m)); [left|right; exists m; auto].
-      intros j Hj. destruct (Nat.eq_dec j m) as [->|]; auto. apply Hm. lia. }
-    destruct (Hd n) as [Hn|(j & Hj & Hn)]; [exists n; auto|apply (IH j Hj Hn)].
-  - left. extensionality n. destruct (Nat.eq_dec (a n) (b n)); auto. destruct (H n); auto.
-Qed.
-
-Lemma rep_agree n w : forall x y j, (j < n * length w)%nat -> rep n w x j = rep n w y j.
-Proof.
-  induction n as [|n IH]; intros x y j Hj; [simpl in Hj; lia|]. simpl. rewrite !app_nth.
-  destruct (Nat.ltb_spec j (length w)); auto. apply IH. simpl in Hj. lia.
-Qed.
-
-Section Extreme.
-Variables (A : automaton) (rev : nat -> nat -> bool).
-
-Lemma extreme_unique late e x y : extreme A rev late e x -> extreme A rev late e y -> x = y.
-Proof.
-  intros Hx Hy. extensionality n. induction n as [n IH] using (well_founded_induction lt_wf).
-  rewrite (Hx n), (Hy n), (turned_same A rev n e x y), (proj2 (W_same A n e x y (fun _ => 0) IH)) by auto. reflexivity.
-Qed.
-
-(** An address that ends with the last letters, or the first ones, comes after, or before, all that share what is before these. *)
-Lemma extreme_order late start a n0 c k : adm A start a -> adm A start c ->
-  extreme A rev late (st A start a n0) (drop n0 a) -> (n0 <= k)%nat -> (forall j, (j < k)%nat -> a j = c j) -> a k <> c k ->
-  if xorb late (turned A rev start a n0) then ahead A rev start c a else ahead A rev start a c.
-Proof.
-  intros Ha Hc He Hk Heq Hne. pose proof (He (k - n0)%nat) as H. rewrite drop_nth in H.
-  pose proof (turned_plus A rev n0 start a (k - n0)) as Ht. pose proof (st_plus A n0 start a (k - n0)) as Hs.
-  replace (n0 + (k - n0))%nat with k in H, Ht, Hs by lia. rewrite <- Hs in H.
-  pose proof (Hc k) as Hck. rewrite <- (proj2 (W_same A k start a c (fun _ => 0) Heq)) in Hck.
-  assert (Heq' : forall j, (j < k)%nat -> c j = a j) by (intros; symmetry; auto).
-  pose proof (turned_same A rev k start a c Heq) as Htc.
-  destruct late, (turned A rev start a n0), (turned A rev (st A start a n0) (drop n0 a) (k - n0)) eqn:E; simpl in *;
-    exists k; (split; [auto|]); rewrite <- ?Htc, ?Ht; lia.
-Qed.
-End Extreme.
-
-(** A branch whose cycle leads back. *)
-Definition round (A : automaton) (s : nat) (b : branch) :=
-  admw A s (prefix b) /\ admw A (stw A s (prefix b)) (cycle b) /\ cycle b <> [] /\
-  stw A (stw A s (prefix b)) (cycle b) = stw A s (prefix b).
-
-Lemma admw_app A u v : forall s, admw A s (u ++ v) <-> admw A s u /\ admw A (stw A s u) v.
-Proof. induction u as [|i u IH]; simpl; intros s; [tauto|]. rewrite IH. tauto. Qed.
-
-Lemma round_inside A s u b : admw A s u -> round A (stw A s u) b -> round A s (inside u b).
-Proof.
-  intros Hu (H1 & H2 & H3 & H4). unfold round, inside; simpl. rewrite stw_app, admw_app. auto.
-Qed.
-
-(** The ray of an address that ends with the last letters, or the first ones, is that of its branch. *)
-Lemma side_ray A rev P start b a n0 late d d' : contracting A -> (start < states A)%nat -> round A start b ->
-  a = app (prefix b) (per (cycle b)) -> adm A start a -> extreme A rev late (st A start a n0) (drop n0 a) ->
-  tangent_at A rev P start a d -> half_tangent A P start b d' -> let d2 := scl (orient (xorb late (turned A rev start a n0))) d' in
-  0 < nrm (N A) d2 /\ nrm (N A) (sub (scl (nrm (N A) d2) d) (scl (nrm (N A) d) d2)) = 0.
-Proof.
-  intros Hsys Hst (R1 & R2 & R3 & R4) Ea Ha He [Hd Ht] [Hh1 Hh2] d2. set (z := xorb late (turned A rev start a n0)) in *.
-  assert (H : forall eps, 0 < eps -> exists x c1 c2, 0 < nrm (N A) x /\ 0 < c1 /\ 0 < c2 /\
-    nrm (N A) (sub x (scl c1 d)) <= eps * nrm (N A) x /\ nrm (N A) (sub x (scl c2 d2)) <= eps * nrm (N A) x).
-  { intros eps Heps. destruct (Ht eps Heps) as (m1 & Hm1). destruct (Hh1 eps Heps) as (m0 & Hm0).
-    set (M := (m0 + m1 + n0)%nat). destruct (Hh2 M) as (t & Hat & Hpos).
-    set (c := app (prefix b) (rep M (cycle b) t)).
-    assert (Hc : adm A start c) by (apply adm_app; split; auto; apply (adm_rep A start b); auto).
-    assert (Hlen : (1 <= length (cycle b))%nat) by (destruct (cycle b); simpl; [congruence|lia]).
-    assert (Hper : per (cycle b) = rep M (cycle b) (per (cycle b))).
-    { clear - R3. induction M; simpl; auto. rewrite <- IHM. apply per_app; auto. }
-    assert (Hac : forall j, (j < m1 + n0)%nat -> a j = c j).
-    { intros j Hj. rewrite Ea, Hper. unfold c. rewrite !app_nth. destruct (Nat.ltb_spec j (length (prefix b))); auto.
-      apply rep_agree. unfold M. nia. }
-    assert (Hsec : secant A P start b M t = sub (act (N A) P (phi A start c)) (act (N A) P (phi A start a))).
-    { unfold secant, point. rewrite Ea. reflexivity. }
-    destruct (first_difference a c) as [E|(k & Hk1 & Hk2)].
-    { exfalso. rewrite Hsec, <- E in Hpos. rewrite nrm_0 in Hpos; [lra|]. intros; unfold sub; ring. }
-    assert (Hk : (m1 + n0 <= k)%nat) by (destruct (Nat.lt_ge_cases k (m1 + n0)) as [Hlt|]; auto; destruct Hk2; auto).
-    pose proof (extreme_order A rev late start a n0 c k Ha Hc He ltac:(lia) Hk1 Hk2) as Ho. fold z in Ho.
-    set (x := scl (orient z) (secant A P start b M t)).
-    assert (Hx : nrm (N A) x = nrm (N A) (secant A P start b M t)).
-    { unfold x. rewrite nrm_scl. destruct z; unfold orient; [rewrite Rabs_left|rewrite Rabs_pos_eq]; lra. }
-    destruct (Hm1 c Hc) with (x := x) as (c1 & Hc1 & Hn1).
-    - intros j Hj. apply Hac. lia.
-    - unfold x. rewrite Hsec, !act_sub. destruct z; [right|left]; (split; [exact Ho|]); unfold orient;
-        extensionality i; unfold scl, sub; ring.
-    - rewrite Hx. auto.
-    - destruct (Hm0 M t ltac:(unfold M; lia) Hat Hpos) as (c2 & Hc2 & Hn2). exists x, c1, c2. rewrite Hx at 1.
-      split; auto. split; auto. split; auto. split; auto. rewrite Hx.
-      replace (sub x (scl c2 d2)) with (scl (orient z) (sub (secant A P start b M t) (scl c2 d'))) by
-        (unfold x, d2; extensionality i; unfold scl, sub; ring).
-      rewrite nrm_scl. replace (Rabs (orient z)) with 1; [lra|].
-      destruct z; unfold orient; [rewrite Rabs_left|rewrite Rabs_pos_eq]; lra. }
-  split; [|apply one_ray; auto].
-  destruct (H (1 / 2) ltac:(lra)) as (x & c1 & c2 & Hx & _ & _ & _ & Hn). apply (near_pos _ x c2); auto.
-Qed.
+(** Branches that lead along the two sides of the joint of a piece and the next one. *)
+Definition sides_of (A : automaton) (rev : nat -> nat -> bool) (e i : nat) (b1 b2 : branch) := round A e b1 /\ round A e b2 /\
+  (exists x, app (prefix b1) (per (cycle b1)) = cons i x /\ extreme A rev (negb (rev e i)) (dst A e i) x) /\
+  (exists x, app (prefix b2) (per (cycle b2)) = cons (S i) x /\ extreme A rev (rev e (S i)) (dst A e (S i)) x).
 
 Section Arc.
 Variable A : automaton.
@@ -209,6 +27,7 @@ Notation leaves := (leaves A rev first last).
 Notation inC e := (in_cone (rays e) (ray e)).
 Notation f s k := (st A start s k).
 Notation turned := (turned A rev).
+Notation sides := (sides_of A rev).
 
 Lemma lim_W s k : forall e (x : nat -> vec) (y : vec), (forall i, is_lim_seq (fun m => x m i) (y i)) ->
   forall i, is_lim_seq (fun m => W A e s k (x m) i) (W A e s k y i).
@@ -301,7 +120,7 @@ Proof.
   intros Hi. set (e := f s k) in *. pose proof (f_at k) as He. fold e in He.
   assert (Hd : (dst A e i < states A)%nat) by (apply (dst_ok' A sys); auto).
   assert (E : sub (leaves e i) (enters e i) = scl (orient (rev e i)) (T e i (sub (last (dst A e i)) (first (dst A e i))))).
-  { unfold Cones.leaves, Cones.enters. rewrite act_sub. destruct (rev e i); extensionality j; unfold scl, sub, orient; ring. }
+  { unfold Order.leaves, Order.enters. rewrite act_sub. destruct (rev e i); extensionality j; unfold scl, sub, orient; ring. }
   rewrite E, (chord_in_cone _ _ _ _ _ _ _ _ _ common) by auto.
   rewrite (comb_linear (T e i)) by (intros; first [apply act_add|apply act_scl]).
   replace (scl (orient (rev e i)) (comb (rays (dst A e i)) (weight (dst A e i)) (fun l => T e i (ray (dst A e i) l))))
@@ -342,13 +161,13 @@ Qed.
 Lemma rest_out k : seen s (S k) (rest (negb (rev (f s k) (s k))) (S k)) = seen s k (sub (leaves (f s k) (s k)) (at_ k)).
 Proof.
   rewrite seen_last. f_equal. rewrite (at_step k). destruct (f_step A start s start_ok s_ok k) as [Hf _].
-  unfold rest, Cones.leaves. rewrite Hf. destruct (rev (f s k) (s k)); simpl; rewrite act_sub; extensionality i; unfold scl, sub, orient; ring.
+  unfold rest, Order.leaves. rewrite Hf. destruct (rev (f s k) (s k)); simpl; rewrite act_sub; extensionality i; unfold scl, sub, orient; ring.
 Qed.
 
 Lemma rest_in k : seen s (S k) (rest (rev (f s k) (s k)) (S k)) = seen s k (sub (at_ k) (enters (f s k) (s k))).
 Proof.
   rewrite seen_last. f_equal. rewrite (at_step k). destruct (f_step A start s start_ok s_ok k) as [Hf _].
-  unfold rest, Cones.enters. rewrite Hf. destruct (rev (f s k) (s k)); simpl; rewrite act_sub; extensionality i; unfold scl, sub, orient; ring.
+  unfold rest, Order.enters. rewrite Hf. destruct (rev (f s k) (s k)); simpl; rewrite act_sub; extensionality i; unfold scl, sub, orient; ring.
 Qed.
 
 Lemma seen_starts k i n : (i + n < deg A (f s k))%nat -> 0 <= seen s k (sub (enters (f s k) (i + n)) (enters (f s k) i)).
@@ -443,27 +262,23 @@ Proof.
   - destruct (f_step A start t start_ok Ht k) as [Hd _]. rewrite <- Hf in Hd. rewrite <- Hd. apply rest_extreme; auto. lra.
 Qed.
 
-(** Branches that lead along the two sides of the joint of a piece and the next one, and smooth copies of the joint everywhere. *)
-Definition smooth_joint (e i : nat) := exists b1 b2 x1 x2, round A e b1 /\ round A e b2 /\
-  app (prefix b1) (per (cycle b1)) = cons i x1 /\ extreme A rev (negb (rev e i)) (dst A e i) x1 /\
-  app (prefix b2) (per (cycle b2)) = cons (S i) x2 /\ extreme A rev (rev e (S i)) (dst A e (S i)) x2 /\
-  forall u, admw A start u -> stw A start u = e -> exists d, regular A P start (inside u b1) (inside u b2) d.
-Hypothesis smooth : forall e i, (e < states A)%nat -> (S i < deg A e)%nat -> smooth_joint e i.
 Notation tg a := (tangent A rev ray P h start a).
 
 Lemma tangents a : adm A start a -> tangent_at A rev P start a (tg a).
 Proof. intros Ha. apply (tangent_everywhere A sys rev rays ray B kappa first last weight common); auto. Qed.
 
-Lemma joint_ray a b k : adm A start a -> adm A start b -> joint_of A rev start k a b -> nrm N (sub (tg a) (tg b)) = 0.
+(** The rays of both sides of a smooth joint are one. *)
+Lemma joint_ray a b k : adm A start a -> adm A start b -> joint_of A rev start k a b ->
+  (exists b1 b2 d, sides (f a k) (a k) b1 b2 /\ regular A P start (inside (letters k a) b1) (inside (letters k a) b2) d) ->
+  nrm N (sub (tg a) (tg b)) = 0.
 Proof.
-  intros Ha Hb (Heq & Hbk & H1 & H2). cbv zeta in H1, H2. set (e := f a k) in *. pose proof (st_same a b k Heq) as Hf. fold e in Hf.
+  intros Ha Hb (Heq & Hbk & H1 & H2) (b1 & b2 & d & (R1 & R2 & (x1 & E1 & X1) & (x2 & E2 & X2)) & Hreg). cbv zeta in H1, H2. set (e := f a k) in *. pose proof (st_same a b k Heq) as Hf. fold e in Hf.
   pose proof (f_at a Ha k) as He. fold e in He. pose proof (Hb k) as Hdeg. rewrite <- Hf in Hdeg. rewrite Hbk in Hdeg, H2.
-  destruct (smooth e (a k) He Hdeg) as (b1 & b2 & x1 & x2 & R1 & R2 & E1 & X1 & E2 & X2 & Hreg).
   destruct (letters_ok A k start a Ha) as (L1 & L2 & L3 & _). destruct (letters_ok A k start b Hb) as (M1 & M2 & M3 & _).
   assert (Hlet : letters k b = letters k a).
   { clear - Heq. revert a b Heq. induction k as [|k IH]; simpl; intros a b Heq; auto. rewrite (Heq O) by lia. f_equal.
     apply IH. intros j Hj. apply (Heq (S j)). lia. }
-  rewrite Hlet in M1. set (u := letters k a) in *. fold e in L3.
+  rewrite Hlet in M1. fold e in R1, R2, X1, X2. set (u := letters k a) in *. fold e in L3.
   assert (Hcons : forall s, drop k s = cons (s k) (drop (S k) s)).
   { intros s. extensionality j. rewrite drop_nth. destruct j as [|j]; simpl; [f_equal; lia|].
     change (drop k (tl s) j) with (drop (S k) s j). rewrite drop_nth. f_equal. lia. }
@@ -471,7 +286,7 @@ Proof.
   { unfold inside; simpl prefix; simpl cycle. rewrite app_app, E1, (extreme_unique A rev _ _ _ _ X1 H1), <- Hcons. exact L1. }
   assert (Eb : b = app (prefix (inside u b2)) (per (cycle (inside u b2)))).
   { unfold inside; simpl prefix; simpl cycle. rewrite app_app, E2, (extreme_unique A rev _ _ _ _ X2 H2), <- Hbk, <- Hcons. exact M1. }
-  destruct (Hreg u L2 L3) as (d & _ & Hd1 & Hd2). rewrite <- L3 in R1, R2.
+  destruct Hreg as (_ & Hd1 & Hd2). rewrite <- L3 in R1, R2.
   assert (Ta : turned start a (S k) = xorb (turned start a k) (rev e (a k))).
   { replace (S k) with (k + 1)%nat by lia. rewrite turned_plus. simpl. rewrite drop_nth, Nat.add_0_r, xorb_false_r. reflexivity. }
   assert (Tb : turned start b (S k) = xorb (turned start a k) (rev e (S (a k)))).
@@ -504,43 +319,50 @@ Proof.
   apply Rmult_eq_reg_l in E; lra.
 Qed.
 
-(** Theorem 6: where the joints of all levels are smooth the curve is G¹. *)
-Theorem arc_g1 : g1 A rev P start.
+(** The tangent depends continuously on the address. *)
+Lemma tangent_continuous eps : 0 < eps -> exists m, forall a b, adm A start a -> adm A start b ->
+  (forall j, (j < m)%nat -> a j = b j) -> nrm N (sub (tg a) (tg b)) <= eps.
 Proof.
-  exists (fun a => tg a). split; [apply tangents|]. split.
-  - intros eps Heps.
-    set (w := fun j => scl (/ dot N h (act N P (ray start j))) (act N P (ray start j))).
-    set (W0 := sum (rays start) (fun j => sum (rays start) (fun j' => nrm N (sub (w j) (w j'))))).
-    assert (HW : 0 <= W0) by (apply sum_nonneg; intros; apply sum_nonneg; intros; apply nrm_ge0).
-    assert (Hu : forall a j, unit_ray A rev ray P h start a 0 j = w j).
-    { intros a j. unfold unit_ray, w, hgt, gen. simpl (st A start a 0). rewrite cell_0; auto. }
-    assert (Hwide : forall a, wide A rev rays ray P h start a = W0).
-    { intros a. unfold wide, W0. apply sum_ext; intros; apply sum_ext; intros. rewrite !Hu. reflexivity. }
-    destruct (ratio_ok _ _ _ _ _ _ _ _ _ common) as [K1 K2].
-    assert (Hsh : 0 <= shrink kappa < 1) by (unfold shrink; nra).
-    destruct (pow_lt_1_zero (shrink kappa)) with (y := eps / (2 * (W0 + 1))) as (m & Hm).
-    { rewrite Rabs_pos_eq; lra. }
-    { apply Rdiv_lt_0_compat; lra. }
-    specialize (Hm m (le_n m)). rewrite Rabs_pos_eq in Hm by (apply pow_le; lra).
-    exists m. intros a b Ha Hb Heq.
-    assert (Hz : (0 < rays (f a m))%nat) by (apply (some_ray _ _ _ _ _ _ _ _ _ common), f_at; auto).
-    assert (Hz' : (0 < rays (f b m))%nat) by (rewrite <- (st_same a b m Heq); auto).
-    pose proof (tangent_near A sys rev rays ray B kappa first last weight common P h start a start_ok Ha view m 0 Hz) as Na.
-    pose proof (tangent_near A sys rev rays ray B kappa first last weight common P h start b start_ok Hb view m 0 Hz') as Nb.
-    rewrite Hwide in Na, Nb.
-    assert (E : unit_ray A rev ray P h start a m 0 = unit_ray A rev ray P h start b m 0).
-    { unfold unit_ray, hgt, gen, cell. rewrite <- (st_same a b m Heq), (turned_same A rev m start a b Heq).
-      destruct (W_same A m start a b (ray (f a m) 0) Heq) as [-> _]. reflexivity. }
-    rewrite E in Na. eapply Rle_trans; [apply (nrm_tri N _ (unit_ray A rev ray P h start b m 0))|].
-    rewrite (nrm_sub_sym N (tg a)).
-    assert (Hp : shrink kappa ^ m * W0 <= eps / 2).
-    { apply Rle_trans with (shrink kappa ^ m * (W0 + 1)); [apply Rmult_le_compat_l; [apply pow_le; lra|lra]|].
-      apply Rle_trans with (eps / (2 * (W0 + 1)) * (W0 + 1)); [apply Rmult_le_compat_r; lra|right; field; lra]. }
-    lra.
-  - intros a b Ha Hb Hpt. destruct (first_difference a b) as [->|(k & Hk1 & Hk2)].
-    + apply nrm_0. intros; unfold sub; ring.
-    + destruct (Nat.lt_ge_cases (a k) (b k)) as [Hlt|Hge].
-      * apply (joint_ray a b k); auto. apply only_joints; auto.
-      * rewrite nrm_sub_sym. apply (joint_ray b a k); auto. apply only_joints; auto; [intros; symmetry; auto|lia].
+  intros Heps.
+  set (w := fun j => scl (/ dot N h (act N P (ray start j))) (act N P (ray start j))).
+  set (W0 := sum (rays start) (fun j => sum (rays start) (fun j' => nrm N (sub (w j) (w j'))))).
+  assert (HW : 0 <= W0) by (apply sum_nonneg; intros; apply sum_nonneg; intros; apply nrm_ge0).
+  assert (Hu : forall a j, unit_ray A rev ray P h start a 0 j = w j).
+  { intros a j. unfold unit_ray, w, hgt, gen. simpl (st A start a 0). rewrite cell_0; auto. }
+  assert (Hwide : forall a, wide A rev rays ray P h start a = W0).
+  { intros a. unfold wide, W0. apply sum_ext; intros; apply sum_ext; intros. rewrite !Hu. reflexivity. }
+  destruct (ratio_ok _ _ _ _ _ _ _ _ _ common) as [K1 K2].
+  assert (Hsh : 0 <= shrink kappa < 1) by (unfold shrink; nra).
+  destruct (pow_lt_1_zero (shrink kappa)) with (y := eps / (2 * (W0 + 1))) as (m & Hm).
+  { rewrite Rabs_pos_eq; lra. }
+  { apply Rdiv_lt_0_compat; lra. }
+  specialize (Hm m (le_n m)). rewrite Rabs_pos_eq in Hm by (apply pow_le; lra).
+  exists m. intros a b Ha Hb Heq.
+  assert (Hz : (0 < rays (f a m))%nat) by (apply (some_ray _ _ _ _ _ _ _ _ _ common), f_at; auto).
+  assert (Hz' : (0 < rays (f b m))%nat) by (rewrite <- (st_same a b m Heq); auto).
+  pose proof (tangent_near A sys rev rays ray B kappa first last weight common P h start a start_ok Ha view m 0 Hz) as Na.
+  pose proof (tangent_near A sys rev rays ray B kappa first last weight common P h start b start_ok Hb view m 0 Hz') as Nb.
+  rewrite Hwide in Na, Nb.
+  assert (E : unit_ray A rev ray P h start a m 0 = unit_ray A rev ray P h start b m 0).
+  { unfold unit_ray, hgt, gen, cell. rewrite <- (st_same a b m Heq), (turned_same A rev m start a b Heq).
+    destruct (W_same A m start a b (ray (f a m) 0) Heq) as [-> _]. reflexivity. }
+  rewrite E in Na. eapply Rle_trans; [apply (nrm_tri N _ (unit_ray A rev ray P h start b m 0))|].
+  rewrite (nrm_sub_sym N (tg a)).
+  assert (Hp : shrink kappa ^ m * W0 <= eps / 2).
+  { apply Rle_trans with (shrink kappa ^ m * (W0 + 1)); [apply Rmult_le_compat_l; [apply pow_le; lra|lra]|].
+    apply Rle_trans with (eps / (2 * (W0 + 1)) * (W0 + 1)); [apply Rmult_le_compat_r; lra|right; field; lra]. }
+  lra.
+Qed.
+
+Lemma unit_lim a : adm A start a -> is_lim_seq (fun n => nrm N (sub (unit_ray A rev ray P h start a n 0) (tg a))) 0.
+Proof.
+  intros Ha. destruct (ratio_ok _ _ _ _ _ _ _ _ _ common) as [K1 K2].
+  assert (Hsh : 0 <= shrink kappa < 1) by (unfold shrink; nra).
+  apply (is_lim_seq_le_le (fun _ => 0) _ (fun n => shrink kappa ^ n * wide A rev rays ray P h start a)).
+  - intros n. split; [apply nrm_ge0|]. apply (tangent_near A sys rev rays ray B kappa first last weight common P h start a start_ok Ha view).
+    apply (some_ray _ _ _ _ _ _ _ _ _ common), f_at; auto.
+  - apply is_lim_seq_const.
+  - replace 0 with (0 * wide A rev rays ray P h start a) by ring.
+    apply (is_lim_seq_scal_r _ (wide A rev rays ray P h start a) 0). apply is_lim_seq_geom. rewrite Rabs_pos_eq; lra.
 Qed.
 End Arc.

@@ -4,48 +4,9 @@
     run backwards. *)
 From Coq Require Import Reals Lra Lia List Bool FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
-From Secant Require Export Convex.
+From Secant Require Export Convex Order.
 From Secant Require Import Vec Automaton Leading Germ.
 Open Scope R_scope.
-
-(** The sign of a piece, [-1] for one that runs backwards. *)
-Definition orient (turned : bool) : R := if turned then -1 else 1.
-
-Lemma orient_xorb a b : orient (xorb a b) = orient a * orient b.
-Proof. destruct a, b; unfold orient; simpl; ring. Qed.
-
-Section Order.
-Variables (A : automaton) (rev : nat -> nat -> bool).
-
-(** Whether the cell of the first [k] letters of an address runs backwards. *)
-Fixpoint turned (e : nat) (s : address) (k : nat) : bool :=
-  match k with O => false | S k => xorb (rev e (s O)) (turned (dst A e (s O)) (tl s) k) end.
-
-(** The second address comes after the first on the curve: the first letter that differs decides, the other way round in a cell
-    that runs backwards. *)
-Definition ahead (e : nat) (s t : address) := exists k, (forall j, (j < k)%nat -> s j = t j) /\
-  if turned e s k then (t k < s k)%nat else (s k < t k)%nat.
-
-Lemma turned_same k : forall e s t, (forall j, (j < k)%nat -> s j = t j) -> turned e s k = turned e t k.
-Proof.
-  induction k; simpl; intros e s t H; auto. rewrite (H O) by lia. f_equal. apply IHk. intros j Hj. apply (H (S j)). lia.
-Qed.
-
-Lemma turned_plus k : forall e s m, turned e s (k + m) = xorb (turned e s k) (turned (st A e s k) (drop k s) m).
-Proof. induction k; simpl; intros; [destruct (turned e s m); auto|]. rewrite IHk, xorb_assoc. reflexivity. Qed.
-
-Lemma ahead_before e s t : (forall f i, rev f i = false) -> (ahead e s t <-> before s t).
-Proof.
-  intros H. assert (Hn : forall k f a, turned f a k = false) by (induction k; simpl; intros; auto; rewrite H, IHk; auto).
-  unfold ahead, before. split; intros (k & H1 & H2); exists k; [rewrite Hn in H2|rewrite Hn]; auto.
-Qed.
-End Order.
-
-(** Where the curve enters and leaves a piece, with the start and the end of each state. *)
-Definition enters (A : automaton) (rev : nat -> nat -> bool) (first last : nat -> vec) (e i : nat) : vec :=
-  act (N A) (mat A e i) (if rev e i then last (dst A e i) else first (dst A e i)).
-Definition leaves (A : automaton) (rev : nat -> nat -> bool) (first last : nat -> vec) (e i : nat) : vec :=
-  act (N A) (mat A e i) (if rev e i then first (dst A e i) else last (dst A e i)).
 
 (** The hypotheses of Theorem 6: rays, positive matrices with entries of bounded ratio, the start and the end of each state and
     the chord between them, and pieces that meet. *)
@@ -132,7 +93,7 @@ Qed.
 
 Lemma through e i : (e < states A)%nat -> (i < deg A e)%nat -> inC e (sub (leaves e i) (enters e i)).
 Proof.
-  intros He Hi. unfold Cones.leaves, Cones.enters. apply T_forward; auto. destruct (rev e i); apply chord_cone, dst_ok'; auto.
+  intros He Hi. unfold Order.leaves, Order.enters. apply T_forward; auto. destruct (rev e i); apply chord_cone, dst_ok'; auto.
 Qed.
 
 (** From the start of one piece to the start of a later one. *)
@@ -167,9 +128,9 @@ Proof.
   { clear e s He Hs. induction k; simpl; intros e s He Hs; [split; [apply cone_same|apply chord_cone; auto]|].
     pose proof (Hs O) as Hs0. simpl in Hs0. pose proof (dst_ok' e (s O) He Hs0) as Hd.
     destruct (IHk (dst A e (s O)) (tl s) Hd (adm_tl A e s Hs)) as [H1 H2]. split.
-    - apply cone_chain with (y := enters e (s O)); [apply from_first; auto|]. unfold Cones.enters. apply T_forward; auto.
+    - apply cone_chain with (y := enters e (s O)); [apply from_first; auto|]. unfold Order.enters. apply T_forward; auto.
       destruct (rev e (s O)); auto.
-    - apply cone_chain with (y := leaves e (s O)); [|apply to_last; auto]. unfold Cones.leaves. apply T_forward; auto.
+    - apply cone_chain with (y := leaves e (s O)); [|apply to_last; auto]. unfold Order.leaves. apply T_forward; auto.
       destruct (rev e (s O)); auto. }
   destruct (in_cone_closed (rays e) (ray e)) as (_ & _ & _ & Hl).
   assert (Hlim : forall i, is_lim_seq (fun k => W A e s k (first (st A e s k)) i) (phi A e s i)).
@@ -191,11 +152,11 @@ Proof.
     pose proof (Hs O) as Hs0; pose proof (Ht O) as Ht0; simpl in Hs0, Ht0;
     pose proof (dst_ok' e (s O) He Hs0) as Hd; pose proof (dst_ok' e (t O) He Ht0) as Hd'.
   - simpl in Hlt. apply cone_chain with (y := leaves e (s O)).
-    { unfold Cones.leaves. apply T_forward; auto. destruct (between _ _ Hd (adm_tl A e s Hs)). destruct (rev e (s O)); auto. }
+    { unfold Order.leaves. apply T_forward; auto. destruct (between _ _ Hd (adm_tl A e s Hs)). destruct (rev e (s O)); auto. }
     apply cone_chain with (y := enters e (t O)).
     { rewrite meet by (auto; lia). pose proof (starts e (S (s O)) (t O - S (s O)) He) as H.
       replace (S (s O) + (t O - S (s O)))%nat with (t O) in H by lia. apply H. auto. }
-    unfold Cones.enters. apply T_forward; auto. destruct (between _ _ Hd' (adm_tl A e t Ht)). destruct (rev e (t O)); auto.
+    unfold Order.enters. apply T_forward; auto. destruct (between _ _ Hd' (adm_tl A e t Ht)). destruct (rev e (t O)); auto.
   - simpl in Hlt. rewrite <- (Heq O) in * by lia. apply T_forward; auto.
     assert (Htl : forall j, (j < k)%nat -> tl s j = tl t j) by (intros j Hj; apply (Heq (S j)); lia).
     assert (Ht' : adm A (dst A e (s O)) (tl t)) by (rewrite (Heq O) by lia; apply adm_tl; auto).

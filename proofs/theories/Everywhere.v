@@ -1,6 +1,6 @@
 (** Replay of Theorem 6: a tangent at every point of a curve, from cones with rational rays; G¹ where all joints are smooth. *)
 From Coq Require Import Reals Lra Lia List QArith Qabs Qreals Bool FunctionalExtensionality.
-From Secant Require Export Replay Arc.
+From Secant Require Export Replay Dense Smooth.
 Open Scope R_scope.
 
 (** The pieces of a list that run backwards, by state and letter. *)
@@ -213,14 +213,13 @@ Proof.
   intros n. apply (track_upto p (S n) late (dst A e i) l0 e0 (per (cycle b)) T0); [|lia]. intros m _. apply Hx.
 Qed.
 
-(** Joints, by state and left piece, with branches along both sides, of which all copies are smooth. *)
+(** Joints, by state and left piece, with branches along both sides that are smooth in what is seen of the state. *)
 Definition joints_of := list (nat * nat * (branch * branch)).
 
-Fixpoint all_smooth (P : matrix) (s : nat) (joints : joints_of) : Prop :=
+Fixpoint all_smooth (views : list qmat) (joints : joints_of) : Prop :=
   match joints with
   | [] => True
-  | (e, i, (b1, b2)) :: rest =>
-    (forall u, admw A s u -> stw A s u = e -> exists d, regular A P s (inside u b1) (inside u b2) d) /\ all_smooth P s rest
+  | (e, _, (b1, b2)) :: rest => (exists d, regular A (qm (view_of views e)) e b1 b2 d) /\ all_smooth views rest
   end.
 
 Definition check_joined (joints : joints_of) : bool :=
@@ -228,25 +227,92 @@ Definition check_joined (joints : joints_of) : bool :=
       check_side (negb (rev e i)) e i (fst (snd j)) && check_side (rev e (S i)) e (S i) (snd (snd j))) joints)
     (seq 0 (deg A e - 1))) (seq 0 (states A)).
 
-Lemma all_smooth_in P s joints e i b1 b2 : all_smooth P s joints -> In (e, i, (b1, b2)) joints ->
-  forall u, admw A s u -> stw A s u = e -> exists d, regular A P s (inside u b1) (inside u b2) d.
+Lemma all_smooth_in views joints e i b1 b2 : all_smooth views joints -> In (e, i, (b1, b2)) joints ->
+  exists d, regular A (qm (view_of views e)) e b1 b2 d.
 Proof.
   induction joints as [|[[e' i'] [b1' b2']] joints IH]; simpl; [tauto|]. intros [H1 H2] [E|Hin]; [|apply IH; auto].
   injection E as -> -> -> ->. exact H1.
 Qed.
 
-(** Theorem 6: the curve is G¹. *)
-Theorem g1_ok P s joints : controlled case centres radii spaces -> check_cones P s = true -> check_joined joints = true ->
-  all_smooth (qm P) s joints -> g1 A rev (qm P) s.
+(** What is seen of each state: a functional on it that is positive on the rays; and matrices that make of it what the start sees of
+    the state, and what is seen of the state around a piece. *)
+Record sights := { own_rows : list qvec; into_start : qmat; into_state : list (list qmat) }.
+
+Definition check_covered (S R G X : qmat) : bool :=
+  (length S <=? N) && (length R <=? N) && (length G <=? N) && (length X <=? N) && qeqm N (qmul N X (qmul N R S)) (qmul N G S).
+
+Lemma check_covered_ok S R G X x : check_covered S R G X = true -> fixed_by case S x ->
+  act N (qm G) x = act N (qm X) (act N (qm R) x).
 Proof.
-  intros Hc H Hj Hsm. destruct (given_cones_ok P s Hc H) as (Hsys & Hs & Hcommon & Hview).
-  apply (arc_g1 A Hsys _ _ _ _ _ _ _ _ Hcommon (qm P) (qv (seen_by k)) s Hs Hview).
-  intros e i He Hi. pose proof (forall_lt _ _ Hj e He) as H1. cbv beta in H1.
-  pose proof (forall_lt _ _ H1 i ltac:(simpl in *; lia)) as H2. cbv beta in H2. apply existsb_exists in H2.
-  destruct H2 as ([[e' i'] [b1 b2]] & Hin & H3). simpl in H3. rewrite !andb_true_iff in H3. destruct H3 as [[[E1 E2] S1] S2].
-  apply Nat.eqb_eq in E1, E2. subst e' i'. apply check_side_ok in S1, S2.
-  destruct S1 as [R1 (x1 & A1 & X1)]. destruct S2 as [R2 (x2 & A2 & X2)].
-  exists b1, b2, x1, x2. split; [exact R1|]. split; [exact R2|]. split; [exact A1|]. split; [exact X1|]. split; [exact A2|]. split; [exact X2|].
-  apply (all_smooth_in _ _ joints e i b1 b2 Hsm Hin).
+  unfold check_covered. rewrite !andb_true_iff, !Nat.leb_le. intros [[[[H1 H2] H3] H4] H5] Hx. unfold fixed_by in Hx. simpl in Hx.
+  pose proof (qeqm_ok N _ _ x H5) as E. rewrite !qmul_ok, !Hx in E by auto. auto.
+Qed.
+
+Definition check_sights (P : qmat) (s : nat) (views : list qmat) (g : sights) : bool :=
+  check_covered (space_of spaces s) (view_of views s) P (into_start g) &&
+  forallb (fun e => (length (view_of views e) <=? N) &&
+    forallb (fun j => qeqv N (qact N (space_of spaces e) (ray_at e j)) (ray_at e j) &&
+      Qlt_bool 0 (qdot N (nth e (own_rows g) []) (qact N (view_of views e) (ray_at e j)))) (seq 0 (length (ray_list e))) &&
+    forallb (fun i => check_covered (space_of spaces (dst A e i)) (view_of views (dst A e i)) (qmul N (view_of views e) (mt e i))
+      (nth i (nth e (into_state g) []) [])) (seq 0 (deg A e))) (seq 0 (states A)).
+
+(** Nothing more is seen through any word. *)
+Lemma sights_word views (g : sights) : controlled case centres radii spaces ->
+  (forall e i, (e < states A)%nat -> (i < deg A e)%nat -> exists X : matrix, forall x, fixed_by case (space_of spaces (dst A e i)) x ->
+    act N (qm (view_of views e)) (act N (mat A e i) x) = act N X (act N (qm (view_of views (dst A e i))) x)) ->
+  forall n e a, (e < states A)%nat -> adm A e a -> exists K, 0 < K /\ forall x, fixed_by case (space_of spaces (st A e a n)) x ->
+    nrm N (act N (qm (view_of views e)) (W A e a n x)) <= K * nrm N (act N (qm (view_of views (st A e a n))) x).
+Proof.
+  intros (Hf & Hsys & Hball & Hbase & Hspan) Hstep. induction n; simpl; intros e a He Ha; [exists 1; split; [lra|intros; lra]|].
+  pose proof (Ha O) as Ha0. simpl in Ha0. assert (Hd : (dst A e (a O) < states A)%nat) by (apply (wf A Hsys e He); auto).
+  destruct (IHn (dst A e (a O)) (tl a) Hd (adm_tl A e a Ha)) as (K & HK & Hn). destruct (Hstep e (a O) He Ha0) as (X & HX).
+  pose proof (size_ge0 N X) as Hs. exists ((size N X + 1) * K). split; [apply Rmult_lt_0_compat; lra|]. intros x Hx.
+  destruct (letters_ok A n (dst A e (a O)) (tl a) (adm_tl A e a Ha)) as (_ & L2 & L3 & L4).
+  simpl. rewrite HX.
+  - eapply Rle_trans; [apply nrm_act|]. rewrite Rmult_assoc. apply Rmult_le_compat; [exact Hs|apply nrm_ge0|lra|apply Hn; exact Hx].
+  - rewrite <- L4. apply (space_word case centres spaces Hf Hsys Hbase Hspan); auto. rewrite L3. exact Hx.
+Qed.
+
+(** Theorem 6: the curve is G¹. *)
+Theorem g1_ok P s views (g : sights) joints : controlled case centres radii spaces -> check_cones P s = true ->
+  check_sights P s views g = true -> check_joined joints = true -> all_smooth views joints -> g1 A rev (qm P) s.
+Proof.
+  intros Hc H Hg Hj Hsm. destruct (given_cones_ok P s Hc H) as (Hsys & Hs & Hcommon & Hview).
+  pose proof Hc as (Hf & _ & Hball & Hbase & Hspan). unfold check_sights in Hg. rewrite andb_true_iff in Hg. destruct Hg as [Hg0 Hg].
+  assert (C : forall e, (e < states A)%nat -> (length (view_of views e) <= N)%nat /\
+    (forall j, (j < length (ray_list e))%nat -> fixed_by case (space_of spaces e) (qv (ray_at e j)) /\
+      0 < dot N (qv (nth e (own_rows g) [])) (act N (qm (view_of views e)) (qv (ray_at e j)))) /\
+    forall i, (i < deg A e)%nat -> exists X : matrix, forall x, fixed_by case (space_of spaces (dst A e i)) x ->
+      act N (qm (view_of views e)) (act N (mat A e i) x) = act N X (act N (qm (view_of views (dst A e i))) x)).
+  { intros e He. pose proof (forall_lt _ _ Hg e He) as G. cbv beta in G. rewrite !andb_true_iff, Nat.leb_le in G. destruct G as [[G1 G2] G3].
+    split; [exact G1|]. split.
+    - intros j Hj'. pose proof (forall_lt _ _ G2 j Hj') as G. cbv beta in G. rewrite andb_true_iff in G. destruct G as [Ga Gb]. split.
+      + apply qeqv_ok in Ga. rewrite qact_ok in Ga; [exact Ga|].
+        pose proof Hspan as Hsp. unfold check_spaces in Hsp. pose proof (forall_lt _ _ Hsp e He) as G. cbv beta in G.
+        rewrite andb_true_iff in G. apply Nat.leb_le. apply G.
+      + apply Q2R_lt in Gb. rewrite Q2R_0, qdot_ok, qact_ok in Gb by auto. exact Gb.
+    - intros i Hi. pose proof (forall_lt _ _ G3 i Hi) as G. cbv beta in G. exists (qm (nth i (nth e (into_state g) []) [])). intros x Hx.
+      rewrite <- (check_covered_ok _ _ _ _ x G Hx). rewrite qmul_ok by auto. reflexivity. }
+  apply (arc_g1 A Hsys _ _ _ _ _ _ _ _ Hcommon (qm P) (qv (seen_by k)) s Hs Hview (fun e => qm (view_of views e))
+    (fun e => qv (nth e (own_rows g) [])) (fun e x => fixed_by case (space_of spaces e) x)).
+  - intros e j He Hj'. apply (C e He); auto.
+  - intros; apply fixed_sub; auto.
+  - intros; apply fixed_scl; auto.
+  - intros e j He Hj'. apply (C e He); auto.
+  - intros e a n x He Ha Hx. destruct (letters_ok A n e a Ha) as (_ & L2 & L3 & L4). rewrite <- L4.
+    apply (space_word case centres spaces Hf Hsys Hbase Hspan); auto. rewrite L3. exact Hx.
+  - intros a n Ha. destruct (sights_word views g Hc (fun e i He Hi => proj2 (proj2 (C e He)) i Hi) n s a Hs Ha) as (K & HK & Hn).
+    pose proof (size_ge0 N (qm (into_start g))) as Hsz. exists ((size N (qm (into_start g)) + 1) * K).
+    split; [apply Rmult_lt_0_compat; lra|]. intros x Hx.
+    destruct (letters_ok A n s a Ha) as (_ & L2 & L3 & L4).
+    rewrite (check_covered_ok _ _ _ _ _ Hg0).
+    + eapply Rle_trans; [apply nrm_act|]. rewrite Rmult_assoc. apply Rmult_le_compat; [exact Hsz|apply nrm_ge0|lra|apply Hn; exact Hx].
+    + rewrite <- L4. apply (space_word case centres spaces Hf Hsys Hbase Hspan); auto. rewrite L3. exact Hx.
+  - intros e i He Hi. pose proof (forall_lt _ _ Hj e He) as H1. cbv beta in H1.
+    pose proof (forall_lt _ _ H1 i ltac:(simpl in *; lia)) as H2. cbv beta in H2. apply existsb_exists in H2.
+    destruct H2 as ([[e' i'] [b1 b2]] & Hin & H3). simpl in H3. rewrite !andb_true_iff in H3. destruct H3 as [[[E1 E2] S1] S2].
+    apply Nat.eqb_eq in E1, E2. subst e' i'. apply check_side_ok in S1, S2. destruct S1 as [R1 X1]. destruct S2 as [R2 X2].
+    destruct (all_smooth_in views joints e i b1 b2 Hsm Hin) as (d & Hd). exists b1, b2, d. split; [|exact Hd].
+    split; [exact R1|]. split; [exact R2|]. split; [exact X1|exact X2].
 Qed.
 End Everywhere.

@@ -69,10 +69,11 @@ struct Stated {
 
 /// What is stated of a whole curve, or why it is not.
 struct Whole {
+    joints: Result<curve::Joints, NoTheorem>,
     levels: Result<curve::Levels, NoTheorem>,
     cones: Result<curve::Cones, NoTheorem>,
-    /// Whether the joints of all states are smooth, so that with both the curve is G¹.
-    smooth: Result<(), NoTheorem>,
+    /// With the joints and the cones, that the curve is G¹.
+    smooth: Result<curve::Sights, NoTheorem>,
 }
 
 /// What shows that the pieces contract.
@@ -169,9 +170,9 @@ pub fn coq(case: &Case, found: &Certified) -> Result<String, NoTheorem> {
     if theorems.is_empty() || found.verdict == Verdict::Undetermined {
         return none("an undetermined verdict", case.name.clone());
     }
-    let (levels, cones) = (curve::levels(&model, found), curve::cones(&model, found));
-    let smooth = curve::smooth(&model, &levels, &cones);
-    let whole = Whole { levels, cones, smooth };
+    let (joints, cones) = (curve::joints(&model, found), curve::cones(&model, found));
+    let (levels, smooth) = (curve::levels(&model, &joints), curve::smooth(&model, &joints, &cones));
+    let whole = Whole { joints, levels, cones, smooth };
     Ok(write::file(case, found, &model, &theorems, &whole))
 }
 

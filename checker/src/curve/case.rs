@@ -299,8 +299,7 @@ const MAX_GROUP: usize = 48;
 /// The maps of a set, where some power of some of them is the identity: the products `g f` of the group that these generate with
 /// the other maps, group by group, each map once.
 fn written_out<T: Whole>(pieces: Vec<Piece<T>>) -> Checked<Vec<Piece<T>>> {
-    let dim = pieces.first().map_or(0, |p| p.op.rows);
-    let one = Matrix::identity(dim);
+    let Some(one) = pieces.first().map(|p| Matrix::identity(p.op.rows)) else { return Ok(pieces) };
     let (mut turns, mut others) = (Vec::new(), Vec::new());
     for piece in &pieces {
         let (mut power, mut finite) = (piece.op.clone(), false);
