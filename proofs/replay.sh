@@ -62,6 +62,7 @@ replay() {
   [ $code -le 1 ] || return 2
   said=$(coq "$file" 2> "$work/why") || { echo "not accepted: ${1#"$here/../"}"; return 1; }
   classical "$said" "$1" || return 1
+  grep -E '^ +(Stated as well|Not stated):' "$file" >> "$work/whole"
   rm "$file"
   echo "replayed: ${1#"$here/../"}"
 }
@@ -80,6 +81,8 @@ for case in "$@"; do
   fi
 done
 if [ -n "$all" ]; then
+  sort "$work/whole" | uniq -c | sort -rn
+  echo "refused:"
   sed -E 's/proofs\/ covers //; s/ at the branch.*//; s/ *$//' "$work/reasons" | sort | uniq -c | sort -rn
   echo "of $# cases $replayed replayed, $failed not accepted, $refused refused"
 fi

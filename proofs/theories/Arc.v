@@ -365,4 +365,81 @@ Proof.
   - replace 0 with (0 * wide A rev rays ray P h start a) by ring.
     apply (is_lim_seq_scal_r _ (wide A rev rays ray P h start a) 0). apply is_lim_seq_geom. rewrite Rabs_pos_eq; lra.
 Qed.
+
+(** The end of a state is the point of its last address, and its start that of the first one. *)
+Lemma edge_word k : forall late e, (e < states A)%nat ->
+  let x := edge A rev late e in let f := st A e x k in
+  W A e x k (if xorb late (turned e x k) then last f else first f) = if late then last e else first e.
+Proof.
+  induction k; intros late e He; [simpl; rewrite xorb_false_r; reflexivity|].
+  pose proof (deg_pos A sys e He) as Hdeg. set (i := if late then (deg A e - 1)%nat else O).
+  assert (Hi : (i < deg A e)%nat) by (unfold i; destruct late; lia).
+  specialize (IHk (xorb late (rev e i)) (dst A e i) (dst_ok' A sys e i He Hi)). cbv zeta in IHk |- *.
+  change (tl (edge A rev late e)) with (edge A rev (xorb late (rev e i)) (dst A e i)).
+  simpl. fold i. change (tl (edge A rev late e)) with (edge A rev (xorb late (rev e i)) (dst A e i)).
+  rewrite <- xorb_assoc, IHk. unfold i. destruct late.
+  - destruct (end_point _ _ _ _ _ _ _ _ _ common e He) as [_ <-]. unfold Order.leaves. destruct (rev e (deg A e - 1)); reflexivity.
+  - destruct (start_point _ _ _ _ _ _ _ _ _ common e He) as [_ <-]. unfold Order.enters. destruct (rev e 0); reflexivity.
+Qed.
+
+Lemma edge_point late e i : (e < states A)%nat -> (i < N)%nat -> phi A e (edge A rev late e) i = (if late then last e else first e) i.
+Proof.
+  intros He Hi. set (x := edge A rev late e). pose proof (wf A sys) as Hwf.
+  set (a := fun k => if xorb late (turned e x k) then last (st A e x k) else first (st A e x k)).
+  assert (Hx : adm A e x) by (intros k; apply edge_adm; auto).
+  assert (Hst : forall k, (st A e x k < states A)%nat) by (intros k; apply st_ok; auto).
+  assert (L : is_lim_seq (fun k => W A e x k (a k) i) (phi A e x i)).
+  { apply (base_points A sys e x a (sum (states A) (fun f => nrm N (last f) + nrm N (first f)))); auto.
+    - intros k. unfold a. destruct (xorb late (turned e x k)); [apply (end_point _ _ _ _ _ _ _ _ _ common)|apply (start_point _ _ _ _ _ _ _ _ _ common)]; auto.
+    - intros k. apply Rle_trans with (nrm N (last (st A e x k)) + nrm N (first (st A e x k))).
+      + unfold a. pose proof (nrm_ge0 N (last (st A e x k))). pose proof (nrm_ge0 N (first (st A e x k))).
+        destruct (xorb late (turned e x k)); lra.
+      + apply (sum_term (states A) (fun f => nrm N (last f) + nrm N (first f)) (st A e x k)); auto.
+        intros j _. pose proof (nrm_ge0 N (last j)). pose proof (nrm_ge0 N (first j)). lra. }
+  apply is_lim_seq_ext with (v := fun _ => (if late then last e else first e) i) in L.
+  - apply is_lim_seq_unique in L. rewrite Lim_seq_const in L. injection L; auto.
+  - intros k. pose proof (edge_word k late e He) as E. cbv zeta in E. fold x in E. unfold a. rewrite E. reflexivity.
+Qed.
+
+(** No part of the curve is a point. *)
+Lemma no_point a m : adm A start a -> exists t, adm A start t /\ (forall j, (j < m)%nat -> a j = t j) /\
+  0 < nrm N (act N P (sub (phi A start t) (phi A start a))).
+Proof.
+  intros Ha. set (e := f a m). pose proof (f_at a Ha m) as He. fold e in He.
+  destruct sys as (Hwf & K & th & c & r & Q1 & Q2 & Q3 & Q4). set (p := phi A e (drop m a)).
+  assert (Hc : 0 < seen a m (sub (last e) (first e))).
+  { rewrite (chord_in_cone _ _ _ _ _ _ _ _ _ common) by auto. rewrite seen_comb.
+    destruct (some_weight _ _ _ _ _ _ _ _ _ common _ He) as (j & Hj & Hw).
+    eapply Rlt_le_trans; [|apply (sum_term _ (fun l => weight e l * seen a m (ray e l)) j)]; auto.
+    - apply Rmult_lt_0_compat; [exact Hw|apply seen_ray; auto].
+    - intros l Hl. apply Rmult_le_pos; [apply (weights _ _ _ _ _ _ _ _ _ common); auto|left; apply seen_ray; auto]. }
+  rewrite (seen_chain a m p) in Hc.
+  assert (G : exists late : bool, seen a m (sub (if late then last e else first e) p) <> 0).
+  { destruct (Req_dec (seen a m (sub (last e) p)) 0) as [E|E]; [exists false|exists true; exact E]. simpl. intros E2.
+    replace (sub (first e) p) with (scl (-1) (sub p (first e))) in E2 by (extensionality i; unfold scl, sub; ring).
+    rewrite seen_scl in E2. lra. }
+  destruct G as (late & G). set (x := edge A rev late e).
+  destruct (letters_ok A m start a Ha) as (L1 & L2 & L3 & L4). fold e in L3.
+  assert (Hx : adm A e x) by (intros k; apply edge_adm; auto).
+  assert (Ht : adm A start (app (letters m a) x)) by (apply adm_app; rewrite L3; auto).
+  assert (Hll : length (letters m a) = m) by (clear; revert a; induction m; simpl; intros; auto).
+  exists (app (letters m a) x). split; [exact Ht|]. split.
+  { intros j Hj. transitivity (app (letters m a) (drop m a) j); [rewrite <- L1; reflexivity|].
+    rewrite !app_nth, Hll. destruct (Nat.ltb_spec j m); [reflexivity|lia]. }
+  assert (Et : phi A start (app (letters m a) x) = W A start a m (phi A e x)).
+  { rewrite (phi_app A sys) by auto. rewrite L3, L4. reflexivity. }
+  assert (Ea : phi A start a = W A start a m p) by apply (phi_W A Hwf K th c r Q1 Q4 m start a start_ok Ha).
+  rewrite Et, Ea, <- W_sub.
+  assert (Ex : phi A e x = if late then last e else first e).
+  { extensionality i. destruct (Nat.lt_ge_cases i N) as [Hi|Hi]; [apply edge_point; auto|].
+    destruct (dim_ok A Hwf e He) as [_ Hd]. destruct (phi_bary' A sys e x He Hx) as [Hz _]. rewrite Hz by lia.
+    destruct late; symmetry; [apply (end_point _ _ _ _ _ _ _ _ _ common e He)|apply (start_point _ _ _ _ _ _ _ _ _ common e He)]; lia. }
+  rewrite Ex. set (z := sub (if late then last e else first e) p) in *.
+  destruct (Rle_lt_or_eq_dec 0 _ (nrm_ge0 N (act N P (W A start a m z)))) as [|E]; auto. exfalso. apply G.
+  unfold seen, cell. rewrite act_scl, dot_scl. pose proof (dot_le N h (act N P (W A start a m z))) as D. rewrite <- E, Rmult_0_r in D.
+  assert (E0 : dot N h (act N P (W A start a m z)) = 0).
+  { pose proof (Rle_abs (dot N h (act N P (W A start a m z)))). pose proof (Rle_abs (- dot N h (act N P (W A start a m z)))) as D2.
+    rewrite Rabs_Ropp in D2. lra. }
+  rewrite E0. ring.
+Qed.
 End Arc.

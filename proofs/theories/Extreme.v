@@ -19,9 +19,11 @@ Definition tangent_at (A : automaton) (rev : nat -> nat -> bool) (P : matrix) (s
 Definition tangent_at_every_address (A : automaton) (rev : nat -> nat -> bool) (P : matrix) (s : nat) :=
   forall a, adm A s a -> exists d, tangent_at A rev P s a d.
 
-(** G¹: a tangent at every address, which depends continuously on the address (so on the parameter), and is the same for all
-    addresses of one point. *)
+(** G¹: no part of the curve is a point; a tangent at every address, which depends continuously on the address (so on the
+    parameter), and is the same for all addresses of one point. *)
 Definition g1 (A : automaton) (rev : nat -> nat -> bool) (P : matrix) (s : nat) := exists tg : address -> vec,
+  (forall a m, adm A s a -> exists t, adm A s t /\ (forall j, (j < m)%nat -> a j = t j) /\
+    0 < nrm (N A) (act (N A) P (sub (phi A s t) (phi A s a)))) /\
   (forall a, adm A s a -> tangent_at A rev P s a (tg a)) /\
   (forall eps, 0 < eps -> exists m, forall a b, adm A s a -> adm A s b -> (forall j, (j < m)%nat -> a j = b j) ->
     nrm (N A) (sub (tg a) (tg b)) <= eps) /\
@@ -118,6 +120,25 @@ Lemma extreme_unique late e x y : extreme A rev late e x -> extreme A rev late e
 Proof.
   intros Hx Hy. extensionality n. induction n as [n IH] using (well_founded_induction lt_wf).
   rewrite (Hx n), (Hy n), (turned_same A rev n e x y), (proj2 (W_same A n e x y (fun _ => 0) IH)) by auto. reflexivity.
+Qed.
+
+(** The last address of a state, or the first one. *)
+Fixpoint edge (late : bool) (e n : nat) : nat :=
+  let i := if late then (deg A e - 1)%nat else O in
+  match n with O => i | S n => edge (xorb late (rev e i)) (dst A e i) n end.
+
+Lemma edge_extreme : forall n late e, edge late e n =
+  if xorb late (turned A rev e (edge late e) n) then (deg A (st A e (edge late e) n) - 1)%nat else O.
+Proof.
+  induction n; intros late e; simpl; [rewrite xorb_false_r; reflexivity|].
+  set (i := if late then (deg A e - 1)%nat else O). rewrite <- xorb_assoc. apply IHn.
+Qed.
+
+Lemma edge_adm : well_formed A -> forall k late e, (e < states A)%nat -> (edge late e k < deg A (st A e (edge late e) k))%nat.
+Proof.
+  intros Hwf. induction k; intros late e He; destruct (Hwf e He) as (_ & Hd & Ht).
+  - simpl. destruct late; lia.
+  - apply (IHk (xorb late (rev e (if late then (deg A e - 1)%nat else O)))). apply Ht. destruct late; lia.
 Qed.
 
 (** An address that ends with the last letters, or the first ones, comes after, or before, all that share what is before these. *)

@@ -197,7 +197,9 @@ Proof.
     - rewrite Hf. apply adm_drop; auto.
     - split; [intros j Hj'; lia|]. simpl. rewrite !Dk, !Dt. split; [exact Hbk|]. rewrite Hf in H2 |- * at 1. rewrite Hf. split; [rewrite <- Hf; exact H1|exact H2].
     - exists b1, b2, d. simpl. rewrite Dk. split; [exact Hs|]. destruct b1, b2. exact Hreg. }
-  exists (fun a => tg a). split; [intros a; apply (tangents A sys rev rays ray B kappa first last weight common P h start start_ok view)|]. split.
+  exists (fun a => tg a).
+  split; [intros a m; apply (no_point A sys rev rays ray B kappa first last weight common P h start start_ok view)|].
+  split; [intros a; apply (tangents A sys rev rays ray B kappa first last weight common P h start start_ok view)|]. split.
   - intros eps Heps. apply (tangent_continuous A sys rev rays ray B kappa first last weight common P h start start_ok view eps Heps).
   - intros a b Ha Hb Hpt. destruct (first_difference a b) as [->|(k & Hk1 & Hk2)].
     + apply nrm_0. intros; unfold sub; ring.
