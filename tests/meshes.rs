@@ -364,7 +364,64 @@ fn the_command_line() {
     let run = secant().args(["certify", "--scheme", "catmull-clark"]).arg(file("cube")).output().unwrap();
     let text = String::from_utf8(run.stdout).unwrap();
     assert!(text.contains("proved: the limit surface of this mesh is a regular C¹ surface"));
-    assert!(text.contains("proved") && text.contains("not twice"));
+    assert!(text.contains("The independent checker proved again what is decided here, from the file itself."));
+    let run = secant().args(["certify", "--scheme", "catmull-clark", "--no-check"]).arg(file("cube")).output().unwrap();
+    assert!(String::from_utf8(run.stdout).unwrap().contains("The independent checker was not asked"));
+}
+
+/// A mesh that is C¹ at its vertices, with patches that are not regular: the checker does not say that the whole surface is.
+#[test]
+fn a_surface_that_is_not_regular_is_not_certified() {
+    let text = std::fs::read_to_string(file("icosahedron")).unwrap();
+    let text = text.replace("v 0 1 1.618034", "v 0.3 -1 -2.618034");
+    let model = Model::parse(&secant::diagnostic::SourceText::new("moved.obj", text), false).unwrap();
+    for (rule, count) in [(LOOP, 12), (QUADS, 32)] {
+        let found = certify(&model, rule, &Budget::default(), &|| {}).unwrap();
+        assert_eq!(found.smooth(), Proved);
+        assert_ne!(found.regular(), Proved);
+        let certificate = secant::certificate::confirm_mesh(&model, rule, &found).unwrap();
+        assert_eq!(certificate.json()["proof"]["limits"].as_array().unwrap().len(), count);
+        let mut forged = certificate.json().clone();
+        forged["proof"]["whole"] = "regular".into();
+        let rejected = secant_check::check(&model.text, &forged.to_string()).unwrap_err();
+        assert_eq!((rejected.rule.as_str(), rejected.place.as_str()), ("limit", "proof.whole"), "{rejected}");
+    }
+}
+
+/// The certificates of all meshes: how many limits they list, whether the whole surface is in them, and what is left out.
+#[test]
+fn certificates_of_meshes() {
+    let answers: [(&str, Scheme, Option<(usize, usize)>, bool, usize); 15] = [
+        ("cube", QUADS, Some((8, 8)), true, 0),
+        ("tetrahedron", QUADS, Some((8, 8)), true, 0),
+        ("octahedron", QUADS, Some((14, 14)), true, 0),
+        ("icosahedron", QUADS, Some((32, 32)), true, 0),
+        ("torus", QUADS, Some((60, 60)), true, 0),
+        ("klein", QUADS, Some((192, 192)), true, 0),
+        ("octahedron", LOOP, Some((6, 6)), true, 0),
+        ("icosahedron", LOOP, Some((12, 12)), true, 0),
+        ("tetrahedron", Scheme::LoopWarren, Some((4, 4)), true, 0),
+        ("valence-64", QUADS, Some((194, 194)), false, 0),
+        ("folded", QUADS, Some((60, 72)), false, 1),
+        ("line", QUADS, Some((0, 14)), false, 0),
+        ("line", LOOP, Some((0, 6)), false, 0),
+        ("plane", QUADS, Some((16, 36)), false, 0),
+        ("strip", QUADS, None, false, 0),
+    ];
+    for (name, rule, listed, whole, left_out) in answers {
+        let (model, found) = found(name, rule);
+        let certificate = match (secant::certificate::confirm_mesh(&model, rule, &found), listed) {
+            (Ok(certificate), Some(_)) => certificate,
+            (Err(secant::certificate::Doubt::Unsupported(_)), None) => continue,
+            (other, _) => panic!("{name} by {}: {other:?}", rule.name()),
+        };
+        let proof = &certificate.json()["proof"];
+        let limits = proof["limits"].as_array().unwrap();
+        let own = Some((limits.iter().filter(|l| !l.is_null()).count(), limits.len()));
+        assert_eq!((own, !proof["whole"].is_null()), (listed, whole), "{name} by {}", rule.name());
+        assert_eq!(certificate.left_out().len(), left_out, "{name}: {:?}", certificate.left_out());
+        assert_eq!(certificate.json()["verdict"], found.smooth().word(), "{name} by {}", rule.name());
+    }
 }
 
 #[test]
@@ -374,7 +431,6 @@ fn what_does_not_go_with_a_mesh_is_refused() {
         (vec![], "secant::usage::scheme"),
         (vec!["--scheme", "butterfly"], "secant::usage::scheme"),
         (vec!["--scheme", "none"], "secant::usage::scheme"),
-        (vec!["--scheme", "catmull-clark", "--certificate", "c.json"], "secant::usage"),
         (vec!["--scheme", "catmull-clark", "--valence", "5"], "secant::usage"),
     ] {
         let run = secant().arg("certify").arg(file("cube")).args(&args).output().unwrap();

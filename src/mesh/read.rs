@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 256 << 20;
@@ -34,6 +35,10 @@ pub struct Model {
     pub topology: Topology,
     /// What is sharp, and the rule of the border.
     pub tags: Tags,
+    /// Whether the file has lines of tags.
+    pub tagged: bool,
+    /// The text of the file.
+    pub text: Arc<str>,
 }
 
 struct Raw {
@@ -117,26 +122,34 @@ impl Model {
 }
 
 impl<'a> Reader<'a> {
-    /// The lines with their words, comments left out.
+    /// The lines with their words, comments left out; one that ends with a backslash goes on.
     fn lines(&self) -> impl Iterator<Item = (Range<usize>, Vec<Word<'a>>)> + use<'a> {
         let text: &'a str = &self.source.text;
         // A byte order mark begins the first word.
         let text = text.trim_start_matches('\u{feff}');
         let mut at = self.source.text.len() - text.len();
-        text.split_inclusive('\n').filter_map(move |line| {
-            let start = at;
-            at += line.len();
-            let body = line.split('#').next()?;
-            let words: Vec<Word<'_>> = body
-                .split_ascii_whitespace()
-                .map(|w| {
+        let mut rest = text.split_inclusive('\n');
+        std::iter::from_fn(move || {
+            let (from, mut to) = (at, at);
+            let mut words: Vec<Word<'a>> = Vec::new();
+            loop {
+                let Some(line) = rest.next() else { break };
+                let start = at;
+                at += line.len();
+                to = start + line.trim_end().len();
+                let body = line.split_once('#').map_or(line, |(body, _)| body);
+                words.extend(body.split_ascii_whitespace().map(|w| {
                     let from = start + (w.as_ptr() as usize - line.as_ptr() as usize);
                     (w, from..from + w.len())
-                })
-                .collect();
-            let end = start + line.trim_end().len();
-            (!words.is_empty()).then_some((start..end, words))
+                }));
+                if body.len() < line.len() || words.last().is_none_or(|w| w.0 != "\\") {
+                    break;
+                }
+                words.pop();
+            }
+            (at > from).then_some((from..to, words))
         })
+        .filter(|(_, words)| !words.is_empty())
     }
 
     fn fail(&self, span: &Range<usize>, code: &str, message: &str, note: &str, help: &str) -> Problem {
@@ -310,6 +323,8 @@ impl<'a> Reader<'a> {
             points: raw.points,
             topology,
             tags: Tags::default(),
+            tagged: !self.tags.is_empty(),
+            text: Arc::clone(&source.text),
         };
         model.tags = tags(source, &self.tags, &model)?;
         Ok(model)
@@ -432,6 +447,15 @@ mod tests {
             assert!(problem.remedy().is_some());
         }
         assert_eq!(parse("v 0 0 0\n").unwrap_err().id(), "secant::mesh::empty");
+    }
+
+    #[test]
+    fn lines_go_on_after_a_backslash() {
+        let text = "v 0 0 \\\n  0\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n2 \\\n3\n# a comment \\\nf 1 2 x\n";
+        let problem = parse(text).unwrap_err();
+        assert_eq!(problem.position(), Some((9, 7)));
+        let model = parse(&text.replace("f 1 2 x", "")).unwrap();
+        assert_eq!((model.points.len(), model.face_lines[0]), (3, 5));
     }
 
     #[test]
