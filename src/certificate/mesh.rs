@@ -117,7 +117,8 @@ pub fn confirm_mesh(model: &Model, scheme: Scheme, found: &Found) -> Result<Cert
 
 fn confirm_part(model: &Model, scheme: Scheme, found: &Found, whole: bool) -> Result<Certificate, Doubt> {
     let Covered { certificate, verdict, claims } = covered(model, scheme, found, whole)?;
-    let accepted = accepted(&model.text, &certificate)?;
+    let Some(text) = &model.text else { return unsupported("a mesh file that is no text", model.name.clone())? };
+    let accepted = accepted(text, &certificate)?;
     let same = claims.len() == accepted.claims.len()
         && claims.iter().zip(&accepted.claims).all(|((c, v), d)| *c == d.claim && same_verdict(*v, d.verdict));
     if !(same && same_verdict(verdict, accepted.verdict)) {

@@ -165,7 +165,7 @@ mod tests {
 
     #[test]
     fn operations_enclose() {
-        for (p, q, r, s) in [(1, 3, -7, 9), (-22, 7, 5, 11), (1, 1000, 13, 17), (63, 1, 1, 64), (-1, 7, -1, 13)] {
+        for (p, q, r, s) in [(1, 3, -7, 9), (-22, 7, 5, 11), (1, 1000, 13, 17), (11, 1, 1, 64), (-1, 7, -1, 13)] {
             let (a, b) = (whole(p) / whole(q), whole(r) / whole(s));
             let (x, y) = (near(p, q), near(r, s));
             assert!(holds(x.plus(y), &(&a + &b)) && holds(x.minus(y), &(&a - &b)) && holds(x.times(y), &(&a * &b)));

@@ -1,4 +1,4 @@
-//! The text of a mesh: points with exact coordinates, and polygons, from an OBJ or an OFF file.
+//! The text of a mesh: points with exact coordinates, and polygons, from an OBJ, an OFF or an ASCII PLY file.
 
 use crate::base::{Checked, Q, bits, need, number::decimal_fraction, reject, some, spend};
 
@@ -34,15 +34,31 @@ fn lines(text: &str) -> Vec<Vec<&str>> {
     all
 }
 
+/// The words of each property in a line, with no word left.
+fn items<'w, 'a>(words: &'w [&'a str], properties: &[(&str, bool)]) -> Option<Vec<&'w [&'a str]>> {
+    let (mut rest, mut all) = (words, Vec::new());
+    for (_, list) in properties {
+        let mut count = 1;
+        if *list {
+            let (first, others) = rest.split_first()?;
+            (count, rest) = (first.parse().ok()?, others);
+        }
+        let (own, others) = rest.split_at_checked(count)?;
+        all.push(own);
+        rest = others;
+    }
+    rest.is_empty().then_some(all)
+}
+
 impl Text {
-    /// Reads a file: one whose first word is `OFF` is an OFF file.
+    /// Reads a file: the first word of an OFF file is `OFF`, that of a PLY file `ply`.
     pub fn read(text: &str) -> Checked<Self> {
         let lines = lines(text);
         let mut found = Self { points: Vec::new(), faces: Vec::new() };
-        if lines.first().is_some_and(|words| words[0] == "OFF") {
-            found.off(&lines)?;
-        } else {
-            found.obj(&lines)?;
+        match lines.first().map(|words| words[0]) {
+            Some("OFF") => found.off(&lines)?,
+            Some("ply") => found.ply(&lines)?,
+            _ => found.obj(&lines)?,
         }
         need(!found.faces.is_empty(), "case", "a mesh without faces")?;
         Ok(found)
@@ -96,6 +112,56 @@ impl Text {
             };
             let corners = words[1..=size].iter().map(corner).collect::<Checked<_>>()?;
             self.face(corners)?;
+        }
+        Ok(())
+    }
+
+    fn ply(&mut self, lines: &[Vec<&str>]) -> Checked<()> {
+        let end = some(lines.iter().position(|words| words[0] == "end_header"), "case", "the header does not end")?;
+        // Elements with their number of items, and their properties, with whether each is a list.
+        let mut elements: Vec<(&str, usize, Vec<(&str, bool)>)> = Vec::new();
+        let mut ascii = false;
+        for words in &lines[1..end] {
+            match words[..] {
+                ["comment" | "obj_info", ..] => {}
+                ["format", "ascii", "1.0"] => ascii = true,
+                ["element", name, count] => {
+                    let known = elements.iter().any(|e| e.0 == name);
+                    let count = count.parse().ok().filter(|_| !known);
+                    elements.push((name, some(count, "case", "an element without a number, or twice")?, Vec::new()));
+                }
+                ["property", "list", _, _, name] | ["property", _, name] => {
+                    let last = some(elements.last_mut(), "case", "a property of no element")?;
+                    last.2.push((name, words.len() == 5));
+                }
+                _ => return reject("case", "a line that is no part of a header"),
+            }
+        }
+        need(ascii, "case", "a PLY file that is not in ASCII")?;
+        let points = elements.iter().find(|e| e.0 == "vertex").map(|e| e.1);
+        let points = some(points, "case", "a PLY file without vertices")?;
+        let mut rest = lines[end + 1..].iter();
+        for (name, count, properties) in &elements {
+            for _ in 0..*count {
+                let words = some(rest.next(), "case", "the file ends too early")?;
+                let values = some(items(words, properties), "case", "a line has not the values that it needs")?;
+                let find = |name: &str, list| properties.iter().position(|p| *p == (name, list)).map(|k| values[k]);
+                if *name == "vertex" {
+                    let point = ["x", "y", "z"].map(|c| find(c, false).map(|v| v[0]));
+                    let [Some(x), Some(y), Some(z)] = point else {
+                        return reject("case", "a point without coordinates");
+                    };
+                    self.point(&[x, y, z])?;
+                } else if *name == "face" {
+                    let corners = find("vertex_indices", true).or_else(|| find("vertex_index", true));
+                    let corner = |w: &&str| {
+                        let place = w.parse::<u32>().ok().filter(|k| (*k as usize) < points);
+                        some(place, "case", "a corner that names no vertex")
+                    };
+                    let corners = some(corners, "case", "a face without corners")?;
+                    self.face(corners.iter().map(corner).collect::<Checked<_>>()?)?;
+                }
+            }
         }
         Ok(())
     }

@@ -39,10 +39,13 @@ fn certificates_that_were_changed() {
     };
     let minus = |x: &Value| {
         let text = x.as_str().unwrap();
-        json!(if text == "0" { text.to_owned() } else { text.strip_prefix('-').map_or(format!("-{text}"), str::to_owned) })
+        json!(if text == "0" {
+            text.to_owned()
+        } else {
+            text.strip_prefix('-').map_or(format!("-{text}"), str::to_owned)
+        })
     };
-    let opposite: Vec<Value> =
-        (0..6).map(|k| if k < 3 { limit[k].clone() } else { minus(&limit[k]) }).collect();
+    let opposite: Vec<Value> = (0..6).map(|k| if k < 3 { limit[k].clone() } else { minus(&limit[k]) }).collect();
     let valences = good["proof"]["valences"].clone();
     let limits = good["proof"]["limits"].as_array().unwrap().clone();
     let count = limits.len();
@@ -115,7 +118,9 @@ fn meshes_that_were_changed() {
             })
             .collect();
         assert_eq!(rule(&mirrored.join("\n"), &good), "limits", "{name}");
-        for more in ["t crease 2/1/0 0 1 10", "t corner 1/1/0 0 10", "t interpolateboundary 1/0/0 2", "curv 0 1 2", "f 1 2 3"] {
+        for more in
+            ["t crease 2/1/0 0 1 10", "t corner 1/1/0 0 10", "t interpolateboundary 1/0/0 2", "curv 0 1 2", "f 1 2 3"]
+        {
             assert_eq!(rule(&format!("{text}\n{more}\n"), &good), "case", "{name}: {more}");
         }
         // A vertex that no face has changes nothing; comments and texture coordinates neither.
@@ -148,8 +153,42 @@ fn texts_that_are_no_meshes() {
         let rejected = secant_check::check(&format!("{points}{faces}\n"), &good.to_string()).unwrap_err();
         assert!(rejected.unreadable && rejected.rule == "case", "{faces}: {rejected:?}");
     }
+    // The same tetrahedron in three formats.
+    let (mesh, _) = stored("tetrahedron", "tetrahedron-catmull-clark");
+    let ply = "ply\nformat ascii 1.0\ncomment by hand\nelement vertex 4\nproperty float y\nproperty float x\nproperty float z\n\
+        element face 4\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n";
+    let body =
+        |points: [&str; 4]| points.map(|p| format!("{p}\n")).concat() + "7 3 0 3 1\n7 3 0 1 2\n7 3 0 2 3\n7 3 1 3 2\n";
+    let ply = ply.to_owned() + &body(["1 1 1", "-1 -1 1", "1 -1 -1", "-1 1 -1"]);
+    let same = mesh.replace("f 1 4 2", "f 4 2 1");
+    for text in [&same, &ply] {
+        assert!(secant_check::check(text, &good.to_string()).is_ok(), "{text}");
+    }
+    for (from, to) in [
+        ("format ascii 1.0", "format binary_little_endian 1.0"),
+        ("format ascii 1.0\n", ""),
+        ("end_header\n", ""),
+        ("element vertex 4", "element vertex 5"),
+        ("element face 4", "element face 5"),
+        ("element face 4", "element vertex 4"),
+        ("property float x", "property float w"),
+        ("vertex_indices", "others"),
+        ("7 3 1 3 2", "7 3 1 3"),
+        ("7 3 1 3 2", "7 3 1 3 2 4"),
+        ("7 3 1 3 2", "7 3 1 3 4"),
+        ("1 1 1\n", "1 1 nan\n"),
+    ] {
+        assert!(ply.contains(from));
+        let rejected = secant_check::check(&ply.replacen(from, to, 1), &good.to_string()).unwrap_err();
+        assert!(rejected.unreadable && rejected.rule == "case", "{from} {to}: {rejected:?}");
+    }
     let off = "OFF\n4 4 6\n1 1 1\n1 -1 -1\n-1 1 -1\n-1 -1 1\n3 0 1 2\n3 0 3 1\n3 0 2 3\n3 1 3 2\n";
-    for bad in [off.replace("4 4 6", "5 4 6"), off.replace("4 4 6", "4 5 6"), off.replace("3 1 3 2", "3 1 3 4"), off.replace("3 1 3 2", "4 1 3 2")] {
+    for bad in [
+        off.replace("4 4 6", "5 4 6"),
+        off.replace("4 4 6", "4 5 6"),
+        off.replace("3 1 3 2", "3 1 3 4"),
+        off.replace("3 1 3 2", "4 1 3 2"),
+    ] {
         let rejected = secant_check::check(&bad, &good.to_string()).unwrap_err();
         assert!(rejected.unreadable, "{bad}: {rejected:?}");
     }
