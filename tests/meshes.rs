@@ -364,7 +364,10 @@ fn the_command_line() {
     let run = secant().args(["certify", "--scheme", "catmull-clark"]).arg(file("cube")).output().unwrap();
     let text = String::from_utf8(run.stdout).unwrap();
     assert!(text.contains("proved: the limit surface of this mesh is a regular C¹ surface"));
-    assert!(text.contains("The independent checker proved again what is decided here, from the file itself."));
+    let words: Vec<&str> = text.split_whitespace().collect();
+    assert!(
+        words.join(" ").contains("The independent checker proved again what is decided here, from the file itself.")
+    );
     let run = secant().args(["certify", "--scheme", "catmull-clark", "--no-check"]).arg(file("cube")).output().unwrap();
     assert!(String::from_utf8(run.stdout).unwrap().contains("The independent checker was not asked"));
 }
@@ -458,7 +461,8 @@ fn ply_files() {
 #[test]
 fn a_surface_that_is_not_regular_is_not_certified() {
     let text = std::fs::read_to_string(file("icosahedron")).unwrap();
-    let text = text.replace("v 0 1 1.618034", "v 0.3 -1 -2.618034");
+    // The first two vertices change places.
+    let text = text.replacen("v 0 1 1.618034\nv 0 -1 1.618034", "v 0 -1 1.618034\nv 0 1 1.618034", 1);
     let model = Model::parse(&secant::diagnostic::SourceText::new("moved.obj", text), false).unwrap();
     for (rule, count) in [(LOOP, 12), (QUADS, 32)] {
         let found = certify(&model, rule, &Budget::default(), &|| {}).unwrap();
@@ -486,8 +490,8 @@ fn certificates_of_meshes() {
         ("octahedron", LOOP, Some((6, 6)), true, 0),
         ("icosahedron", LOOP, Some((12, 12)), true, 0),
         ("tetrahedron", Scheme::LoopWarren, Some((4, 4)), true, 0),
-        ("valence-64", QUADS, Some((194, 194)), false, 0),
-        ("folded", QUADS, Some((60, 72)), false, 1),
+        ("valence-64", QUADS, Some((258, 258)), false, 0),
+        ("folded", QUADS, Some((60, 72)), true, 0),
         ("line", QUADS, Some((0, 14)), false, 0),
         ("line", LOOP, Some((0, 6)), false, 0),
         ("plane", QUADS, Some((16, 36)), false, 0),

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 mod near;
 mod net;
 mod patch;
+mod refuted;
 mod surface;
 mod tail;
 mod text;
@@ -118,14 +119,19 @@ pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
     if listed > 0 {
         claims.push(Claim::MeshLimits { listed, points: POINTS, normals: NORMALS }.is(Verdict::Proved));
     }
-    if !all.is_null() {
+    let regular = |verdict| Claim::MeshRegular { scheme: name.to_owned() }.is(verdict);
+    if verdict == Verdict::Refuted {
+        all.need(all.is_null(), "whole", "a surface that is not C¹ is not regular")?;
+        claims.push(regular(Verdict::Refuted));
+    } else if all.get("face").is_some() {
+        all.at(model.is_dependent(&all, triangles))?;
+        claims.push(regular(Verdict::Refuted));
+    } else if !all.is_null() {
         all.need(all.text()? == "regular", "format", "unknown claim about the whole mesh")?;
         let holds = verdict == Verdict::Proved && model.closed;
         all.need(holds, "whole", "a mesh with a border, or with vertices that are left out")?;
         all.at(surface::regular(&model.start, triangles, &leading))?;
-        claims.push(Claim::MeshRegular { scheme: name.to_owned() }.is(Verdict::Proved));
-    } else if verdict == Verdict::Refuted {
-        claims.push(Claim::MeshRegular { scheme: name.to_owned() }.is(Verdict::Refuted));
+        claims.push(regular(Verdict::Proved));
     }
     Ok(Accepted { case: "mesh".to_owned(), verdict, claims, points: Vec::new() })
 }
@@ -165,6 +171,17 @@ impl Model {
             need(off <= &self.largest * power(POINTS), "limits", "another limit point")?;
         }
         is_normal(&normal, &given[3..], ring.alike)
+    }
+
+    /// Demands that the derivatives of the patch of a face of the file are dependent at a parameter.
+    fn is_dependent(&self, node: &Node<'_>, triangles: bool) -> Checked<()> {
+        let [face, at] = node.fields("face at")?;
+        let face = face.index(self.text.faces.len())?;
+        node.need(self.start.faces.len() == self.text.faces.len(), "whole", "a mesh that takes a step first")?;
+        let control = surface::control(&self.start, face, triangles)?;
+        let points: Vec<&[Q; 3]> = control.iter().map(|v| &self.text.points[*v as usize]).collect();
+        let at = at.vector(2)?;
+        refuted::is_dependent(triangles, &points, &at[0], &at[1])
     }
 
     /// Demands that all points lie on one line on which the surface depends in the faces at a vertex.

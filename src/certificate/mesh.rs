@@ -5,7 +5,7 @@ use super::vertex::evidence;
 use super::{Certificate, Doubt, Unsupported, number, unsupported};
 use crate::answer::Verdict;
 use crate::arith::Rational;
-use crate::mesh::{AtVertex, Float, Found, Model, Reason, Scheme, Spot};
+use crate::mesh::{AtVertex, Float, Found, Model, Reason, Regular, Scheme, Spot};
 use malachite_base::num::arithmetic::traits::Floor;
 use secant_check::Claim;
 use serde_json::{Value, json};
@@ -36,8 +36,8 @@ fn limit(v: &AtVertex, known: &[usize]) -> Option<Value> {
 
 fn covered(model: &Model, scheme: Scheme, found: &Found, whole: bool) -> Result<Covered, Unsupported> {
     let place = || model.name.clone();
-    if model.tagged {
-        return unsupported("a mesh with tags, such as sharp edges", place());
+    if model.sharp {
+        return unsupported("a mesh with sharp edges or vertices", place());
     }
     let divided = !scheme.triangles() && (0..model.topology.faces()).any(|f| model.topology.polygon(f).len() != 4);
     if divided && !found.closed && found.boundary.is_some() {
@@ -82,9 +82,9 @@ fn covered(model: &Model, scheme: Scheme, found: &Found, whole: bool) -> Result<
     if listed > 0 {
         claims.push((Claim::MeshLimits { listed, points: 40, normals: 30 }, Verdict::Proved));
     }
-    let regular = whole && verdict == Verdict::Proved && found.closed && found.regular() == Verdict::Proved;
-    if regular || line.is_some() {
-        claims.push((Claim::MeshRegular { scheme: name.clone() }, said));
+    let surface = if whole && line.is_none() { whole_surface(model, scheme, found, verdict) } else { None };
+    if let Some(verdict) = surface.as_ref().map(|_| found.regular()).or(line.map(|_| Verdict::Refuted)) {
+        claims.push((Claim::MeshRegular { scheme: name.clone() }, verdict));
     } else if found.regular() != Verdict::Undetermined {
         left_out.push(Unsupported { what: "the limit surface as a whole".to_owned(), place: place() });
     }
@@ -93,10 +93,24 @@ fn covered(model: &Model, scheme: Scheme, found: &Found, whole: bool) -> Result<
         "valences": valences,
         "limits": limits,
         "line": line,
-        "whole": regular.then_some("regular"),
+        "whole": surface,
     });
     let certificate = Certificate::new("mesh", "mesh", verdict.word(), proof).without(left_out);
     Ok(Covered { certificate, verdict, claims })
+}
+
+/// What is said of the whole surface.
+fn whole_surface(model: &Model, scheme: Scheme, found: &Found, smooth: Verdict) -> Option<Value> {
+    let sizes = if scheme.triangles() { 3 } else { 4 };
+    let divided = (0..model.topology.faces()).any(|f| model.topology.polygon(f).len() != sizes);
+    match found.regular() {
+        Verdict::Proved => (smooth == Verdict::Proved && found.closed).then(|| json!("regular")),
+        Verdict::Refuted if !divided => found.patches.bad.iter().find_map(|b| match &b.found {
+            Regular::Refuted((u, v)) if b.level == 0 => Some(json!({ "face": b.face, "at": [number(u), number(v)] })),
+            _ => None,
+        }),
+        _ => None,
+    }
 }
 
 /// Has what was found of a mesh checked by `secant-check`, from the text of the file.

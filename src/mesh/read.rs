@@ -36,8 +36,8 @@ pub struct Model {
     pub topology: Topology,
     /// What is sharp, and the rule of the border.
     pub tags: Tags,
-    /// Whether the file has lines of tags.
-    pub tagged: bool,
+    /// Whether the file has tags of sharp edges or vertices.
+    pub sharp: bool,
     /// The text of the file, where it is a text.
     pub text: Option<Arc<str>>,
 }
@@ -146,7 +146,7 @@ impl<'a> Reader<'a> {
             let help = "a point has three coordinates";
             return Err(self.fail(span, "point", "the point has fewer than three coordinates", "here", help));
         }
-        if words.len() == 4 && parse_rational(words[3].0).is_ok_and(|w| w != 1) {
+        if words.len() == 4 && !parse_rational(words[3].0).is_ok_and(|w| w == 1) {
             let help = "rational surfaces are not covered; the weight has to be 1";
             return Err(self.fail(&words[3].1, "weight", "the point has a weight", "here", help));
         }
@@ -219,7 +219,7 @@ impl<'a> Reader<'a> {
             points: raw.points,
             topology,
             tags: Tags::default(),
-            tagged: !self.tags.is_empty(),
+            sharp: self.tags.iter().any(|(_, words)| matches!(words.get(1), Some(("crease" | "corner", _)))),
             text: Some(Arc::clone(&source.text)),
         };
         model.tags = tags(source, &self.tags, &model)?;
@@ -323,6 +323,7 @@ mod tests {
             ("v 1e9999999 0 0", "number", 6),
             ("v 1 2", "point", 6),
             ("v 1 2 3 2", "weight", 6),
+            ("v 1 2 3 x", "weight", 6),
             ("f 1 2 3\nt crease 2/1/0 0 3 10", "crease", 7),
             ("f 1 2 3\nt crease 2/1/0 0 9 10", "index", 7),
             ("f 1 2 3\nt crease 2/1/0 0 1 nan", "number", 7),

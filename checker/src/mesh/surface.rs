@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 const SIX: [Place; 6] = [(1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1)];
 const EIGHT: [Place; 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
 
-/// The patch of a face with regular corners only.
-fn patch(net: &Net, face: usize, triangles: bool) -> Checked<Patch> {
+/// The vertices on which the patch of a face with regular corners depends, in the order of [`places`].
+pub fn control(net: &Net, face: usize, triangles: bool) -> Checked<Vec<u32>> {
     let own = &net.faces[face];
     let (corners, directions): (&[Place], &[Place]) =
         if triangles { (&[(0, 0), (1, 0), (0, 1)], &SIX) } else { (&[(0, 0), (1, 0), (1, 1), (0, 1)], &EIGHT) };
@@ -37,15 +37,15 @@ fn patch(net: &Net, face: usize, triangles: bool) -> Checked<Patch> {
             all.entry((i + a, j + b)).or_insert(w);
         }
     }
-    let point = |place: &Place| all.get(place).map(|v| net.points[*v as usize]);
-    match places(triangles).iter().map(point).collect::<Option<Vec<Point>>>() {
-        Some(points) => Ok(Patch::new(triangles, &points)),
+    match places(triangles).iter().map(|place| all.get(place).copied()).collect::<Option<Vec<u32>>>() {
+        Some(vertices) => Ok(vertices),
         None => outside(),
     }
 }
 
 fn is_regular(net: &Net, face: usize, triangles: bool) -> Checked<()> {
-    let shown = patch(net, face, triangles)?.is_regular(DEPTH)?;
+    let points: Vec<Point> = control(net, face, triangles)?.iter().map(|v| net.points[*v as usize]).collect();
+    let shown = Patch::new(triangles, &points).is_regular(DEPTH)?;
     need(shown, "limit", "a patch is not seen to be regular")
 }
 

@@ -1,9 +1,13 @@
 //! The text of a mesh: points with exact coordinates, and polygons, from an OBJ, an OFF or an ASCII PLY file.
 
-use crate::base::{Checked, Q, bits, need, number::decimal_fraction, reject, some, spend};
+use crate::base::{Checked, Q, bits, need, number::decimal_fraction, reject, some, spend, whole};
 
 /// Most digits of a coordinate, its exponent counted as so many.
 const MAX_DIGITS: usize = 400;
+
+/// Tags that bear on borders or on texture coordinates only.
+const TAGS: [&str; 4] =
+    ["interpolateboundary", "creasemethod", "facevaryinginterpolateboundary", "facevaryingpropagatecorners"];
 
 /// What stands in a file.
 pub struct Text {
@@ -71,7 +75,9 @@ impl Text {
                 "v" => self.point(&words[1..])?,
                 "f" => pending.push((&words[1..], self.points.len())),
                 "vt" | "vn" | "vp" | "g" | "o" | "s" | "usemtl" | "mtllib" | "l" | "p" => {}
-                "t" => return reject("case", "there are no certificates of meshes with tags"),
+                // Of borders nothing is said.
+                "t" if words.get(1).is_some_and(|name| TAGS.contains(name)) => {}
+                "t" => return reject("case", "there are no certificates of meshes with such tags"),
                 _ => return reject("case", "a line that is no part of a mesh"),
             }
         }
@@ -168,7 +174,7 @@ impl Text {
 
     fn point(&mut self, words: &[&str]) -> Checked<()> {
         need(words.len() >= 3, "case", "a point has three coordinates")?;
-        let weight = words.len() != 4 || decimal_fraction(words[3]).is_some_and(|w| w == crate::base::whole(1));
+        let weight = words.len() != 4 || decimal_fraction(words[3]).is_some_and(|w| w == whole(1));
         need(weight, "case", "a point with a weight")?;
         let mut point = Vec::new();
         for word in &words[..3] {

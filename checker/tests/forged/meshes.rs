@@ -76,10 +76,33 @@ fn certificates_that_were_changed() {
         ("line", vec![("/line", json!(0))]),
         ("format", vec![("/line", json!(4))]),
         ("format", vec![("/whole", json!("smooth"))]),
+        ("whole", vec![("/whole", json!({"face": 0, "at": ["0", "0"]}))]),
+        ("format", vec![("/whole", json!({"face": 4, "at": ["0", "0"]}))]),
     ];
     for (wanted, changes) in &forgeries {
         assert_eq!(changed(&mesh, &good, changes), *wanted, "{changes:.400?}");
     }
+}
+
+/// Where a patch is not regular.
+#[test]
+fn parameters_that_were_changed() {
+    let (mesh, good) = stored("folded", "folded-catmull-clark");
+    let accepted = secant_check::check(&mesh, &good.to_string()).unwrap();
+    assert_eq!((accepted.claims.len(), accepted.verdict), (3, secant_check::Verdict::Undetermined));
+    let whole = &good["proof"]["whole"];
+    let other = |face: Value, at: Value| vec![("/whole", json!({"face": face, "at": at}))];
+    for (wanted, changes) in [
+        ("whole", other(json!(10), whole["at"].clone())),
+        ("whole", other(whole["face"].clone(), json!(["1/2", "1/3"]))),
+        ("whole", other(whole["face"].clone(), json!(["2", "0"]))),
+        ("whole", vec![("/whole", json!("regular"))]),
+    ] {
+        assert_eq!(changed(&mesh, &good, &changes), wanted, "{changes:?}");
+    }
+    let mut forged = good.clone();
+    forged["verdict"] = json!("proved");
+    assert_eq!(rule(&mesh, &forged), "verdict");
 }
 
 /// A certificate is about one mesh: a point that is moved, a vertex or a face that is left out, and tags are seen.
@@ -118,13 +141,11 @@ fn meshes_that_were_changed() {
             })
             .collect();
         assert_eq!(rule(&mirrored.join("\n"), &good), "limits", "{name}");
-        for more in
-            ["t crease 2/1/0 0 1 10", "t corner 1/1/0 0 10", "t interpolateboundary 1/0/0 2", "curv 0 1 2", "f 1 2 3"]
-        {
+        for more in ["t crease 2/1/0 0 1 10", "t corner 1/1/0 0 10", "t hole 1/0/0 2", "t", "curv 0 1 2", "f 1 2 3"] {
             assert_eq!(rule(&format!("{text}\n{more}\n"), &good), "case", "{name}: {more}");
         }
         // A vertex that no face has changes nothing; comments and texture coordinates neither.
-        let more = format!("# a comment\n{text}\nvt 0 0\ng part\n\nv 1 2 3\n");
+        let more = format!("# a comment\n{text}\nvt 0 0\nt interpolateboundary 1/0/0 2\n\nv 1 2 3\n");
         assert!(secant_check::check(&more, &good.to_string()).is_ok(), "{name}");
     }
 }
