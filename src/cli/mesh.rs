@@ -86,8 +86,8 @@ fn check(args: &CertifyArgs) -> Result<(), Problem> {
 }
 
 /// A certificate that was asked for, and that there is not.
-fn none(why: &str) -> Problem {
-    Problem::new("secant::certificate::none", why.to_owned())
+fn none(why: String) -> Problem {
+    Problem::new("secant::certificate::none", why)
         .with_help("see docs/certificate.md, “What is not covered”; no certificate was written")
 }
 
@@ -120,8 +120,8 @@ fn write(model: &Model, scheme: &str, found: &Found, again: Again<'_>, args: &Ce
     written.file(args.ply.as_deref(), |_| Ok(ply(model, found)));
     written.certificate(args.certificate.as_deref(), || match again {
         Some(Ok(certificate)) => Ok((certificate.text(), None)),
-        Some(Err(why)) => Err(none(&why.to_string())),
-        None => Err(none("the checker was not asked")),
+        Some(Err(why)) => Err(none(why.to_string())),
+        None => Err(none("the checker was not asked".to_owned())),
     });
     written
 }

@@ -20,10 +20,10 @@ pub(super) fn binary(name: &str, bytes: &[u8]) -> Option<Result<Model, Problem>>
     };
     // The line ends with one byte or two.
     let rest = &bytes[end + END.len()..];
-    let body = rest.strip_prefix(b"\r\n").or_else(|| rest.strip_prefix(b"\n")).or_else(|| rest.strip_prefix(b"\r"));
+    let body = rest.strip_prefix(b"\r\n").or_else(|| rest.strip_prefix(b"\n")).or_else(|| rest.strip_prefix(b"\r"))?;
     let source = SourceText::new(name, text);
     let reader = Reader { source: &source, raw: Raw::default(), tags: Vec::new() };
-    Some(Body { little, rest: body.unwrap_or_default() }.mesh(reader))
+    Some(Body { little, rest: body }.mesh(reader))
 }
 
 /// What follows the header.

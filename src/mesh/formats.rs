@@ -15,8 +15,7 @@ impl<'a> Reader<'a> {
         std::iter::from_fn(move || {
             let (from, mut to) = (at, at);
             let mut words: Vec<Word<'a>> = Vec::new();
-            loop {
-                let Some(line) = rest.next() else { break };
+            while let Some(line) = rest.next() {
                 let start = at;
                 at += line.len();
                 to = start + line.trim_end().len();
@@ -142,6 +141,9 @@ impl<'a> Reader<'a> {
         let end = self.source.text.len()..self.source.text.len();
         if let Some(message) = header.fault() {
             return Err(self.in_header(&end, message));
+        }
+        if header.format != "ascii" {
+            return Err(self.in_header(&end, "the header of the binary file has no end"));
         }
         let help = "a PLY file in ASCII has a line for each item that its header announces";
         let points = header.points();

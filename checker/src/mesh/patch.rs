@@ -38,8 +38,8 @@ fn cross(a: &Functional, b: &Functional) -> Functional {
 
 /// By how many bits the numbers have to be shortened.
 fn excess(all: &[Functional], bits: u32) -> u32 {
-    let size = all.iter().flatten().map(|x| x.unsigned_abs()).max();
-    size.map_or(0, |size| (128 - size.leading_zeros()).saturating_sub(bits))
+    let size = all.iter().flatten().fold(0, |most: u128, x| most.max(x.unsigned_abs()));
+    (128 - size.leading_zeros()).saturating_sub(bits)
 }
 
 fn shortened(v: &Functional, by: u32) -> Functional {
@@ -87,7 +87,10 @@ impl Patch {
             let known = places(true);
             let control = |mask: &Vec<((i64, i64), i64)>| {
                 let term = |(place, w): &((i64, i64), i64)| Some((*w, &points[known.iter().position(|p| p == place)?]));
-                mask.iter().map(term).collect::<Option<Vec<_>>>().map_or([Near::UNKNOWN; 3], |terms| mixed(&terms, 24))
+                match mask.iter().map(term).collect::<Option<Vec<_>>>() {
+                    Some(terms) => mixed(&terms, 24),
+                    None => [Near::UNKNOWN; 3],
+                }
             };
             let mut all = quartic().iter().map(control).collect::<Vec<_>>().into_iter();
             (0..5).map(|j| all.by_ref().take(5 - j).collect()).collect()

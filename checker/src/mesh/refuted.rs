@@ -1,7 +1,7 @@
 //! The exact derivatives of a patch at a parameter.
 
 use super::patch::places;
-use crate::base::{Checked, Q, bits, need, spend, whole};
+use crate::base::{Checked, Q, bits, need, some, spend, whole};
 use crate::vertex::patch::quartic;
 use num_traits::{One, Signed, Zero};
 
@@ -20,8 +20,9 @@ fn cubic(t: &Q) -> [[Q; 4]; 2] {
     [value.map(|x| x * &sixth), slope.map(|x| x * &half)]
 }
 
-/// 0! to 3!.
-const FACTORIALS: [i64; 4] = [1, 1, 2, 6];
+/// The terms of degree 3 in a triangle: the exponents of the second and third corner, and how many there are.
+const CUBIC: [(usize, usize, i64); 10] =
+    [(0, 0, 1), (1, 0, 3), (2, 0, 3), (3, 0, 1), (0, 1, 3), (1, 1, 6), (2, 1, 3), (0, 2, 3), (1, 2, 3), (0, 3, 1)];
 
 /// `t^k`.
 fn power(t: &Q, k: usize) -> Q {
@@ -29,11 +30,11 @@ fn power(t: &Q, k: usize) -> Q {
 }
 
 /// The weights of the points in the derivatives of a patch in both variables, in the order of [`places`].
-fn weights(triangle: bool, u: &Q, v: &Q) -> [Vec<Q>; 2] {
+fn weights(triangle: bool, u: &Q, v: &Q) -> Checked<[Vec<Q>; 2]> {
     if !triangle {
         let ([a, da], [b, db]) = (cubic(u), cubic(v));
         let all = |a: &[Q; 4], b: &[Q; 4]| b.iter().flat_map(|y| a.iter().map(move |x| x * y)).collect();
-        return [all(&da, &b), all(&a, &db)];
+        return Ok([all(&da, &b), all(&a, &db)]);
     }
     let known = places(true);
     let masks = quartic();
@@ -41,25 +42,20 @@ fn weights(triangle: bool, u: &Q, v: &Q) -> [Vec<Q>; 2] {
     let at = |i: usize, j: usize| &masks[(0..j).map(|r| 5 - r).sum::<usize>() + i];
     let w = Q::one() - u - v;
     let mut both = [vec![Q::zero(); known.len()], vec![Q::zero(); known.len()]];
-    for j in 0..4 {
-        for i in 0..4 - j {
-            let k = 3 - i - j;
-            // Of degree 3, times 4/24.
-            let count = 6 / (FACTORIALS[i] * FACTORIALS[j] * FACTORIALS[k]);
-            let factor = power(u, i) * power(v, j) * power(&w, k) * whole(count) / whole(6);
-            for (sum, ahead) in both.iter_mut().zip([at(i + 1, j), at(i, j + 1)]) {
-                for (mask, sign) in [(ahead, 1), (at(i, j), -1)] {
-                    for (place, weight) in mask {
-                        // All places of the masks are those of the patch.
-                        if let Some(p) = known.iter().position(|q| q == place) {
-                            sum[p] += &factor * whole(sign * weight);
-                        }
-                    }
+    for (i, j, count) in CUBIC {
+        let k = 3 - i - j;
+        let factor = power(u, i) * power(v, j) * power(&w, k) * whole(count) / whole(6);
+        for (sum, ahead) in both.iter_mut().zip([at(i + 1, j), at(i, j + 1)]) {
+            for (mask, sign) in [(ahead, 1), (at(i, j), -1)] {
+                for (place, weight) in mask {
+                    let p = known.iter().position(|q| q == place);
+                    let p = some(p, "whole", "a point of a mask that is none of the patch")?;
+                    sum[p] += &factor * whole(sign * weight);
                 }
             }
         }
     }
-    both
+    Ok(both)
 }
 
 /// Demands that the derivatives of the patch with these points are dependent at a parameter.
@@ -68,7 +64,7 @@ pub fn is_dependent(triangle: bool, points: &[&[Q; 3]], u: &Q, v: &Q) -> Checked
     let fits = inside(u) && inside(v) && (!triangle || u + v <= Q::one());
     need(fits, "whole", "a parameter outside the patch")?;
     spend(2000, bits(u) + bits(v) + 256)?;
-    let [a, b] = weights(triangle, u, v).map(|w| -> [Q; 3] {
+    let [a, b] = weights(triangle, u, v)?.map(|w| -> [Q; 3] {
         std::array::from_fn(|k| points.iter().zip(&w).fold(Q::zero(), |sum, (p, w)| sum + &p[k] * w))
     });
     let minor = |k: usize| &a[k] * &b[(k + 1) % 3] - &a[(k + 1) % 3] * &b[k];
@@ -84,7 +80,7 @@ mod tests {
     fn derivatives_of_polynomials() {
         let (u, v) = (Q::new(1.into(), 3.into()), Q::new(1.into(), 5.into()));
         for triangle in [false, true] {
-            let both = weights(triangle, &u, &v);
+            let both = weights(triangle, &u, &v).unwrap();
             let of = |f: &dyn Fn(i64, i64) -> i64| {
                 both.each_ref().map(|w| {
                     places(triangle).iter().zip(w).fold(Q::zero(), |sum, ((i, j), w)| sum + whole(f(*i, *j)) * w)

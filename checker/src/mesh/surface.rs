@@ -10,6 +10,7 @@ use crate::base::{Checked, need};
 use crate::vertex::Leading;
 use crate::vertex::mesh::Place;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// The directions of the neighbours of a point, anticlockwise; of quadrangles with the corners opposite to it.
 const SIX: [Place; 6] = [(1, 0), (0, 1), (-1, 1), (-1, 0), (0, -1), (1, -1)];
@@ -66,7 +67,10 @@ fn around(net: &Net, vertex: u32, triangles: bool, places: &[Place]) -> Checked<
             known.extend([((1, 1), d), ((2, 0), at_a.spokes[2]), ((2, 1), at_a.across[1])]);
             known.extend([((1, 2), at_b.across[1]), ((2, 2), at_d.across[2])]);
         }
-        let point = |place: &Place| known.get(place).map_or([Near::UNKNOWN; 3], |v| net.points[*v as usize]);
+        let point = |place: &Place| match known.get(place) {
+            Some(v) => net.points[*v as usize],
+            None => [Near::UNKNOWN; 3],
+        };
         all.extend(places.iter().map(point));
     }
     Ok(all)
@@ -75,8 +79,11 @@ fn around(net: &Net, vertex: u32, triangles: bool, places: &[Place]) -> Checked<
 /// Demands that the limit surface of a closed mesh is immersed, with the schemes at its valences, at each of which the surface is C¹.
 pub fn regular(start: &Net, triangles: bool, leading: &BTreeMap<usize, Leading>) -> Checked<()> {
     let usual = if triangles { 6 } else { 4 };
-    let valences: Vec<usize> =
-        (0..start.points.len() as u32).map(|v| start.ring(v).map_or(0, |ring| ring.spokes.len())).collect();
+    let valence = |v: u32| match start.ring(v) {
+        Some(ring) => ring.spokes.len(),
+        None => 0,
+    };
+    let valences: Vec<usize> = (0..start.points.len() as u32).map(valence).collect();
     let irregular: Vec<bool> =
         start.faces.iter().map(|face| face.iter().any(|v| valences[*v as usize] != usual)).collect();
     for face in (0..start.faces.len()).filter(|f| !irregular[*f]) {
@@ -86,7 +93,10 @@ pub fn regular(start: &Net, triangles: bool, leading: &BTreeMap<usize, Leading>)
     for (face, _) in start.faces.iter().zip(&irregular).filter(|(_, i)| **i) {
         face.iter().for_each(|v| touched[*v as usize] = true);
     }
-    let weight = |n: usize| leading.get(&n).map_or(Near::UNKNOWN, |l| Near::of(&l.mesh.at_centre()[1])[0]);
+    let weight = |n: usize| match leading.get(&n) {
+        Some(leading) => Near::of(&leading.mesh.at_centre()[1])[0],
+        None => Near::UNKNOWN,
+    };
     let (part, old, kept) = start.part(&touched)?;
     let fine = part.refined(triangles, &weight)?;
     for (at, face) in kept.iter().enumerate().filter(|(_, f)| irregular[**f as usize]) {
@@ -105,10 +115,10 @@ pub fn regular(start: &Net, triangles: bool, leading: &BTreeMap<usize, Leading>)
             continue;
         }
         let Some(leading) = leading.get(&n) else { return outside() };
-        if !tails.contains_key(&n) {
-            tails.insert(n, Tail::new(leading)?);
-        }
-        let tail = &tails[&n];
+        let tail = match tails.entry(n) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(place) => place.insert(Tail::new(leading)?),
+        };
         tail.are_immersed(&around(&fine, number as u32, triangles, tail.places())?)?;
     }
     Ok(())

@@ -228,7 +228,10 @@ impl Tail {
         let patch = |((a, b), sign): &(Place, i64)| {
             let at = |(i, j): (i64, i64)| {
                 let known = self.known((a + sign * i, b + sign * j))?;
-                Ok(point(known.map_or(0, |(place, turn)| self.index(sector as i64 + turn, place))))
+                Ok(point(match known {
+                    Some((place, turn)) => self.index(sector as i64 + turn, place),
+                    None => 0,
+                }))
             };
             let points = places(self.triangles).into_iter().map(at).collect::<Checked<Vec<_>>>()?;
             Ok(Patch::new(self.triangles, &points))

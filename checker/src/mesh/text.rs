@@ -18,10 +18,13 @@ pub struct Text {
 }
 
 fn lines(text: &str) -> Vec<Vec<&str>> {
-    let text = text.strip_prefix('\u{feff}').map_or(text, |rest| rest);
+    let text = text.trim_start_matches('\u{feff}');
     let (mut all, mut open) = (Vec::new(), false);
     for line in text.split('\n') {
-        let (body, comment) = line.split_once('#').map_or((line, false), |(body, _)| (body, true));
+        let (body, comment) = match line.split_once('#') {
+            Some((body, _)) => (body, true),
+            None => (line, false),
+        };
         let mut words: Vec<&str> = body.split_ascii_whitespace().collect();
         // A line that ends with a backslash goes on.
         let goes_on = !comment && words.last() == Some(&"\\");
