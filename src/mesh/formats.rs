@@ -15,7 +15,7 @@ impl<'a> Reader<'a> {
         std::iter::from_fn(move || {
             let (from, mut to) = (at, at);
             let mut words: Vec<Word<'a>> = Vec::new();
-            while let Some(line) = rest.next() {
+            for line in rest.by_ref() {
                 let start = at;
                 at += line.len();
                 to = start + line.trim_end().len();
