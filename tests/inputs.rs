@@ -217,7 +217,7 @@ fn mistakes_are_told_with_a_remedy() {
     for (args, input, piece) in [
         (&["certify", "four-pont"][..], "", "did you mean `four-point`?"),
         (&["regularity", "four-pont"], "", "did you mean `four-point`?"),
-        (&["certify", "db2"], "", "secant regularity db2"),
+        (&["certify", "db7"], "", "secant regularity"),
         (&["certify", "-"], "name = \"a\"\n[scheme]\nmaks = [1]\n", "did you mean `mask`"),
         (&["certify", "-"], "name = \"a\"\n[[scheme]]\nname = \"bspline\"\n", "secant junction"),
         (&["certify", "-"], "name = \"a\"\n[vertex]\nmesh = \"loop\"\nvalence = 5\nweights = [1]\n", "loop-variant"),

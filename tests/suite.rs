@@ -52,6 +52,8 @@ mod outputs;
 mod questions;
 #[path = "radius.rs"]
 mod radius;
+#[path = "radius_field.rs"]
+mod radius_field;
 #[path = "readers.rs"]
 mod readers;
 #[path = "refinement.rs"]

@@ -1,8 +1,8 @@
 //! Bounds of a joint spectral radius: a disc that holds an eigenvalue of a product, and a norm for every diagonal block.
 
 use crate::base::{
-    Accepted, Checked, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Verdict, bits, file, has_root_near, index,
-    list, matrix, need, spend, total, whole, word,
+    Accepted, Checked, Ground, Json, MAX_COORDINATES, MAX_LETTERS, Matrix, Node, Q, Surd, Verdict, Whole, absolute,
+    bits, file, fraction, has_root_near, index, list, matrix, need, spend, whole, word,
 };
 use crate::claim::{Claim, Decided};
 use crate::curve::positive_definite;
@@ -10,25 +10,25 @@ use num_bigint::BigInt;
 use num_traits::{One, Signed, Zero};
 
 /// Matrices `dim(from) x dim(to)` between the spaces of states.
-pub struct System {
+pub struct System<T = BigInt> {
     /// The name of the file.
     pub name: String,
     /// The dimension of the space of every state.
     pub dims: Vec<usize>,
     /// The arrows: from, to, matrix.
-    pub arrows: Vec<(usize, usize, Matrix)>,
+    pub arrows: Vec<(usize, usize, Matrix<T>)>,
 }
 
 /// Reads a file of matrices (a set, or an automaton of them), as `docs/radius.md` describes.
-fn matrix_list(source: &str) -> Checked<System> {
+fn matrix_list<T: Whole>(source: &str, ground: &T::Ground) -> Checked<System<T>> {
     file(source, "name matrices states arrows", |node| {
-        let mut matrices: Vec<Matrix> = Vec::new();
+        let mut matrices: Vec<Matrix<T>> = Vec::new();
         for item in node.field("matrices")?.list()? {
             for x in item.each(Node::list)?.iter().flatten() {
                 let endless = matches!(x.value, Json::Number(text) if text.contains('n'));
                 x.need(!endless, "case", "numbers of matrices are integers, decimals or texts")?;
             }
-            matrices.push(matrix(&item, &())?);
+            matrices.push(matrix(&item, ground)?);
         }
         // A file without a name is one with an empty name.
         let name = match word(node, "name")? {
@@ -48,7 +48,7 @@ fn matrix_list(source: &str) -> Checked<System> {
             let arrows = node.field("arrows")?.each(arrow)?;
             (dims, arrows)
         };
-        let fits = |(from, to, m): &(usize, usize, Matrix)| (m.rows, m.cols) == (dims[*from], dims[*to]);
+        let fits = |(from, to, m): &(usize, usize, Matrix<T>)| (m.rows, m.cols) == (dims[*from], dims[*to]);
         node.need(!arrows.is_empty() && arrows.iter().all(fits), "case", "no arrow, or a matrix of the wrong size")?;
         Ok(System { name, dims, arrows })
     })
@@ -56,10 +56,19 @@ fn matrix_list(source: &str) -> Checked<System> {
 
 /// Checks the proof of a certificate of the kind `jsr`.
 pub fn check(text: &str, node: &Node<'_>) -> Checked<Accepted> {
-    let system = matrix_list(text)?;
-    let Bounds { lower, upper, blocks } = bounds(&system, node)?;
+    let Some(field) = node.get("field") else {
+        let system = matrix_list::<BigInt>(text, &())?;
+        return accepted(system.name.clone(), bounds(&system, &(), node)?);
+    };
+    let [_, lower, upper, bases, blocks] = node.fields("field lower upper bases blocks")?;
+    let ground = Ground::read(&field)?;
+    let system = matrix_list::<Surd>(text, &ground)?;
+    accepted(system.name.clone(), bounded(&system, &ground, [lower, upper, bases, blocks])?)
+}
+
+fn accepted(name: String, Bounds { lower, upper, blocks }: Bounds) -> Checked<Accepted> {
     let claim = Claim::Radius(lower, upper).is(Verdict::Proved);
-    Ok(Accepted { case: system.name, verdict: Verdict::Proved, claims: vec![claim], points: blocks })
+    Ok(Accepted { case: name, verdict: Verdict::Proved, claims: vec![claim], points: blocks })
 }
 
 /// What is proved of a radius.
@@ -73,14 +82,18 @@ pub struct Bounds {
 }
 
 /// Checks `{"lower", "upper", "bases", "blocks"}` for a system.
-pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
-    let [lower, upper, bases, blocks] = node.fields("lower upper bases blocks")?;
+pub fn bounds<T: Whole>(system: &System<T>, ground: &T::Ground, node: &Node<'_>) -> Checked<Bounds> {
+    bounded(system, ground, node.fields("lower upper bases blocks")?)
+}
+
+fn bounded<T: Whole>(system: &System<T>, ground: &T::Ground, fields: [Node<'_>; 4]) -> Checked<Bounds> {
+    let [lower, upper, bases, blocks] = fields;
     // Where all spaces are 0 the radius is 0, and there are no blocks; without states or arrows there is nothing to bound.
     need(!system.dims.is_empty() && !system.arrows.is_empty(), "block", "a system has states and arrows")?;
     let lo = if lower.is_null() { Q::zero() } else { lower.at(below(system, &lower))? };
     let hi = upper.rational()?;
     // The matrices in the bases.
-    let frames = read_bases(system, &bases)?;
+    let frames = read_bases(system, ground, &bases)?;
     let mut arrows = Vec::new();
     for (from, to, m) in &system.arrows {
         arrows.push((*from, *to, frames[*from].1.times(&m.times(&frames[*to].0)?)?));
@@ -97,14 +110,14 @@ pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
         item.need(room, "block", "the blocks have more dimensions than the spaces")?;
         // Nothing of the images of this block and those before lies after it.
         let nothing =
-            |(from, to, m): &(usize, usize, Matrix)| m.part(used[*from]..m.rows, start[*to]..used[*to]).is_zero();
+            |(from, to, m): &(usize, usize, Matrix<T>)| m.part(used[*from]..m.rows, start[*to]..used[*to]).is_zero();
         let triangular = arrows.iter().all(nothing);
         item.need(triangular, "block", "the matrices are not block upper triangular in these bases")?;
-        let diagonal = |(from, to, m): &(usize, usize, Matrix)| {
+        let diagonal = |(from, to, m): &(usize, usize, Matrix<T>)| {
             (*from, *to, m.part(start[*from]..used[*from], start[*to]..used[*to]))
         };
         let block = System { name: String::new(), arrows: arrows.iter().map(diagonal).collect(), dims };
-        lines.push(norm.at(block.check(&norm, &bound))?);
+        lines.push(norm.at(block.check(ground, &norm, &bound))?);
     }
     blocks.need(used == system.dims, "block", "the blocks do not fill the spaces")?;
     upper.need(lo <= hi, "block", "the bounds contradict each other")?;
@@ -112,10 +125,14 @@ pub fn bounds(system: &System, node: &Node<'_>) -> Checked<Bounds> {
 }
 
 /// A basis of every state (columns) and its inverse.
-fn read_bases(system: &System, node: &Node<'_>) -> Checked<Vec<(Matrix, Matrix)>> {
+fn read_bases<T: Whole>(
+    system: &System<T>,
+    ground: &T::Ground,
+    node: &Node<'_>,
+) -> Checked<Vec<(Matrix<T>, Matrix<T>)>> {
     let mut bases = Vec::new();
     for (item, &dim) in node.exactly(system.dims.len(), "format")?.iter().zip(&system.dims) {
-        let basis = item.matrix(dim)?.transpose();
+        let basis = item.entries(dim, ground)?.transpose();
         item.need(basis.cols == dim, "format", format_args!("{dim} vectors are needed here"))?;
         let inverse = item.some(basis.solve(&Matrix::identity(dim))?, "block", "the vectors are no basis")?;
         bases.push((basis, inverse));
@@ -124,7 +141,7 @@ fn read_bases(system: &System, node: &Node<'_>) -> Checked<Vec<(Matrix, Matrix)>
 }
 
 /// A closed path whose product has an eigenvalue of modulus `bound^length` or more: a root of a `pair`, or one in a disc.
-fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
+fn below<T: Whole>(system: &System<T>, node: &Node<'_>) -> Checked<Q> {
     if node.get("pair").is_some() {
         let [word, pair, bound] = node.fields("word pair bound")?;
         let (letters, product) = path(system, &word)?;
@@ -138,7 +155,7 @@ fn below(system: &System, node: &Node<'_>) -> Checked<Q> {
 
 /// Whether a root of `x² + bx + c` is an eigenvalue, where both have a modulus `√|c|` of at least `reach`: they are conjugate, or
 /// opposite.
-fn has_pair(product: &Matrix, pair: &[Q], reach: &Q) -> Checked<()> {
+fn has_pair<T: Whole>(product: &Matrix<T>, pair: &[Q], reach: &Q) -> Checked<()> {
     let (c, b) = (&pair[0], &pair[1]);
     let level = b.is_zero() || b * b < c * whole(4);
     need(level, "word", "the two numbers do not have the same modulus")?;
@@ -148,7 +165,7 @@ fn has_pair(product: &Matrix, pair: &[Q], reach: &Q) -> Checked<()> {
 }
 
 /// The length and the product of a closed path in a space that is not 0.
-fn path(system: &System, word: &Node<'_>) -> Checked<(usize, Matrix)> {
+fn path<T: Whole>(system: &System<T>, word: &Node<'_>) -> Checked<(usize, Matrix<T>)> {
     let word = word.indices(system.arrows.len())?;
     need((1..=MAX_LETTERS).contains(&word.len()), "word", "a word of 1 to 1000 letters is needed")?;
     let arrow = |k: usize| &system.arrows[word[k]];
@@ -162,7 +179,7 @@ fn path(system: &System, word: &Node<'_>) -> Checked<(usize, Matrix)> {
 
 /// A disc around `z` in which the product has an eigenvalue, because `n |χ(z)| <= error |χ'(z)|`; the modulus is at least
 /// `|z| − error >= bound^length`.
-fn in_a_disc(system: &System, node: &Node<'_>) -> Checked<Q> {
+fn in_a_disc<T: Whole>(system: &System<T>, node: &Node<'_>) -> Checked<Q> {
     let [word, centre, error, bound] = node.fields("word centre error bound")?;
     let (letters, product) = path(system, &word)?;
     let (centre, e, bound) = (centre.vector(2)?, error.rational()?, bound.rational()?);
@@ -192,102 +209,126 @@ fn modulus(re: &Q, im: &Q) -> Checked<Q> {
     Ok(Q::new(scaled.sqrt() + BigInt::one(), scale))
 }
 
-/// A polytope: all combinations `Σ c q` of its points with `Σ|c| <= 1`. Scalars are real (`width` 1) or complex (`width` 2); a
-/// vector has a column for the real and one for the imaginary parts.
-struct Polytope {
-    width: usize,
-    /// With the state of each.
-    points: Vec<(usize, Matrix)>,
+/// A rational number in the field of the entries.
+fn rational<T: Whole>(x: &Q) -> Matrix<T> {
+    Matrix::fractions(1, 1, &[fraction(x)])
 }
 
-impl Polytope {
-    fn read(node: &Node<'_>, width: usize, dims: &[usize]) -> Checked<Self> {
+/// `Σ |x|` over all entries.
+fn norm<T: Whole>(m: &Matrix<T>) -> Matrix<T> {
+    Matrix { rows: 1, cols: 1, data: vec![m.size()], den: m.den.clone() }
+}
+
+/// The greater of two numbers.
+fn greater<T: Whole>(a: Matrix<T>, b: Matrix<T>) -> Matrix<T> {
+    if a.minus(&b).has_negative() { b } else { a }
+}
+
+/// A polytope: all combinations `Σ c q` of its points with `Σ|c| <= 1`. Scalars are real (`width` 1) or complex (`width` 2); a
+/// vector has a column for the real and one for the imaginary parts. Numbers are matrices with one entry.
+struct Polytope<'g, T: Whole> {
+    ground: &'g T::Ground,
+    width: usize,
+    /// With the state of each.
+    points: Vec<(usize, Matrix<T>)>,
+}
+
+impl<'g, T: Whole> Polytope<'g, T> {
+    fn read(node: &Node<'_>, width: usize, dims: &[usize], ground: &'g T::Ground) -> Checked<Self> {
         let read = |item: &Node<'_>| {
             let [state, coordinates] = item.fields("state coordinates")?;
             let state = state.index(dims.len())?;
-            let scalar = |x: &Node<'_>| if width == 2 { x.vector(2) } else { Ok(vec![x.rational()?]) };
+            if width == 1 {
+                return Ok((state, coordinates.column(dims[state], ground)?));
+            }
+            let complex = |x: &Node<'_>| x.vector(width);
             let entries =
-                coordinates.exactly(dims[state], "format")?.iter().map(scalar).collect::<Checked<Vec<_>>>()?;
-            Ok((state, Matrix::from_rows(width, &entries)))
+                coordinates.exactly(dims[state], "format")?.iter().map(complex).collect::<Checked<Vec<_>>>()?;
+            Ok((state, Matrix::lifted(&Matrix::from_rows(width, &entries))))
         };
-        Ok(Self { width, points: node.each(read)? })
+        Ok(Self { ground, width, points: node.each(read)? })
     }
 
-    /// Reads a combination of points of a state and takes it off a vector; says what is left, `Σ|c|` (rounded upwards), and
-    /// whether a real part is negative.
-    fn rest(&self, mut vector: Matrix, node: &Node<'_>, state: usize) -> Checked<(Matrix, Q, bool)> {
-        let (mut total, mut negative) = (Q::zero(), false);
+    /// Reads a combination of points of a state and takes it off a vector; says what is left, `Σ|c|` (rounded upwards where they
+    /// are complex), and whether a real part is negative.
+    fn rest(&self, mut vector: Matrix<T>, node: &Node<'_>, state: usize) -> Checked<(Matrix<T>, Matrix<T>, bool)> {
+        let (mut total, mut negative) = (Matrix::zeros(1, 1), false);
         for item in node.list()? {
             let parts = item.exactly(1 + self.width, "format")?;
             let (at, point) = &self.points[parts[0].index(self.points.len())?];
             item.need(*at == state, "inclusion", "a point of another state")?;
-            let c = parts[1..].iter().map(Node::rational).collect::<Checked<Vec<_>>>()?;
             // Rows times this matrix are multiplied by the scalar.
-            let (factor, modulus) = match &c[..] {
-                [re, im] => (vec![re.clone(), im.clone(), -im, re.clone()], modulus(re, im)?),
-                _ => (c.clone(), c[0].abs()),
+            let (factor, modulus) = if self.width == 1 {
+                let c = Matrix::fractions(1, 1, &[T::entry(&parts[1], self.ground)?]);
+                (c.clone(), norm(&c))
+            } else {
+                let (re, im) = (parts[1].rational()?, parts[2].rational()?);
+                let size = rational(&modulus(&re, &im)?);
+                (Matrix::lifted(&Matrix::new(2, 2, &[re.clone(), im.clone(), -im, re])), size)
             };
-            negative |= c[0].is_negative();
-            spend(64, bits(&total) + bits(&modulus))?;
-            total += modulus;
-            vector = vector.minus(&point.times(&Matrix::new(self.width, self.width, &factor))?);
+            negative |= factor.part(0..1, 0..1).has_negative();
+            spend(64, total.bits() + modulus.bits())?;
+            total = total.plus(&Q::one(), &modulus).reduced();
+            vector = vector.minus(&point.times(&factor)?);
         }
         Ok((vector, total, negative))
     }
 
     /// By state, `K` with all unit vectors in `K Q`: they are combinations but for rests whose 1-norm is below 1.
-    fn interiors(&self, node: &Node<'_>, dims: &[usize]) -> Checked<Vec<Q>> {
-        let mut found: Vec<Option<Q>> = dims.iter().map(|d| (*d == 0).then(Q::zero)).collect();
+    fn interiors(&self, node: &Node<'_>, dims: &[usize]) -> Checked<Vec<Matrix<T>>> {
+        let mut found: Vec<Option<Matrix<T>>> = dims.iter().map(|d| (*d == 0).then(|| Matrix::zeros(1, 1))).collect();
         for item in node.list()? {
             let [state, units] = item.fields("state units")?;
             let s = state.index(dims.len())?;
             let units = units.list()?;
             item.need(units.len() == dims[s], "interior", "one combination for each axis is needed")?;
-            let (mut largest, mut error) = (Q::zero(), Q::zero());
+            let (mut largest, mut error) = (Matrix::zeros(1, 1), Matrix::zeros(1, 1));
             for (axis, unit) in units.iter().enumerate() {
                 let x = Matrix::ones(dims[s], self.width, |i, j| i == axis && j == 0);
                 let (rest, total, _) = self.rest(x, unit, s)?;
-                error = error.max(rest.norm());
-                largest = largest.max(total);
+                error = greater(error, norm(&rest));
+                largest = greater(largest, total);
             }
-            item.need(error < Q::one(), "interior", "the combinations are too far from the axes")?;
-            found[s] = Some(largest / (Q::one() - error));
+            let room = Matrix::identity(1).minus(&error);
+            item.need(room.all_positive(), "interior", "the combinations are too far from the axes")?;
+            let inverse = item.some(room.solve(&Matrix::identity(1))?, "interior", "no inverse")?;
+            found[s] = Some(largest.times(&inverse)?.reduced());
         }
         node.some(found.into_iter().collect(), "interior", "a state without combinations of the axes")
     }
 
     /// Whether all points are nonnegative, and every coordinate of every state is positive at one of them.
     fn is_positive(&self, dims: &[usize]) -> bool {
-        let at = |s: usize, i: usize| self.points.iter().any(|(at, p)| *at == s && p.data[i].is_positive());
+        let at = |s: usize, i: usize| self.points.iter().any(|(at, p)| *at == s && p.data[i].sgn() > 0);
         let reached = dims.iter().enumerate().all(|(s, &d)| (0..d).all(|i| at(s, i)));
         reached && self.points.iter().all(|(_, p)| !p.has_negative())
     }
 }
 
 /// A diagonal block: the arrows between its parts of the states.
-impl System {
+impl<T: Whole> System<T> {
     /// Checks that the norm shows that products of `k` matrices are at most a constant times `bound^k`; says so.
-    fn check(&self, node: &Node<'_>, bound: &Q) -> Checked<Decided> {
-        let norm = self.norm(node, bound)?;
+    fn check(&self, ground: &T::Ground, node: &Node<'_>, bound: &Q) -> Checked<Decided> {
+        let norm = self.norm(ground, node, bound)?;
         Ok(Claim::Block { dims: self.dims.clone(), norm, bound: bound.clone() }.is(Verdict::Proved))
     }
 
     /// The same, with the name of the norm.
-    fn norm(&self, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
+    fn norm(&self, ground: &T::Ground, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
         match node.tag("norm")? {
             "zero" => {
                 let [_] = node.fields("norm")?;
                 need(self.arrows.iter().all(|a| a.2.is_zero()), "zero", "a matrix of the block is not 0")?;
                 Ok("zero")
             }
-            "symmetric" => self.polytope(node, "symmetric", bound),
-            "monotone" => self.polytope(node, "monotone", bound),
-            "balanced" => self.polytope(node, "balanced", bound),
-            "quadratic" => self.quadratic(node, bound),
+            "symmetric" => self.polytope(ground, node, "symmetric", bound),
+            "monotone" => self.polytope(ground, node, "monotone", bound),
+            "balanced" => self.polytope(ground, node, "balanced", bound),
+            "quadratic" => self.quadratic(ground, node, bound),
             "tree" => self.tree(node, bound),
             "transposed" => {
                 let [_, of] = node.fields("norm of")?;
-                match of.at(self.transposed().norm(&of, bound))? {
+                match of.at(self.transposed().norm(ground, &of, bound))? {
                     "symmetric" => Ok("symmetric, of the transposed matrices"),
                     "monotone" => Ok("monotone, of the transposed matrices"),
                     "balanced" => Ok("balanced, of the transposed matrices"),
@@ -302,20 +343,20 @@ impl System {
     /// The transposed matrices with the arrows turned round: their products are the transposes of those of the reversed words, so
     /// the radius is the same.
     fn transposed(&self) -> Self {
-        let turned = |(from, to, m): &(usize, usize, Matrix)| (*to, *from, m.transpose());
+        let turned = |(from, to, m): &(usize, usize, Matrix<T>)| (*to, *from, m.transpose());
         Self { name: String::new(), dims: self.dims.clone(), arrows: self.arrows.iter().map(turned).collect() }
     }
 
     /// `T Q ⊂ bound Q` for a polytope `Q` of real or complex combinations, or (monotone) for what lies below one with `c >= 0`,
     /// everything being nonnegative.
-    fn polytope(&self, node: &Node<'_>, kind: &'static str, bound: &Q) -> Checked<&'static str> {
+    fn polytope(&self, ground: &T::Ground, node: &Node<'_>, kind: &'static str, bound: &Q) -> Checked<&'static str> {
         let [_, points, inclusions, axes] = node.fields("norm points inclusions axes")?;
         let monotone = kind == "monotone";
-        let hull = Polytope::read(&points, if kind == "balanced" { 2 } else { 1 }, &self.dims)?;
+        let hull = Polytope::read(&points, if kind == "balanced" { 2 } else { 1 }, &self.dims, ground)?;
         let interior = if monotone {
             let positive = hull.is_positive(&self.dims) && self.arrows.iter().all(|a| !a.2.has_negative());
             points.need(positive, "monotone", "something is negative, or a coordinate is nowhere positive")?;
-            vec![Q::zero(); self.dims.len()]
+            vec![Matrix::zeros(1, 1); self.dims.len()]
         } else {
             hull.interiors(&axes, &self.dims)?
         };
@@ -328,10 +369,14 @@ impl System {
             let (state, point) = &hull.points[k];
             item.need(to == state, "inclusion", "the arrow does not end in the state of the point")?;
             let (rest, total, negative) = hull.rest(matrix.times(point)?, &terms, *from)?;
-            let under = !monotone || !negative && !rest.data.iter().any(Signed::is_positive);
+            let under = !monotone || !negative && !rest.data.iter().any(|x| x.sgn() > 0);
             item.need(under, "inclusion", "the image does not lie below the combination")?;
-            let far = total + &interior[*from] * rest.norm();
-            item.need(far <= *bound, "inclusion", "the image lies outside the multiple of the polytope")?;
+            let far = total.plus(&Q::one(), &interior[*from].times(&norm(&rest))?);
+            item.need(
+                !rational(bound).minus(&far).has_negative(),
+                "inclusion",
+                "the image lies outside the multiple of the polytope",
+            )?;
             seen[k][a] = true;
         }
         for (k, (state, _)) in hull.points.iter().enumerate() {
@@ -345,17 +390,18 @@ impl System {
     }
 
     /// Positive definite forms with `Tᵗ P T <= square P`, `square <= bound²`.
-    fn quadratic(&self, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
+    fn quadratic(&self, ground: &T::Ground, node: &Node<'_>, bound: &Q) -> Checked<&'static str> {
         let [_, forms, square] = node.fields("norm forms square")?;
         let square = square.rational()?;
         // A space 0 has one form.
-        let mut read: Vec<Option<Matrix>> = self.dims.iter().map(|d| (*d == 0).then(|| Matrix::identity(0))).collect();
+        let mut read: Vec<Option<Matrix<T>>> =
+            self.dims.iter().map(|d| (*d == 0).then(|| Matrix::identity(0))).collect();
         for item in forms.list()? {
             let [state, form] = item.fields("state form")?;
             let s = state.index(self.dims.len())?;
-            read[s] = Some(positive_definite(&form, self.dims[s], &())?);
+            read[s] = Some(positive_definite(&form, self.dims[s], ground)?);
         }
-        let read: Vec<Matrix> = forms.some(read.into_iter().collect(), "quadratic", "a state without a form")?;
+        let read: Vec<Matrix<T>> = forms.some(read.into_iter().collect(), "quadratic", "a state without a form")?;
         need(square <= bound * bound, "quadratic", "the bound is below the root of the square")?;
         for (from, to, m) in &self.arrows {
             let image = m.transpose().times(&read[*from])?.times(m)?;
@@ -394,22 +440,25 @@ impl System {
 }
 
 /// Prefix codes of paths through a block, with the weights of the norms in all states.
-struct Code<'a> {
-    block: &'a System,
+struct Code<'a, T> {
+    block: &'a System<T>,
     weights: Vec<Vec<Q>>,
     bound: &'a Q,
 }
 
-impl Code<'_> {
+impl<T: Whole> Code<'_, T> {
     /// Every path from `from` begins with one of the words (which ascend), and these are short enough. All of them begin with
     /// the word of this depth that leads to `at` with this product.
-    fn descend(&self, words: &[Vec<usize>], depth: usize, from: usize, at: usize, product: &Matrix) -> Checked<()> {
+    fn descend(&self, words: &[Vec<usize>], depth: usize, from: usize, at: usize, product: &Matrix<T>) -> Checked<()> {
         if words.first().is_some_and(|w| w.len() == depth) {
             let most = power(self.bound, depth)?;
             let mut within = words.len() == 1;
             for j in 0..product.cols {
-                let weighed = |i: usize| product.at(i, j).abs() * &self.weights[from][i];
-                within &= total((0..product.rows).map(weighed))? <= &most * &self.weights[at][j];
+                let column = product.columns(&[j]).transpose();
+                let sizes = Matrix { data: column.data.iter().map(absolute).collect(), ..column };
+                let weights = Matrix::lifted(&Matrix::new(product.rows, 1, &self.weights[from]));
+                let room = rational(&(&most * &self.weights[at][j])).minus(&sizes.times(&weights)?);
+                within &= !room.has_negative();
             }
             return need(
                 within,

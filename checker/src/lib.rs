@@ -75,7 +75,7 @@ fn checked(case: &str, certificate: &str) -> Checked<Accepted> {
     let proof = Node { place: "proof".to_owned(), ..proof };
     let found = match kind.text()? {
         "certify" => certify(case, &proof)?,
-        "regularity" => regularity::check(&case::read(case, false)?, &proof)?,
+        "regularity" => regularity::check(case, &proof)?,
         "region" => region::check(case, &proof)?,
         "solve" => solve::check(&case::read(case, true)?, &proof)?,
         "spectrum" => spectrum::check(case, &proof)?,

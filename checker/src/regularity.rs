@@ -1,8 +1,12 @@
 //! Orders of smoothness of a curve in its parameter: joint spectral radii on a descending chain of invariant spaces, and
 //! the joint equation of every order, in the visible quotients (theory §11, Theorem E).
 
-use crate::base::{Accepted, Checked, Matrix, Node, Q, Verdict, bits, list, need, number, some, spend, total, whole};
+use crate::base::{
+    Accepted, Checked, Ground, Matrix, Node, Q, Surd, Verdict, Whole, bits, list, need, number, some, spend, total,
+    whole,
+};
 use crate::claim::Claim;
+use crate::curve::case;
 use crate::curve::{Case, End, Kind, Model, Piece, Shape, Spaces, Way, close};
 use crate::jsr::{System, bounds};
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -12,9 +16,10 @@ use std::cmp::Ordering;
 const MAX_ORDERS: usize = 32;
 
 /// The curves in their visible quotients, and the derivatives of one order.
-struct Level<'a> {
-    shape: &'a Shape,
-    spaces: &'a Spaces,
+struct Level<'a, T: Whole> {
+    shape: &'a Shape<T>,
+    spaces: &'a Spaces<T>,
+    ground: &'a T::Ground,
     /// `N`, the number of pieces of every state that comes back to itself.
     pieces: usize,
     /// By state and letter, what pieces take of the parameter, where that is not `1/N`.
@@ -22,22 +27,41 @@ struct Level<'a> {
     /// The order `k`.
     order: usize,
     /// By state: the differences of the derivatives of this order as rows in echelon form.
-    families: Vec<Matrix>,
+    families: Vec<Matrix<T>>,
     /// By state: the derivative of the order before at the finish minus that at the start; for order 0 and 1 the chord.
-    chords: Vec<Matrix>,
+    chords: Vec<Matrix<T>>,
 }
 
 /// Checks the proof of a certificate of the kind `regularity`.
-pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
-    let shared = case.shape.pieces().any(|(_, p)| p.share.is_some());
-    let (contraction, orders, exponents) = if shared {
-        let [contraction, orders, exponents] = node.fields("contraction orders exponent")?;
-        (contraction, orders, Some(exponents))
-    } else {
-        let [contraction, orders] = node.fields("contraction orders")?;
-        (contraction, orders, None)
+pub fn check(text: &str, node: &Node<'_>) -> Checked<Accepted> {
+    let Some(field) = node.get("field") else {
+        return checked(&case::read(text, false)?, &(), false, node);
     };
-    let model = Model::read(&case.shape, &(), &contraction)?;
+    let ground = Ground::read(&field)?;
+    checked(&case::over::<Surd>(text, false, &ground)?, &ground, true, node)
+}
+
+fn checked<T: Whole>(case: &Case<T>, ground: &T::Ground, field: bool, node: &Node<'_>) -> Checked<Accepted> {
+    let shared = case.shape.pieces().any(|(_, p)| p.share.is_some());
+    let (contraction, orders, exponents) = match (field, shared) {
+        (false, true) => {
+            let [contraction, orders, exponents] = node.fields("contraction orders exponent")?;
+            (contraction, orders, Some(exponents))
+        }
+        (false, false) => {
+            let [contraction, orders] = node.fields("contraction orders")?;
+            (contraction, orders, None)
+        }
+        (true, true) => {
+            let [_, contraction, orders, exponents] = node.fields("field contraction orders exponent")?;
+            (contraction, orders, Some(exponents))
+        }
+        (true, false) => {
+            let [_, contraction, orders] = node.fields("field contraction orders")?;
+            (contraction, orders, None)
+        }
+    };
+    let model = Model::read(&case.shape, ground, &contraction)?;
     contraction.at(case.shape.check_curves())?;
     let mut level = node.at(Level::own(&model))?;
     let mut last = level.families.clone();
@@ -108,7 +132,7 @@ pub fn check(case: &Case, node: &Node<'_>) -> Checked<Accepted> {
 
 /// Theorem 12: the curve is C¹ in the uniform parameter, or in the one with the given shares, and a graph over it in its visible
 /// quotients and as it is seen.
-pub fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
+pub fn graph<T: Whole>(model: &Model<'_, T>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
     let first = match shares {
         None => Level::uniform(model)?,
         Some(node) => Level::first(model, 1, Some(node.at(read_shares(model, node))?))?,
@@ -118,7 +142,7 @@ pub fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) ->
     let bound = if shares.is_some() { high } else { &high * &level.power(1) };
     radius.need(bound < Q::one(), "graph", "the radius is not below 1/N, or below 1 where shares are given")?;
     need(level.joined(&level.ends()?)?, "graph", "the derivatives at a joint are not equal")?;
-    let outside = |rows: &Matrix, chord: &Matrix| Ok(rows.stack(&chord.transpose()).rank()? > rows.rank()?);
+    let outside = |rows: &Matrix<T>, chord: &Matrix<T>| Ok(rows.stack(&chord.transpose()).rank()? > rows.rank()?);
     for &e in &level.shape.reachable {
         let free = outside(&level.families[e], &level.chords[e])?;
         need(free, "graph", format_args!("the chord of state {e} lies among the differences of the derivative"))?;
@@ -132,7 +156,7 @@ pub fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) ->
 }
 
 /// Positive shares of the pieces of every reachable state, of sum 1.
-fn read_shares(model: &Model<'_>, node: &Node<'_>) -> Checked<Vec<Vec<Q>>> {
+fn read_shares<T: Whole>(model: &Model<'_, T>, node: &Node<'_>) -> Checked<Vec<Vec<Q>>> {
     let shape = model.shape;
     let mut all = vec![Vec::new(); shape.states.len()];
     for (item, &e) in node.exactly(shape.reachable.len(), "graph")?.iter().zip(&shape.reachable) {
@@ -164,7 +188,7 @@ fn compared(factor: &Q, share: &Q, exponent: &Q) -> Checked<Ordering> {
 }
 
 /// The states that can be reached from one, itself among them.
-fn reached(shape: &Shape, from: usize) -> Vec<usize> {
+fn reached<T: Whole>(shape: &Shape<T>, from: usize) -> Vec<usize> {
     let (mut list, mut next) = (vec![from], 0);
     while next < list.len() {
         for piece in &shape.states[list[next]].pieces {
@@ -177,9 +201,9 @@ fn reached(shape: &Shape, from: usize) -> Vec<usize> {
     list
 }
 
-impl<'a> Level<'a> {
+impl<'a, T: Whole> Level<'a, T> {
     /// The curve itself, where the states that come back to themselves have the same number of pieces.
-    fn uniform(model: &'a Model<'a>) -> Checked<Self> {
+    fn uniform(model: &'a Model<'a, T>) -> Checked<Self> {
         let shape = model.shape;
         let returning = |e: &&usize| shape.states[**e].pieces.iter().any(|p| reached(shape, p.target).contains(*e));
         let counts: Vec<usize> =
@@ -191,7 +215,7 @@ impl<'a> Level<'a> {
     }
 
     /// The curve itself: every reachable state is an edge, and more than a point is seen.
-    fn first(model: &'a Model<'a>, pieces: usize, shares: Option<Vec<Vec<Q>>>) -> Checked<Self> {
+    fn first(model: &'a Model<'a, T>, pieces: usize, shares: Option<Vec<Vec<Q>>>) -> Checked<Self> {
         let (shape, spaces) = (model.shape, &model.spaces);
         let edges = shape.reachable.iter().all(|&e| shape.states[e].kind == Kind::Edge);
         need(edges, "orders", "a curve is needed")?;
@@ -204,11 +228,11 @@ impl<'a> Level<'a> {
             chords[e] = space.visible.times(&space.reading.times(&chord)?)?;
         }
         need(families[shape.start].rows > 0, "orders", "the curve is a point")?;
-        Ok(Self { shape, spaces, pieces, shares, order: 0, families, chords })
+        Ok(Self { shape, spaces, ground: &model.ground, pieces, shares, order: 0, families, chords })
     }
 
     /// The curve in the parameter of the case: with its shares where it gives some.
-    fn own(model: &'a Model<'a>) -> Checked<Self> {
+    fn own(model: &'a Model<'a, T>) -> Checked<Self> {
         let shape = model.shape;
         if shape.pieces().all(|(_, p)| p.share.is_none()) {
             return Self::uniform(model);
@@ -217,7 +241,7 @@ impl<'a> Level<'a> {
         for &e in &shape.reachable {
             let pieces = &shape.states[e].pieces;
             let equal = whole(pieces.len() as i64).recip();
-            let share = |p: &Piece| match &p.share {
+            let share = |p: &Piece<T>| match &p.share {
                 Some(share) => share.clone(),
                 None => equal.clone(),
             };
@@ -265,20 +289,20 @@ impl<'a> Level<'a> {
     }
 
     /// `N_e^k`, or `s^-k` for a piece with the share `s`.
-    fn stretch(&self, e: usize, piece: &Piece) -> Checked<Q> {
+    fn stretch(&self, e: usize, piece: &Piece<T>) -> Checked<Q> {
         let pieces = &self.shape.states[e].pieces;
         let Some(shares) = &self.shares else { return Ok(num_traits::pow(whole(pieces.len() as i64), self.order)) };
         let letter = self.letter(e, piece)?;
         Ok(num_traits::pow(shares[e][letter].recip(), self.order))
     }
 
-    fn letter(&self, e: usize, piece: &Piece) -> Checked<usize> {
+    fn letter(&self, e: usize, piece: &Piece<T>) -> Checked<usize> {
         let place = self.shape.states[e].pieces.iter().position(|p| std::ptr::eq(p, piece));
         some(place, "orders", "a piece of another state")
     }
 
     /// `(ε N_e)^k T_i : W_δ -> W_e`, what the derivatives of order `k` are multiplied with on a piece of a state.
-    fn scaled(&self, e: usize, piece: &Piece) -> Checked<Matrix> {
+    fn scaled(&self, e: usize, piece: &Piece<T>) -> Checked<Matrix<T>> {
         let one = if piece.reversed && self.order % 2 == 1 { -Q::one() } else { Q::one() };
         Ok(self.spaces.on_visible(e, piece)?.scaled(&(one * self.stretch(e, piece)?)))
     }
@@ -312,7 +336,7 @@ impl<'a> Level<'a> {
             arrows.push((place(e)?, place(piece.target)?, matrix.transpose().scaled(&stretch)));
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
-        let found = bounds(&System { name: String::new(), dims, arrows }, node)?;
+        let found = bounds(&System { name: String::new(), dims, arrows }, self.ground, node)?;
         Ok((found.lower, found.upper))
     }
 
@@ -328,14 +352,14 @@ impl<'a> Level<'a> {
             let image = next.scaled(e, piece)?.times(&next.chords[piece.target])?;
             families[e] = families[e].stack(&image.minus(&next.chords[e]).transpose());
         }
-        let image = |e: usize, p: &Piece, span: &Matrix| span.times(&next.spaces.on_visible(e, p)?.transpose());
+        let image = |e: usize, p: &Piece<T>, span: &Matrix<T>| span.times(&next.spaces.on_visible(e, p)?.transpose());
         let families = close(next.shape, families, Way::Up, image)?;
         Ok(Self { families, ..next })
     }
 
     /// Whether, in a strongly connected part that no arrow leaves, a chord lies among the differences of its derivative, although
     /// the curve of the order before, whose differences are given, is more than a point.
-    fn turns_back(&self, before: &[Matrix]) -> Checked<bool> {
+    fn turns_back(&self, before: &[Matrix<T>]) -> Checked<bool> {
         let reached = |from: usize| reached(self.shape, from);
         for &e in &self.shape.reachable {
             let inside = self.families[e].stack(&self.chords[e].transpose()).rank()? == self.families[e].rows;
@@ -347,8 +371,8 @@ impl<'a> Level<'a> {
     }
 
     /// The derivatives at the start and the finish, by state.
-    fn ends(&self) -> Checked<Vec<[Matrix; 2]>> {
-        let mut ends: Vec<[Matrix; 2]> = self.chords.iter().map(|c| [c.clone(), c.clone()]).collect();
+    fn ends(&self) -> Checked<Vec<[Matrix<T>; 2]>> {
+        let mut ends: Vec<[Matrix<T>; 2]> = self.chords.iter().map(|c| [c.clone(), c.clone()]).collect();
         for &e in &self.shape.reachable {
             ends[e] = [self.limit(e, End::Start)?, self.limit(e, End::Finish)?];
         }
@@ -357,7 +381,7 @@ impl<'a> Level<'a> {
 
     /// Along the address of an end `(ε N)^k T c` tends to the fixed vector of the scaled cycle in `c + F`, which is unique because
     /// the radius on `F` is below `N^-k`.
-    fn limit(&self, e: usize, end: End) -> Checked<Matrix> {
+    fn limit(&self, e: usize, end: End) -> Checked<Matrix<T>> {
         let address = some(self.shape.end_address(e, end, &|_, _| false), "orders", "a state without pieces")?;
         let (prefix, home) = self.product(e, &address.prefix)?;
         let (cycle, back) = self.product(home, &address.cycle)?;
@@ -372,7 +396,7 @@ impl<'a> Level<'a> {
     }
 
     /// The product of the scaled operators along a word, and the state where it ends.
-    fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix, usize)> {
+    fn product(&self, from: usize, word: &[usize]) -> Checked<(Matrix<T>, usize)> {
         let (mut product, mut at) = (Matrix::identity(self.spaces.of(from)?.visible.rows), from);
         for &letter in word {
             let piece = some(self.shape.states[at].pieces.get(letter), "word", "a letter that does not exist")?;
@@ -382,11 +406,11 @@ impl<'a> Level<'a> {
     }
 
     /// The joint equation: at the first-level joints of all states the derivatives of the two sides agree.
-    fn joined(&self, ends: &[[Matrix; 2]]) -> Checked<bool> {
+    fn joined(&self, ends: &[[Matrix<T>; 2]]) -> Checked<bool> {
         let mut joined = true;
         for &e in &self.shape.reachable {
             for pair in self.shape.states[e].pieces.windows(2) {
-                let value = |piece: &Piece, end: End| {
+                let value = |piece: &Piece<T>, end: End| {
                     self.scaled(e, piece)?.times(&ends[piece.target][end.in_piece(piece) as usize])
                 };
                 joined &= value(&pair[0], End::Finish)? == value(&pair[1], End::Start)?;

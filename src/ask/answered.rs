@@ -77,8 +77,9 @@ pub fn answered(
             let once = found.claims.iter().filter(|c| !is_proved_again(c, certificate, &orders));
             once.map(|c| claims::label(&c.what)).collect()
         }
-        (Findings::OverField { found, .. }, Some(Ok(certificate))) => {
-            let once = found.claims.iter().filter(|c| !is_proved_again(c, certificate, &[]));
+        (Findings::OverField { case, found }, Some(Ok(certificate))) => {
+            let orders = confirm_orders(case, found).map_err(|doubt| rejected(findings.name(), &doubt))?;
+            let once = found.claims.iter().filter(|c| !is_proved_again(c, certificate, &orders));
             once.map(|c| claims::label(&c.what)).collect()
         }
         _ => Vec::new(),

@@ -1,10 +1,12 @@
 //! Bounds of the joint spectral radius of the matrices of a file.
 
+use crate::algebraic::Real;
+use crate::arith::Rational;
 use crate::case::matrix_file;
-use crate::certificate::radius_certificate;
+use crate::certificate::{Written, radius_certificate};
 use crate::diagnostic::{Problem, SourceText};
 use crate::radius::{JointRadius, Options, file, joint_radius};
-use crate::report::radius::radius_json;
+use crate::report::radius as report;
 use serde_json::Value;
 
 /// The bounds, and what they are about.
@@ -12,11 +14,41 @@ use serde_json::Value;
 pub struct Radius {
     /// The name that the text gives, or that of the file.
     pub name: String,
-    /// What was found.
-    pub found: JointRadius,
-    file: file::File,
+    found: Bounds,
     text: String,
 }
+
+/// Bounds over the rationals, or over a real number field.
+#[derive(Debug, Clone)]
+enum Bounds {
+    Rational(Box<Bounded<Rational>>),
+    Field(Box<Bounded<Real>>),
+}
+
+#[derive(Debug, Clone)]
+struct Bounded<E> {
+    file: file::File<E>,
+    radius: JointRadius<E>,
+}
+
+/// Says the same of bounds over both.
+macro_rules! over {
+    ($found:expr, $b:ident => $say:expr) => {
+        match $found {
+            Bounds::Rational($b) => $say,
+            Bounds::Field($b) => $say,
+        }
+    };
+}
+
+impl<E: Written> Bounded<E> {
+    fn of(name: &str, file: file::File<E>, options: &Options) -> Result<Box<Self>, Problem> {
+        let radius = joint_radius(&file.system, options).map_err(|e| wrong(format!("{name}: {e}"), HELP))?;
+        Ok(Box::new(Self { file, radius }))
+    }
+}
+
+const HELP: &str = "see docs/radius.md for the format";
 
 fn wrong(message: String, help: &str) -> Problem {
     Problem::new("secant::jsr", message).with_help(help)
@@ -25,7 +57,8 @@ fn wrong(message: String, help: &str) -> Problem {
 /// Bounds the joint spectral radius of the matrices of a text (docs/radius.md); `name` is shown in diagnostics.
 ///
 /// # Errors
-/// A [`Problem`] where the text is no set of matrices, or they do not fit together.
+/// A [`Problem`] where the text is no set of matrices, or they do not fit together; also where all entries are rational and one is
+/// written as an expression.
 ///
 /// # Examples
 /// ```
@@ -36,21 +69,35 @@ fn wrong(message: String, help: &str) -> Problem {
 /// # Ok::<(), secant::diagnostic::Problem>(())
 /// ```
 pub fn radius(name: &str, text: &str, options: &Options) -> Result<Radius, Problem> {
-    let file = read(text).map_err(|e| {
+    let refused = |e: file::FileError| {
         let source = SourceText::new(name, text);
         let of_case = ["convention", "pieces", "scheme", "map", "state", "control", "title"];
+        let value;
         let help = match &e.problem {
             file::FileProblem::Unknown(key) if of_case.contains(&key.as_str()) => {
                 "this is a case: `secant regularity` bounds the radii that say how smooth it is; docs/radius.md has the format of \
                  files for `secant jsr`"
             }
-            _ => "see docs/radius.md for the format",
+            file::FileProblem::Expression { help: Some(help), .. } => help,
+            file::FileProblem::Valued { value: found, .. } => {
+                value = format!("write \"{found}\" here");
+                &value
+            }
+            _ => HELP,
         };
         wrong(e.problem.to_string(), help).with_source(&source).with_mark(e.span)
-    })?;
-    let found = joint_radius(&file.system, options).map_err(|e| wrong(format!("{name}: {e}"), "see docs/radius.md"))?;
-    let name = if file.name.is_empty() { name } else { &file.name }.to_owned();
-    Ok(Radius { name, found, file, text: text.to_owned() })
+    };
+    let found = match read(text) {
+        Ok(file) => Bounds::Rational(Bounded::of(name, file, options)?),
+        // A number that is none may be an expression.
+        Err(e) if matches!(e.problem, file::FileProblem::Number { .. }) => {
+            Bounds::Field(Bounded::of(name, file::parse_field(text).map_err(refused)?, options)?)
+        }
+        Err(e) => return Err(refused(e)),
+    };
+    let own = over!(&found, b => b.file.name.clone());
+    let name = if own.is_empty() { name.to_owned() } else { own };
+    Ok(Radius { name, found, text: text.to_owned() })
 }
 
 /// A file, also with matrices as NumPy prints them, one by one or in a list.
@@ -99,7 +146,25 @@ impl Radius {
     /// The answer as data.
     #[must_use]
     pub fn json(&self) -> Value {
-        radius_json(&self.name, &self.found)
+        over!(&self.found, b => report::radius_json(&self.name, &b.radius))
+    }
+
+    /// The answer as text for a terminal.
+    #[must_use]
+    pub fn text(&self) -> String {
+        over!(&self.found, b => report::joint_radius(&b.radius))
+    }
+
+    /// Whether an upper bound was found.
+    #[must_use]
+    pub fn is_bounded(&self) -> bool {
+        over!(&self.found, b => b.radius.upper.is_some())
+    }
+
+    /// A drawing of the invariant polytope in the plane, where one was used.
+    #[must_use]
+    pub fn picture(&self) -> Option<String> {
+        over!(&self.found, b => crate::picture::polytope(&b.radius))
     }
 
     /// The certificate of the bounds, accepted by the checker.
@@ -107,7 +172,7 @@ impl Radius {
     /// # Errors
     /// A [`Problem`] where there is none, and where the text is not TOML.
     pub fn certificate(&self) -> Result<String, Problem> {
-        let certificate = radius_certificate(&self.file, &self.found)
+        let certificate = over!(&self.found, b => radius_certificate(&b.file, &b.radius))
             .map_err(|e| wrong(e.to_string(), "see docs/certificate.md; no certificate was written"))?;
         let written = certificate.text();
         secant_check::check_while(&self.text, &written, crate::stop::check).map_err(|e| {

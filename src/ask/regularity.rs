@@ -2,19 +2,22 @@
 
 use super::border::{border_answer, border_case, border_certified};
 use super::lattice::{lattice_answer, lattice_case, lattice_certified};
+use crate::algebraic::Real;
 use crate::arith::{Rational, parse_rational};
 use crate::case::{self, BorderCase, Case, LatticeCase, Origin};
+use crate::certificate::Written;
 use crate::diagnostic::{Problem, SourceText};
-use crate::radius::Options;
+use crate::radius::{Options, Radial};
 use crate::report::regularity as report;
 use crate::report::regularity::Meaning;
 use crate::report::values::decimal;
 use crate::scheme::{self, Laurent, Normalisation};
 use crate::shape::{Contraction, Shape, Spaces};
+use crate::theorem::Provable;
 use crate::theorem::enclosed::enclosed;
 use crate::theorem::filter::{Filter, FilterError, Understood, understood};
 use crate::theorem::regularity as theorem_regularity;
-use crate::theorem::smoothness::curve_regularity;
+use crate::theorem::smoothness::{CurveRegularity, curve_regularity};
 use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -27,6 +30,8 @@ enum Subject {
     /// A mask, and whether it comes with control points, which it is not about.
     Mask(Understood, bool),
     Curve(Box<Shape>),
+    /// With entries in a real number field.
+    Over(Box<Shape<Real>>),
 }
 
 /// What is known about the smoothness of something, in both forms, and whether anything is decided.
@@ -136,14 +141,18 @@ fn answer(what: &str, subject: &Subject) -> Result<Smooth, Problem> {
             Ok(Smooth { text, data: report::enclosed_data(&found, Meaning::Limit), decided: true })
         }
         Subject::Mask(mask, points) => of_mask(what, (mask, *points), &options),
-        Subject::Curve(shape) => {
-            let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
-            let found = curve_regularity(shape, &spaces, &options).map_err(|e| wrong(e.to_string()))?;
-            let decided = found.exponent.is_some() || found.polynomial;
-            let text = report::curve_regularity(shape, &found);
-            Ok(Smooth { text, data: report::curve_data(shape, &found), decided })
-        }
+        Subject::Curve(shape) => Ok(of_curve(shape)?.0),
+        Subject::Over(shape) => Ok(of_curve(shape)?.0),
     }
+}
+
+/// What is known of a curve that contracts, as it is said and as it was found.
+fn of_curve<E: Radial>(shape: &Shape<E>) -> Result<(Smooth, CurveRegularity<E>, Spaces<E>), Problem> {
+    let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
+    let found = curve_regularity(shape, &spaces, &Options::default()).map_err(|e| wrong(e.to_string()))?;
+    let decided = found.exponent.is_some() || found.polynomial;
+    let text = report::curve_regularity(shape, &found);
+    Ok((Smooth { text, data: report::curve_data(shape, &found), decided }, found, spaces))
 }
 
 fn of_mask(what: &str, (mask, points): (&Understood, bool), options: &Options) -> Result<Smooth, Problem> {
@@ -210,14 +219,14 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
     let mask = |texts: &[String], arity, scale| {
         understood(texts, arity, scale).map(|m| Subject::Mask(m, false)).map_err(|e| no_mask("", e))
     };
-    if let Some(texts) = scheme::wavelet_mask(what) {
-        return mask(&texts, 2, None);
-    }
-    if let Some(moments) = what.strip_prefix("db").and_then(|n| n.parse::<usize>().ok()) {
+    if let Some(moments) = scheme::moments(what).filter(|n| *n != 1) {
         if (2..=MAX_MOMENTS).contains(&moments) {
             return Ok(Subject::Wavelet(moments));
         }
         return Err(wrong(format!("{what} is not known: db1 to db{MAX_MOMENTS} are")));
+    }
+    if let Some(texts) = scheme::wavelet_mask(what) {
+        return mask(&texts, 2, None);
     }
     if what.starts_with("bior") || what.starts_with("rbio") {
         return Err(wrong(format!("{what} is not known"))
@@ -293,11 +302,25 @@ fn subject_of_case(name: &str, text: &str) -> Result<Subject, Problem> {
         let mask = understood(&texts, arity, scale).map_err(|e| no_mask(&format!("{name}: "), e))?;
         return Ok(Subject::Mask(mask, points));
     }
-    of_read(Case::parse(name, text)?)
+    match Case::parse(name, text) {
+        Err(problem) if case::is_over_field(&problem) => {
+            let case = over_field(name, text, problem)?;
+            contracting(&case)?;
+            Ok(Subject::Over(Box::new(case.shape)))
+        }
+        read => of_read(read?),
+    }
+}
+
+/// The case over the field of its entries; without an irrational one the problem that was found with it stands.
+fn over_field(name: &str, text: &str, problem: Problem) -> Result<Case<Real>, Problem> {
+    let case = Case::over_field(name, text)?;
+    let irrational = crate::shape::entries(&case.shape).any(|x| x.field().is_some());
+    if irrational { Ok(case) } else { Err(problem) }
 }
 
 fn of_read(case: Case) -> Result<Subject, Problem> {
-    if let Some(Origin::Mask(mask)) = &case.scheme {
+    if let Some(Origin::Mask(mask) | Origin::Filter(mask, _)) = &case.scheme {
         return Ok(Subject::Mask(given(mask), case.shape.control.is_some()));
     }
     contracting(&case)?;
@@ -348,7 +371,7 @@ fn written_mask(text: &str) -> Option<(Vec<String>, usize, Option<Normalisation>
 }
 
 /// Why the curve of a case contracts.
-fn contracting(case: &Case) -> Result<Contraction, Problem> {
+fn contracting<E: Provable>(case: &Case<E>) -> Result<Contraction, Problem> {
     case.shape.check_curves().map_err(|e| crate::prove::model_problem(case, &e.into()))?;
     let found = crate::theorem::contraction_of(&case.shape).map_err(|e| crate::prove::model_problem(case, &e))?;
     if !found.is_proved() {
@@ -379,26 +402,42 @@ pub fn certified_regularity(
         return Err(Problem::new("secant::regularity", format!("{what} is no case file, which a certificate is about"))
             .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; wavelets have no certificates"));
     }
-    let case = match parameters {
-        [] => Case::read(Path::new(what))?,
-        set => Case::ask(&format!("{what} {}", set.join(" ")))?,
+    let source = match parameters {
+        [] => SourceText::read(Path::new(what))?,
+        set => case::asked(&format!("{what} {}", set.join(" ")))?,
     };
-    let contraction = contracting(&case)?;
-    let shape = &case.shape;
-    let spaces = Spaces::new(shape).ok_or_else(|| wrong("a fixed point is not unique".to_owned()))?;
-    let found = curve_regularity(shape, &spaces, &Options::default()).map_err(|e| wrong(e.to_string()))?;
+    let mask = || regularity(what, parameters, arity);
+    match Case::parse(&source.name, &source.text) {
+        Err(problem) if case::is_over_field(&problem) => {
+            let case = over_field(&source.name, &source.text, problem)?;
+            let (smooth, certificate) = certified_curve(&case, mask)?;
+            Ok((smooth, certificate, case.flat))
+        }
+        read => {
+            let case = read?;
+            let (smooth, certificate) = certified_curve(&case, mask)?;
+            let beside = case.beside();
+            Ok((smooth, certificate, beside))
+        }
+    }
+}
+
+/// The smoothness of the curve of a case, after that of its mask where it has one, and the certificate about the curve.
+fn certified_curve<E: Written>(
+    case: &Case<E>,
+    mask: impl FnOnce() -> Result<Smooth, Problem>,
+) -> Result<(Smooth, String), Problem> {
+    let contraction = contracting(case)?;
+    let (smooth, found, spaces) = of_curve(&case.shape)?;
     let nothing = |e: String| wrong(e).with_help("see docs/certificate.md; no certificate was written");
-    let certificate = crate::certificate::regularity_certificate(&case, &spaces, &contraction, &found);
+    let certificate = crate::certificate::regularity_certificate(case, &spaces, &contraction, &found);
     let certificate = certificate
         .map_err(|e| nothing(e.to_string()))
-        .and_then(|c| crate::certificate::checked(&case.checked_text(), c).map_err(|e| nothing(e.to_string())))?;
-    let decided = found.exponent.is_some() || found.polynomial;
-    let own = report::curve_regularity(shape, &found);
-    let mut smooth = Smooth { text: own, data: report::curve_data(shape, &found), decided };
-    if matches!(case.scheme, Some(Origin::Mask(_))) {
-        let mask = regularity(what, parameters, arity)?;
-        let text = format!("{}\nThe certificate is about the curve:\n{}", mask.text, smooth.text);
-        smooth = Smooth { text, ..mask };
+        .and_then(|c| crate::certificate::checked(&E::text(case), c).map_err(|e| nothing(e.to_string())))?;
+    if !matches!(case.scheme, Some(Origin::Mask(_) | Origin::Filter(..))) {
+        return Ok((smooth, certificate.text()));
     }
-    Ok((smooth, certificate.text(), case.beside()))
+    let mask = mask()?;
+    let text = format!("{}\nThe certificate is about the curve:\n{}", mask.text, smooth.text);
+    Ok((Smooth { text, ..mask }, certificate.text()))
 }

@@ -91,6 +91,11 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
         let list: Vec<String> = mask.iter().map(|c| quoted(c)).collect();
         return Some(Ok(case(text, text, &format!("\n[scheme]\nmask = [{}]", list.join(", ")))));
     }
+    if let Some(moments) = scheme::moments(text).filter(|n| *n > 3) {
+        let message = format!("the filter of db{moments} lies in no field that is small enough here");
+        let help = "`secant regularity` bounds its smoothness; db2 and db3 are curves over number fields";
+        return Some(Err(Problem::new("secant::usage::wavelet", message).with_help(help)));
+    }
     if text.trim_start().starts_with("[[[") {
         return Some(pieces(text));
     }

@@ -58,7 +58,7 @@ impl Case<Real> {
             samples.push((at, Case::parse_as(name, text, |source| File::sampled(source, sample))?.closed()?));
         }
         let first = &samples[0].1;
-        let plain = matches!(first.scheme, None | Some(Origin::Mask(_)));
+        let plain = matches!(first.scheme, None | Some(Origin::Mask(_) | Origin::Filter(..) | Origin::Polygon(_)));
         let faces = first.shape.states.iter().any(|s| s.kind == CellKind::Face);
         let shapes: Vec<(&Rational, &Shape)> = samples.iter().map(|(t, case)| (t, &case.shape)).collect();
         let mut asked: Vec<Elem> = builder.asked().iter().map(|x| builder.elem(x)).collect();
@@ -66,9 +66,8 @@ impl Case<Real> {
         asked.dedup();
         let shape = if plain && !faces { over(&field, &shapes, &asked) } else { None };
         let Some((shape, numbers)) = shape else {
-            let message = "irrational entries are read in curves and sets, and in masks of one span";
-            let help =
-                "surfaces, shares of the parameter, and schemes that are more than a mask, need rational numbers";
+            let message = "irrational entries are read in curves and sets, and in masks";
+            let help = "surfaces, shares of the parameter, and schemes that are no masks, need rational numbers";
             return Err(first.problem_at_state(first.shape.start, "secant::case::irrational-entry", message, help));
         };
         // What a scheme was built from was read with a rational number in the place of the generator.

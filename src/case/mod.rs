@@ -49,7 +49,7 @@ pub use vertex_family::VertexFamilyCase;
 use crate::arith::Rational;
 use crate::diagnostic::{Problem, SourceText};
 use crate::linalg::Entry;
-use crate::scheme::{Heading, Interpolation, Mask, MeshRule, case_text, complex_text};
+use crate::scheme::{Heading, Interpolation, Mask, MeshRule, Normalisation, case_text, complex_text};
 use crate::shape::{self, Address, Complex, Face, OpName, Reversal, Shape, UnknownError};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -112,6 +112,8 @@ pub struct Case<E = Rational> {
     pub reversals: BTreeMap<usize, Reversal>,
     /// The scheme that the case names under `[scheme]`.
     pub scheme: Option<Origin>,
+    /// The normalisation in which a filter was read, where it is not the one that it names.
+    pub taken: Option<Normalisation>,
     /// The values of the roots and cosines in the text that a checker reads; `None` where one does not lie in the field of the
     /// entries.
     pub numbers: Option<Vec<E>>,
@@ -141,6 +143,7 @@ impl<E> Case<E> {
             faces: self.faces.clone(),
             reversals: self.reversals.clone(),
             scheme: None,
+            taken: self.taken,
             numbers: Some(Vec::new()),
             flat: None,
             unknown: self.unknown.clone(),
@@ -159,6 +162,8 @@ pub enum Origin {
     Named(String),
     /// A univariate mask, given or named.
     Mask(Mask),
+    /// The mask of a filter whose sums are not those of the normalisation that it names, but those of this one, which was taken.
+    Filter(Mask, Normalisation),
     /// A polygon of control points, a curve of several spans; with its mask where the spans are those of one.
     Polygon(Option<Mask>),
     /// The tensor product of two curves.
@@ -349,7 +354,7 @@ impl<E> Case<E> {
     #[must_use]
     pub fn mask(&self) -> Option<&Mask> {
         match &self.scheme {
-            Some(Origin::Mask(mask) | Origin::Polygon(Some(mask))) => Some(mask),
+            Some(Origin::Mask(mask) | Origin::Filter(mask, _) | Origin::Polygon(Some(mask))) => Some(mask),
             _ => None,
         }
     }

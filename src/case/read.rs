@@ -205,6 +205,10 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
     let text = file.source.clone();
     let Model { complex, places, unknown, scheme } = model;
     let (shape, faces, reversals) = (complex.shape, complex.faces, complex.reversals);
+    let taken = match &scheme {
+        Some(super::Origin::Filter(_, taken)) => Some(*taken),
+        _ => None,
+    };
     Ok(Case {
         name,
         title,
@@ -214,6 +218,7 @@ fn build(file: &File, case: &Table<'_>) -> Result<Case, Problem> {
         faces,
         reversals,
         scheme,
+        taken,
         numbers: Some(Vec::new()),
         flat: None,
         unknown,

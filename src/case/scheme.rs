@@ -109,7 +109,7 @@ fn polygon(case: &Table<'_>, table: &Table<'_>, built: Built) -> Result<Built, P
     };
     let count = control.array(|k| format!("control point {k}"))?.len();
     let step = match &built.origin {
-        Origin::Mask(_) => 1,
+        Origin::Mask(_) | Origin::Filter(..) => 1,
         Origin::Named(name) if name == "bezier" => size - 1,
         _ => return Ok(built),
     };
@@ -147,7 +147,7 @@ fn polygon(case: &Table<'_>, table: &Table<'_>, built: Built) -> Result<Built, P
         }
         (ends, None) => {
             mask = match built.origin {
-                Origin::Mask(own) => Some(own),
+                Origin::Mask(own) | Origin::Filter(own, _) => Some(own),
                 _ => None,
             };
             scheme::windows(count, size, step, ends.unwrap_or(Ends::Open))
@@ -223,12 +223,18 @@ fn curve(table: &Table<'_>, form: &str, vertices: bool) -> Result<Built, Problem
         return Ok(Built { shape, origin });
     }
     let node = table.need(form, "[ … ]")?;
-    let mask = mask(table, form, &node)?;
+    let (mask, taken) = mask(table, form, &node)?;
     let shape = if vertices { mask.curve_with_vertices() } else { mask.curve() };
-    Ok(Built { shape: shape.map_err(|e| refused(table, &node, &e, &[]))?, origin: Origin::Mask(mask) })
+    let shape = shape.map_err(|e| refused(table, &node, &e, &[]))?;
+    let origin = match taken {
+        Some(taken) => Origin::Filter(mask, taken),
+        None => Origin::Mask(mask),
+    };
+    Ok(Built { shape, origin })
 }
 
-fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<Mask, Problem> {
+/// The mask; of a filter also the normalisation in which it was read, where that is not the one that it names.
+fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<(Mask, Option<Normalisation>), Problem> {
     let known: &[&'static str] = if form == "filter" {
         &["filter", "arity", "normalisation", "vertices", "ends"]
     } else {
@@ -244,11 +250,12 @@ fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<Mask, Problem>
     if form == "symbol" {
         let text = node.text()?;
         let symbol = Laurent::parse(text).map_err(|e| refused(table, node, &e, &[]))?;
-        return Mask::new(arity, symbol.coefficients().to_vec()).map_err(problem);
+        return Ok((Mask::new(arity, symbol.coefficients().to_vec()).map_err(problem)?, None));
     }
     let entries = node.array(|k| format!("coefficient {k} of `{form}`"))?;
     if form == "mask" {
-        return Mask::new(arity, entries.iter().map(Node::number).collect::<Result<_, _>>()?).map_err(problem);
+        let entries = entries.iter().map(Node::number).collect::<Result<_, _>>()?;
+        return Ok((Mask::new(arity, entries).map_err(problem)?, None));
     }
     let scale = table.need("normalisation", "\"root\"").map_err(|p| {
         p.with_help(
@@ -263,7 +270,16 @@ fn mask(table: &Table<'_>, form: &str, node: &Node<'_>) -> Result<Mask, Problem>
         _ => return Err(scale.problem("value", "this normalisation is not known", "unknown")),
     };
     let filter = entries.iter().map(Node::number).collect::<Result<Vec<_>, _>>()?;
-    Mask::from_filter(arity, &filter, scale).map_err(problem)
+    let read = |scale| Mask::from_filter(arity, &filter, scale);
+    match read(scale) {
+        // The sums of a mask leave no choice.
+        Err(error @ SchemeError::SumRule { .. }) => {
+            let others = [Normalisation::Arity, Normalisation::One, Normalisation::Root];
+            let fits = |other: Normalisation| Some((read(other).ok()?, Some(other)));
+            others.into_iter().find_map(fits).ok_or_else(|| problem(error))
+        }
+        found => Ok((found.map_err(problem)?, None)),
+    }
 }
 
 /// A factor of a tensor product: a curve with vertices, or data that are interpolated.

@@ -67,6 +67,10 @@ pub fn over_field<E: Written>(shape: &Shape<E>, found: &Certified<E>, position: 
     if let Some(k) = broken {
         return Ok(Some(refuted(&[position(&found.points[k])?])));
     }
+    if let Some(order) = &found.graph {
+        let radius = super::regularity::order(order)?["radius"].take();
+        return Ok(Some(json!({"question": "every point by its derivative", "verdict": "proved", "radius": radius})));
+    }
     let Some(cone) = &found.cones else { return Ok(None) };
     let mut cones = Vec::new();
     let mut maps = Vec::new();

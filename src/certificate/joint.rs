@@ -1,9 +1,10 @@
 //! Certificates of bounds of joint spectral radii.
 
+use super::written::{Written, matrix, values};
 use super::{Certificate, Unsupported, number, numbers, unsupported};
 use crate::algebraic::Root;
 use crate::arith::{Interval, Rational};
-use crate::linalg::{Matrix, char_poly};
+use crate::linalg::Matrix;
 use crate::radius::file::File;
 use crate::radius::{
     Balanced, BlockProof, Body, Disc, JointRadius, Leading, Lower, Polytope, Proof, Quadratic, System, Tree,
@@ -17,12 +18,23 @@ const BITS: u64 = 80;
 ///
 /// # Errors
 /// [`Unsupported`] where no word was found, or a block has no upper bound.
-pub fn radius_certificate(file: &File, found: &JointRadius) -> Result<Certificate, Unsupported> {
-    Ok(Certificate::new("jsr", &file.name, "proved", radius_proof(&file.system, found)?))
+pub fn radius_certificate<E: Written>(file: &File<E>, found: &JointRadius<E>) -> Result<Certificate, Unsupported> {
+    let proof = headed(E::ground(&file.numbers), radius_proof(&file.system, found)?);
+    Ok(Certificate::new("jsr", &file.name, "proved", proof))
+}
+
+/// A proof with what is said of a field before all else.
+pub(super) fn headed(field: Option<Value>, proof: Value) -> Value {
+    match (field, proof) {
+        (Some(field), Value::Object(own)) => {
+            Value::Object(std::iter::once(("field".to_owned(), field)).chain(own).collect())
+        }
+        (_, proof) => proof,
+    }
 }
 
 /// The bounds that were found for a system, with what proves them.
-pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value, Unsupported> {
+pub(super) fn radius_proof<E: Written>(system: &System<E>, found: &JointRadius<E>) -> Result<Value, Unsupported> {
     let lower = match &found.lower {
         Some(lower) => below(&system.product(&lower.path), lower)?.0,
         None => Value::Null,
@@ -30,7 +42,7 @@ pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value
     let bases: Vec<Value> = (0..system.dims.len())
         .map(|s| {
             let columns = found.flag.iter().flat_map(|step| (0..step.frame[s].cols()).map(|j| step.frame[s].column(j)));
-            columns.map(|c| numbers(&c)).collect()
+            columns.map(|c| values(&c)).collect()
         })
         .collect();
     let mut proofs = found.blocks.iter();
@@ -58,13 +70,13 @@ pub(super) fn radius_proof(system: &System, found: &JointRadius) -> Result<Value
 ///
 /// # Errors
 /// [`Unsupported`] where the format cannot express the eigenvalue.
-pub(super) fn stated(system: &System, lower: &Lower) -> Result<Rational, Unsupported> {
+pub(super) fn stated<E: Written>(system: &System<E>, lower: &Lower) -> Result<Rational, Unsupported> {
     Ok(below(&system.product(&lower.path), lower)?.1)
 }
 
 /// Two eigenvalues of equal modulus with a rational bound; or a disc that holds an eigenvalue of the product, and a rational below
 /// its modulus to the power `1/length`.
-fn below(product: &Matrix, lower: &Lower) -> Result<(Value, Rational), Unsupported> {
+fn below<E: Written>(product: &Matrix<E>, lower: &Lower) -> Result<(Value, Rational), Unsupported> {
     let irrational = lower.root().filter(|root| root.rational().is_none());
     if let (Some(root), Some(bound)) = (irrational, lower.rational()) {
         // Its minimal polynomial has degree 2.
@@ -77,7 +89,7 @@ fn below(product: &Matrix, lower: &Lower) -> Result<(Value, Rational), Unsupport
         (Leading::Exact(root), None) => {
             let (re, im) = root.enclosure(2 * BITS);
             let y = if root.is_real() { Rational::from(0) } else { im.mid() };
-            match Disc::around(&char_poly(product), &re.mid(), &y) {
+            match Disc::around(&E::char_poly(product), &re.mid(), &y) {
                 Some(disc) => disc,
                 None => return unsupported("a multiple eigenvalue", format!("{:?}", lower.path)),
             }
@@ -99,7 +111,7 @@ fn below(product: &Matrix, lower: &Lower) -> Result<(Value, Rational), Unsupport
     Ok((value, bound))
 }
 
-fn above(proof: &BlockProof) -> Result<(Value, Rational), Unsupported> {
+fn above<E: Written>(proof: &BlockProof<E>) -> Result<(Value, Rational), Unsupported> {
     let (Some(data), Some(bound)) = (&proof.proof, &proof.bound) else {
         return unsupported("a block without an upper bound", format!("{:?}", proof.block.states));
     };
@@ -108,11 +120,11 @@ fn above(proof: &BlockProof) -> Result<(Value, Rational), Unsupported> {
 }
 
 /// Names the states and arrows of a block as those of the whole system.
-struct Names<'a> {
-    proof: &'a BlockProof,
+struct Names<'a, E> {
+    proof: &'a BlockProof<E>,
 }
 
-impl Names<'_> {
+impl<E: Written> Names<'_, E> {
     fn state(&self, state: usize) -> usize {
         self.proof.block.states[state]
     }
@@ -121,7 +133,7 @@ impl Names<'_> {
         self.proof.block.system.arrows[arrow].label
     }
 
-    fn norm(&self, data: &Proof) -> Value {
+    fn norm(&self, data: &Proof<E>) -> Value {
         match data {
             Proof::Polytope(p) => self.polytope(p),
             Proof::Quadratic(q) => self.quadratic(q),
@@ -137,10 +149,10 @@ impl Names<'_> {
         axes.iter().enumerate().map(state).collect()
     }
 
-    fn polytope(&self, p: &Polytope) -> Value {
-        let term = |(k, c): &(usize, Rational)| json!([k, number(c)]);
+    fn polytope(&self, p: &Polytope<E>) -> Value {
+        let term = |(k, c): &(usize, E)| json!([k, c.value()]);
         let points =
-            p.points.iter().map(|q| json!({"state": self.state(q.state), "coordinates": numbers(&q.coordinates)}));
+            p.points.iter().map(|q| json!({"state": self.state(q.state), "coordinates": values(&q.coordinates)}));
         let inclusions = p.inclusions.iter().map(|i| {
             let terms: Value = i.terms.iter().map(term).collect();
             json!({"point": i.point, "arrow": self.arrow(i.arrow), "terms": terms})
@@ -171,8 +183,7 @@ impl Names<'_> {
         })
     }
 
-    fn quadratic(&self, q: &Quadratic) -> Value {
-        let matrix = |m: &Matrix| (0..m.rows()).map(|i| numbers(m.row(i))).collect::<Value>();
+    fn quadratic(&self, q: &Quadratic<E>) -> Value {
         let forms = q.forms.iter().enumerate();
         let forms = forms.map(|(s, m)| json!({"state": self.state(s), "form": matrix(m)}));
         json!({"norm": "quadratic", "forms": forms.collect::<Value>(), "square": number(&q.square)})

@@ -1,11 +1,12 @@
 //! Certificates of the orders of smoothness of a curve.
 
-use super::joint::{radius_proof, stated};
+use super::joint::{headed, radius_proof, stated};
+use super::written::Written;
 use super::{Certificate, Unsupported, contraction, number, numbers, unsupported};
 use crate::algebraic::Root;
 use crate::case::Case;
 use crate::radius::{JointRadius, Lower, System};
-use crate::shape::{Balls, Contraction, Spaces};
+use crate::shape::{Contraction, Spaces};
 use crate::theorem::Measure;
 use crate::theorem::exponent::ExponentBound;
 use crate::theorem::smoothness::{CurveOrder, CurveRegularity, Outcome};
@@ -15,14 +16,14 @@ use serde_json::{Value, json};
 ///
 /// # Errors
 /// [`Unsupported`] where contraction is not proved, or a radius has no certificate.
-pub fn regularity_certificate(
-    case: &Case,
-    spaces: &Spaces,
+pub fn regularity_certificate<E: Written>(
+    case: &Case<E>,
+    spaces: &Spaces<E>,
     contracts: &Contraction,
-    found: &CurveRegularity,
+    found: &CurveRegularity<E>,
 ) -> Result<Certificate, Unsupported> {
     let shape = &case.shape;
-    let Some(balls) = Balls::of(shape, spaces, contracts) else {
+    let Some(balls) = E::balls(shape, spaces, contracts) else {
         return unsupported("a system whose contraction is not proved", "contraction");
     };
     let radii = shape.reachable().into_iter().map(|e| (e, balls.radius(e)));
@@ -36,11 +37,11 @@ pub fn regularity_certificate(
             json!({"contraction": states, "orders": orders, "exponent": {"below": below?, "above": above?}})
         }
     };
-    Ok(Certificate::new("regularity", &case.name, "proved", proof))
+    Ok(Certificate::new("regularity", &case.name, "proved", headed(E::field(case)?, proof)))
 }
 
 /// On which side of an exponent the supremum lies, and why.
-fn exponent(bound: &Option<ExponentBound>) -> Result<Value, Unsupported> {
+fn exponent<E: Written>(bound: &Option<ExponentBound<E>>) -> Result<Value, Unsupported> {
     let Some(bound) = bound else { return Ok(Value::Null) };
     let factors: Vec<Value> = bound.factors.iter().map(|own| numbers(own)).collect();
     let radius = radius(Some(&bound.system), Some(&bound.radius), "exponent")?;
@@ -48,7 +49,11 @@ fn exponent(bound: &Option<ExponentBound>) -> Result<Value, Unsupported> {
 }
 
 /// The bounds of the radius of a system; `null` where all spaces are 0.
-pub fn radius(system: Option<&System>, found: Option<&JointRadius>, place: &str) -> Result<Value, Unsupported> {
+pub fn radius<E: Written>(
+    system: Option<&System<E>>,
+    found: Option<&JointRadius<E>>,
+    place: &str,
+) -> Result<Value, Unsupported> {
     match (system, found) {
         (None, _) => Ok(Value::Null),
         (Some(system), Some(found)) => radius_proof(system, &radius_with_a_rational_word(system, found)),
@@ -56,7 +61,7 @@ pub fn radius(system: Option<&System>, found: Option<&JointRadius>, place: &str)
     }
 }
 
-pub fn order(order: &CurveOrder) -> Result<Value, Unsupported> {
+pub fn order<E: Written>(order: &CurveOrder<E>) -> Result<Value, Unsupported> {
     let place = format!("order {}", order.order);
     if let (Outcome::Cycle, Some(system), Some(found)) = (&order.outcome, &order.system, &order.radius) {
         let lower = radius_with_a_rational_word(system, found).lower;
@@ -83,7 +88,7 @@ const POWERS: [usize; 7] = [2, 3, 4, 5, 6, 8, 12];
 
 /// The same bounds, with a power of the leading word whose leading eigenvalue is rational, where there is one: only of such
 /// words a certificate says more than an inequality with room.
-pub(super) fn radius_with_a_rational_word(system: &System, radius: &JointRadius) -> JointRadius {
+pub(super) fn radius_with_a_rational_word<E: Written>(system: &System<E>, radius: &JointRadius<E>) -> JointRadius<E> {
     let irrational = radius.lower.as_ref().filter(|l| l.rational().is_none());
     let power = irrational.and_then(|lower| {
         let powers = POWERS.iter().filter_map(|k| Lower::of(system, &lower.path.repeat(*k)));

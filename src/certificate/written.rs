@@ -40,6 +40,8 @@ pub trait Written: Provable {
     /// # Errors
     /// [`Unsupported`] where the numbers of the text do not lie in the field of the entries.
     fn field(case: &Case<Self>) -> Result<Option<Value>, Unsupported>;
+    /// What a certificate says of the field of numbers, which are the roots and cosines in a text; nothing of the rational numbers.
+    fn ground(numbers: &[Self]) -> Option<Value>;
     /// The text of the case that is checked.
     fn text(case: &Case<Self>) -> String;
     /// The polynomial of the field of the eigenvalues of a factor.
@@ -85,6 +87,10 @@ impl Written for Rational {
 
     fn field(_: &Case) -> Result<Option<Value>, Unsupported> {
         Ok(None)
+    }
+
+    fn ground(_: &[Self]) -> Option<Value> {
+        None
     }
 
     fn text(case: &Case) -> String {
@@ -143,6 +149,21 @@ fn in_multiple(x: &Elem, factor: &Rational) -> Value {
     numbers(&coefficients)
 }
 
+/// What a certificate says of a field.
+fn ground(field: &NumberField, numbers: &[Real]) -> Value {
+    let factor = denominator(field);
+    let degree = field.degree() as u64;
+    let scaled = field.poly().coeffs().iter().zip(0..).map(|(c, k): (_, u64)| c * (&factor).pow(degree - k));
+    // Wide enough for enclosures of the generator in other fields.
+    let interval = field.generator().enclosure(2 * WIDTH).0.outward(WIDTH);
+    let more = Rational::from(1) / Rational::from(Integer::from(1) << WIDTH);
+    json!({
+        "polynomial": super::numbers(&scaled.collect::<Vec<_>>()),
+        "interval": [number(&((interval.lo - &more) * &factor)), number(&((interval.hi + &more) * &factor))],
+        "numbers": values(numbers),
+    })
+}
+
 impl Written for Real {
     const PLACES: u64 = 256;
     const COMMON: u64 = 60;
@@ -164,17 +185,11 @@ impl Written for Real {
         let Some(written) = &case.numbers else {
             return unsupported("roots and cosines that do not lie in the field of the entries", case.name.clone());
         };
-        let factor = denominator(&field);
-        let degree = field.degree() as u64;
-        let scaled = field.poly().coeffs().iter().zip(0..).map(|(c, k): (_, u64)| c * (&factor).pow(degree - k));
-        // Wide enough for enclosures of the generator in other fields.
-        let interval = field.generator().enclosure(2 * WIDTH).0.outward(WIDTH);
-        let more = Rational::from(1) / Rational::from(Integer::from(1) << WIDTH);
-        Ok(Some(json!({
-            "polynomial": numbers(&scaled.collect::<Vec<_>>()),
-            "interval": [number(&((interval.lo - &more) * &factor)), number(&((interval.hi + &more) * &factor))],
-            "numbers": values(written),
-        })))
+        Ok(Some(ground(&field, written)))
+    }
+
+    fn ground(numbers: &[Self]) -> Option<Value> {
+        Some(ground(&*Self::field_of(numbers)?, numbers))
     }
 
     fn text(case: &Case<Self>) -> String {

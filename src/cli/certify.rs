@@ -16,6 +16,7 @@ use crate::prove::Findings;
 use crate::report::proof::Level;
 use crate::report::words::{self, listed};
 use crate::report::{findings, html, json, latex, markdown};
+use crate::scheme::Normalisation;
 use std::path::{Path, PathBuf};
 
 /// The exit code of a verdict.
@@ -104,8 +105,26 @@ fn note(answered: &Answered) {
     if !why.is_empty() {
         note_unconfirmed(&why.join("; "));
     }
-    if let Findings::Tangents { case, .. } = &answered.findings {
-        note_dangling(case);
+    match &answered.findings {
+        Findings::Tangents { case, .. } => {
+            note_dangling(case);
+            note_filter(case.taken, &case.name);
+        }
+        Findings::OverField { case, .. } => note_filter(case.taken, &case.name),
+        Findings::Vertices { .. } => {}
+    }
+}
+
+/// Says so where a filter was read in another normalisation than it names.
+fn note_filter(taken: Option<Normalisation>, name: &str) {
+    if let Some(taken) = taken {
+        let word = taken.word();
+        let message =
+            format!("{name}: the sums of the filter are those of normalisation = \"{word}\", which was taken");
+        complain(
+            &Problem::new("secant::case::normalisation", message)
+                .with_help(format!("write normalisation = \"{word}\", or correct the coefficients")),
+        );
     }
 }
 

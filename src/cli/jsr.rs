@@ -5,9 +5,7 @@ use super::output::{complain, print, settle};
 use super::{BAD_INPUT, JsrArgs, PROVED, UNDETERMINED};
 use crate::ask::{Radius, radius};
 use crate::diagnostic::Problem;
-use crate::picture::polytope;
 use crate::radius::Options;
-use crate::report::radius as report;
 use serde_json::Value;
 use std::path::Path;
 
@@ -50,11 +48,11 @@ pub fn jsr(args: &JsrArgs) -> u8 {
 }
 
 fn code(found: &Radius) -> u8 {
-    if found.found.upper.is_some() { PROVED } else { UNDETERMINED }
+    if found.is_bounded() { PROVED } else { UNDETERMINED }
 }
 
 fn shown(found: &Radius, args: &JsrArgs) -> String {
-    if args.json { format!("{:#}\n", found.json()) } else { report::joint_radius(&found.found) }
+    if args.json { format!("{:#}\n", found.json()) } else { found.text() }
 }
 
 /// The options that the arguments ask for.
@@ -106,7 +104,7 @@ fn answer(path: &Path, args: &JsrArgs) -> Result<Radius, Problem> {
 fn files(radius: &Radius, args: &JsrArgs) -> Written {
     let mut written = Written::default();
     written.file(args.svg.as_deref(), |_| {
-        polytope(&radius.found).ok_or_else(|| {
+        radius.picture().ok_or_else(|| {
             Problem::new("secant::jsr", "no polytope in two dimensions was used")
                 .with_help("--svg draws invariant polytopes in the plane")
         })

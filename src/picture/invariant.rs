@@ -1,13 +1,15 @@
 //! Pictures of invariant polytopes in the plane.
 
 use super::svg::Canvas;
+use crate::algebraic::nearest;
 use crate::arith::to_f64;
+use crate::linalg::Entry;
 use crate::radius::{Body, JointRadius, Polytope, Proof, System};
 
 /// The invariant polytope of the first state of two dimensions, with its points and their images divided by the bound; `None`
 /// where no polytope in a plane was used.
 #[must_use]
-pub fn polytope(radius: &JointRadius) -> Option<String> {
+pub fn polytope<E: Entry>(radius: &JointRadius<E>) -> Option<String> {
     let (proof, state, bound) = radius.blocks.iter().find_map(|b| {
         let Some(Proof::Polytope(p)) = &b.proof else { return None };
         let state = b.block.system.dims.iter().position(|d| *d == 2)?;
@@ -31,13 +33,13 @@ pub fn polytope(radius: &JointRadius) -> Option<String> {
     Some(canvas.svg())
 }
 
-fn points(polytope: &Polytope, state: usize) -> Vec<[f64; 2]> {
+fn points<E: Entry>(polytope: &Polytope<E>, state: usize) -> Vec<[f64; 2]> {
     let here = polytope.points.iter().filter(|p| p.state == state);
-    here.map(|p| [to_f64(&p.coordinates[0]), to_f64(&p.coordinates[1])]).collect()
+    here.map(|p| [nearest(&p.coordinates[0]), nearest(&p.coordinates[1])]).collect()
 }
 
 /// The corners of the body, in order.
-fn outline(polytope: &Polytope, state: usize) -> Vec<[f64; 2]> {
+fn outline<E: Entry>(polytope: &Polytope<E>, state: usize) -> Vec<[f64; 2]> {
     let mut all = points(polytope, state);
     match polytope.body {
         Body::Symmetric => {
@@ -54,12 +56,12 @@ fn outline(polytope: &Polytope, state: usize) -> Vec<[f64; 2]> {
 }
 
 /// The images of the points under all arrows into the state, divided by the bound.
-fn images(polytope: &Polytope, system: &System, state: usize, bound: f64) -> Vec<[f64; 2]> {
+fn images<E: Entry>(polytope: &Polytope<E>, system: &System<E>, state: usize, bound: f64) -> Vec<[f64; 2]> {
     let mut out = Vec::new();
     for arrow in system.arrows.iter().filter(|a| a.from == state) {
         for p in polytope.points.iter().filter(|p| p.state == arrow.to) {
             let image = arrow.matrix.apply(&p.coordinates);
-            out.push([to_f64(&image[0]) / bound, to_f64(&image[1]) / bound]);
+            out.push([nearest(&image[0]) / bound, nearest(&image[1]) / bound]);
         }
     }
     out

@@ -12,7 +12,7 @@ use std::borrow::Cow;
 /// That of [`regularity`].
 pub fn of_longer_polygons<E>(case: &Case<E>) -> Option<Result<Regularity, MaskError>> {
     match &case.scheme {
-        Some(Origin::Mask(mask)) if case.shape.control.is_none() => {
+        Some(Origin::Mask(mask) | Origin::Filter(mask, _)) if case.shape.control.is_none() => {
             Some(regularity(mask.coefficients(), mask.arity(), &Default::default()))
         }
         _ => None,

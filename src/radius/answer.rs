@@ -6,29 +6,30 @@ use super::exact::LeadingVector;
 use super::leading::Lower;
 use super::polytope::Polytope;
 use super::quadratic::Quadratic;
+use super::radial::Radial;
 use super::system::System;
 use super::tree::Tree;
 use crate::arith::{Interval, Rational, abs};
 
 /// What bounds a block from above.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Proof {
+pub enum Proof<E = Rational> {
     /// An invariant polytope.
-    Polytope(Polytope),
+    Polytope(Polytope<E>),
     /// Quadratic norms.
-    Quadratic(Quadratic),
+    Quadratic(Quadratic<E>),
     /// An invariant complex balanced polytope.
     Balanced(Balanced),
     /// Norms of the words of a tree; of the letters where every word has one.
     Tree(Tree),
     /// A proof for the transposed matrices ([`System::transposed`]), whose radius is the same.
-    Transposed(Box<Proof>),
+    Transposed(Box<Proof<E>>),
 }
 
-impl Proof {
+impl<E: Radial> Proof<E> {
     /// The bound of the radius that the data prove for a block; `None` where they prove nothing.
     #[must_use]
-    pub fn bound(&self, system: &System) -> Option<Rational> {
+    pub fn bound(&self, system: &System<E>) -> Option<Rational> {
         match self {
             Self::Polytope(p) => p.bound(system),
             Self::Balanced(p) => p.bound(system),
@@ -37,7 +38,9 @@ impl Proof {
             Self::Transposed(inner) => inner.bound(&system.transposed()),
         }
     }
+}
 
+impl Proof {
     /// A bound for all matrices whose entries differ from those of a plain set by at most `error`; `None` where it is not known.
     #[must_use]
     pub fn bound_near(&self, system: &System, error: &Rational) -> Option<Rational> {
@@ -68,17 +71,17 @@ impl Proof {
 
 /// A diagonal block and what was proved of it.
 #[derive(Debug, Clone)]
-pub struct BlockProof {
+pub struct BlockProof<E = Rational> {
     /// The block.
-    pub block: Block,
+    pub block: Block<E>,
     /// Leading words of the block with their eigenvectors, where the proof begins with them.
     pub roots: Vec<LeadingVector>,
-    /// The upper bound proved by `proof` in rational arithmetic; `None` where nothing was proved.
+    /// The upper bound proved by `proof` in exact arithmetic; `None` where nothing was proved.
     pub bound: Option<Rational>,
     /// Whether the block's radius was shown to be equal to the lower bound of the whole.
     pub attains: bool,
     /// The proof.
-    pub proof: Option<Proof>,
+    pub proof: Option<Proof<E>>,
 }
 
 /// How the largest products of `k` letters grow, relative to `radius^k`, `radius` being the joint spectral radius itself,
@@ -109,7 +112,7 @@ pub enum Ended {
 
 /// The answer: `lower <= radius <= upper`.
 #[derive(Debug, Clone)]
-pub struct JointRadius {
+pub struct JointRadius<E = Rational> {
     /// The best word; `None` where no word with a positive value was found (if `exact`, there is none, and the radius is 0).
     pub lower: Option<Lower>,
     /// A rational upper bound; `None` where nothing was proved.
@@ -119,14 +122,14 @@ pub struct JointRadius {
     /// How products grow.
     pub growth: Growth,
     /// The diagonal blocks.
-    pub blocks: Vec<BlockProof>,
+    pub blocks: Vec<BlockProof<E>>,
     /// The flag of invariant families to which the blocks belong, in its order.
-    pub flag: Vec<Step>,
+    pub flag: Vec<Step<E>>,
     /// Why the search ended.
     pub ended: Ended,
 }
 
-impl JointRadius {
+impl<E> JointRadius<E> {
     /// An interval that holds the radius; where it is known exactly, of width about `2^-bits`. `None` without an upper bound.
     #[must_use]
     pub fn enclosure(&self, bits: u64) -> Option<Interval> {

@@ -7,9 +7,11 @@ use super::exact::{LeadingVector, axis_point, grid};
 use super::float::{Floats, dot};
 use super::grow::Origin;
 use super::leading::{Eigenvector, Lower, square_root};
+use super::polytope::norm1;
+use super::radial::Radial;
 use super::simplex::{Column, Tableau};
-use crate::algebraic::Root;
-use crate::arith::{Interval, Rational, abs, to_f64};
+use crate::arith::{Interval, Rational, to_f64};
+use crate::linalg::Entry;
 
 /// A complex number: real and imaginary part.
 pub type Complex = (Rational, Rational);
@@ -48,7 +50,7 @@ pub struct Balanced {
 
 /// An upper bound of the modulus, close to it.
 fn modulus(c: &Complex) -> Rational {
-    if c.1 == 0 { abs(&c.0) } else { square_root(&(&c.0 * &c.0 + &c.1 * &c.1), 80).hi }
+    if c.1 == 0 { c.0.absolute() } else { square_root(&(&c.0 * &c.0 + &c.1 * &c.1), 80).hi }
 }
 
 fn total(terms: &[(usize, Complex)]) -> Rational {
@@ -59,7 +61,7 @@ impl Balanced {
     /// The smallest `r` for which the data prove `T Q ⊂ r Q` for all arrows, or `None` where they prove nothing: with
     /// `e_j = Σ d_k q_k + s_j` and `K = max Σ|d| / (1 − max ‖s_j‖_1)`, `T p ∈ (Σ|c| + K ‖e‖_1) Q`.
     #[must_use]
-    pub fn bound(&self, system: &System) -> Option<Rational> {
+    pub fn bound<E: Entry>(&self, system: &System<E>) -> Option<Rational> {
         let fits = |p: &ComplexPoint| system.dims.get(p.state) == Some(&p.coordinates.len());
         if !self.points.iter().all(fits) {
             return None;
@@ -74,10 +76,10 @@ impl Balanced {
                 return None;
             }
             let image = |part: fn(&Complex) -> &Rational| {
-                let x: Vec<Rational> = point.coordinates.iter().map(|c| part(c).clone()).collect();
+                let x: Vec<E> = point.coordinates.iter().map(|c| E::of(part(c))).collect();
                 arrow.matrix.apply(&x)
             };
-            let image: Vec<Complex> = image(|c| &c.0).into_iter().zip(image(|c| &c.1)).collect();
+            let image: Vec<(E, E)> = image(|c| &c.0).into_iter().zip(image(|c| &c.1)).collect();
             let rest = self.rest(image, arrow.from, &inclusion.terms)?;
             bound = bound.max(total(&inclusion.terms) + &scale[arrow.from] * rest);
         }
@@ -86,25 +88,26 @@ impl Balanced {
     }
 
     /// `‖x − Σ c q‖_1`, with `|re| + |im|` for the modulus.
-    fn rest(&self, mut x: Vec<Complex>, state: usize, terms: &[(usize, Complex)]) -> Option<Rational> {
+    fn rest<E: Entry>(&self, mut x: Vec<(E, E)>, state: usize, terms: &[(usize, Complex)]) -> Option<Rational> {
         for (k, c) in terms {
             let point = self.points.get(*k).filter(|p| p.state == state)?;
             for (r, q) in x.iter_mut().zip(&point.coordinates) {
-                r.0 -= &c.0 * &q.0 - &c.1 * &q.1;
-                r.1 -= &c.0 * &q.1 + &c.1 * &q.0;
+                r.0 = r.0.minus(&E::of(&(&c.0 * &q.0 - &c.1 * &q.1)));
+                r.1 = r.1.minus(&E::of(&(&c.0 * &q.1 + &c.1 * &q.0)));
             }
         }
-        Some(x.iter().fold(Rational::from(0), |s, r| s + abs(&r.0) + abs(&r.1)))
+        let parts: Vec<E> = x.into_iter().flat_map(|(re, im)| [re, im]).collect();
+        Some(norm1(&parts))
     }
 
     /// `K` with `e_j ∈ K Q` for all axes of the state.
     #[must_use]
-    pub fn interior(&self, system: &System, state: usize) -> Option<Rational> {
+    pub fn interior<E: Entry>(&self, system: &System<E>, state: usize) -> Option<Rational> {
         let dim = system.dims[state];
         let axes = self.axes.get(state).filter(|a| a.len() == dim)?;
         let (mut size, mut error) = (Rational::from(0), Rational::from(0));
         for (axis, terms) in axes.iter().enumerate() {
-            let unit = (0..dim).map(|i| (Rational::from(u8::from(i == axis)), Rational::from(0))).collect();
+            let unit = (0..dim).map(|i| (E::integer(i64::from(i == axis)), E::zero())).collect();
             error = error.max(self.rest(unit, state, terms)?);
             size = size.max(total(terms));
         }
@@ -134,8 +137,8 @@ struct Inside {
 }
 
 /// What is grown, and the leading words at whose eigenvectors it begins.
-pub(super) struct Task<'a> {
-    pub system: &'a System,
+pub(super) struct Task<'a, E = Rational> {
+    pub system: &'a System<E>,
     /// The matrices divided by the radius.
     pub scaled: &'a [Floats],
     pub roots: &'a [LeadingVector],
@@ -156,11 +159,11 @@ pub(super) struct Found {
 const STRICT: f64 = 1.0 - 1e-9;
 
 /// Grows a polytope from the leading eigenvectors and checks it.
-pub(super) fn find(task: &Task) -> Option<Found> {
+pub(super) fn find<E: Radial>(task: &Task<E>) -> Option<Found> {
     let mut seeds: Vec<Vertex> = Vec::new();
     for (k, r) in task.roots.iter().enumerate() {
         let state = task.system.arrows[r.lower.path[0]].from;
-        let values = complex_enclosure(&r.vector, &r.root, 96);
+        let values = complex_enclosure(&r.vector, 96);
         let re = values.iter().map(|z| to_f64(&z.0.mid()));
         let point = re.chain(values.iter().map(|z| to_f64(&z.1.mid()))).collect();
         seeds.push(Vertex { state, origin: Origin::Root(k), point });
@@ -182,7 +185,7 @@ pub(super) fn find(task: &Task) -> Option<Found> {
     None
 }
 
-fn grow(task: &Task, mut vertices: Vec<Vertex>) -> Option<(Vec<Vertex>, Vec<Inside>)> {
+fn grow<E: Radial>(task: &Task<E>, mut vertices: Vec<Vertex>) -> Option<(Vec<Vertex>, Vec<Inside>)> {
     let mut inside = Vec::new();
     let mut next = 0;
     while next < vertices.len() {
@@ -219,7 +222,7 @@ fn apply(m: &Floats, x: &[f64]) -> Vec<f64> {
 }
 
 /// Where the image is the root again, turned by a unimodular factor: the root and about that factor.
-fn returns(task: &Task, vertices: &[Vertex], vertex: usize, arrow: usize) -> Option<(usize, (f64, f64))> {
+fn returns<E: Radial>(task: &Task<E>, vertices: &[Vertex], vertex: usize, arrow: usize) -> Option<(usize, (f64, f64))> {
     let mut arrows = vec![arrow];
     let mut current = vertex;
     while let Origin::Image { parent, arrow } = vertices[current].origin {
@@ -287,7 +290,7 @@ fn collect(tableau: &Tableau) -> Combination {
 }
 
 /// For every state the axes that complete the complex span of the vertices.
-fn missing(system: &System, vertices: &[Vertex]) -> Vec<(usize, usize)> {
+fn missing<E: Radial>(system: &System<E>, vertices: &[Vertex]) -> Vec<(usize, usize)> {
     let mut missing = Vec::new();
     for (state, &dim) in system.dims.iter().enumerate() {
         let mut frame: Vec<Vec<(f64, f64)>> = Vec::new();
@@ -328,7 +331,7 @@ fn exact(c: (f64, f64)) -> Complex {
     (grid(c.0), grid(c.1))
 }
 
-fn settle(task: &Task, vertices: &[Vertex], inside: &[Inside]) -> Option<Found> {
+fn settle<E: Radial>(task: &Task<E>, vertices: &[Vertex], inside: &[Inside]) -> Option<Found> {
     let system = task.system;
     let radius = task.radius.enclosure(96);
     let points: Vec<ComplexPoint> = vertices
@@ -370,7 +373,7 @@ fn settle(task: &Task, vertices: &[Vertex], inside: &[Inside]) -> Option<Found> 
 
 /// Whether the polytope of the true vertices closes at the radius itself: images that return to a root do so with a factor of
 /// modulus 1, all others lie strictly inside, by interval arithmetic.
-fn closes(task: &Task, vertices: &[Vertex], inside: &[Inside], polytope: &Balanced) -> bool {
+fn closes<E: Radial>(task: &Task<E>, vertices: &[Vertex], inside: &[Inside], polytope: &Balanced) -> bool {
     const BITS: u64 = 160;
     let ratio = task.radius.enclosure(BITS);
     if ratio.lo <= 0 {
@@ -380,7 +383,7 @@ fn closes(task: &Task, vertices: &[Vertex], inside: &[Inside], polytope: &Balanc
     let mut boxes: Vec<Vec<Box2>> = Vec::new();
     for v in vertices {
         boxes.push(match &v.origin {
-            Origin::Root(k) => complex_enclosure(&task.roots[*k].vector, &task.roots[*k].root, BITS + 40),
+            Origin::Root(k) => complex_enclosure(&task.roots[*k].vector, BITS + 40),
             Origin::Free(point) => {
                 point.iter().map(|x| (Interval::point(x.clone()), Interval::point(Rational::from(0)))).collect()
             }
@@ -416,13 +419,14 @@ fn closes(task: &Task, vertices: &[Vertex], inside: &[Inside], polytope: &Balanc
     })
 }
 
-fn image(system: &System, arrow: usize, x: &[Box2], inverse: &Interval, bits: u64) -> Vec<Box2> {
+fn image<E: Radial>(system: &System<E>, arrow: usize, x: &[Box2], inverse: &Interval, bits: u64) -> Vec<Box2> {
     let matrix = &system.arrows[arrow].matrix;
     let zero = || Interval::point(Rational::from(0));
     (0..matrix.rows())
         .map(|i| {
-            let terms = matrix.row(i).iter().zip(x).filter(|(a, _)| **a != 0);
-            let sum = terms.fold((zero(), zero()), |s, (a, v)| (&s.0 + &(&v.0 * a), &s.1 + &(&v.1 * a)));
+            let terms = matrix.row(i).iter().zip(x).filter(|(a, _)| !a.is_zero());
+            let terms = terms.map(|(a, v)| (a.enclosure(bits + 40), v));
+            let sum = terms.fold((zero(), zero()), |s, (a, v)| (&s.0 + &(&v.0 * &a), &s.1 + &(&v.1 * &a)));
             ((&sum.0 * inverse).outward(bits), (&sum.1 * inverse).outward(bits))
         })
         .collect()
@@ -439,9 +443,9 @@ fn distance(mut x: Vec<Box2>, terms: &[(usize, Complex)], points: &[Vec<Box2>]) 
     x.iter().fold(Rational::from(0), |s, r| s + r.0.magnitude() + r.1.magnitude())
 }
 
-/// Enclosures of the coordinates of an eigenvector at a root.
-pub(super) fn complex_enclosure(vector: &Eigenvector, root: &Root, bits: u64) -> Vec<Box2> {
-    let (re, im) = root.enclosure(bits);
+/// Enclosures of the coordinates of an eigenvector.
+pub(super) fn complex_enclosure(vector: &Eigenvector, bits: u64) -> Vec<Box2> {
+    let (re, im) = vector.place.enclosure(bits);
     let zero = || Interval::point(Rational::from(0));
     let value = |c: &Vec<Rational>| {
         c.iter().rev().fold((zero(), zero()), |s, a| {

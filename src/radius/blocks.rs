@@ -2,39 +2,40 @@
 //!
 //! The joint spectral radius is the largest of the radii of the diagonal blocks.
 
+use super::radial::Radial;
 use super::{Arrow, System};
 use crate::arith::Rational;
 use crate::arith::modular::{PrimeField, large_primes};
-use crate::jordan::Spectrum;
+use crate::jordan::Spectral;
 use crate::linalg::Matrix;
 
 /// A diagonal block: the arrows keep, as labels, their positions in the whole system.
 #[derive(Debug, Clone)]
-pub struct Block {
+pub struct Block<E = Rational> {
     /// The block's own system.
-    pub system: System,
+    pub system: System<E>,
     /// For every state of the block, the state of the whole system.
     pub states: Vec<usize>,
-    /// Whether it was shown that there is no common invariant family of subspaces over the rationals or, of nonnegative
-    /// matrices, no common invariant face of the orthants. Either makes `‖T_w‖ <= C radius^|w|` (theory §11).
+    /// Whether it was shown that there is no common invariant family of subspaces over the field of the entries or, of
+    /// nonnegative matrices, no common invariant face of the orthants. Either makes `‖T_w‖ <= C radius^|w|` (theory §11).
     pub irreducible: bool,
 }
 
 /// One step of a flag of invariant families of subspaces: the arrows act on the quotient by the steps before as a block.
 #[derive(Debug, Clone)]
-pub struct Step {
+pub struct Step<E = Rational> {
     /// For every state of the whole system, vectors (columns) that span the step modulo the ones before.
-    pub frame: Vec<Matrix>,
+    pub frame: Vec<Matrix<E>>,
     /// The block; `None` where all its products over long paths vanish (its matrices are 0).
-    pub block: Option<Block>,
+    pub block: Option<Block<E>>,
 }
 
 /// A part of the system with its vectors in the whole system.
-struct Part {
-    system: System,
+struct Part<E> {
+    system: System<E>,
     states: Vec<usize>,
     /// By state of the part.
-    frame: Vec<Matrix>,
+    frame: Vec<Matrix<E>>,
 }
 
 /// The diagonal blocks with a cyclic path; an empty list means that all products over long paths vanish.
@@ -42,13 +43,13 @@ struct Part {
 /// # Cost
 /// Polynomial; one characteristic polynomial and a few closures for each block and trial.
 #[must_use]
-pub fn blocks(system: &System) -> Vec<Block> {
+pub fn blocks<E: Radial>(system: &System<E>) -> Vec<Block<E>> {
     flag(system).into_iter().filter_map(|step| step.block).collect()
 }
 
 /// A flag of invariant families of subspaces, as fine as it was found: in its frames, all arrows are block upper triangular.
 #[must_use]
-pub fn flag(system: &System) -> Vec<Step> {
+pub fn flag<E: Radial>(system: &System<E>) -> Vec<Step<E>> {
     let arrows = system.arrows.iter().enumerate().map(|(k, a)| Arrow { label: k, ..a.clone() }).collect();
     let whole = Part {
         system: System { dims: system.dims.clone(), arrows },
@@ -62,14 +63,14 @@ pub fn flag(system: &System) -> Vec<Step> {
 
 /// The flag of one step: the whole system as one block.
 #[must_use]
-pub(super) fn undivided(system: &System) -> Vec<Step> {
+pub(super) fn undivided<E: Radial>(system: &System<E>) -> Vec<Step<E>> {
     let arrows = system.arrows.iter().enumerate().map(|(k, a)| Arrow { label: k, ..a.clone() }).collect();
     let own = System { dims: system.dims.clone(), arrows };
     let block = Block { system: own, states: (0..system.dims.len()).collect(), irreducible: false };
     vec![Step { frame: system.dims.iter().map(|d| Matrix::identity(*d)).collect(), block: Some(block) }]
 }
 
-fn refine(part: &Part, whole: &System, steps: &mut Vec<Step>) {
+fn refine<E: Radial>(part: &Part<E>, whole: &System<E>, steps: &mut Vec<Step<E>>) {
     for (component, cyclic) in components(part) {
         let frame = (0..whole.dims.len()).map(|s| {
             let own = component.states.iter().position(|k| *k == s);
@@ -99,7 +100,7 @@ fn refine(part: &Part, whole: &System, steps: &mut Vec<Step>) {
 
 /// The strongly connected parts of the graph on (state, coordinate) pairs, those before that are reached, and whether they
 /// contain a cycle.
-fn components(part: &Part) -> Vec<(Part, bool)> {
+fn components<E: Radial>(part: &Part<E>) -> Vec<(Part<E>, bool)> {
     let system = &part.system;
     let offsets: Vec<usize> = system
         .dims
@@ -115,7 +116,7 @@ fn components(part: &Part) -> Vec<(Part, bool)> {
     for a in &system.arrows {
         for i in 0..a.matrix.rows() {
             for (j, x) in a.matrix.row(i).iter().enumerate() {
-                reach[offsets[a.from] + i][offsets[a.to] + j] |= *x != 0;
+                reach[offsets[a.from] + i][offsets[a.to] + j] |= !x.is_zero();
             }
         }
     }
@@ -141,7 +142,7 @@ fn components(part: &Part) -> Vec<(Part, bool)> {
 }
 
 /// The principal part on some coordinates of every state; states without coordinates and zero arrows are dropped.
-fn restrict(part: &Part, kept: &[Vec<usize>]) -> Part {
+fn restrict<E: Radial>(part: &Part<E>, kept: &[Vec<usize>]) -> Part<E> {
     let system = &part.system;
     let alive: Vec<usize> = (0..kept.len()).filter(|s| !kept[*s].is_empty()).collect();
     let renamed = |s: usize| alive.iter().position(|a| *a == s);
@@ -166,14 +167,14 @@ fn restrict(part: &Part, kept: &[Vec<usize>]) -> Part {
     }
 }
 
-enum Split {
+enum Split<E> {
     Irreducible,
     Unknown,
-    Parts(Part, Part),
+    Parts(Part<E>, Part<E>),
 }
 
 /// Looks for a common invariant family of subspaces (Norton's criterion on random elements of the algebra of a state).
-fn split(part: &Part) -> Split {
+fn split<E: Radial>(part: &Part<E>) -> Split<E> {
     let system = &part.system;
     let Some(home) = (0..system.dims.len()).min_by_key(|s| system.dims[*s]) else { return Split::Unknown };
     let whole = Matrix::identity(system.dims[home]);
@@ -186,14 +187,17 @@ fn split(part: &Part) -> Split {
     if system.dims[home] == 1 {
         return Split::Irreducible;
     }
+    // The field over which nothing splits: that of all entries, not of the element alone.
+    let field = E::base(system.arrows.iter().flat_map(|a| a.matrix.entries()));
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     for trial in 0..12 {
         let Some(element) = random_element(system, home, &mut random, trial) else { return Split::Unknown };
-        let spectrum = Spectrum::of(&element);
-        let mut factors: Vec<_> = spectrum.factors.iter().collect();
-        factors.sort_by_key(|f| (f.poly.degree(), f.multiplicity));
+        let spectrum = E::spectrum(&element, &field);
+        let degree = |k: usize| spectrum.part(k).roots.len();
+        let mut factors: Vec<usize> = (0..spectrum.factor_count()).collect();
+        factors.sort_by_key(|k| (degree(*k), spectrum.part(*k).multiplicity));
         for factor in factors.into_iter().take(3) {
-            let value = super::leading::polynomial_at(factor.poly.coeffs(), &element);
+            let value = E::factor_at(&spectrum, factor, &element);
             let kernel = value.kernel();
             if kernel.cols() == 0 {
                 continue;
@@ -209,7 +213,7 @@ fn split(part: &Part) -> Split {
             if proper(system, &family) {
                 return parts(part, &oriented(system, family, true));
             }
-            if factor.poly.degree() == Some(kernel.cols()) {
+            if degree(factor) == kernel.cols() {
                 return Split::Irreducible;
             }
         }
@@ -229,18 +233,18 @@ impl Random {
 }
 
 /// A small combination of products over cycles at a state.
-fn random_element(system: &System, home: usize, random: &mut Random, trial: usize) -> Option<Matrix> {
+fn random_element<E: Radial>(system: &System<E>, home: usize, random: &mut Random, trial: usize) -> Option<Matrix<E>> {
     let dim = system.dims[home];
-    let mut sum = Matrix::zero(dim, dim);
+    let mut sum: Matrix<E> = Matrix::zero(dim, dim);
     for _ in 0..(2 + trial % 3) {
         let cycle = random_cycle(system, home, random)?;
         let factor = [1, -1, 2, 3, -2][random.below(5)];
-        sum = &sum + &system.product(&cycle).scale(&Rational::from(factor));
+        sum = &sum + &system.product(&cycle).scale(&E::integer(factor));
     }
     Some(sum)
 }
 
-fn random_cycle(system: &System, home: usize, random: &mut Random) -> Option<Vec<usize>> {
+fn random_cycle<E>(system: &System<E>, home: usize, random: &mut Random) -> Option<Vec<usize>> {
     for _ in 0..64 {
         let mut path = Vec::new();
         let mut state = home;
@@ -267,12 +271,12 @@ fn random_cycle(system: &System, home: usize, random: &mut Random) -> Option<Vec
 
 /// Whether the smallest invariant family of [`spin`] is everything, seen modulo a prime: ranks modulo a prime are at most those over
 /// the rationals. `false` says nothing.
-fn spins_to_all(system: &System, state: usize, seed: &Matrix, dual: bool) -> bool {
+fn spins_to_all<E: Radial>(system: &System<E>, state: usize, seed: &Matrix<E>, dual: bool) -> bool {
     let Some(field) = large_primes().next().map(PrimeField::new) else { return false };
-    let residues = |m: &Matrix| -> Option<Vec<Vec<u64>>> {
-        (0..m.rows()).map(|i| m.row(i).iter().map(|x| field.from_rational(x)).collect()).collect()
+    let residues = |m: &Matrix<E>| -> Option<Vec<Vec<u64>>> {
+        (0..m.rows()).map(|i| m.row(i).iter().map(|x| field.from_rational(&x.rational()?)).collect()).collect()
     };
-    let turned = |a: &Arrow| residues(&if dual { a.matrix.clone() } else { a.matrix.transpose() });
+    let turned = |a: &Arrow<E>| residues(&if dual { a.matrix.clone() } else { a.matrix.transpose() });
     let maps: Option<Vec<Vec<Vec<u64>>>> = system.arrows.iter().map(turned).collect();
     let (Some(maps), Some(rows)) = (maps, residues(seed)) else { return false };
     let mut spaces: Vec<ModSpan> = system.dims.iter().map(|_| ModSpan::default()).collect();
@@ -317,11 +321,11 @@ impl ModSpan {
 }
 
 /// The smallest invariant family that contains the rows of `seed` at a state; with `dual`, of the transposed system.
-fn spin(system: &System, state: usize, seed: &Matrix, dual: bool) -> Vec<Matrix> {
+fn spin<E: Radial>(system: &System<E>, state: usize, seed: &Matrix<E>, dual: bool) -> Vec<Matrix<E>> {
     if spins_to_all(system, state, seed, dual) {
         return system.dims.iter().map(|d| Matrix::identity(*d)).collect();
     }
-    let mut family: Vec<Matrix> = system.dims.iter().map(|d| Matrix::zero(0, *d)).collect();
+    let mut family: Vec<Matrix<E>> = system.dims.iter().map(|d| Matrix::zero(0, *d)).collect();
     family[state] = seed.echelon().rows;
     let mut changed = vec![state];
     while let Some(s) = changed.pop() {
@@ -346,12 +350,12 @@ fn spin(system: &System, state: usize, seed: &Matrix, dual: bool) -> Vec<Matrix>
     family
 }
 
-fn proper(system: &System, family: &[Matrix]) -> bool {
+fn proper<E: Radial>(system: &System<E>, family: &[Matrix<E>]) -> bool {
     family.iter().any(|f| f.rows() > 0) && family.iter().zip(&system.dims).any(|(f, d)| f.rows() < *d)
 }
 
 /// The invariant family itself, or the annihilator of one of the transposed system.
-fn oriented(system: &System, family: Vec<Matrix>, left: bool) -> Vec<Matrix> {
+fn oriented<E: Radial>(system: &System<E>, family: Vec<Matrix<E>>, left: bool) -> Vec<Matrix<E>> {
     if !left {
         return family;
     }
@@ -363,17 +367,17 @@ fn oriented(system: &System, family: Vec<Matrix>, left: bool) -> Vec<Matrix> {
 }
 
 /// The systems induced on an invariant family and on its quotient.
-fn parts(part: &Part, family: &[Matrix]) -> Split {
+fn parts<E: Radial>(part: &Part<E>, family: &[Matrix<E>]) -> Split<E> {
     let system = &part.system;
     // A basis of every state whose first vectors span the family: columns; and its inverse.
-    let frames: Option<Vec<(usize, Matrix, Matrix)>> = family
+    let frames: Option<Vec<(usize, Matrix<E>, Matrix<E>)>> = family
         .iter()
         .zip(&system.dims)
         .map(|(f, &dim)| {
             let pivots = f.echelon().pivots;
             let rest = (0..dim).filter(|i| !pivots.contains(i));
-            let mut columns: Vec<Vec<Rational>> = (0..f.rows()).map(|i| f.row(i).to_vec()).collect();
-            columns.extend(rest.map(|i| (0..dim).map(|k| Rational::from(u8::from(k == i))).collect()));
+            let mut columns: Vec<Vec<E>> = (0..f.rows()).map(|i| f.row(i).to_vec()).collect();
+            columns.extend(rest.map(|i| (0..dim).map(|k| E::integer(i64::from(k == i))).collect()));
             let basis = Matrix::from_columns(dim, &columns);
             let inverse = basis.inverse()?;
             Some((f.rows(), basis, inverse))

@@ -11,22 +11,23 @@ use super::fixed::{Fixed, PLACES, Scaled, coefficient, distance, total};
 use super::grow::{Grown, Inside, Origin};
 use super::leading::Lower;
 use super::polytope::Polytope;
+use super::radial::Radial;
 use super::radius_field::Field;
 use super::simplex::{Body, Combination};
-use crate::arith::{Integer, Interval, Rational};
+use crate::arith::{Integer, Rational};
 
 /// What is to be closed.
-pub(super) struct Closing<'a> {
-    pub system: &'a System,
-    pub grown: &'a Grown,
-    pub polytope: &'a Polytope,
+pub struct Closing<'a, E = Rational> {
+    pub(super) system: &'a System<E>,
+    pub(super) grown: &'a Grown,
+    pub(super) polytope: &'a Polytope<E>,
     /// The words that attain the radius, at whose eigenvectors the polytope begins.
-    pub roots: &'a [LeadingVector],
-    pub radius: &'a Lower,
-    pub budget: &'a Budget<'a>,
+    pub(super) roots: &'a [LeadingVector],
+    pub(super) radius: &'a Lower,
+    pub(super) budget: &'a Budget<'a>,
 }
 
-impl Closing<'_> {
+impl<E: Radial> Closing<'_, E> {
     /// Whether all images of the true vertices, divided by the radius, lie in the hull of the true vertices.
     pub fn holds(&self) -> bool {
         self.check() == Some(true)
@@ -75,10 +76,7 @@ impl Closing<'_> {
                 return None;
             }
             points.push(match &v.origin {
-                Origin::Root(k) => {
-                    let root = &self.roots[*k];
-                    root.vector.enclosure(&root.root, PLACES + 40).iter().map(Fixed::of).collect()
-                }
+                Origin::Root(k) => self.roots[*k].vector.enclosure(PLACES + 40).iter().map(Fixed::of).collect(),
                 Origin::Axis { axis, exponent } => {
                     axis_point(self.system.dims[v.state], *axis, *exponent).iter().map(Fixed::point).collect()
                 }
@@ -108,7 +106,7 @@ impl Closing<'_> {
                 // Long coefficients are rounded; what that changes is seen in the distance.
                 let terms: Vec<(usize, Rational)> = terms
                     .iter()
-                    .map(|(k, c)| (*k, Interval::point(c.clone()).outward(super::fixed::COEFFICIENT).lo))
+                    .map(|(k, c)| (*k, c.enclosure(PLACES).outward(super::fixed::COEFFICIENT).lo))
                     .collect();
                 error = error.max(distance(&unit, &whole(&terms)?, points));
                 size = size.max(total(&terms));

@@ -3,8 +3,9 @@
 
 use super::float::Floats;
 use super::leading::root_of;
+use super::radial::Radial;
 use crate::arith::{Integer, Interval, Rational};
-use crate::linalg::{Matrix, char_poly};
+use crate::linalg::{Entry, Matrix};
 use crate::poly::Poly;
 use malachite_base::num::arithmetic::traits::{DivRound, Pow};
 use malachite_base::num::logic::traits::SignificantBits;
@@ -24,19 +25,19 @@ const PLACES: u64 = 220;
 
 impl Disc {
     /// A small disc around an eigenvalue that floats find largest; `None` where 0 is not outside.
-    pub(super) fn leading(m: &Matrix) -> Option<Self> {
+    pub(super) fn leading<E: Radial>(m: &Matrix<E>) -> Option<Self> {
         let unit = size(m)?;
-        let scaled = m.scale(&(Rational::from(1) / &unit));
+        let scaled = m.scale(&E::of(&(Rational::from(1) / &unit)));
         let (re, im) = Floats::of(&scaled).eigenvalue()?;
-        let chi = char_poly(&scaled);
-        let found = Self::near(&chi, re, im).or_else(|| Self::near(&squarefree(&chi), re, im))?;
+        let chi = E::char_poly(&scaled);
+        let found = Self::near(&chi, re, im).or_else(|| Self::near(&E::squarefree(&chi)?, re, im))?;
         let centre = (found.centre.0 * &unit, found.centre.1 * &unit);
         Some(Self { centre, error: found.error * unit })
     }
 
     /// Newton's steps from a float to a root of a polynomial, and a disc around it.
-    fn near(chi: &Poly, re: f64, im: f64) -> Option<Self> {
-        let coeffs = chi.primitive();
+    fn near<E: Radial>(chi: &[E], re: f64, im: f64) -> Option<Self> {
+        let coeffs = nearby(chi);
         let scale = Rational::from(Integer::from(1) << PLACES);
         let fixed = |x: f64| Integer::try_from(super::exact::grid(x) * &scale).ok();
         let (mut x, mut y) = (fixed(re)?, fixed(im)?);
@@ -60,20 +61,21 @@ impl Disc {
         (&found.error * &found.error * Rational::from(1u64 << 40) < square).then_some(found)
     }
 
-    /// The disc around `x + iy` of radius `n |χ/χ'|`, in which a polynomial `χ` of degree `n` has a root; `None` where `χ' = 0`.
+    /// The disc around `x + iy` of radius `n |χ/χ'|`, in which a polynomial `χ` of degree `n`, given by its coefficients, the
+    /// constant one first, has a root; `None` where `χ' = 0`.
     #[must_use]
-    pub fn around(chi: &Poly, x: &Rational, y: &Rational) -> Option<Self> {
-        let square = |p: &Poly| {
-            let zero = (Rational::from(0), Rational::from(0));
-            let (a, b) = p.coeffs().iter().rev().fold(zero, |(a, b), c| (&a * x - &b * y + c, a * y + b * x));
-            &a * &a + &b * &b
+    pub fn around<E: Entry>(chi: &[E], x: &Rational, y: &Rational) -> Option<Self> {
+        let (u, v) = (E::of(x), E::of(y));
+        let square = |p: &[E]| {
+            let step =
+                |(a, b): (E, E), c: &E| (a.times(&u).minus(&b.times(&v)).plus(c), a.times(&v).plus(&b.times(&u)));
+            let (a, b) = p.iter().rev().fold((E::zero(), E::zero()), step);
+            a.times(&a).plus(&b.times(&b))
         };
-        let bottom = square(&chi.derivative());
-        let degree = Rational::from(chi.degree()? as u64);
-        let error = match bottom == 0 {
-            true => return None,
-            false => root_of(&Interval::point(square(chi) * &degree * &degree / bottom), 2, PLACES + 40).hi,
-        };
+        let derivative: Vec<E> = chi.iter().zip(0..).skip(1).map(|(c, k)| c.times(&E::integer(k))).collect();
+        let degree = E::integer(i64::try_from(chi.len()).ok()? - 1);
+        let ratio = square(chi).times(&degree).times(&degree).over(&square(&derivative))?;
+        let error = root_of(&Interval::point(ratio.enclosure(2 * PLACES + 80).hi), 2, PLACES + 40).hi;
         Some(Self { centre: (x.clone(), y.clone()), error })
     }
 
@@ -93,19 +95,24 @@ impl Disc {
 }
 
 /// A power of two about as large as the largest entry; `None` of the zero matrix.
-fn size(m: &Matrix) -> Option<Rational> {
+fn size<E: Entry>(m: &Matrix<E>) -> Option<Rational> {
     let log = |x: &Rational| {
         i64::try_from(x.numerator_ref().significant_bits())
             .ok()
             .zip(i64::try_from(x.denominator_ref().significant_bits()).ok())
     };
-    let entries = (0..m.rows()).flat_map(|i| m.row(i)).filter(|x| **x != 0);
-    let exponent = entries.map(|x| log(x).map(|(n, d)| n - d)).collect::<Option<Vec<_>>>()?.into_iter().max()?;
+    let entries = m.entries().iter().filter(|x| !x.is_zero());
+    let exponent = entries
+        .map(|x| log(&x.enclosure(PLACES).hi).map(|(n, d)| n - d))
+        .collect::<Option<Vec<_>>>()?
+        .into_iter()
+        .max()?;
     Some(Rational::from(2).pow(exponent))
 }
 
-fn squarefree(p: &Poly) -> Poly {
-    p.div_rem(&p.gcd(&p.derivative())).0
+/// Whole numbers in about the ratio of the coefficients of a polynomial: exactly so of rational ones.
+fn nearby<E: Entry>(p: &[E]) -> Vec<Integer> {
+    Poly::new(p.iter().map(|c| c.enclosure(2 * PLACES).mid()).collect()).primitive()
 }
 
 fn derivative(coeffs: &[Integer]) -> Vec<Integer> {

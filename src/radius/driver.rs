@@ -6,26 +6,28 @@ use super::blocks::{Block, flag, undivided};
 use super::budget::{Budget, Options};
 use super::invariant::growth as growth_of;
 use super::leading::{Lower, longest_block};
+use super::radial::Radial;
 use super::search::{Candidate, candidates, canonical, insertions};
 use super::strategy::{Best, Found, Outcome, QUICK, Target, glance, leading, smaller};
 use super::system::{System, SystemError};
 use crate::arith::{Rational, to_f64};
 use std::cmp::Ordering;
 
-/// Computes the joint spectral radius of a set or an automaton of rational matrices.
+/// Computes the joint spectral radius of a set or an automaton of matrices with rational entries, or with entries in a real
+/// number field.
 ///
 /// # Errors
 /// [`SystemError`] where the matrices do not fit.
 ///
 /// # Cost
 /// Bounded by the options; small sets take milliseconds.
-pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, SystemError> {
+pub fn joint_radius<E: Radial>(system: &System<E>, options: &Options) -> Result<JointRadius<E>, SystemError> {
     let system = system.clone().checked()?;
     let dim = system.widest();
     let budget = Budget::new(options, dim);
     let work = options.work_for(dim);
     let flag = if system.widest() > options.split { undivided(&system) } else { flag(&system) };
-    let blocks: Vec<Block> = flag.iter().filter_map(|s| s.block.clone()).collect();
+    let blocks: Vec<Block<E>> = flag.iter().filter_map(|s| s.block.clone()).collect();
     let share = work / 10 / blocks.len().max(1) as u64;
     let short = options.longest.min(SHORT);
     let near = blocks.iter().map(|b| candidates(&b.system, short, NEAR, &budget.part(share / 4))).collect();
@@ -55,7 +57,7 @@ pub fn joint_radius(system: &System, options: &Options) -> Result<JointRadius, S
 }
 
 /// The cyclic words of a block that grow fastest.
-fn words(system: &System, options: &Options, budget: &Budget) -> Vec<Candidate> {
+fn words<E: Radial>(system: &System<E>, options: &Options, budget: &Budget) -> Vec<Candidate> {
     let mut found = candidates(system, options.longest, NEAR, budget);
     insertions(system, &mut found, INSERTED * options.longest, NEAR, budget);
     found
@@ -81,24 +83,24 @@ enum Stage {
     Whole,
 }
 
-struct Search<'a> {
+struct Search<'a, E> {
     stage: Stage,
-    system: &'a System,
+    system: &'a System<E>,
     options: &'a Options,
     budget: &'a Budget<'a>,
     /// The whole budget.
     work: u64,
-    blocks: Vec<Block>,
+    blocks: Vec<Block<E>>,
     /// By block: the words that grow fastest, in floats, best first.
     near: Vec<Vec<Candidate>>,
     /// By block: the best bound. Bounds stay true when a better word is found.
-    found: Vec<Option<Found>>,
+    found: Vec<Option<Found<E>>>,
     /// Strategies that were dear and did not lead to a better word: by block, of which list, and where in it. They are not tried
     /// again after a new start.
     dear: Vec<(usize, bool, usize)>,
 }
 
-impl Search<'_> {
+impl<E: Radial> Search<'_, E> {
     /// Bounds all blocks, with the best word there is after at most so many better ones.
     fn best_of(&mut self, restarts: usize) -> (Best, Option<usize>) {
         for round in 0..=restarts {
@@ -203,8 +205,8 @@ impl Search<'_> {
         None
     }
 
-    fn conclude(&mut self, best: &Best, block: Option<usize>) -> JointRadius {
-        let proofs: Vec<BlockProof> = self
+    fn conclude(&mut self, best: &Best, block: Option<usize>) -> JointRadius<E> {
+        let proofs: Vec<BlockProof<E>> = self
             .blocks
             .iter()
             .zip(std::mem::take(&mut self.found))
@@ -217,7 +219,7 @@ impl Search<'_> {
                 }
             })
             .collect();
-        let below = |p: &BlockProof| p.attains || p.bound.as_ref().is_some_and(|b| *b <= best.floor);
+        let below = |p: &BlockProof<E>| p.attains || p.bound.as_ref().is_some_and(|b| *b <= best.floor);
         let exact = proofs.iter().all(below);
         let lower = best.lower.clone().zip(block).map(|(lower, k)| self.of_the_whole(lower, &self.blocks[k]));
         let bounds = proofs.iter().map(|p| p.bound.clone()).collect::<Option<Vec<_>>>();
@@ -240,7 +242,7 @@ impl Search<'_> {
     }
 
     /// The word of a block as a word of the whole system, with the largest eigenvalue there.
-    fn of_the_whole(&self, lower: Lower, block: &Block) -> Lower {
+    fn of_the_whole(&self, lower: Lower, block: &Block<E>) -> Lower {
         let path = block.system.labels(&lower.path);
         let own = if self.blocks.len() > 1 { Lower::of(self.system, &path) } else { None };
         own.unwrap_or_else(|| Lower { word: self.system.labels(&path), path, ..lower })
@@ -249,7 +251,7 @@ impl Search<'_> {
 
 /// Whether a bound of a block needs no better one. Quick strategies still look for the exact value where the bound is only close,
 /// and for a strictly smaller bound of a block that does not attain the radius, which decides the growth.
-fn enough(found: &Found, best: &Best, options: &Options, top: bool, quick: bool) -> bool {
+fn enough<E>(found: &Found<E>, best: &Best, options: &Options, top: bool, quick: bool) -> bool {
     match (top, quick) {
         (false, true) => found.bound < best.floor,
         (true, true) => found.attains || found.bound <= best.floor,
@@ -265,7 +267,13 @@ fn enough(found: &Found, best: &Best, options: &Options, top: bool, quick: bool)
 /// A word that attains the radius shows by its Jordan block that products are unbounded. They are bounded where all blocks but
 /// one have a radius below `floor`, and that one has an extremal norm: a norm (or invariant body) that proves its bound at the
 /// radius itself, or irreducibility (theory §11).
-fn growth(system: &System, lower: &Lower, floor: &Rational, exact: bool, proofs: &[BlockProof]) -> Growth {
+fn growth<E: Radial>(
+    system: &System<E>,
+    lower: &Lower,
+    floor: &Rational,
+    exact: bool,
+    proofs: &[BlockProof<E>],
+) -> Growth {
     let mut top = proofs.iter().filter(|p| p.bound.as_ref().is_none_or(|b| b >= floor));
     match (top.next(), top.next()) {
         (Some(only), None) if exact || only.block.irreducible => Growth::Bounded,

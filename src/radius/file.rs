@@ -1,10 +1,13 @@
 //! Files for `secant jsr`: a set of matrices, or an automaton of them, as TOML, JSON or plain text.
 
 use super::{Arrow, System, SystemError};
+use crate::algebraic::Real;
+use crate::algebraic::field::{FieldBuilder, Number};
 use crate::arith::{ParseNumberError, Rational, parse_rational};
-use crate::linalg::Matrix;
+use crate::linalg::{Entry, Matrix};
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -48,6 +51,24 @@ pub enum FileProblem {
         /// Why.
         source: ParseNumberError,
     },
+    /// An expression that cannot be read.
+    #[error("matrix {matrix}: {message}")]
+    Expression {
+        /// The matrix, from 0.
+        matrix: usize,
+        /// Why.
+        message: String,
+        /// How to mend it.
+        help: Option<String>,
+    },
+    /// An expression with a rational value where no entry is irrational.
+    #[error("matrix {matrix}: the value of the expression is rational, and so are all entries")]
+    Valued {
+        /// The matrix, from 0.
+        matrix: usize,
+        /// The value.
+        value: Rational,
+    },
     /// An entry that is neither a number nor a string.
     #[error("matrix {0}: entries are numbers, or strings such as \"1/4\"")]
     Entry(usize),
@@ -67,11 +88,13 @@ impl FileProblem {
 
 /// A named system.
 #[derive(Debug, Clone)]
-pub struct File {
+pub struct File<E = Rational> {
     /// The name, empty if none is given.
     pub name: String,
     /// The system.
-    pub system: System,
+    pub system: System<E>,
+    /// The values of the roots and cosines that stand in irrational entries.
+    pub numbers: Vec<E>,
 }
 
 /// Reads
@@ -94,15 +117,76 @@ pub struct File {
 /// # Errors
 /// [`FileError`].
 pub fn parse(text: &str) -> Result<File, FileError> {
+    parsed(text, &mut |matrix, entry, span| {
+        parse_rational(entry).map_err(|source| FileProblem::Number { matrix, source }.at(span))
+    })
+}
+
+/// Reads the same with entries such as `sqrt(2)`, in plain text without blanks; all are put into one field, the smallest that
+/// holds them and the roots and cosines in them.
+///
+/// # Errors
+/// [`FileError`]; also where all entries are rational.
+///
+/// # Examples
+/// ```
+/// use secant::radius::file::parse_field;
+/// let file = parse_field("matrices = [[[\"sqrt(2)\", 1], [0, \"1/2\"]]]")?;
+/// assert_eq!((file.system.arrows[0].matrix[(0, 0)].to_string(), file.numbers.len()), ("sqrt(2)".to_owned(), 1));
+/// # Ok::<(), secant::radius::file::FileError>(())
+/// ```
+pub fn parse_field(text: &str) -> Result<File<Real>, FileError> {
+    let mut builder = FieldBuilder::new();
+    let mut numbers: Vec<Number> = Vec::new();
+    let mut written: Option<(usize, Range<usize>, Number)> = None;
+    parsed(text, &mut |matrix, entry, span: Range<usize>| {
+        let number = match parse_rational(entry) {
+            Ok(q) => builder.rational(&q),
+            Err(source) => {
+                let wrong = |e: crate::algebraic::field::ExpressionError| match entry.contains(['(', '[', '√']) {
+                    true => FileProblem::Expression { matrix, message: e.to_string(), help: e.help },
+                    false => FileProblem::Number { matrix, source },
+                };
+                let number = builder.parse(entry).map_err(|e| wrong(e).at(span.clone()))?;
+                written.get_or_insert((matrix, span, number.clone()));
+                number
+            }
+        };
+        numbers.push(number);
+        Ok(Rational::from(0))
+    })?;
+    let count = numbers.len();
+    numbers.extend(builder.asked().to_vec());
+    let (field, elements) = builder.finish(&numbers);
+    if let (true, Some((matrix, span, number))) = (field.is_rational(), written) {
+        let value = builder.elem(&number).0.coeff(0);
+        return Err(FileProblem::Valued { matrix, value }.at(span));
+    }
+    let field = Arc::new(field);
+    let mut values: Vec<Real> = elements.into_iter().map(|x| Real::new(&field, x)).collect();
+    let mut asked = values.split_off(count);
+    asked.sort();
+    asked.dedup();
+    asked.retain(|x| x.rational().is_none());
+    let mut entries = values.into_iter();
+    let missing = |span| key("matrices", "is read in two ways", span);
+    let found = parsed(text, &mut |_, _, span| entries.next().ok_or_else(|| missing(span)))?;
+    Ok(File { numbers: asked, ..found })
+}
+
+/// Makes an entry of the text at a place of a matrix.
+type Reader<'a, E> = &'a mut dyn FnMut(usize, &str, Range<usize>) -> Result<E, FileError>;
+
+fn parsed<E: Entry>(text: &str, reader: Reader<'_, E>) -> Result<File<E>, FileError> {
     let start = text.len() - text.trim_start().len();
     let (toml, shift) = match text[start..].chars().next() {
         Some('{') => (Cow::Owned(json_object(text)), 0),
         Some('[') => (Cow::Owned(format!("{LIST}{}{}", " ".repeat(start), &text[start..])), LIST.len()),
-        Some(_) if !text.lines().any(|l| uncommented(l).contains('=')) => return plain(text),
+        Some(_) if !text.lines().any(|l| uncommented(l).contains('=')) => return plain(text, reader),
         _ => (Cow::Borrowed(text), 0),
     };
     let unshifted = |span: Range<usize>| span.start.saturating_sub(shift)..span.end.saturating_sub(shift);
-    read(&toml).map_err(|e| FileError { span: unshifted(e.span), ..e })
+    read(&toml, reader).map_err(|e| FileError { span: unshifted(e.span), ..e })
 }
 
 /// What makes a bare list a file.
@@ -134,7 +218,7 @@ fn json_object(text: &str) -> String {
     text.chars().map(change).collect()
 }
 
-fn read(text: &str) -> Result<File, FileError> {
+fn read<E: Entry>(text: &str, reader: Reader<'_, E>) -> Result<File<E>, FileError> {
     let wrong = |e: &toml::de::Error| {
         let problem = FileProblem::Toml(e.message().to_owned());
         let Some(place) = e.span() else { return problem.at(0..text.len()) };
@@ -152,7 +236,7 @@ fn read(text: &str) -> Result<File, FileError> {
     };
     let whole = 0..text.len();
     let list = array(table.get("matrices"), "matrices", &whole)?;
-    let matrices = list.iter().enumerate().map(|(k, m)| matrix(k, m)).collect::<Result<Vec<_>, _>>()?;
+    let matrices = list.iter().enumerate().map(|(k, m)| matrix(k, m, reader)).collect::<Result<Vec<_>, _>>()?;
     let at = table.get("matrices").map_or(whole.clone(), Spanned::span);
     let system = match (table.get("states"), table.get("arrows")) {
         (None, None) => System::plain(&matrices).map_err(|e| FileProblem::from(e).at(at))?,
@@ -164,7 +248,7 @@ fn read(text: &str) -> Result<File, FileError> {
             System { dims, arrows }.checked().map_err(|e| FileProblem::from(e).at(place))?
         }
     };
-    Ok(File { name, system })
+    Ok(File { name, system, numbers: Vec::new() })
 }
 
 type Value<'a> = Spanned<DeValue<'a>>;
@@ -193,7 +277,7 @@ fn numbers(list: &[Value], name: &str) -> Result<Vec<usize>, FileError> {
     list.iter().map(number).collect()
 }
 
-fn arrow(label: usize, value: &Value, matrices: &[Matrix]) -> Result<Arrow, FileError> {
+fn arrow<E: Entry>(label: usize, value: &Value, matrices: &[Matrix<E>]) -> Result<Arrow<E>, FileError> {
     let list = numbers(array(Some(value), "arrows", &value.span())?, "arrows")?;
     let [from, to, matrix] = list[..] else {
         return Err(key("arrows", "must hold lists [from, to, matrix]", value.span()));
@@ -202,27 +286,28 @@ fn arrow(label: usize, value: &Value, matrices: &[Matrix]) -> Result<Arrow, File
     Ok(Arrow { from, to, matrix: matrices.get(matrix).ok_or_else(missing)?.clone(), label })
 }
 
-fn matrix(index: usize, value: &Value) -> Result<Matrix, FileError> {
+fn matrix<E: Entry>(index: usize, value: &Value, reader: Reader<'_, E>) -> Result<Matrix<E>, FileError> {
     let rows = array(Some(value), "matrices", &value.span())?;
-    let row = |row: &Value| array(Some(row), "matrices", &row.span())?.iter().map(|x| entry(index, x)).collect();
-    rectangular(index, rows.iter().map(row).collect::<Result<_, FileError>>()?, value.span())
+    let mut row =
+        |row: &Value| array(Some(row), "matrices", &row.span())?.iter().map(|x| entry(index, x, reader)).collect();
+    rectangular(index, rows.iter().map(&mut row).collect::<Result<_, FileError>>()?, value.span())
 }
 
-fn rectangular(index: usize, rows: Vec<Vec<Rational>>, span: Range<usize>) -> Result<Matrix, FileError> {
+fn rectangular<E: Entry>(index: usize, rows: Vec<Vec<E>>, span: Range<usize>) -> Result<Matrix<E>, FileError> {
     match rows.first().map(Vec::len) {
         Some(cols) if cols > 0 && rows.iter().all(|r| r.len() == cols) => Ok(Matrix::from_rows(cols, rows)),
         _ => Err(FileProblem::Ragged(index).at(span)),
     }
 }
 
-fn entry(matrix: usize, value: &Value) -> Result<Rational, FileError> {
+fn entry<E>(matrix: usize, value: &Value, reader: Reader<'_, E>) -> Result<E, FileError> {
     let text = match value.get_ref() {
         DeValue::Integer(digits) if digits.radix() == 10 => digits.as_str(),
         DeValue::Float(digits) => digits.as_str(),
         DeValue::String(text) => text.as_ref(),
         _ => return Err(FileProblem::Entry(matrix).at(value.span())),
     };
-    parse_rational(text).map_err(|source| FileProblem::Number { matrix, source }.at(value.span()))
+    reader(matrix, text, value.span())
 }
 
 fn uncommented(line: &str) -> &str {
@@ -233,8 +318,8 @@ fn uncommented(line: &str) -> &str {
 }
 
 /// Matrices as plain text. A matrix may begin with its size on a line of its own.
-fn plain(text: &str) -> Result<File, FileError> {
-    let mut blocks: Vec<(Vec<Vec<Rational>>, Range<usize>)> = Vec::new();
+fn plain<E: Entry>(text: &str, reader: Reader<'_, E>) -> Result<File<E>, FileError> {
+    let mut blocks: Vec<(Vec<Vec<E>>, Range<usize>)> = Vec::new();
     let (mut offset, mut open) = (0, false);
     for line in text.split_inclusive('\n') {
         let body = uncommented(line);
@@ -250,10 +335,7 @@ fn plain(text: &str) -> Result<File, FileError> {
         open = true;
         let index = blocks.len() - 1;
         let words = body.split(|c: char| c.is_whitespace() || c == ',' || c == ';').filter(|w| !w.is_empty());
-        let number = |w: &str| {
-            parse_rational(w).map_err(|source| FileProblem::Number { matrix: index, source }.at(span.clone()))
-        };
-        let row = words.map(number).collect::<Result<Vec<_>, _>>()?;
+        let row = words.map(|w| reader(index, w, span.clone())).collect::<Result<Vec<_>, _>>()?;
         let (rows, whole) = &mut blocks[index];
         rows.push(row);
         whole.end = span.end;
@@ -263,14 +345,18 @@ fn plain(text: &str) -> Result<File, FileError> {
     }
     let matrices = blocks.into_iter().enumerate().map(|(k, (mut rows, span))| {
         let size = rows.len() - 1;
-        if size > 0 && rows[0].len() == 1 && rows[0][0] == size as u64 && rows[1].len() == size {
+        if size > 0
+            && rows[0].len() == 1
+            && rows[0][0].rational() == Some(Rational::from(size))
+            && rows[1].len() == size
+        {
             rows.remove(0);
         }
         rectangular(k, rows, span)
     });
     let matrices = matrices.collect::<Result<Vec<_>, _>>()?;
     let system = System::plain(&matrices).map_err(|e| FileProblem::from(e).at(0..text.len()))?;
-    Ok(File { name: String::new(), system })
+    Ok(File { name: String::new(), system, numbers: Vec::new() })
 }
 
 #[cfg(test)]

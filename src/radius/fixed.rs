@@ -1,7 +1,7 @@
 //! Intervals of fixed-point numbers: sums and products without a common divisor at every step.
 
 use crate::arith::{Integer, Interval, Rational, abs};
-use crate::linalg::Matrix;
+use crate::linalg::{Entry, Matrix};
 use malachite_base::num::arithmetic::traits::{Ceiling, DivRound, Floor, Lcm};
 use malachite_base::num::basic::traits::One;
 use malachite_base::rounding_modes::RoundingMode::{Ceiling as Up, Floor as Down};
@@ -39,6 +39,18 @@ impl Fixed {
         self.hi += b * factor;
     }
 
+    /// The same with a factor that lies between two whole numbers.
+    fn add_between(&mut self, x: &Self, (from, to): (&Integer, &Integer)) {
+        if from == to {
+            return self.add_times(x, from);
+        }
+        let ends = [&x.lo * from, &x.lo * to, &x.hi * from, &x.hi * to];
+        let least = ends.iter().min().expect("four products");
+        let most = ends.iter().max().expect("four products");
+        self.lo += least;
+        self.hi += most;
+    }
+
     /// The largest absolute value, in units of `2^-PLACES`.
     pub fn magnitude(&self) -> Integer {
         let size = |x: &Integer| if *x < 0 { -x } else { x.clone() };
@@ -46,9 +58,9 @@ impl Fixed {
     }
 }
 
-/// A matrix with whole entries over one denominator, divided by a radius.
+/// A matrix with whole entries over one denominator, or with entries between such, divided by a radius.
 pub(super) struct Scaled {
-    rows: Vec<Vec<Integer>>,
+    rows: Vec<Vec<(Integer, Integer)>>,
     denominator: Integer,
     /// `2^PLACES / radius`, below and above.
     inverse: (Integer, Integer),
@@ -56,14 +68,21 @@ pub(super) struct Scaled {
 
 impl Scaled {
     /// `None` where the enclosure of the radius holds 0.
-    pub fn new(m: &Matrix, radius: &Interval) -> Option<Self> {
+    pub fn new<E: Entry>(m: &Matrix<E>, radius: &Interval) -> Option<Self> {
         if radius.lo <= 0 {
             return None;
         }
-        let entries = (0..m.rows()).flat_map(|i| m.row(i));
-        let denominator = entries.fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref()));
+        let own: Option<Vec<Rational>> = m.entries().iter().map(E::rational).collect();
+        let denominator = match own {
+            Some(entries) => entries.iter().fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref())),
+            None => Natural::ONE << (PLACES + COEFFICIENT),
+        };
         let whole = Rational::from(denominator.clone());
-        let row = |i: usize| m.row(i).iter().map(|x| (x * &whole).floor()).collect();
+        let between = |x: &E| {
+            let x = x.enclosure(PLACES + COEFFICIENT);
+            ((x.lo * &whole).floor(), (x.hi * &whole).ceiling())
+        };
+        let row = |i: usize| m.row(i).iter().map(between).collect();
         let scale = Rational::from(Integer::ONE << PLACES);
         let inverse = ((&scale / &radius.hi).floor(), (&scale / &radius.lo).ceiling());
         Some(Self { rows: (0..m.rows()).map(row).collect(), denominator: Integer::from(denominator), inverse })
@@ -71,9 +90,10 @@ impl Scaled {
 
     /// An enclosure of `T x / radius`.
     pub fn image(&self, x: &[Fixed]) -> Vec<Fixed> {
-        let entry = |row: &Vec<Integer>| {
+        let entry = |row: &Vec<(Integer, Integer)>| {
             let mut sum = Fixed::zero();
-            row.iter().zip(x).filter(|(a, _)| **a != 0).for_each(|(a, v)| sum.add_times(v, a));
+            let used = row.iter().zip(x).filter(|((from, to), _)| *from != 0 || *to != 0);
+            used.for_each(|((from, to), v)| sum.add_between(v, (from, to)));
             let by = |x: &Integer, up: bool| {
                 // The smaller factor below for positive numbers, above for negative ones.
                 let factor = if (*x >= 0) == up { &self.inverse.1 } else { &self.inverse.0 };

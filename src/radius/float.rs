@@ -2,8 +2,8 @@
 #![allow(clippy::float_arithmetic, reason = "proposes, exact arithmetic decides")]
 
 use super::System;
-use crate::arith::to_f64;
-use crate::linalg::Matrix;
+use crate::algebraic::nearest;
+use crate::linalg::{Entry, Matrix};
 use nalgebra::{DMatrix, DVector, Schur};
 
 /// A float copy of a matrix.
@@ -15,17 +15,17 @@ pub(super) struct Floats {
 }
 
 impl Floats {
-    pub fn of(m: &Matrix) -> Self {
-        let data = (0..m.rows()).flat_map(|i| m.row(i).iter().map(to_f64)).collect();
+    pub fn of<E: Entry>(m: &Matrix<E>) -> Self {
+        let data = (0..m.rows()).flat_map(|i| m.row(i).iter().map(nearest)).collect();
         Self { rows: m.rows(), cols: m.cols(), data }
     }
 
-    pub fn all(system: &System) -> Vec<Self> {
+    pub fn all<E: Entry>(system: &System<E>) -> Vec<Self> {
         system.arrows.iter().map(|a| Self::of(&a.matrix)).collect()
     }
 
     /// The product along a path, divided by its norm at every step; `None` of the empty path.
-    pub fn product(system: &System, path: &[usize]) -> Option<Self> {
+    pub fn product<E: Entry>(system: &System<E>, path: &[usize]) -> Option<Self> {
         let mut product: Option<Self> = None;
         for &a in path {
             let m = Self::of(&system.arrows[a].matrix);

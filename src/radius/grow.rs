@@ -6,6 +6,7 @@ use super::budget::Budget;
 use super::float::Floats;
 use super::simplex::{Body, Combination, Hull, gauge};
 use crate::arith::Rational;
+use crate::linalg::Entry;
 
 /// Where a vertex comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -59,8 +60,8 @@ pub(super) struct Grown {
 }
 
 /// What is grown, and how far.
-pub(super) struct Task<'a> {
-    pub system: &'a System,
+pub(super) struct Task<'a, E = Rational> {
+    pub system: &'a System<E>,
     /// The matrices divided by the radius.
     pub scaled: &'a [Floats],
     pub body: Body,
@@ -83,7 +84,7 @@ struct Image {
 
 /// Applies all arrows to all vertices until nothing new comes out, or a limit is reached. Of every generation the images that
 /// stick out farthest become vertices first; they often cover others.
-pub(super) fn grow(task: &Task) -> Grown {
+pub(super) fn grow<E: Entry>(task: &Task<E>) -> Grown {
     let mut growing = Growing {
         task,
         points: task.system.dims.iter().map(|d| Points { hull: Hull::new(*d), vertices: Vec::new() }).collect(),
@@ -116,13 +117,13 @@ struct Points {
     vertices: Vec<usize>,
 }
 
-struct Growing<'a> {
-    task: &'a Task<'a>,
+struct Growing<'a, E> {
+    task: &'a Task<'a, E>,
     points: Vec<Points>,
     grown: Grown,
 }
 
-impl Growing<'_> {
+impl<E: Entry> Growing<'_, E> {
     fn push(&mut self, vertex: Vertex) {
         let own = &mut self.points[vertex.state];
         own.hull.push(&vertex.point);
@@ -219,7 +220,7 @@ impl Growing<'_> {
 
 /// For every state the axes along which the vertices do not reach by `threshold` of their size (symmetric: a complement of
 /// what they span by that much).
-pub(super) fn missing_axes(system: &System, grown: &Grown, threshold: f64) -> Vec<(usize, usize)> {
+pub(super) fn missing_axes<E: Entry>(system: &System<E>, grown: &Grown, threshold: f64) -> Vec<(usize, usize)> {
     let mut missing = Vec::new();
     for (state, &dim) in system.dims.iter().enumerate() {
         let points = || grown.vertices.iter().filter(|v| v.state == state).map(|v| v.point.as_slice());

@@ -7,8 +7,9 @@ use super::closing::Closing;
 use super::exact::{LeadingVector, axis_point, checking, exact_points, grid, polished, rational};
 use super::float::Floats;
 use super::grow::{Grown, Origin, Task, Vertex, grow, missing_axes};
-use super::leading::{Eigenvector, Lower};
+use super::leading::Lower;
 use super::polytope::Polytope;
+use super::radial::Radial;
 use super::simplex::Body;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use super::system::System;
@@ -21,8 +22,8 @@ pub(super) struct AtRadius {
     pub share: u64,
 }
 
-impl Strategy for AtRadius {
-    fn attempt(&self, target: &Target, _known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for AtRadius {
+    fn attempt(&self, target: &Target<E>, _known: f64, budget: &Budget) -> Outcome<E> {
         let Some(best) = &target.best.lower else { return Outcome::Nothing };
         let system = &target.block.system;
         let roots = eigenvectors(system, &target.own);
@@ -31,7 +32,7 @@ impl Strategy for AtRadius {
         }
         let scaled = scaled(system, target.best.float);
         let mut axes: Vec<(usize, usize)> = Vec::new();
-        let mut best_found: Option<Box<Found>> = None;
+        let mut best_found: Option<Box<Found<E>>> = None;
         for (threshold, exponent) in [(1e-7, 8), (1e-7, 14), (1e-3, 8), (1e-3, 5)] {
             let mut seeds = root_seeds(system, &roots);
             seeds.extend(axis_seeds(system, &axes, exponent));
@@ -82,14 +83,20 @@ impl Strategy for AtRadius {
 }
 
 /// The longest cyclic word that is looked at as a better one: products of large matrices are dear.
-fn longest(target: &Target) -> usize {
+fn longest<E: Radial>(target: &Target<E>) -> usize {
     target.options.longest * if target.block.system.widest() <= 4 { 8 } else { 3 }
 }
 
 /// Relative excess of a bound over the radius up to which the data of a polytope are not computed again with more places.
 const SHARP: f64 = 1e-9;
 
-fn settle(target: &Target, grown: &Grown, roots: &[LeadingVector], best: &Lower, budget: &Budget) -> Outcome {
+fn settle<E: Radial>(
+    target: &Target<E>,
+    grown: &Grown,
+    roots: &[LeadingVector],
+    best: &Lower,
+    budget: &Budget,
+) -> Outcome<E> {
     let system = &target.block.system;
     if !budget.spend(checking(system, grown)) {
         return Outcome::Nothing;
@@ -97,7 +104,7 @@ fn settle(target: &Target, grown: &Grown, roots: &[LeadingVector], best: &Lower,
     let value = best.rational();
     let exact = value.as_ref().and_then(|r| exact_points(system, grown, roots, r));
     let radius = value.clone().unwrap_or_else(|| best.enclosure(64).hi);
-    let bounded = |polytope: Polytope| polytope.bound(system).map(|bound| (bound, polytope));
+    let bounded = |polytope: Polytope<E>| polytope.bound(system).map(|bound| (bound, polytope));
     let mut found = rational(system, grown, &radius, exact.as_deref()).and_then(bounded);
     let closed = grown.excess <= 1.0;
     let attains = closed
@@ -129,8 +136,8 @@ pub(super) struct Inflated {
     pub share: u64,
 }
 
-impl Strategy for Inflated {
-    fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for Inflated {
+    fn attempt(&self, target: &Target<E>, known: f64, budget: &Budget) -> Outcome<E> {
         let radius = target.best.float * (1.0 + self.gap);
         if target.best.float == 0.0 || known <= radius * (1.0 + self.gap) {
             return Outcome::Nothing;
@@ -151,8 +158,8 @@ pub(super) struct Between {
     pub share: u64,
 }
 
-impl Strategy for Between {
-    fn attempt(&self, target: &Target, _known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for Between {
+    fn attempt(&self, target: &Target<E>, _known: f64, budget: &Budget) -> Outcome<E> {
         let value = target.value();
         let radius = value + self.part * (target.best.float - value);
         match invariant(target, radius, self.vertices, budget) {
@@ -170,7 +177,7 @@ impl Strategy for Between {
 }
 
 /// `ρ(T_w)^(1/|w|)` in floats.
-pub(super) fn growth(system: &System, path: &[usize]) -> f64 {
+pub(super) fn growth<E: Radial>(system: &System<E>, path: &[usize]) -> f64 {
     let mut product: Option<Floats> = None;
     let mut log = 0.0;
     for &a in path {
@@ -187,7 +194,7 @@ pub(super) fn growth(system: &System, path: &[usize]) -> f64 {
 }
 
 /// A polytope for a radius that is above all products, as it seems.
-fn invariant(target: &Target, radius: f64, vertices: usize, budget: &Budget) -> Outcome {
+fn invariant<E: Radial>(target: &Target<E>, radius: f64, vertices: usize, budget: &Budget) -> Outcome<E> {
     let system = &target.block.system;
     let mut seeds = float_seeds(system, target);
     if seeds.is_empty() {
@@ -237,13 +244,13 @@ fn grid_near(x: f64) -> Rational {
 }
 
 /// Real eigenvectors of the leading words, scaled to about 1 and, for nonnegative matrices, made nonnegative.
-fn eigenvectors(system: &System, own: &[Lower]) -> Vec<LeadingVector> {
+fn eigenvectors<E: Radial>(system: &System<E>, own: &[Lower]) -> Vec<LeadingVector> {
     let mut out = Vec::new();
     let mut lines: Vec<(usize, Vec<f64>)> = Vec::new();
     for lower in own.iter().filter_map(|l| real_power(system, l)) {
         let Some(root) = lower.root().cloned() else { continue };
-        let Some(mut vector) = Eigenvector::of(&system.product(&lower.path), &root) else { continue };
-        let values: Vec<f64> = vector.enclosure(&root, 64).iter().map(|x| to_f64(&x.mid())).collect();
+        let Some(mut vector) = E::eigenvector(&system.product(&lower.path), &root) else { continue };
+        let values: Vec<f64> = vector.enclosure(64).iter().map(|x| to_f64(&x.mid())).collect();
         let largest = values.iter().copied().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
         if largest == 0.0 || !largest.is_finite() {
             continue;
@@ -262,7 +269,7 @@ fn eigenvectors(system: &System, own: &[Lower]) -> Vec<LeadingVector> {
 }
 
 /// The word, or a power of it whose leading eigenvalue is real.
-pub(super) fn real_power(system: &System, lower: &Lower) -> Option<Lower> {
+pub(super) fn real_power<E: Radial>(system: &System<E>, lower: &Lower) -> Option<Lower> {
     let root = lower.root()?;
     if root.is_real() {
         return Some(lower.clone());
@@ -291,25 +298,25 @@ pub(super) fn scale_near(x: f64) -> Rational {
     if rest == 0 { power } else { rest * power }
 }
 
-pub(super) fn body(system: &System) -> Body {
+pub(super) fn body<E: Radial>(system: &System<E>) -> Body {
     if system.is_nonnegative() { Body::Monotone } else { Body::Symmetric }
 }
 
-pub(super) fn scaled(system: &System, radius: f64) -> Vec<Floats> {
+pub(super) fn scaled<E: Radial>(system: &System<E>, radius: f64) -> Vec<Floats> {
     Floats::all(system).into_iter().map(|f| f.scaled(1.0 / radius)).collect()
 }
 
-fn root_seeds(system: &System, roots: &[LeadingVector]) -> Vec<Vertex> {
+fn root_seeds<E: Radial>(system: &System<E>, roots: &[LeadingVector]) -> Vec<Vertex> {
     let seed = |(k, r): (usize, &LeadingVector)| Vertex {
         state: system.arrows[r.lower.path[0]].from,
         origin: Origin::Root(k),
-        point: r.vector.enclosure(&r.root, 96).iter().map(|x| to_f64(&x.mid())).collect(),
+        point: r.vector.enclosure(96).iter().map(|x| to_f64(&x.mid())).collect(),
     };
     roots.iter().enumerate().map(seed).collect()
 }
 
 /// About the eigenvectors of the words that grow fastest, on the grid.
-fn float_seeds(system: &System, target: &Target) -> Vec<Vertex> {
+fn float_seeds<E: Radial>(system: &System<E>, target: &Target<E>) -> Vec<Vertex> {
     let mut seeds: Vec<Vertex> = Vec::new();
     for candidate in target.near.iter().filter(|c| c.value >= target.value() * (1.0 - 1e-9)).take(4) {
         let Some(product) = Floats::product(system, &candidate.path) else { continue };
@@ -335,7 +342,7 @@ fn float_seeds(system: &System, target: &Target) -> Vec<Vertex> {
     seeds
 }
 
-fn axis_seeds(system: &System, axes: &[(usize, usize)], exponent: u32) -> Vec<Vertex> {
+fn axis_seeds<E: Radial>(system: &System<E>, axes: &[(usize, usize)], exponent: u32) -> Vec<Vertex> {
     let seed = |&(state, axis): &(usize, usize)| Vertex {
         state,
         origin: Origin::Axis { axis, exponent },

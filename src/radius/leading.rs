@@ -2,9 +2,10 @@
 
 use super::System;
 use super::disc::Disc;
+use super::radial::Radial;
 use crate::algebraic::Root;
 use crate::arith::{Integer, Interval, Natural, Rational, abs, sign};
-use crate::jordan::{Spectrum, modulus_classes};
+use crate::jordan::Spectral;
 use crate::linalg::Matrix;
 use malachite_base::num::arithmetic::traits::{CeilingRoot, CheckedRoot, Floor, FloorRoot, Lcm, Pow, UnsignedAbs};
 use malachite_base::num::basic::traits::One;
@@ -40,12 +41,12 @@ impl Lower {
     /// The growth of a cyclic path; `None` where the product is nilpotent, or where it is large and no eigenvalue other than 0 was
     /// enclosed.
     #[must_use]
-    pub fn of(system: &System, path: &[usize]) -> Option<Self> {
+    pub fn of<E: Radial>(system: &System<E>, path: &[usize]) -> Option<Self> {
         let product = system.product(path);
         let eigenvalue = if exact_work(&product) > EXACT_WORK {
             Leading::Disc(Disc::leading(&product)?)
         } else {
-            Leading::Exact(largest(&product)?)
+            Leading::Exact(E::largest(&product)?)
         };
         Some(Self { path: path.to_vec(), word: system.labels(path), length: path.len(), eigenvalue })
     }
@@ -106,7 +107,7 @@ impl Lower {
 
     /// Compares the values of words of two systems; `None` where it would cost too much to decide whether they are equal.
     #[must_use]
-    pub fn compare(&self, system: &System, other: &Self, others: &System) -> Option<Ordering> {
+    pub fn compare<E: Radial>(&self, system: &System<E>, other: &Self, others: &System<E>) -> Option<Ordering> {
         let (a, b) = (self.enclosure(48), other.enclosure(48));
         if a.disjoint(&b) {
             return Some(a.lo.cmp(&b.lo));
@@ -120,41 +121,42 @@ impl Lower {
             return Some(a.lo.cmp(&b.lo));
         }
         let common = gcd(self.length, other.length);
-        let power = |s: &System, l: &Self, times: usize| {
+        let power = |s: &System<E>, l: &Self, times: usize| {
             let product = s.product(&l.path.repeat(times / common));
-            if exact_work(&product) > EXACT_WORK { None } else { largest(&product) }
+            if exact_work(&product) > EXACT_WORK { None } else { E::largest(&product) }
         };
         Some(power(system, self, other.length)?.cmp_modulus(&power(others, other, self.length)?))
     }
 }
 
-/// An eigenvalue of largest modulus, a positive one before others; `None` where it is 0.
-fn largest(product: &Matrix) -> Option<Root> {
-    let classes = modulus_classes(product);
+/// One of the eigenvalues of largest modulus, a positive one before others; `None` where it is 0.
+pub(super) fn foremost(class: &[Root]) -> Option<Root> {
     let rank = |root: &&Root| (!root.is_real(), root.is_real() && root.sign() < 0);
-    classes.first()?.iter().min_by_key(rank).filter(|r| !r.is_zero()).cloned()
+    class.iter().min_by_key(rank).filter(|r| !r.is_zero()).cloned()
 }
 
 /// The longest Jordan block at the largest modulus of a product; `None` where it costs too much.
-pub(super) fn longest_block(product: &Matrix) -> Option<usize> {
+pub(super) fn longest_block<E: Radial>(product: &Matrix<E>) -> Option<usize> {
     if exact_work(product) > EXACT_WORK {
         return None;
     }
-    let spectrum = Spectrum::of(product);
-    let members = &spectrum.classes.first()?.members;
+    let spectrum = E::spectrum(product, &E::base(product.entries()));
+    let members = &spectrum.classes().first()?.members;
     members
         .iter()
-        .map(|e| spectrum.factors[e.factor].blocks.iter().max().copied())
+        .map(|e| spectrum.part(e.factor).blocks.iter().max().copied())
         .collect::<Option<Vec<_>>>()?
         .into_iter()
         .max()
 }
 
 /// About the work of isolating the eigenvalues of a product, in nanoseconds: polynomials of degree `n` with `n b` bits.
-fn exact_work(product: &Matrix) -> u64 {
-    let n = product.rows() as u64;
+fn exact_work<E: Radial>(product: &Matrix<E>) -> u64 {
+    let base = E::base(product.entries());
+    let n = (product.rows() * E::degree(&base)) as u64;
     let size = |x: &Rational| x.numerator_ref().significant_bits() + x.denominator_ref().significant_bits();
-    let bits = (0..product.rows()).flat_map(|i| product.row(i)).map(size).max().map_or(8, |b| b + 8);
+    let longest = |x: &E| x.elem().0.coeffs().iter().map(size).max();
+    let bits = product.entries().iter().filter_map(longest).max().map_or(8, |b| b + 8);
     n.saturating_pow(4).saturating_mul(bits)
 }
 
@@ -198,10 +200,12 @@ pub fn root_floor(x: &Rational, degree: usize, bits: u64) -> Rational {
     root_of(&Interval::point(x.clone()), degree, bits).lo
 }
 
-/// A real eigenvector of the product for a real leading eigenvalue, given exactly: coordinate `i` is the polynomial
-/// `Σ_k coordinates[i][k] x^k` at the eigenvalue.
+/// An eigenvector of the product for a leading eigenvalue, given exactly: coordinate `i` is the polynomial
+/// `Σ_k coordinates[i][k] x^k` at a number whose field holds the eigenvalue and the entries.
 #[derive(Debug, Clone)]
 pub struct Eigenvector {
+    /// The number; the eigenvalue itself where the entries are rational.
+    pub place: Root,
     /// The coefficients.
     pub coordinates: Vec<Vec<Rational>>,
 }
@@ -244,15 +248,15 @@ impl Eigenvector {
                 }
             }
         }
-        Some(Self { coordinates })
+        Some(Self { place: root.clone(), coordinates })
     }
 
-    /// Enclosures of the coordinates at a real root.
+    /// Enclosures of the coordinates of a real vector.
     #[must_use]
-    pub fn enclosure(&self, root: &Root, bits: u64) -> Vec<Interval> {
-        let x = match root.rational() {
+    pub fn enclosure(&self, bits: u64) -> Vec<Interval> {
+        let x = match self.place.rational() {
             Some(r) => Interval::point(r),
-            None => root.enclosure(bits).0,
+            None => self.place.enclosure(bits).0,
         };
         self.coordinates
             .iter()

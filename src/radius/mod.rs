@@ -1,4 +1,5 @@
-//! The joint spectral radius of finite sets and automata of rational matrices (theory §11), with exact proofs.
+//! The joint spectral radius of finite sets and automata of matrices (theory §11), rational or over a real number field, with
+//! exact proofs.
 //!
 //! Floats propose words, polytopes and coefficients; exact arithmetic decides every bound.
 #![deny(clippy::disallowed_methods)]
@@ -23,6 +24,7 @@ mod leading;
 mod norms;
 mod polytope;
 mod quadratic;
+mod radial;
 mod radius_field;
 mod search;
 mod simplex;
@@ -45,6 +47,7 @@ pub use grow::Origin;
 pub use leading::{Eigenvector, Leading, Lower, root_floor, square_root};
 pub use polytope::{Inclusion, Point, Polytope};
 pub use quadratic::{Quadratic, definite};
+pub use radial::Radial;
 pub use simplex::Body;
 pub(crate) use simplex::{ConeBasis, InCone, cone_combination, in_cone, tells_apart};
 pub use system::{Arrow, System, SystemError};

@@ -4,6 +4,7 @@
 use super::answer::Proof;
 use super::budget::Budget;
 use super::float::Floats;
+use super::radial::Radial;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use super::system::System;
 use super::tree::{Tree, exact_weight, weights};
@@ -12,8 +13,8 @@ use crate::arith::Rational;
 /// The bound by the letters.
 pub(super) struct LetterNorms;
 
-impl Strategy for LetterNorms {
-    fn attempt(&self, target: &Target, _known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for LetterNorms {
+    fn attempt(&self, target: &Target<E>, _known: f64, budget: &Budget) -> Outcome<E> {
         let system = &target.block.system;
         let entries: u64 = system.arrows.iter().map(|a| (a.matrix.rows() * a.matrix.cols()) as u64).sum();
         let mut best: Option<(Rational, Tree)> = None;
@@ -37,21 +38,21 @@ impl Strategy for LetterNorms {
 }
 
 /// The code of the single letters.
-fn letters(system: &System) -> Vec<Vec<Vec<usize>>> {
+fn letters<E: Radial>(system: &System<E>) -> Vec<Vec<Vec<usize>>> {
     let own = |s: usize| (0..system.arrows.len()).filter(|a| system.arrows[*a].from == s).map(|a| vec![a]).collect();
     (0..system.dims.len()).map(own).collect()
 }
 
-fn plain(system: &System) -> Vec<Vec<Rational>> {
+fn plain<E: Radial>(system: &System<E>) -> Vec<Vec<Rational>> {
     system.dims.iter().map(|d| vec![Rational::from(1); *d]).collect()
 }
 
-fn fitted(system: &System) -> Vec<Vec<Rational>> {
+fn fitted<E: Radial>(system: &System<E>) -> Vec<Vec<Rational>> {
     weights(system).iter().map(|w| w.iter().map(exact_weight).collect()).collect()
 }
 
 /// The left eigenvector of the best word of a plain set, where it is positive: of one nonnegative matrix it gives the radius.
-fn leading(target: &Target) -> Option<Vec<Vec<Rational>>> {
+fn leading<E: Radial>(target: &Target<E>) -> Option<Vec<Vec<Rational>>> {
     let system = &target.block.system;
     if system.dims.len() != 1 {
         return None;

@@ -3,6 +3,7 @@
 use super::System;
 use super::answer::Proof;
 use super::budget::Budget;
+use super::radial::Radial;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use crate::arith::{Integer, Rational};
 use crate::linalg::Matrix;
@@ -10,33 +11,33 @@ use malachite_base::num::arithmetic::traits::DivExact;
 
 /// Positive definite forms, one for every state, that no arrow expands by more than `r`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Quadratic {
+pub struct Quadratic<E = Rational> {
     /// The forms.
-    pub forms: Vec<Matrix>,
+    pub forms: Vec<Matrix<E>>,
     /// The square of the bound.
     pub square: Rational,
 }
 
-impl Quadratic {
+impl<E: Radial> Quadratic<E> {
     /// Whether the forms are positive definite and no arrow expands them.
     #[must_use]
-    pub fn holds(&self, system: &System) -> bool {
+    pub fn holds(&self, system: &System<E>) -> bool {
         self.forms.len() == system.dims.len()
             && self
                 .forms
                 .iter()
                 .zip(&system.dims)
-                .all(|(f, d)| (f.rows(), f.cols()) == (*d, *d) && *f == f.transpose() && definite(f, true))
+                .all(|(f, d)| (f.rows(), f.cols()) == (*d, *d) && *f == f.transpose() && E::definite(f, true))
             && system.arrows.iter().all(|a| {
                 let image = &(&a.matrix.transpose() * &self.forms[a.from]) * &a.matrix;
-                definite(&(&self.forms[a.to].scale(&self.square) - &image), false)
+                E::definite(&(&self.forms[a.to].scale(&E::of(&self.square)) - &image), false)
             })
     }
 
     /// Forms that prove the bound with this square: the Euclidean ones, or ones that all arrows, or one of `letters`,
     /// preserve exactly.
     #[must_use]
-    pub fn find(system: &System, square: &Rational, letters: &[usize]) -> Option<Self> {
+    pub fn find(system: &System<E>, square: &Rational, letters: &[usize]) -> Option<Self> {
         let forms = system.dims.iter().map(|d| Matrix::identity(*d)).collect();
         let euclidean = Self { forms, square: square.clone() };
         if euclidean.holds(system) {
@@ -54,8 +55,8 @@ impl Quadratic {
 /// Quadratic norms at the radius itself, where its square is rational.
 pub(super) struct QuadraticNorm;
 
-impl Strategy for QuadraticNorm {
-    fn attempt(&self, target: &Target, _known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for QuadraticNorm {
+    fn attempt(&self, target: &Target<E>, _known: f64, budget: &Budget) -> Outcome<E> {
         let system = &target.block.system;
         let Some(square) = target.best.lower.as_ref().and_then(super::Lower::square) else { return Outcome::Nothing };
         let size: u64 = system.dims.iter().map(|d| (d * (d + 1) / 2) as u64).sum();
@@ -76,25 +77,26 @@ impl Strategy for QuadraticNorm {
 const MAX_UNKNOWNS: u64 = 60;
 
 /// Symmetric forms with `T^t P T = square P` for some arrows, if they are unique up to a factor.
-fn preserved(system: &System, square: &Rational, arrows: &[usize]) -> Option<Vec<Matrix>> {
+fn preserved<E: Radial>(system: &System<E>, square: &Rational, arrows: &[usize]) -> Option<Vec<Matrix<E>>> {
     let mut unknowns: Vec<(usize, usize, usize)> = Vec::new();
     for (s, &d) in system.dims.iter().enumerate() {
         unknowns.extend((0..d).flat_map(|i| (0..=i).map(move |j| (s, i, j))));
     }
-    let mut rows: Vec<Vec<Rational>> = Vec::new();
+    let square = E::of(square);
+    let mut rows: Vec<Vec<E>> = Vec::new();
     for a in arrows.iter().map(|k| &system.arrows[*k]) {
         for p in 0..a.matrix.cols() {
             for q in 0..=p {
                 let coefficient = |&(s, i, j): &(usize, usize, usize)| {
-                    let mut c = Rational::from(0);
+                    let mut c = E::zero();
                     if s == a.from {
-                        c += &a.matrix[(i, p)] * &a.matrix[(j, q)];
+                        c = a.matrix[(i, p)].times(&a.matrix[(j, q)]);
                         if i != j {
-                            c += &a.matrix[(j, p)] * &a.matrix[(i, q)];
+                            c = c.plus(&a.matrix[(j, p)].times(&a.matrix[(i, q)]));
                         }
                     }
                     if s == a.to && (i, j) == (p, q) {
-                        c -= square;
+                        c = c.minus(&square);
                     }
                     c
                 };
@@ -106,13 +108,13 @@ fn preserved(system: &System, square: &Rational, arrows: &[usize]) -> Option<Vec
     if kernel.cols() != 1 {
         return None;
     }
-    let mut forms: Vec<Matrix> = system.dims.iter().map(|d| Matrix::zero(*d, *d)).collect();
+    let mut forms: Vec<Matrix<E>> = system.dims.iter().map(|d| Matrix::zero(*d, *d)).collect();
     for (k, &(s, i, j)) in unknowns.iter().enumerate() {
         forms[s][(i, j)] = kernel[(k, 0)].clone();
         forms[s][(j, i)] = kernel[(k, 0)].clone();
     }
-    if forms.first().is_some_and(|f| f.rows() > 0 && f[(0, 0)] < 0) {
-        forms = forms.into_iter().map(|f| f.scale(&Rational::from(-1))).collect();
+    if forms.first().is_some_and(|f| f.rows() > 0 && f[(0, 0)].sign() < 0) {
+        forms = forms.into_iter().map(|f| f.scale(&E::integer(-1))).collect();
     }
     Some(forms)
 }

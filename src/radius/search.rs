@@ -4,6 +4,7 @@
 use super::System;
 use super::budget::Budget;
 use super::float::Floats;
+use crate::linalg::Entry;
 
 /// A cyclic path and the float value of `ρ(T_w)^(1/|w|)`.
 #[derive(Debug, Clone)]
@@ -22,7 +23,12 @@ const BEAM: usize = 96;
 
 /// Cyclic words up to `longest` letters with the largest values, best first: every word whose value is within `tolerance`
 /// (relative) of the best one found, each once up to rotation.
-pub(super) fn candidates(system: &System, longest: usize, tolerance: f64, budget: &Budget) -> Vec<Candidate> {
+pub(super) fn candidates<E: Entry>(
+    system: &System<E>,
+    longest: usize,
+    tolerance: f64,
+    budget: &Budget,
+) -> Vec<Candidate> {
     let floats = Floats::all(system);
     let mut best: Vec<Candidate> = Vec::new();
     let mut top = 0.0_f64;
@@ -66,7 +72,13 @@ const POWERS: usize = 3;
 
 /// Words `u^k v`, `u` one of the best and `v` short, which grow faster than those found so far: of sets where the leading word
 /// is long, and of letters with a long Jordan block.
-pub(super) fn insertions(system: &System, best: &mut Vec<Candidate>, longest: usize, tolerance: f64, budget: &Budget) {
+pub(super) fn insertions<E: Entry>(
+    system: &System<E>,
+    best: &mut Vec<Candidate>,
+    longest: usize,
+    tolerance: f64,
+    budget: &Budget,
+) {
     let floats = Floats::all(system);
     let mut bases = best.clone();
     bases.sort_by(|a, b| b.value.total_cmp(&a.value).then_with(|| a.path.len().cmp(&b.path.len())));
@@ -168,7 +180,7 @@ fn rise(
     true
 }
 
-fn extend(system: &System, floats: &[Floats], partial: &Partial) -> Vec<Partial> {
+fn extend<E: Entry>(system: &System<E>, floats: &[Floats], partial: &Partial) -> Vec<Partial> {
     let end = system.arrows[partial.path[partial.path.len() - 1]].to;
     (0..system.arrows.len())
         .filter(|&a| system.arrows[a].from == end)

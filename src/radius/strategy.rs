@@ -8,6 +8,7 @@ use super::invariant::{AtRadius, Between, Inflated};
 use super::leading::Lower;
 use super::norms::LetterNorms;
 use super::quadratic::QuadraticNorm;
+use super::radial::Radial;
 use super::search::Candidate;
 use super::sums::Sums;
 use super::tree::Words;
@@ -24,8 +25,8 @@ pub(super) struct Best {
 }
 
 /// A block that is to be bounded.
-pub(super) struct Target<'a> {
-    pub block: Block,
+pub(super) struct Target<'a, E = Rational> {
+    pub block: Block<E>,
     pub best: &'a Best,
     /// Words of the block whose value is exactly that of the best word of all; their eigenvalues are exact.
     pub own: Vec<Lower>,
@@ -34,7 +35,7 @@ pub(super) struct Target<'a> {
     pub options: &'a Options,
 }
 
-impl Target<'_> {
+impl<E: Radial> Target<'_, E> {
     /// The growth of the block's best word, in floats.
     pub fn value(&self) -> f64 {
         self.near.iter().map(|c| c.value).fold(0.0, f64::max)
@@ -56,18 +57,18 @@ impl Target<'_> {
 }
 
 /// A bound of a block.
-pub(super) struct Found {
+pub(super) struct Found<E = Rational> {
     pub bound: Rational,
-    pub proof: Proof,
+    pub proof: Proof<E>,
     /// Whether it shows that the radius of the block is at most the value of the best word.
     pub attains: bool,
     pub roots: Vec<LeadingVector>,
 }
 
 /// What came of an attempt.
-pub(super) enum Outcome {
+pub(super) enum Outcome<E = Rational> {
     /// A bound, not always a better one than there was.
-    Found(Box<Found>),
+    Found(Box<Found<E>>),
     /// A cyclic path of the block that grows faster than the best word.
     Better(Vec<usize>),
     /// Nothing: it does not apply, or its limits were reached.
@@ -75,9 +76,9 @@ pub(super) enum Outcome {
 }
 
 /// A way of bounding a block from above.
-pub(super) trait Strategy {
+pub(super) trait Strategy<E> {
     /// Tries it. `known` is the bound so far, in floats (infinite without one).
-    fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome;
+    fn attempt(&self, target: &Target<E>, known: f64, budget: &Budget) -> Outcome<E>;
 
     /// The share of the whole work that it may spend, in thousandths.
     fn share(&self) -> u64 {
@@ -91,8 +92,8 @@ pub(super) const QUICK: u64 = 60;
 /// A strategy applied to the transposed matrices.
 struct Transposed<S>(S);
 
-impl<S: Strategy> Strategy for Transposed<S> {
-    fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial, S: Strategy<E>> Strategy<E> for Transposed<S> {
+    fn attempt(&self, target: &Target<E>, known: f64, budget: &Budget) -> Outcome<E> {
         match self.0.attempt(&target.transposed(), known, budget) {
             Outcome::Found(found) => {
                 let proof = Proof::Transposed(Box::new(found.proof));
@@ -109,8 +110,8 @@ impl<S: Strategy> Strategy for Transposed<S> {
 }
 
 /// For a first glance, with short words only: norms that cost next to nothing, and small bodies.
-pub(super) fn glance(top: bool) -> Vec<Box<dyn Strategy>> {
-    let mut list: Vec<Box<dyn Strategy>> = vec![Box::new(LetterNorms), Box::new(Transposed(LetterNorms))];
+pub(super) fn glance<E: Radial>(top: bool) -> Vec<Box<dyn Strategy<E>>> {
+    let mut list: Vec<Box<dyn Strategy<E>>> = vec![Box::new(LetterNorms), Box::new(Transposed(LetterNorms))];
     if top {
         list.push(Box::new(QuadraticNorm));
         list.push(Box::new(AtRadius { vertices: 60, share: 20 }));
@@ -123,7 +124,7 @@ pub(super) fn glance(top: bool) -> Vec<Box<dyn Strategy>> {
 
 /// For blocks that may attain the radius: cheap norms first, so that there is an answer at once; then bodies that are invariant at
 /// the radius itself, small ones before large ones; then slightly larger radii; at last the norms of many words.
-pub(super) fn leading() -> Vec<Box<dyn Strategy>> {
+pub(super) fn leading<E: Radial>() -> Vec<Box<dyn Strategy<E>>> {
     vec![
         Box::new(LetterNorms),
         Box::new(Transposed(LetterNorms)),
@@ -148,7 +149,7 @@ pub(super) fn leading() -> Vec<Box<dyn Strategy>> {
 }
 
 /// For blocks with a radius below that of another block, as it seems: any bound up to the best word suffices.
-pub(super) fn smaller() -> Vec<Box<dyn Strategy>> {
+pub(super) fn smaller<E: Radial>() -> Vec<Box<dyn Strategy<E>>> {
     vec![
         Box::new(LetterNorms),
         Box::new(Transposed(LetterNorms)),

@@ -7,8 +7,10 @@
 use super::answer::Proof;
 use super::budget::Budget;
 use super::quadratic::Quadratic;
+use super::radial::Radial;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use super::system::System;
+use crate::algebraic::nearest;
 use crate::arith::{Rational, to_f64};
 use crate::linalg::Matrix;
 use nalgebra::DMatrix;
@@ -28,8 +30,8 @@ const ROOM: [f64; 3] = [1e-3, 1e-2, 5e-2];
 
 pub(super) struct Sums;
 
-impl Strategy for Sums {
-    fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for Sums {
+    fn attempt(&self, target: &Target<E>, known: f64, budget: &Budget) -> Outcome<E> {
         let system = &target.block.system;
         let [dim] = system.dims[..] else { return Outcome::Nothing };
         let work = (dim.pow(3) * (2 * (POWERS + TERMS) + 400) * system.arrows.len()) as u64;
@@ -37,12 +39,12 @@ impl Strategy for Sums {
             return Outcome::Nothing;
         }
         let letters: Vec<DMatrix<f64>> =
-            system.arrows.iter().map(|a| DMatrix::from_fn(dim, dim, |i, j| to_f64(&a.matrix[(i, j)]))).collect();
+            system.arrows.iter().map(|a| DMatrix::from_fn(dim, dim, |i, j| nearest(&a.matrix[(i, j)]))).collect();
         let form = rounded(&summed(&letters, dim));
         let Some(found) = expansion(&letters, &form).filter(|r| r.is_finite() && *r < known) else {
             return Outcome::Nothing;
         };
-        let forms = vec![Matrix::from_fn(dim, dim, |i, j| Rational::from(form[(i, j)] as i64))];
+        let forms = vec![Matrix::from_fn(dim, dim, |i, j| E::integer(form[(i, j)] as i64))];
         match ROOM.iter().find_map(|room| proof(system, &forms, found * (1.0 + room))) {
             Some((bound, proof)) if to_f64(&bound) < known => {
                 Outcome::Found(Box::new(Found { bound, proof, attains: false, roots: Vec::new() }))
@@ -57,7 +59,7 @@ impl Strategy for Sums {
 }
 
 /// A bound of few digits with its proof, where the forms prove it.
-fn proof(system: &System, forms: &[Matrix], radius: f64) -> Option<(Rational, Proof)> {
+fn proof<E: Radial>(system: &System<E>, forms: &[Matrix<E>], radius: f64) -> Option<(Rational, Proof<E>)> {
     let digits = (radius * 4096.0).ceil();
     if !(1.0..1e15).contains(&digits) {
         return None;

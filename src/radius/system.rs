@@ -1,15 +1,16 @@
-use crate::linalg::Matrix;
+use crate::arith::Rational;
+use crate::linalg::{Entry, Matrix};
 use thiserror::Error;
 
 /// One matrix of a system: it maps the space of `to` into the space of `from`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Arrow {
+pub struct Arrow<E = Rational> {
     /// The state in whose space the values lie.
     pub from: usize,
     /// The state whose space is mapped.
     pub to: usize,
     /// The matrix, `dim(from) x dim(to)`.
-    pub matrix: Matrix,
+    pub matrix: Matrix<E>,
     /// The number by which words name this arrow.
     pub label: usize,
 }
@@ -18,11 +19,11 @@ pub struct Arrow {
 ///
 /// A plain set of matrices is one state with a loop for every matrix.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct System {
+pub struct System<E = Rational> {
     /// Dimension of the space of every state.
     pub dims: Vec<usize>,
     /// The arrows.
-    pub arrows: Vec<Arrow>,
+    pub arrows: Vec<Arrow<E>>,
 }
 
 /// Why matrices are not a system.
@@ -54,12 +55,12 @@ pub enum SystemError {
     },
 }
 
-impl System {
+impl<E: Entry> System<E> {
     /// The system of a finite set of square matrices.
     ///
     /// # Errors
     /// [`SystemError`] for an empty set, or matrices that are not square of one size.
-    pub fn plain(matrices: &[Matrix]) -> Result<Self, SystemError> {
+    pub fn plain(matrices: &[Matrix<E>]) -> Result<Self, SystemError> {
         let dim = matrices.first().ok_or(SystemError::Empty)?.rows();
         let arrows = matrices.iter().enumerate();
         let arrows = arrows.map(|(label, m)| Arrow { from: 0, to: 0, matrix: m.clone(), label }).collect();
@@ -92,7 +93,7 @@ impl System {
     /// # Panics
     /// If the arrows do not form a path, or the path is empty.
     #[must_use]
-    pub fn product(&self, path: &[usize]) -> Matrix {
+    pub fn product(&self, path: &[usize]) -> Matrix<E> {
         let mut product = self.arrows[path[0]].matrix.clone();
         for &a in &path[1..] {
             product = &product * &self.arrows[a].matrix;
@@ -104,14 +105,14 @@ impl System {
     /// the joint spectral radius is the same.
     #[must_use]
     pub fn transposed(&self) -> Self {
-        let turned = |a: &Arrow| Arrow { from: a.to, to: a.from, matrix: a.matrix.transpose(), label: a.label };
+        let turned = |a: &Arrow<E>| Arrow { from: a.to, to: a.from, matrix: a.matrix.transpose(), label: a.label };
         Self { dims: self.dims.clone(), arrows: self.arrows.iter().map(turned).collect() }
     }
 
     /// Whether every entry of every matrix is nonnegative.
     #[must_use]
     pub fn is_nonnegative(&self) -> bool {
-        self.arrows.iter().all(|a| (0..a.matrix.rows()).all(|i| a.matrix.row(i).iter().all(|x| *x >= 0)))
+        self.arrows.iter().all(|a| (0..a.matrix.rows()).all(|i| a.matrix.row(i).iter().all(|x| x.sign() >= 0)))
     }
 
     /// The dimension of the largest space, at least 1: for budgets.

@@ -6,12 +6,11 @@ use super::answer::Proof;
 use super::budget::Budget;
 use super::float::Floats;
 use super::leading::root_of;
+use super::radial::{Radial, upper};
 use super::strategy::{Found, Outcome, Strategy, Target};
-use crate::arith::{Integer, Interval, Rational, abs};
-use crate::linalg::Matrix;
-use malachite_base::num::arithmetic::traits::{CheckedRoot, Lcm};
-use malachite_base::num::basic::traits::One;
-use malachite_nz::natural::Natural;
+use crate::arith::{Interval, Rational};
+use crate::linalg::{Matrix, Products as _};
+use malachite_base::num::arithmetic::traits::CheckedRoot;
 use std::collections::BinaryHeap;
 
 /// For every state a complete prefix code of paths, and weights of a norm in which each word `w` has a norm of at most
@@ -27,13 +26,13 @@ pub struct Tree {
 impl Tree {
     /// The bound that the words prove, rounded upwards; `None` where a code is not complete or a weight not positive.
     #[must_use]
-    pub fn bound(&self, system: &System) -> Option<Rational> {
+    pub fn bound<E: Radial>(&self, system: &System<E>) -> Option<Rational> {
         self.bound_near(system, &Rational::from(0))
     }
 
     /// The bound that the words prove for all matrices whose entries differ from the system's by at most `error`.
     #[must_use]
-    pub fn bound_near(&self, system: &System, error: &Rational) -> Option<Rational> {
+    pub fn bound_near<E: Radial>(&self, system: &System<E>, error: &Rational) -> Option<Rational> {
         let fits = self.weights.len() == system.dims.len()
             && self.weights.iter().zip(&system.dims).all(|(w, d)| w.len() == *d && w.iter().all(|x| *x > 0));
         if !fits || self.codes.len() != system.dims.len() {
@@ -45,7 +44,7 @@ impl Tree {
         let spread = all().max()? / all().min()?;
         let size = Rational::from(*system.dims.iter().max()? as u64);
         let change = short(size * error * spread);
-        let norm_of = |a: &super::Arrow| weighted_norm(&a.matrix, &self.weights[a.from], &self.weights[a.to]);
+        let norm_of = |a: &super::Arrow<E>| weighted_norm(&a.matrix, &self.weights[a.from], &self.weights[a.to]);
         let largest = short(system.arrows.iter().map(norm_of).max()?);
         let drift = |length: usize| {
             let power = |x: &Rational| (0..length).fold(Rational::from(1), |p, _| p * x);
@@ -76,10 +75,10 @@ impl Tree {
 }
 
 /// Whether every long path from the state begins with exactly one word of the code.
-fn complete(system: &System, state: usize, code: &[Vec<usize>]) -> bool {
+fn complete<E>(system: &System<E>, state: usize, code: &[Vec<usize>]) -> bool {
     let mut sorted: Vec<&[usize]> = code.iter().map(Vec::as_slice).collect();
     sorted.sort_unstable();
-    fn walk(system: &System, at: usize, word: &mut Vec<usize>, sorted: &[&[usize]], used: &mut usize) -> bool {
+    fn walk<E>(system: &System<E>, at: usize, word: &mut Vec<usize>, sorted: &[&[usize]], used: &mut usize) -> bool {
         if !word.is_empty() && sorted.binary_search(&word.as_slice()).is_ok() {
             *used += 1;
             return true;
@@ -100,32 +99,25 @@ fn complete(system: &System, state: usize, code: &[Vec<usize>]) -> bool {
 }
 
 /// The norm of a matrix for the norms `Σ w_i |x_i|` of its two spaces.
-fn weighted_norm(m: &Matrix, from: &[Rational], to: &[Rational]) -> Rational {
-    let column = |j: usize| (0..m.rows()).fold(Rational::from(0), |s, i| s + abs(&m[(i, j)]) * &from[i]) / &to[j];
+fn weighted_norm<E: Radial>(m: &Matrix<E>, from: &[Rational], to: &[Rational]) -> Rational {
+    let column = |j: usize| {
+        let terms = (0..m.rows()).map(|i| m[(i, j)].absolute().times(&E::of(&from[i])));
+        upper(&terms.fold(E::zero(), |s, x| s.plus(&x))) / &to[j]
+    };
     (0..m.cols()).map(column).fold(Rational::from(0), Rational::max)
 }
 
-/// The products of the beginnings of the last word, as whole numbers, and the denominators.
-struct Products {
-    letters: Vec<(Vec<Vec<Integer>>, Integer)>,
+/// The products of the beginnings of the last word.
+struct Products<E: Radial> {
+    letters: Vec<E::Product>,
     word: Vec<usize>,
-    stack: Vec<(Vec<Vec<Integer>>, Integer)>,
+    stack: Vec<E::Product>,
 }
 
-impl Products {
-    fn new(system: &System) -> Self {
-        let letter = |a: &super::Arrow| {
-            let entries = (0..a.matrix.rows()).flat_map(|i| a.matrix.row(i));
-            let denominator = entries.fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref()));
-            let whole = |x: &Rational| {
-                let factor = Integer::from(&denominator) / Integer::from(x.denominator_ref());
-                let numerator = Integer::from(x.numerator_ref()) * factor;
-                if *x < 0 { -numerator } else { numerator }
-            };
-            let rows = (0..a.matrix.rows()).map(|i| a.matrix.row(i).iter().map(whole).collect()).collect();
-            (rows, Integer::from(denominator))
-        };
-        Self { letters: system.arrows.iter().map(letter).collect(), word: Vec::new(), stack: Vec::new() }
+impl<E: Radial> Products<E> {
+    fn new(system: &System<E>) -> Self {
+        let letters = system.arrows.iter().map(|a| E::Product::of(&a.matrix)).collect();
+        Self { letters, word: Vec::new(), stack: Vec::new() }
     }
 
     /// The weighted norm of the product of a word that is not empty.
@@ -133,31 +125,14 @@ impl Products {
         let common = self.word.iter().zip(word).take_while(|(a, b)| a == b).count();
         self.stack.truncate(common);
         for &a in &word[common..] {
-            let (letter, denominator) = &self.letters[a];
-            let next = match self.stack.last() {
-                None => (letter.clone(), denominator.clone()),
-                Some((product, old)) => (times(product, letter), old * denominator),
-            };
+            let letter = &self.letters[a];
+            let next = self.stack.last().map_or_else(|| letter.clone(), |product| product.times(letter));
             self.stack.push(next);
         }
         self.word = word.to_vec();
-        let Some((product, denominator)) = self.stack.last() else { return Rational::from(1) };
-        let size = |x: &Integer| Rational::from(if *x < 0 { -x } else { x.clone() });
-        let column =
-            |j: usize| product.iter().zip(from).fold(Rational::from(0), |s, (row, w)| s + size(&row[j]) * w) / &to[j];
-        (0..to.len()).map(column).fold(Rational::from(0), Rational::max) / Rational::from(denominator)
+        let Some(product) = self.stack.last() else { return Rational::from(1) };
+        weighted_norm(&product.reduced(), from, to)
     }
-}
-
-fn times(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Vec<Integer>> {
-    let row = |r: &Vec<Integer>| {
-        let mut out = vec![Integer::from(0); b.first().map_or(0, Vec::len)];
-        for (x, line) in r.iter().zip(b).filter(|(x, _)| **x != 0) {
-            out.iter_mut().zip(line).filter(|(_, y)| **y != 0).for_each(|(o, y)| *o += x * y);
-        }
-        out
-    };
-    a.iter().map(row).collect()
 }
 
 /// Bounds by the norms of many words.
@@ -167,8 +142,8 @@ pub(super) struct Words {
     pub share: u64,
 }
 
-impl Strategy for Words {
-    fn attempt(&self, target: &Target, known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for Words {
+    fn attempt(&self, target: &Target<E>, known: f64, budget: &Budget) -> Outcome<E> {
         let system = &target.block.system;
         let goal = target.best.float * (1.0 + target.options.width.max(1e-5));
         if known <= goal && target.best.float > 0.0 {
@@ -190,7 +165,7 @@ impl Strategy for Words {
 
 /// Lengthens the words with the largest norms until `goal` is reached, there are `most` words or the budget ends; with the bound
 /// in floats.
-fn find(system: &System, goal: f64, most: usize, budget: &Budget) -> (Tree, f64) {
+fn find<E: Radial>(system: &System<E>, goal: f64, most: usize, budget: &Budget) -> (Tree, f64) {
     let weights = weights(system);
     let mut scaled = Floats::all(system);
     for (m, a) in scaled.iter_mut().zip(&system.arrows) {
@@ -212,7 +187,7 @@ fn find(system: &System, goal: f64, most: usize, budget: &Budget) -> (Tree, f64)
         let end = system.arrows[worst.path[worst.path.len() - 1]].to;
         let next: Vec<usize> = (0..system.arrows.len()).filter(|&a| system.arrows[a].from == end).collect();
         // Products of floats, and later of whole numbers.
-        let work: u64 = next.iter().map(|a| 2000 + 40 * scaled[*a].cube()).sum();
+        let work: u64 = next.iter().map(|a| 2000 + (28 + E::PRODUCT) * scaled[*a].cube()).sum();
         if worst.value <= goal || worst.path.len() >= 60 || next.is_empty() || !budget.spend(work) {
             leaves.push(worst);
             break;
@@ -238,7 +213,7 @@ pub(super) fn exact_weight(w: &f64) -> Rational {
 }
 
 /// Weights for which the sums of columns of absolute values are about equal: a few steps of the power method.
-pub(super) fn weights(system: &System) -> Vec<Vec<f64>> {
+pub(super) fn weights<E: Radial>(system: &System<E>) -> Vec<Vec<f64>> {
     let mut weights: Vec<Vec<f64>> = system.dims.iter().map(|d| vec![1.0; *d]).collect();
     let floats = Floats::all(system);
     for _ in 0..60 {

@@ -7,6 +7,7 @@ use super::budget::Budget;
 use super::exact::LeadingVector;
 use super::invariant::{real_power, scale_near, scaled};
 use super::leading::Eigenvector;
+use super::radial::Radial;
 use super::strategy::{Found, Outcome, Strategy, Target};
 use crate::arith::{Interval, to_f64};
 
@@ -16,8 +17,8 @@ pub(super) struct Turning {
     pub share: u64,
 }
 
-impl Strategy for Turning {
-    fn attempt(&self, target: &Target, _known: f64, budget: &Budget) -> Outcome {
+impl<E: Radial> Strategy<E> for Turning {
+    fn attempt(&self, target: &Target<E>, _known: f64, budget: &Budget) -> Outcome<E> {
         let Some(best) = &target.best.lower else { return Outcome::Nothing };
         let system = &target.block.system;
         if target.own.iter().all(|l| real_power(system, l).is_some()) {
@@ -42,12 +43,12 @@ impl Strategy for Turning {
 }
 
 /// Eigenvectors of the leading words, scaled to about 1; `None` where one is not found.
-fn roots(target: &Target) -> Option<Vec<LeadingVector>> {
+fn roots<E: Radial>(target: &Target<E>) -> Option<Vec<LeadingVector>> {
     let vector = |lower: &super::Lower| {
         let root = lower.root()?.clone();
-        let mut vector = Eigenvector::of(&target.block.system.product(&lower.path), &root)?;
+        let mut vector: Eigenvector = E::eigenvector(&target.block.system.product(&lower.path), &root)?;
         let size = |z: &(Interval, Interval)| to_f64(&z.0.mid()).hypot(to_f64(&z.1.mid()));
-        let largest = complex_enclosure(&vector, &root, 64).iter().map(size).fold(0.0, f64::max);
+        let largest = complex_enclosure(&vector, 64).iter().map(size).fold(0.0, f64::max);
         if largest == 0.0 || !largest.is_finite() {
             return None;
         }

@@ -3,6 +3,7 @@
 use super::System;
 use super::polytope::{Inclusion, Polytope};
 use crate::arith::{Integer, Rational};
+use crate::linalg::Entry;
 use malachite_base::num::arithmetic::traits::Lcm;
 use malachite_base::num::basic::traits::One;
 use malachite_base::num::logic::traits::SignificantBits;
@@ -20,26 +21,29 @@ const PLACES: u64 = 62;
 
 impl Whole {
     /// `None` where numbers are too long.
-    pub fn of(polytope: &Polytope, system: &System) -> Option<Self> {
+    pub fn of<E: Entry>(polytope: &Polytope<E>, system: &System<E>) -> Option<Self> {
+        let place = |x: &E| places(&x.rational()?);
         let point_bits =
-            polytope.points.iter().flat_map(|p| &p.coordinates).map(places).try_fold(0, |m, b| Some(b?.max(m)))?;
-        let whole = |x: &Rational| shifted(x, point_bits);
+            polytope.points.iter().flat_map(|p| &p.coordinates).map(place).try_fold(0, |m, b| Some(b?.max(m)))?;
+        let whole = |x: &E| shifted(&x.rational()?, point_bits);
         let points =
             polytope.points.iter().map(|p| p.coordinates.iter().map(whole).collect()).collect::<Option<_>>()?;
-        let arrow = |a: &super::Arrow| {
-            let entries = || (0..a.matrix.rows()).flat_map(|i| a.matrix.row(i));
-            let denominator = entries().fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref()));
+        let arrow = |a: &super::Arrow<E>| {
+            let row = |i: usize| a.matrix.row(i).iter().map(E::rational).collect::<Option<Vec<_>>>();
+            let entries = (0..a.matrix.rows()).map(row).collect::<Option<Vec<_>>>()?;
+            let denominator = entries.iter().flatten().fold(Natural::ONE, |d, x| d.lcm(x.denominator_ref()));
             let factor = Rational::from(denominator.clone());
-            let row = |i: usize| a.matrix.row(i).iter().map(|x| narrow(&(x * &factor))).collect::<Option<Vec<_>>>();
-            let rows = (0..a.matrix.rows()).map(row).collect::<Option<Vec<_>>>()?;
+            let whole = |row: &Vec<Rational>| row.iter().map(|x| narrow(&(x * &factor))).collect::<Option<Vec<_>>>();
+            let rows = entries.iter().map(whole).collect::<Option<Vec<_>>>()?;
             Some((rows, i128::try_from(&Integer::from(denominator)).ok()?))
         };
         Some(Self { points, point_bits, arrows: system.arrows.iter().map(arrow).collect::<Option<_>>()? })
     }
 
     /// `T p − Σ c q` as whole numbers, and what they are to be multiplied with; `None` where they are too long.
-    pub fn rest(&self, inclusion: &Inclusion) -> Option<(Vec<i128>, Rational)> {
-        let bits = inclusion.terms.iter().map(|t| places(&t.1)).try_fold(0, |m, b| Some(b?.max(m)))?;
+    pub fn rest<E: Entry>(&self, inclusion: &Inclusion<E>) -> Option<(Vec<i128>, Rational)> {
+        let place = |t: &(usize, E)| places(&t.1.rational()?);
+        let bits = inclusion.terms.iter().map(place).try_fold(0, |m, b| Some(b?.max(m)))?;
         let (rows, denominator) = self.arrows.get(inclusion.arrow)?;
         let point = self.points.get(inclusion.point)?;
         let scale = 1i128.checked_shl(u32::try_from(bits).ok()?)?;
@@ -52,7 +56,7 @@ impl Whole {
             rest.push(sum.checked_mul(scale)?);
         }
         for (k, c) in &inclusion.terms {
-            let factor = shifted(c, bits)?.checked_mul(*denominator)?;
+            let factor = shifted(&c.rational()?, bits)?.checked_mul(*denominator)?;
             for (r, q) in rest.iter_mut().zip(self.points.get(*k)?) {
                 *r = r.checked_sub(factor.checked_mul(*q)?)?;
             }

@@ -222,12 +222,10 @@ fn sentence<E: Reported>(case: &Case<E>, found: &Certified<E>, verdict: Verdict,
         Reason::Similarities => {
             "all maps are similarities of a plane: the tangent subspace is the plane at every point".to_owned()
         }
-        Reason::Irrational => {
-            "orders of smoothness are decided of rational entries only, and here are others".to_owned()
-        }
         Reason::Broken(index) => found.points.get(*index).map_or_else(unknown, reasons::broken),
         Reason::NoCone => {
-            "no common cone was found, and with entries in a number field nothing else is looked for".to_owned()
+            "no common cone was found, nor a derivative that shows it; with entries in a number field nothing else is looked for"
+                .to_owned()
         }
         Reason::EveryPoint | Reason::InsidePoint => E::every_sentence(found).unwrap_or_else(unknown),
         Reason::Order(order) => match &found.parameter {

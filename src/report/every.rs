@@ -13,6 +13,9 @@ use crate::theorem::{
 };
 use serde_json::{Value, json};
 
+/// What Theorem 12 says.
+pub(super) const GRAPH: &str =
+    "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)";
 /// Places of an exponent.
 const PLACES: u64 = 6;
 
@@ -42,7 +45,7 @@ pub fn facts(case: &Case, found: &Certified, every: &Everywhere) -> Vec<(String,
     let mut facts = vec![("smoothness".to_owned(), verdict)];
     if let Some(order) = &every.derivative {
         let text = match order.shares {
-            None => "the curve is a graph over its uniform parameter, with a continuous derivative (Theorem 12)",
+            None => GRAPH,
             Some(_) => {
                 "the curve is a graph over a parameter of which each piece takes its share, with a continuous derivative (Theorem 12)"
             }

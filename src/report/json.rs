@@ -14,8 +14,8 @@ use crate::prove::deciding_claims;
 use crate::shape::{Contraction, word_text};
 use crate::theorem::surface::{Spot, Subspace, SurfaceBranch, SurfacePoint, SurfaceWitness};
 use crate::theorem::{
-    BranchReport, Certified, Claim, Direction, Limit, Outcome, PointReport, Position, Rate, Required, Role, Side,
-    Verdict, Witness,
+    BranchReport, Certified, Claim, Direction, Limit, Outcome, Parameter, PointReport, Position, Rate, Required, Role,
+    Side, Verdict, Witness,
 };
 use serde_json::{Value, json};
 
@@ -41,7 +41,10 @@ pub fn report<E: Reported>(case: &Case<E>, found: &Certified<E>, required: &Requ
             Some(surface) => super::every_plane::value(surface),
             None => E::every_value(found),
         },
-        "parameter": E::parameter_value(case, found),
+        "parameter": match &found.parameter {
+            Some(Parameter::Orders(orders)) => super::regularity::curve_data(&case.shape, orders),
+            _ => Value::Null,
+        },
         "points": match &found.surface {
             Some(surface) => surface.points.iter().map(surface_point).collect::<Vec<_>>(),
             None => {

@@ -2,6 +2,7 @@
 
 use super::words::count;
 use crate::arith::{Integer, Interval, Rational, abs};
+use crate::linalg::Entry;
 use crate::radius::{BlockProof, Ended, Growth, JointRadius, Leading, Lower, Proof};
 use crate::shape::word_text;
 use malachite_base::num::arithmetic::traits::{Ceiling, Floor, Pow};
@@ -37,7 +38,7 @@ pub fn interval(x: &Interval) -> String {
 
 /// The answer of `secant jsr`.
 #[must_use]
-pub fn joint_radius(radius: &JointRadius) -> String {
+pub fn joint_radius<E: Entry>(radius: &JointRadius<E>) -> String {
     let mut out = String::new();
     let Some(lower) = &radius.lower else {
         let _ = match (radius.exact, &radius.upper) {
@@ -100,7 +101,7 @@ fn eigenvalue(lower: &Lower) -> String {
     }
 }
 
-fn blocks(out: &mut String, radius: &JointRadius) {
+fn blocks<E: Entry>(out: &mut String, radius: &JointRadius<E>) {
     for (k, block) in radius.blocks.iter().enumerate() {
         let proof = block.proof.as_ref().map_or_else(|| "no proof".to_owned(), proof_words);
         let bound = block.bound.as_ref().map_or_else(|| "-".to_owned(), |b| decimal(b, true, PLACES));
@@ -111,7 +112,7 @@ fn blocks(out: &mut String, radius: &JointRadius) {
 
 /// What a proof is.
 #[must_use]
-pub fn proof_words(proof: &Proof) -> String {
+pub fn proof_words<E>(proof: &Proof<E>) -> String {
     match proof {
         Proof::Polytope(p) => format!("polytope of {} points", p.points.len()),
         Proof::Quadratic(_) => "quadratic norm".to_owned(),
@@ -123,7 +124,7 @@ pub fn proof_words(proof: &Proof) -> String {
 }
 
 /// Why the search ended without the exact radius, and what more effort would try.
-fn stopped(radius: &JointRadius) -> &'static str {
+fn stopped<E>(radius: &JointRadius<E>) -> &'static str {
     match radius.ended {
         Ended::Done => "",
         Ended::Exhausted => {
@@ -138,7 +139,7 @@ fn stopped(radius: &JointRadius) -> &'static str {
 
 /// The same as data.
 #[must_use]
-pub fn radius_json(name: &str, radius: &JointRadius) -> Value {
+pub fn radius_json<E: Entry>(name: &str, radius: &JointRadius<E>) -> Value {
     let bounds = radius.enclosure(64);
     let text = |x: &Rational, up: bool| decimal(x, up, 18);
     let word = radius.lower.as_ref().map(|l| {
@@ -150,7 +151,7 @@ pub fn radius_json(name: &str, radius: &JointRadius) -> Value {
         Growth::Unbounded(size) => ("marginal", Some(size)),
         Growth::Unknown => ("undecided", None),
     };
-    let own = |b: &BlockProof| {
+    let own = |b: &BlockProof<E>| {
         json!({
             "dimensions": b.block.system.dims,
             "proof": b.proof.as_ref().map(proof_words),

@@ -3,6 +3,7 @@
 use super::radius::{decimal, interval, joint_radius};
 use super::words::{count, listed};
 use crate::arith::{Integer, Interval, Rational};
+use crate::linalg::Entry;
 use crate::radius::JointRadius;
 use crate::scheme::Normalisation;
 use crate::shape::{Shape, word_text};
@@ -165,7 +166,7 @@ pub(super) fn bounds(x: &Interval) -> Value {
     json!([decimal(&x.lo, false, 15), decimal(&x.hi, true, 15)])
 }
 
-fn texts(numbers: &[Rational]) -> Value {
+fn texts<E: ToString>(numbers: &[E]) -> Value {
     numbers.iter().map(ToString::to_string).collect()
 }
 
@@ -227,8 +228,8 @@ pub fn enclosed_data(e: &Enclosed, meaning: Meaning<'_>) -> Value {
 
 /// The same as data.
 #[must_use]
-pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
-    let order = |o: &CurveOrder| {
+pub fn curve_data<E: Entry>(shape: &Shape<E>, r: &CurveRegularity<E>) -> Value {
+    let order = |o: &CurveOrder<E>| {
         let outcome = match &o.outcome {
             Outcome::Curve => "curve",
             Outcome::Holds => "holds",
@@ -261,11 +262,11 @@ pub fn curve_data(shape: &Shape, r: &CurveRegularity) -> Value {
 
 /// What the differences of the control polygons tend to, and how fast.
 #[must_use]
-pub fn polygons(shape: &Shape, o: &CurveOrder) -> Option<String> {
+pub fn polygons<E: Entry>(shape: &Shape<E>, o: &CurveOrder<E>) -> Option<String> {
     let factors = o.polygons.as_ref()?;
-    let named = |(e, m): (usize, &Rational)| format!("{m} times (in state {})", shape.states[e].name);
+    let named = |(e, m): (usize, &E)| format!("{m} times (in state {})", shape.states[e].name);
     let times = match factors.iter().all(|m| *m == factors[0]) {
-        true if factors[0] == 1 => String::new(),
+        true if factors[0] == E::integer(1) => String::new(),
         true => format!("{} times ", factors[0]),
         false => format!("{} ", listed(&shape.reachable().into_iter().zip(factors).map(named).collect::<Vec<_>>())),
     };
@@ -293,7 +294,7 @@ fn shares(all: &Shares) -> Value {
 
 /// The table of `secant regularity` for a curve that is given by its operators.
 #[must_use]
-pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
+pub fn curve_regularity<E: Entry>(shape: &Shape<E>, r: &CurveRegularity<E>) -> String {
     let mut out = String::new();
     let bound = match r.measure() {
         Measure::Uniform => {
@@ -347,7 +348,7 @@ pub fn curve_regularity(shape: &Shape, r: &CurveRegularity) -> String {
 }
 
 /// The letters of a cycle of arrows, which are numbered by state and letter, and the state where it begins.
-fn cycle(shape: &Shape, path: &[usize]) -> String {
+fn cycle<E: Entry>(shape: &Shape<E>, path: &[usize]) -> String {
     let states = shape.reachable().into_iter();
     let arrows: Vec<(usize, usize)> =
         states.flat_map(|e| (0..shape.states[e].pieces.len()).map(move |i| (e, i))).collect();
@@ -361,7 +362,7 @@ fn cycle(shape: &Shape, path: &[usize]) -> String {
 
 /// Why an order is refuted or open.
 #[must_use]
-pub fn outcome<E>(shape: &Shape<E>, o: &CurveOrder) -> Option<String> {
+pub fn outcome<E: Entry>(shape: &Shape<E>, o: &CurveOrder<E>) -> Option<String> {
     let k = o.order;
     let state = |e: usize| match shape.states.len() {
         1 => String::new(),
@@ -378,7 +379,7 @@ pub fn outcome<E>(shape: &Shape<E>, o: &CurveOrder) -> Option<String> {
                         true => String::new(),
                         false => format!(" in the cell {}", word_text(&seen.path)),
                     };
-                    let point = |v: &[Rational]| v.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+                    let point = |v: &[E]| v.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
                     format!("{at}{inside}: ({}) and ({})", point(&seen.left), point(&seen.right))
                 }
             }
@@ -392,7 +393,7 @@ pub fn outcome<E>(shape: &Shape<E>, o: &CurveOrder) -> Option<String> {
     })
 }
 
-fn smoothness(out: &mut String, r: &CurveRegularity) {
+fn smoothness<E>(out: &mut String, r: &CurveRegularity<E>) {
     let k = r.smoothness();
     if r.polynomial {
         out.push_str("smoothness  the curve is a polynomial in the parameter: C^k for all k\n");

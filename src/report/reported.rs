@@ -2,7 +2,7 @@
 
 use super::document::{Block, Line, line};
 use super::math::Math;
-use super::{every, proof, reasons, regularity};
+use super::{every, proof, reasons};
 use crate::algebraic::Real;
 use crate::arith::Rational;
 use crate::case::Case;
@@ -10,7 +10,7 @@ use crate::linalg::{Entry, Matrix};
 use crate::shape::Shape;
 use crate::theorem::cone::{Cone, ConeMap};
 use crate::theorem::local::{LocalContext, LocalSide};
-use crate::theorem::{Certified, Parameter, PointReport, Provable, Statement, field};
+use crate::theorem::{Certified, PointReport, Provable, Statement, field};
 use serde_json::{Value, json};
 use std::borrow::Cow;
 
@@ -39,10 +39,6 @@ pub trait Reported: Provable {
     }
     /// The same as data.
     fn every_value(_: &Certified<Self>) -> Value {
-        Value::Null
-    }
-    /// What is known of the uniform parameter, as data.
-    fn parameter_value(_: &Case<Self>, _: &Certified<Self>) -> Value {
         Value::Null
     }
     /// Critical orders and local derivatives, by point.
@@ -84,13 +80,6 @@ impl Reported for Rational {
 
     fn every_value(found: &Certified) -> Value {
         every::value(found)
-    }
-
-    fn parameter_value(case: &Case, found: &Certified) -> Value {
-        match &found.parameter {
-            Some(Parameter::Orders(orders)) => regularity::curve_data(&case.shape, orders),
-            _ => Value::Null,
-        }
     }
 
     fn local_sides(case: &Case, found: &Certified) -> Vec<Vec<LocalSide>> {
@@ -141,8 +130,11 @@ impl Reported for Real {
     }
 
     fn every_facts(case: &Case<Self>, found: &Certified<Self>) -> Option<Vec<(String, Line)>> {
-        let cones = found.cones.as_ref()?;
         let mut facts = Vec::new();
+        if found.graph.is_some() {
+            facts.push(("derivative".to_owned(), line(every::GRAPH, [])));
+        }
+        let Some(cones) = found.cones.as_ref() else { return (!facts.is_empty()).then_some(facts) };
         for cone in &cones.cones {
             let place = if case.shape.states.len() > 1 {
                 format!(" of state {}", case.shape.states[cone.state].name)
@@ -165,6 +157,9 @@ impl Reported for Real {
     }
 
     fn every_value(found: &Certified<Self>) -> Value {
+        if found.graph.is_some() {
+            return json!({"verdict": "proved", "theorem": Statement::Graph.id()});
+        }
         let Some(found) = &found.cones else { return Value::Null };
         let texts = |v: &[Self]| v.iter().map(ToString::to_string).collect::<Vec<_>>();
         let rows = |m: &Matrix<Self>| (0..m.rows()).map(|i| texts(m.row(i))).collect::<Vec<_>>();

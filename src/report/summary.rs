@@ -96,7 +96,7 @@ pub(super) fn mask_line<E>(case: &Case<E>) -> Option<Line> {
     let mask = case.mask()?;
     let arity = if mask.arity() == 2 { String::new() } else { format!(" of arity {}", mask.arity()) };
     let mut out = line(&format!("mask{arity} $@$"), [Math::vector(mask.coefficients())]);
-    if matches!(case.scheme, Some(Origin::Mask(_))) {
+    if matches!(case.scheme, Some(Origin::Mask(_) | Origin::Filter(..))) {
         let points = count(case.shape.states[case.shape.start].dim, "control point");
         out.extend(words(format!("; one span of its curves, on {points}")));
     }

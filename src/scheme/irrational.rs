@@ -137,6 +137,17 @@ pub struct FieldMask {
 /// # Errors
 /// [`SchemeError::Value`] for another number.
 pub fn daubechies(moments: usize) -> Result<FieldMask, SchemeError> {
+    let Some(texts) = daubechies_texts(moments) else {
+        return Err(SchemeError::value("moments", &moments, "the filters with 2 and 3 vanishing moments are built"));
+    };
+    match NumberField::read(&texts.iter().map(String::as_str).collect::<Vec<_>>()) {
+        Ok((field, coefficients)) => Ok(FieldMask { field, coefficients }),
+        Err((_, e)) => Err(SchemeError::Irrational(e.to_string())),
+    }
+}
+
+/// The coefficients as expressions; `None` for another number of moments.
+pub(super) fn daubechies_texts(moments: usize) -> Option<Vec<String>> {
     let texts: &[&str] = match moments {
         2 => &["(1+sqrt(3))/4", "(3+sqrt(3))/4", "(3-sqrt(3))/4", "(1-sqrt(3))/4"],
         3 => &[
@@ -147,18 +158,9 @@ pub fn daubechies(moments: usize) -> Result<FieldMask, SchemeError> {
             "(5+sqrt(10)-3*sqrt(5+2*sqrt(10)))/16",
             "(1+sqrt(10)-sqrt(5+2*sqrt(10)))/16",
         ],
-        _ => {
-            return Err(SchemeError::value(
-                "moments",
-                &moments,
-                "the filters with 2 and 3 vanishing moments are built",
-            ));
-        }
+        _ => return None,
     };
-    match NumberField::read(texts) {
-        Ok((field, coefficients)) => Ok(FieldMask { field, coefficients }),
-        Err((_, e)) => Err(SchemeError::Irrational(e.to_string())),
-    }
+    Some(texts.iter().map(ToString::to_string).collect())
 }
 
 impl FieldMask {

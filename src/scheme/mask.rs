@@ -37,6 +37,18 @@ pub struct Mask {
     coefficients: Vec<Rational>,
 }
 
+impl Normalisation {
+    /// The word for it in a case.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Arity => "arity",
+            Self::One => "one",
+            Self::Root => "root",
+        }
+    }
+}
+
 impl Mask {
     /// The mask with the given coefficients; zeros at both ends are dropped, which only moves the curve's parameter.
     ///

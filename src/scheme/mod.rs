@@ -35,6 +35,7 @@ pub use curves::{
 pub use error::SchemeError;
 pub use fractint::{FractintEntry, parse_fractint};
 pub use interpolation::{Interpolation, MAX_INTERPOLATION, Matching, product_surface};
+use irrational::daubechies_texts;
 pub use irrational::{FieldLocalMatrix, FieldMask, daubechies, field_local_matrix};
 pub use json::parse_json;
 pub use lattice::{
@@ -58,4 +59,4 @@ pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };
 pub use vertex::{LocalMatrix, MAX_POINTS, MAX_VALENCE, local_matrix, local_matrix_of};
-pub use wavelets::{wavelet_mask, wavelet_names};
+pub use wavelets::{moments, wavelet_mask, wavelet_names};

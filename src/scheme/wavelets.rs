@@ -1,5 +1,5 @@
-//! Named filters of wavelets whose coefficients are rational or in a small field, as masks with the sum 2: Haar's, the coiflet of
-//! 6 taps, and the filters of Cohen, Daubechies and Feauveau.
+//! Named filters of wavelets whose coefficients are rational or in a small field, as masks with the sum 2: Haar's, those of
+//! Daubechies with 4 and 6 taps, the coiflet of 6 taps, and the filters of Cohen, Daubechies and Feauveau.
 //!
 //! Source: A. Cohen, I. Daubechies, J.-C. Feauveau, *Biorthogonal bases of compactly supported wavelets*, Comm. Pure Appl. Math.
 //! 45 (1992). `biorP.Q` is the filter of the reconstruction, with `P` vanishing moments of the dual; `rbioP.Q` that of the
@@ -16,7 +16,7 @@ const SPLINES: [(usize, usize); 12] =
 #[must_use]
 pub fn wavelet_names() -> Vec<String> {
     let splines = SPLINES.iter().flat_map(|(p, q)| [format!("bior{p}.{q}"), format!("rbio{p}.{q}")]);
-    ["haar", "db1", "coif1", "bior4.4", "rbio4.4"].into_iter().map(str::to_owned).chain(splines).collect()
+    ["haar", "db1", "db2", "db3", "coif1", "bior4.4", "rbio4.4"].into_iter().map(str::to_owned).chain(splines).collect()
 }
 
 /// The coefficients of a named filter, as expressions; `None` for another name.
@@ -25,6 +25,8 @@ pub fn wavelet_mask(name: &str) -> Option<Vec<String>> {
     let texts = |symbol: &Laurent| symbol.coefficients().iter().map(ToString::to_string).collect();
     match name {
         "haar" | "db1" => Some(vec!["1".to_owned(); 2]),
+        "db2" => super::daubechies_texts(2),
+        "db3" => super::daubechies_texts(3),
         "coif1" => Some(
             ["(-3+sqrt(7))/16", "(1-sqrt(7))/16", "(7-sqrt(7))/8", "(7+sqrt(7))/8", "(5+sqrt(7))/16", "(1-sqrt(7))/16"]
                 .map(str::to_owned)
@@ -39,6 +41,12 @@ pub fn wavelet_mask(name: &str) -> Option<Vec<String>> {
             (name == format!("rbio{p}.{q}")).then(|| texts(&dual(p, q)))
         }),
     }
+}
+
+/// The number `n` of vanishing moments in the name `dbn` of a filter of Daubechies.
+#[must_use]
+pub fn moments(name: &str) -> Option<usize> {
+    name.strip_prefix("db")?.parse().ok()
 }
 
 /// `2 ((1+z)/2)^p`.

@@ -198,7 +198,7 @@ fn suggested(question: &Question) -> Option<Vec<Vec<Rational>>> {
         return None;
     }
     // A curve of a mask has several spans, so that joints of them are seen too.
-    let spans = matches!(case.scheme, Some(Origin::Mask(_))) && one <= SMALL;
+    let spans = matches!(case.scheme, Some(Origin::Mask(_) | Origin::Filter(..))) && one <= SMALL;
     let count = if spans { one + MORE } else { one };
     let height = |k: usize| match k {
         0 => 0,

@@ -302,10 +302,8 @@ pub enum Reason {
     Similarities,
     /// What breaks at a point.
     Broken(usize),
-    /// No common cone was found; with irrational entries nothing else is looked for.
+    /// No common cone was found, nor a derivative (Theorem 12); with irrational entries nothing else is looked for.
     NoCone,
-    /// There are irrational entries, with which this is not looked at.
-    Irrational,
     /// What was found about every point of the curve ([`super::Certified::everywhere`]).
     EveryPoint,
     /// The same, where it is refuted at a point that is neither an end nor a joint, so that no other claim speaks of it.

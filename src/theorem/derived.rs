@@ -4,17 +4,17 @@
 use super::frames::component;
 use super::smoothness::{CurveOrder, CurveRegularityError, Jump, Outcome, Seen, Shares};
 use crate::arith::{Interval, Rational, abs, binomial};
-use crate::linalg::{Matrix, closures};
-use crate::radius::{Arrow, JointRadius, Options, System, joint_radius};
+use crate::linalg::{Entry, Matrix, closures};
+use crate::radius::{Arrow, JointRadius, Options, Radial, System, joint_radius};
 use crate::shape::{CellKind, End, Frame, Piece, Shape, Spaces, difference};
 use std::collections::VecDeque;
 
 /// The difference of order `k` of the unit vectors from number `j` on.
-fn alternating(dim: usize, j: usize, k: usize) -> Vec<Rational> {
-    let mut out = vec![Rational::from(0); dim];
+fn alternating<E: Entry>(dim: usize, j: usize, k: usize) -> Vec<E> {
+    let mut out = vec![E::zero(); dim];
     for i in 0..=k {
         let size = binomial(k, i);
-        out[j + i] = if (k - i).is_multiple_of(2) { size } else { -size };
+        out[j + i] = E::of(&if (k - i).is_multiple_of(2) { size } else { -size });
     }
     out
 }
@@ -24,7 +24,10 @@ pub(super) fn power(base: &Rational, exponent: usize) -> Rational {
 }
 
 /// The joint spectral radius of these operators; 0 without them.
-pub(super) fn radius_of(system: Option<&System>, options: &Options) -> (Option<JointRadius>, Option<Interval>) {
+pub(super) fn radius_of<E: Radial>(
+    system: Option<&System<E>>,
+    options: &Options,
+) -> (Option<JointRadius<E>>, Option<Interval>) {
     let Some(system) = system else { return (None, Some(Interval::point(Rational::from(0)))) };
     let Ok(radius) = joint_radius(system, options) else { return (None, None) };
     let enclosure = radius.upper.clone().map(|upper| match &radius.lower {
@@ -36,9 +39,9 @@ pub(super) fn radius_of(system: Option<&System>, options: &Options) -> (Option<J
 }
 
 /// A curve in its visible quotients. Families and chords go by the position of a state among the reachable ones.
-pub(super) struct Curve<'a> {
-    shape: &'a Shape,
-    spaces: &'a Spaces,
+pub(super) struct Curve<'a, E: Radial = Rational> {
+    shape: &'a Shape<E>,
+    spaces: &'a Spaces<E>,
     states: Vec<usize>,
     /// By state of the shape, its position.
     positions: Vec<Option<usize>>,
@@ -47,15 +50,15 @@ pub(super) struct Curve<'a> {
     /// Where the pieces of a state do not take equal shares of the parameter, what they take.
     shares: Option<Shares>,
     /// By position and letter: the map `W_to -> W_from`.
-    operators: Vec<Vec<Matrix>>,
+    operators: Vec<Vec<Matrix<E>>>,
 }
 
-pub(super) type Families = Vec<Matrix>;
-pub(super) type Chords = Vec<Vec<Rational>>;
-pub(super) type Ends = Vec<[Vec<Rational>; 2]>;
+pub(super) type Families<E = Rational> = Vec<Matrix<E>>;
+pub(super) type Chords<E = Rational> = Vec<Vec<E>>;
+pub(super) type Ends<E = Rational> = Vec<[Vec<E>; 2]>;
 
-impl<'a> Curve<'a> {
-    pub(super) fn new(shape: &'a Shape, spaces: &'a Spaces) -> Result<Self, CurveRegularityError> {
+impl<'a, E: Radial> Curve<'a, E> {
+    pub(super) fn new(shape: &'a Shape<E>, spaces: &'a Spaces<E>) -> Result<Self, CurveRegularityError> {
         let count = |e: &usize| shape.states[*e].pieces.len();
         let states = shape.reachable();
         if shape.has_shares() {
@@ -71,8 +74,8 @@ impl<'a> Curve<'a> {
 
     /// The curve with equal shares of the parameter, or with given ones, of which `pieces` says nothing.
     pub(super) fn of(
-        shape: &'a Shape,
-        spaces: &'a Spaces,
+        shape: &'a Shape<E>,
+        spaces: &'a Spaces<E>,
         pieces: usize,
         shares: Option<Shares>,
     ) -> Result<Self, CurveRegularityError> {
@@ -88,13 +91,13 @@ impl<'a> Curve<'a> {
             positions[e] = Some(k);
         }
         let of = |e: usize| shape.states[e].pieces.iter().map(|p| spaces.on_visible(&p.op, e, p.target)).collect();
-        let operators: Option<Vec<Vec<Matrix>>> = states.iter().map(|&e| of(e)).collect();
+        let operators: Option<Vec<Vec<Matrix<E>>>> = states.iter().map(|&e| of(e)).collect();
         let operators = operators.ok_or_else(|| CurveRegularityError::Ends(shape.states[shape.start].name.clone()))?;
         Ok(Self { shape, spaces, states, positions, pieces, shares, operators })
     }
 
     /// The whole spaces `W_e` and the chords of the curves in them.
-    pub(super) fn first(&self) -> Result<(Families, Chords), CurveRegularityError> {
+    pub(super) fn first(&self) -> Result<(Families<E>, Chords<E>), CurveRegularityError> {
         let families = (0..self.states.len()).map(|e| Matrix::identity(self.dim(e))).collect();
         let chord = |&e: &usize| {
             let end = |end| self.shape.end_point(e, end);
@@ -116,7 +119,7 @@ impl<'a> Curve<'a> {
     }
 
     /// All pieces: position, letter, piece, position of the target.
-    fn arrows(&self) -> impl Iterator<Item = (usize, usize, &'a Piece, usize)> {
+    fn arrows(&self) -> impl Iterator<Item = (usize, usize, &'a Piece<E>, usize)> {
         self.states.iter().enumerate().flat_map(move |(from, &e)| {
             let pieces = self.shape.states[e].pieces.iter().enumerate();
             pieces.map(move |(letter, p)| (from, letter, p, self.position(p.target)))
@@ -133,7 +136,7 @@ impl<'a> Curve<'a> {
         power(&if pieces[letter].reversed { -one } else { one }, k)
     }
 
-    pub(super) fn order(&self, k: usize, families: &[Matrix], options: &Options) -> CurveOrder {
+    pub(super) fn order(&self, k: usize, families: &[Matrix<E>], options: &Options) -> CurveOrder<E> {
         let system = self.system(k, families);
         let (radius, enclosure) = radius_of(system.as_ref(), options);
         let dims = families.iter().map(Matrix::rows).collect();
@@ -147,7 +150,7 @@ impl<'a> Curve<'a> {
     }
 
     /// The operators on the families; with shares, those of the derivatives of order `k`, but for signs.
-    fn system(&self, k: usize, families: &[Matrix]) -> Option<System> {
+    fn system(&self, k: usize, families: &[Matrix<E>]) -> Option<System<E>> {
         let scaled = self.shares.is_some();
         self.scaled_system(families, |from, letter| scaled.then(|| abs(&self.factor(k, from, letter))))
     }
@@ -155,9 +158,9 @@ impl<'a> Curve<'a> {
     /// The operators on the families, times factors by position and letter.
     pub(super) fn scaled_system(
         &self,
-        families: &[Matrix],
+        families: &[Matrix<E>],
         factor: impl Fn(usize, usize) -> Option<Rational>,
-    ) -> Option<System> {
+    ) -> Option<System<E>> {
         if families.iter().all(|f| f.rows() == 0) {
             return None;
         }
@@ -167,7 +170,7 @@ impl<'a> Curve<'a> {
             let images = &families[to] * &self.operators[from][letter].transpose();
             let matrix =
                 Matrix::from_fn(pivots[from].len(), images.rows(), |i, j| images[(j, pivots[from][i])].clone());
-            let matrix = factor(from, letter).map_or(matrix.clone(), |factor| matrix.scale(&factor));
+            let matrix = factor(from, letter).map_or(matrix.clone(), |factor| matrix.scale(&E::of(&factor)));
             arrows.push(Arrow { from, to, matrix, label: arrows.len() });
         }
         Some(System { dims: pivots.iter().map(Vec::len).collect(), arrows })
@@ -175,21 +178,22 @@ impl<'a> Curve<'a> {
 
     /// The differences of the derivatives of order `k`: the smallest families with `(ε N)^k T_i c_δ − c_e ∈ F_e` for the chords
     /// of order `k−1`, and `T_i F_δ ⊂ F_e`. Rows in echelon form.
-    pub(super) fn differences(&self, k: usize, chords: &Chords) -> Families {
-        let mut families: Vec<Matrix> = chords.iter().map(|c| Matrix::zero(0, c.len())).collect();
+    pub(super) fn differences(&self, k: usize, chords: &Chords<E>) -> Families<E> {
+        let mut families: Families<E> = chords.iter().map(|c| Matrix::zero(0, c.len())).collect();
         for (from, letter, _, to) in self.arrows() {
-            let image = self.operators[from][letter].scale(&self.factor(k, from, letter)).apply(&chords[to]);
+            let image = self.scaled(k, from, letter).apply(&chords[to]);
             let offset = Matrix::from_rows(image.len(), vec![difference(&image, &chords[from])]);
             families[from] = families[from].stack(&offset).echelon().rows;
         }
-        let arrow =
-            |(from, letter, _, to): (usize, usize, &Piece, usize)| (to, from, self.operators[from][letter].transpose());
+        let arrow = |(from, letter, _, to): (usize, usize, &Piece<E>, usize)| {
+            (to, from, self.operators[from][letter].transpose())
+        };
         let arrows: Vec<_> = self.arrows().map(arrow).collect();
         closures(families, &arrows)
     }
 
     /// The values of the derivative of order `k` at the two ends of every curve.
-    pub(super) fn ends(&self, k: usize, families: &[Matrix], chords: &Chords) -> Option<Ends> {
+    pub(super) fn ends(&self, k: usize, families: &[Matrix<E>], chords: &Chords<E>) -> Option<Ends<E>> {
         let both = |&e: &usize| {
             Some([self.limit(k, e, End::Start, families, chords)?, self.limit(k, e, End::Finish, families, chords)?])
         };
@@ -198,36 +202,40 @@ impl<'a> Curve<'a> {
 
     /// The limit of `(ε N)^k T c` along the address of an end: the fixed vector of its cycle in `c + F`, unique because the
     /// radius on `F` is below `N^−k`, carried along the prefix.
-    fn limit(&self, k: usize, state: usize, end: End, families: &[Matrix], chords: &Chords) -> Option<Vec<Rational>> {
+    fn limit(&self, k: usize, state: usize, end: End, families: &[Matrix<E>], chords: &Chords<E>) -> Option<Vec<E>> {
         let address = self.shape.end_address(state, end, |_| false)?;
         let (prefix, home) = self.product(k, self.position(state), &address.prefix);
         let (cycle, _) = self.product(k, home, &address.cycle);
         // (M − 1)(c + Fᵗ y) = 0.
         let shifted = &cycle - &Matrix::identity(cycle.rows());
         let family = families[home].transpose();
-        let right: Vec<Rational> = shifted.apply(&chords[home]).into_iter().map(|x| -x).collect();
+        let right: Vec<E> = shifted.apply(&chords[home]).iter().map(E::negated).collect();
         let y = (&shifted * &family).solve(&Matrix::from_columns(right.len(), &[right]))?.column(0);
-        let fixed: Vec<Rational> = chords[home].iter().zip(family.apply(&y)).map(|(c, f)| c + f).collect();
+        let fixed: Vec<E> = chords[home].iter().zip(family.apply(&y)).map(|(c, f)| c.plus(&f)).collect();
         Some(prefix.apply(&fixed))
     }
 
+    /// The operator of a piece as derivatives of order `k` are multiplied with it.
+    fn scaled(&self, k: usize, from: usize, letter: usize) -> Matrix<E> {
+        self.operators[from][letter].scale(&E::of(&self.factor(k, from, letter)))
+    }
+
     /// The product of the scaled operators along a word, and the position where it ends.
-    fn product(&self, k: usize, from: usize, word: &[usize]) -> (Matrix, usize) {
+    fn product(&self, k: usize, from: usize, word: &[usize]) -> (Matrix<E>, usize) {
         let start = Matrix::identity(self.dim(from));
         word.iter().fold((start, from), |(product, at), &letter| {
             let piece = &self.shape.states[self.states[at]].pieces[letter];
-            let step = self.operators[at][letter].scale(&self.factor(k, at, letter));
-            (&product * &step, self.position(piece.target))
+            (&product * &self.scaled(k, at, letter), self.position(piece.target))
         })
     }
 
     /// The first joint of the first level at which the derivative of order `k` has two values.
-    pub(super) fn joints(&self, k: usize, ends: &Ends) -> Option<Jump> {
+    pub(super) fn joints(&self, k: usize, ends: &Ends<E>) -> Option<Jump<E>> {
         for (from, &state) in self.states.iter().enumerate() {
             let value = |letter: usize, end: End| {
                 let piece = &self.shape.states[state].pieces[letter];
                 let own = &ends[self.position(piece.target)][usize::from(end.in_piece(piece) == End::Finish)];
-                self.operators[from][letter].scale(&self.factor(k, from, letter)).apply(own)
+                self.scaled(k, from, letter).apply(own)
             };
             for right in 1..self.operators[from].len() {
                 let (before, after) = (value(right - 1, End::Finish), value(right, End::Start));
@@ -240,7 +248,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Two values that differ in `W_e`, carried to the start along the first path that keeps them apart.
-    fn seen(&self, k: usize, place: usize, [before, after]: [Vec<Rational>; 2]) -> Option<Seen> {
+    fn seen(&self, k: usize, place: usize, [before, after]: [Vec<E>; 2]) -> Option<Seen<E>> {
         let space = self.spaces.of(self.shape.start);
         // Any lift of a vector of the visible quotient is seen as the same vector.
         let pivots = space.visible.echelon().pivots;
@@ -248,11 +256,11 @@ impl<'a> Curve<'a> {
         let view = Matrix::from_fn(view.rows(), pivots.len(), |i, j| view[(i, pivots[j])].clone());
         let jump = difference(&before, &after);
         let mut queue = VecDeque::from([(Vec::new(), true)]);
-        let mut known: Vec<Matrix> = (0..self.states.len()).map(|e| Matrix::zero(0, self.dim(e))).collect();
+        let mut known: Families<E> = (0..self.states.len()).map(|e| Matrix::zero(0, self.dim(e))).collect();
         while let Some((path, forwards)) = queue.pop_front() {
             let (product, at) = self.product(k, 0, &path);
             let rows = &view * &product;
-            if at == place && rows.apply(&jump).iter().any(|x| *x != 0) {
+            if at == place && rows.apply(&jump).iter().any(|x| !x.is_zero()) {
                 let (left, right) = if forwards { (before, after) } else { (after, before) };
                 return Some(Seen { path, left: rows.apply(&left), right: rows.apply(&right) });
             }
@@ -269,7 +277,13 @@ impl<'a> Curve<'a> {
     }
 
     /// What refutes an order whose radius is not known to be below the threshold.
-    pub(super) fn refuted(&self, order: &CurveOrder, before: &Families, now: &Families, chords: &Chords) -> Outcome {
+    pub(super) fn refuted(
+        &self,
+        order: &CurveOrder<E>,
+        before: &Families<E>,
+        now: &Families<E>,
+        chords: &Chords<E>,
+    ) -> Outcome<E> {
         if order.has_slow_cycle() {
             return Outcome::Cycle;
         }
@@ -284,13 +298,13 @@ impl<'a> Curve<'a> {
     }
 
     /// For an order `k` that holds, the numbers `μ_e` of “Difference polygons” by state; `None` where a state has none.
-    pub(super) fn polygons(&self, k: usize, families: &[Matrix], chords: &Chords) -> Option<Vec<Rational>> {
+    pub(super) fn polygons(&self, k: usize, families: &[Matrix<E>], chords: &Chords<E>) -> Option<Vec<E>> {
         let of = |place: usize| {
             let (state, dim) = (self.states[place], self.shape.states[self.states[place]].dim);
             // c and a basis of F, as columns.
             let chord = Matrix::from_columns(chords[place].len(), &[chords[place].clone()]);
             let spanned = chord.beside(&families[place].transpose());
-            let mut common: Option<Rational> = None;
+            let mut common: Option<E> = None;
             for j in 0..dim.checked_sub(k)? {
                 let vector = self.spaces.in_visible_if_relevant(state, &alternating(dim, j, k))?;
                 let found = spanned.solve(&Matrix::from_columns(vector.len(), &[vector]))?;
@@ -302,7 +316,7 @@ impl<'a> Curve<'a> {
             }
             // The multiple is one number only where the chord is not in F.
             let independent = spanned.rank() == 1 + families[place].rows();
-            common.filter(|c| independent && *c != 0)
+            common.filter(|c| independent && !c.is_zero())
         };
         (self.shape.frame == Frame::Barycentric).then(|| (0..self.states.len()).map(of).collect())?
     }

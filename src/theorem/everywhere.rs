@@ -142,11 +142,15 @@ const MAX_GRAPH: (usize, usize) = (12, 6);
 /// A way of looking for a parameter.
 type Graph = fn(&Shape, &Spaces, &Options) -> Option<CurveOrder>;
 
+/// Whether that is tried.
+pub(super) fn is_small<E: Scalar>(cx: &Context<E>) -> bool {
+    let states = cx.shape.reachable();
+    states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0)
+}
+
 /// Proves G¹ of a curve that is a graph over a parameter.
 fn as_graph(cx: &Context, every: Everywhere, graph: Graph) -> Everywhere {
-    let states = cx.shape.reachable();
-    let small = states.len() <= MAX_GRAPH.1 && states.iter().all(|&e| cx.shape.states[e].dim <= MAX_GRAPH.0);
-    let order = if small { graph(cx.shape, cx.spaces, &Options::default()) } else { None };
+    let order = if is_small(cx) { graph(cx.shape, cx.spaces, &Options::default()) } else { None };
     match order {
         Some(order) if every.witness.is_none() => {
             Everywhere { verdict: Verdict::Proved, reason: None, derivative: Some(Box::new(order)), ..every }

@@ -4,7 +4,7 @@
 use super::derived::{Curve, Families};
 use super::smoothness::{CurveOrder, Shares};
 use crate::arith::{Interval, Rational, to_f64};
-use crate::radius::{JointRadius, Lower, Options, System, joint_radius};
+use crate::radius::{JointRadius, Lower, Options, Radial, System, joint_radius};
 
 /// The denominator of the exponents that are tried.
 pub const DENOMINATOR: u64 = 2_048;
@@ -13,24 +13,30 @@ const TRIES: usize = 6;
 
 /// What shows on which side of an exponent the supremum lies.
 #[derive(Debug, Clone)]
-pub struct ExponentBound {
+pub struct ExponentBound<E = Rational> {
     /// The exponent, a multiple of `1/DENOMINATOR`.
     pub at: Rational,
     /// By reachable state and letter: numbers not below `s_i^(−at)` for a lower bound, not above it for an upper bound.
     pub factors: Shares,
     /// The operators on the differences times the factors.
-    pub system: System,
+    pub system: System<E>,
     /// Their radius: below 1 for a lower bound, with a word at least 1 for an upper bound.
-    pub radius: JointRadius,
+    pub radius: JointRadius<E>,
 }
 
 /// Both sides; where one is missing it is the order itself, or the next one.
-#[derive(Debug, Clone, Default)]
-pub struct ExponentBounds {
+#[derive(Debug, Clone)]
+pub struct ExponentBounds<E = Rational> {
     /// The supremum is greater.
-    pub below: Option<ExponentBound>,
+    pub below: Option<ExponentBound<E>>,
     /// It is not greater.
-    pub above: Option<ExponentBound>,
+    pub above: Option<ExponentBound<E>>,
+}
+
+impl<E> Default for ExponentBounds<E> {
+    fn default() -> Self {
+        Self { below: None, above: None }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -39,16 +45,16 @@ enum Side {
     Above,
 }
 
-struct Search<'a> {
-    curve: &'a Curve<'a>,
-    families: &'a Families,
+struct Search<'a, E: Radial> {
+    curve: &'a Curve<'a, E>,
+    families: &'a Families<E>,
     shares: &'a Shares,
     options: &'a Options,
 }
 
-impl ExponentBounds {
+impl<E: Radial> ExponentBounds<E> {
     /// Bounds of the supremum of the exponents `k + α`, `0 < α <= 1`, where order `k` holds and its differences are given.
-    pub(super) fn of(curve: &Curve<'_>, order: &CurveOrder, families: &Families, options: &Options) -> Self {
+    pub(super) fn of(curve: &Curve<'_, E>, order: &CurveOrder<E>, families: &Families<E>, options: &Options) -> Self {
         let mut found = Self::default();
         let (Some(shares), Some(system)) = (&order.shares, &order.system) else { return found };
         let search = Search { curve, families, shares, options };
@@ -86,7 +92,7 @@ impl ExponentBounds {
 
     /// The part of an interval that they leave.
     pub(super) fn cut(&self, whole: Interval) -> Interval {
-        let at = |bound: &Option<ExponentBound>| bound.as_ref().map(|b| b.at.clone());
+        let at = |bound: &Option<ExponentBound<E>>| bound.as_ref().map(|b| b.at.clone());
         let (lo, hi) = (at(&self.below), at(&self.above));
         let end = |found: Option<Rational>, whole: Rational| match found {
             Some(bound) => bound,
@@ -100,10 +106,10 @@ fn exponent(n: u64) -> Rational {
     Rational::from(n) / Rational::from(DENOMINATOR)
 }
 
-impl Search<'_> {
+impl<E: Radial> Search<'_, E> {
     /// `⌊α DENOMINATOR⌋` for the `α` with `ρ(T_w) = s_w^α`, of a word of the system scaled for derivatives of order `k`; a proposal.
     #[allow(clippy::float_arithmetic, clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a proposal")]
-    fn exponent_of(&self, system: &System, path: &[usize], k: u64) -> Option<u64> {
+    fn exponent_of(&self, system: &System<E>, path: &[usize], k: u64) -> Option<u64> {
         let size = to_f64(&Lower::of(system, path)?.enclosure(60).mid()).ln() * path.len() as f64;
         let shares: Vec<&Rational> = self.shares.iter().flatten().collect();
         let shrunk: f64 = path.iter().filter_map(|a| shares.get(*a)).map(|s| to_f64(s).ln()).sum();
@@ -111,7 +117,7 @@ impl Search<'_> {
         (alpha.is_finite() && alpha >= 0.0).then_some((alpha * DENOMINATOR as f64).floor() as u64)
     }
 
-    fn radius(&self, n: u64, side: Side) -> Option<(System, JointRadius, Shares)> {
+    fn radius(&self, n: u64, side: Side) -> Option<(System<E>, JointRadius<E>, Shares)> {
         let factors: Shares = self
             .shares
             .iter()
@@ -122,7 +128,7 @@ impl Search<'_> {
         Some((system, radius, factors))
     }
 
-    fn bound(&self, n: u64, side: Side) -> Option<ExponentBound> {
+    fn bound(&self, n: u64, side: Side) -> Option<ExponentBound<E>> {
         let (system, radius, factors) = self.radius(n, side)?;
         let holds = match side {
             Side::Below => radius.upper.as_ref().is_some_and(|upper| *upper < 1),

@@ -6,7 +6,7 @@ use super::point;
 use super::verdict::{PointReport, Role, Verdict};
 use super::viewpoint::Viewpoint;
 use crate::arith::Rational;
-use crate::linalg::Matrix;
+use crate::linalg::{Entry, Matrix};
 use crate::shape::{CellKind, Shape, Spaces};
 
 /// Most frames that are followed.
@@ -109,14 +109,14 @@ fn proved(points: &[PointReport]) -> bool {
 /// The states from which `from` can be reached and that can be reached from it by at least one piece each: its component; empty
 /// for a state on no cycle.
 #[must_use]
-pub fn component(shape: &Shape, from: usize) -> Vec<usize> {
+pub fn component<E: Entry>(shape: &Shape<E>, from: usize) -> Vec<usize> {
     let ahead = below(shape, from);
     let closed: Vec<usize> = ahead.iter().copied().filter(|&e| below(shape, e).contains(&from)).collect();
     shape.reachable().into_iter().filter(|e| closed.contains(e)).collect()
 }
 
 /// What can be reached in at least one step.
-fn below(shape: &Shape, from: usize) -> Vec<usize> {
+fn below<E: Entry>(shape: &Shape<E>, from: usize) -> Vec<usize> {
     let targets = |e: usize| shape.states[e].pieces.iter().map(|p| p.target);
     let mut found: Vec<usize> = Vec::new();
     let mut open: Vec<usize> = targets(from).collect();

@@ -6,7 +6,7 @@ use super::smoothness::{CurveOrder, Outcome, Shares};
 use crate::arith::Rational;
 use crate::jordan::modulus_classes;
 use crate::linalg::{Matrix, dot};
-use crate::radius::Options;
+use crate::radius::{Options, Radial};
 use crate::shape::{CellKind, End, Shape, Spaces, difference};
 
 /// The order 1 of a curve that is a graph over its parameter, as it is seen (Theorem 12); `None` where its hypotheses are
@@ -15,7 +15,11 @@ use crate::shape::{CellKind, End, Shape, Spaces, difference};
 /// # Cost
 /// One joint spectral radius where the chords allow it, otherwise some linear algebra.
 #[must_use]
-pub fn graph_over_parameter(shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
+pub fn graph_over_parameter<E: Radial>(
+    shape: &Shape<E>,
+    spaces: &Spaces<E>,
+    options: &Options,
+) -> Option<CurveOrder<E>> {
     graph(&Curve::new(shape, spaces).ok()?, shape, spaces, options)
 }
 
@@ -35,10 +39,15 @@ fn are_equal(shares: &Shares) -> bool {
     all.next().is_some_and(|first| all.all(|s| s == first))
 }
 
-fn graph(curve: &Curve<'_>, shape: &Shape, spaces: &Spaces, options: &Options) -> Option<CurveOrder> {
+fn graph<E: Radial>(
+    curve: &Curve<'_, E>,
+    shape: &Shape<E>,
+    spaces: &Spaces<E>,
+    options: &Options,
+) -> Option<CurveOrder<E>> {
     let (_, chords) = curve.first().ok()?;
     let families = curve.differences(1, &chords);
-    let outside = |family: &Matrix, chord: &[Rational]| {
+    let outside = |family: &Matrix<E>, chord: &[E]| {
         family.stack(&Matrix::from_rows(chord.len(), vec![chord.to_vec()])).rank() > family.rank()
     };
     // Any lift of a vector of the visible quotient is seen as the same vector.

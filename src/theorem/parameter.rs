@@ -5,6 +5,8 @@ use super::claim::{Assertion, Claim, Measure, Reason};
 use super::everywhere::Everywhere;
 use super::smoothness::{CurveRegularity, CurveRegularityError, Outcome, curve_regularity};
 use super::verdict::{Certified, Role, Verdict};
+use crate::arith::Rational;
+use crate::radius::Radial;
 use crate::statement::Statement;
 
 /// Largest number of coordinates of all visible quotients together for which this is tried.
@@ -12,9 +14,9 @@ const MAX_DIMENSIONS: usize = 24;
 
 /// What is known of a curve in its parameter.
 #[derive(Debug, Clone)]
-pub enum Parameter {
+pub enum Parameter<E = Rational> {
     /// The orders of smoothness, as far as the budget goes.
-    Orders(Box<CurveRegularity>),
+    Orders(Box<CurveRegularity<E>>),
     /// There is no such table.
     None(CurveRegularityError),
     /// There are so many coordinates that `secant regularity` should be asked.
@@ -22,7 +24,7 @@ pub enum Parameter {
 }
 
 /// Orders of smoothness of a curve; `None` for shapes that are no curves, or a single point.
-pub(super) fn parameter(cx: &Context) -> Option<Parameter> {
+pub(super) fn parameter<E: Radial>(cx: &Context<E>) -> Option<Parameter<E>> {
     let reachable = cx.shape.reachable();
     if cx.spaces.of(cx.shape.start).visible.rows() == 0 {
         return None;
@@ -37,7 +39,7 @@ pub(super) fn parameter(cx: &Context) -> Option<Parameter> {
     })
 }
 
-impl Parameter {
+impl<E> Parameter<E> {
     /// Whether the curve is refuted to be `C¹`.
     pub(super) fn is_not_c1(&self) -> bool {
         matches!(self, Self::Orders(found) if found.is_smooth(1) == Some(false))

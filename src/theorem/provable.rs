@@ -1,15 +1,16 @@
 //! What is done over the rationals only, and what takes its place over a real number field.
 
 use super::branch::Context;
-use super::claim::{Assertion, Claim, Measure, Reason};
+use super::claim::{Assertion, Claim, Reason};
 use super::cone_over::cones_over;
 use super::dense::DenseClaim;
+use super::graph::graph_over_parameter;
 use super::verdict::Certified;
 use super::{ModelError, own_enclosures, parameter, rational_contraction, word_contraction};
 use crate::algebraic::Real;
 use crate::arith::Rational;
 use crate::budget::Budget;
-use crate::jordan::Scalar;
+use crate::radius::{Options, Radial};
 use crate::shape::{Balls, CellKind, Contraction, Shape, Spaces};
 use crate::statement::Statement;
 
@@ -17,7 +18,7 @@ use crate::statement::Statement;
 const NEAR: u64 = 48;
 
 /// Entries of shapes of which something can be proved.
-pub trait Provable: Scalar {
+pub trait Provable: Radial {
     /// Whether a checked shape contracts; with an upper bound below 1 of the joint spectral radius of the linear parts where that
     /// is known, but nothing that encloses the attractor.
     ///
@@ -88,14 +89,18 @@ impl Provable for Real {
             if broken.is_none() {
                 found.cones = cones_over(cx, &cx.shape.rounded(NEAR));
             }
-            found.claims.push(match (broken, &found.cones) {
-                (Some(k), _) => Claim::refuted(Assertion::G1, None, Reason::Broken(k)),
-                (None, Some(_)) => Claim::proved(Assertion::G1, Some(Statement::Theorem6)),
-                (None, None) => Claim::open(Assertion::G1, Reason::NoCone),
+            found.parameter = parameter::parameter(cx);
+            let rough = found.parameter.as_ref().is_some_and(parameter::Parameter::is_not_c1);
+            if broken.is_none() && found.cones.is_none() && !rough && super::everywhere::is_small(cx) {
+                found.graph = graph_over_parameter(cx.shape, cx.spaces, &Options::default()).map(Box::new);
+            }
+            found.claims.push(match (broken, &found.cones, &found.graph) {
+                (Some(k), ..) => Claim::refuted(Assertion::G1, None, Reason::Broken(k)),
+                (None, Some(_), _) => Claim::proved(Assertion::G1, Some(Statement::Theorem6)),
+                (None, None, Some(_)) => Claim::proved(Assertion::G1, Some(Statement::Graph)),
+                (None, None, None) => Claim::open(Assertion::G1, Reason::NoCone),
             });
-            found
-                .claims
-                .push(Claim::open(Assertion::Smooth { order: 1, over: Measure::of(cx.shape) }, Reason::Irrational));
+            found.claims.extend(found.parameter.iter().flat_map(parameter::Parameter::claims));
         }
         found.claims.sort_by_key(|c| c.what.topic());
     }

@@ -6,7 +6,7 @@ use super::derived::Curve;
 use super::exponent::ExponentBounds;
 use super::regularity::minus_log;
 use crate::arith::{Interval, Rational};
-use crate::radius::{Growth, JointRadius, Options, System};
+use crate::radius::{Growth, JointRadius, Options, Radial, System};
 use crate::shape::{Shape, Spaces, difference};
 use thiserror::Error;
 
@@ -33,13 +33,13 @@ pub type Shares = Vec<Vec<Rational>>;
 
 /// What the statement says of one order `k`.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
+pub enum Outcome<E = Rational> {
     /// `k = 0`: the curve itself.
     Curve,
     /// The radius is below the threshold and the joint equations hold: `C^k`.
     Holds,
     /// The radius is below the threshold and a joint equation fails: not `C^k`.
-    Joint(Jump),
+    Joint(Jump<E>),
     /// The leading word of the radius is a cycle whose spectral radius is not below the threshold: not `C^k`.
     Cycle,
     /// In this state, which belongs to a strongly connected part that no arrow leaves, the chord of order `k−1` lies in `F_e`,
@@ -53,30 +53,30 @@ pub enum Outcome {
 
 /// A joint at which the derivative of some order has two values.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Jump {
+pub struct Jump<E = Rational> {
     /// The state.
     pub state: usize,
     /// The piece after the joint.
     pub right: usize,
     /// Where the curve of the start state has this joint, and its values there.
-    pub seen: Option<Seen>,
+    pub seen: Option<Seen<E>>,
 }
 
 /// The two values of a derivative of the curve of the start state, as it is seen: with control points in their space, otherwise
 /// vectors of sum 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Seen {
+pub struct Seen<E = Rational> {
     /// The path from the start to the state of the joint, along which the two values stay different.
     pub path: Vec<usize>,
     /// The value from the left.
-    pub left: Vec<Rational>,
+    pub left: Vec<E>,
     /// The value from the right.
-    pub right: Vec<Rational>,
+    pub right: Vec<E>,
 }
 
 /// What is known of one order.
 #[derive(Debug, Clone)]
-pub struct CurveOrder {
+pub struct CurveOrder<E = Rational> {
     /// `k`.
     pub order: usize,
     /// `N^−k`, or 1 where the parameter has shares of its own, by which the operators are divided.
@@ -86,19 +86,19 @@ pub struct CurveOrder {
     /// Dimensions of the spaces `F_e ⊂ W_e` of the differences of derivatives of order `k`.
     pub dims: Vec<usize>,
     /// The operators on them, arrows by state and letter; `None` where all are 0 (a polynomial).
-    pub system: Option<System>,
+    pub system: Option<System<E>>,
     /// Their joint spectral radius.
-    pub radius: Option<JointRadius>,
+    pub radius: Option<JointRadius<E>>,
     /// Its enclosure; 0 on the space 0.
     pub enclosure: Option<Interval>,
     /// The conclusion.
-    pub outcome: Outcome,
+    pub outcome: Outcome<E>,
     /// By reachable state, the numbers `μ_e` by which the differences of order `k` of the control polygons tend to the derivative;
     /// `None` where the order does not hold, or they need not tend to multiples of it (“Difference polygons”).
-    pub polygons: Option<Vec<Rational>>,
+    pub polygons: Option<Vec<E>>,
 }
 
-impl CurveOrder {
+impl<E> CurveOrder<E> {
     /// Whether the curve is `C^k`; `None` where that is not decided.
     #[must_use]
     pub fn smooth(&self) -> Option<bool> {
@@ -112,23 +112,23 @@ impl CurveOrder {
 
 /// The orders of smoothness of the curve of the start state, as it is seen.
 #[derive(Debug, Clone)]
-pub struct CurveRegularity {
+pub struct CurveRegularity<E = Rational> {
     /// `N`, the number of pieces of the states that come back to themselves; 1 where the pieces have shares.
     pub pieces: usize,
     /// The orders `0, 1, …` up to the first that fails or is open, at most [`MAX_ORDER`].
-    pub orders: Vec<CurveOrder>,
+    pub orders: Vec<CurveOrder<E>>,
     /// Enclosure of the supremum of the Hölder exponents `k + α`, `0 < α <= 1`, for the last order `k` that holds; `None` for a
     /// polynomial, or where no bound is known.
     pub exponent: Option<Interval>,
     /// What proves the enclosure where the pieces have shares.
-    pub bounds: ExponentBounds,
+    pub bounds: ExponentBounds<E>,
     /// Whether that exponent is attained; `None` where that is not decided.
     pub attained: Option<bool>,
     /// Whether the curve is a polynomial in its parameter.
     pub polynomial: bool,
 }
 
-impl CurveRegularity {
+impl<E> CurveRegularity<E> {
     /// The parameter that the orders are about.
     #[must_use]
     pub fn measure(&self) -> Measure {
@@ -161,11 +161,11 @@ pub const MAX_ORDER: usize = 31;
 ///
 /// # Cost
 /// One joint spectral radius for each order.
-pub fn curve_regularity(
-    shape: &Shape,
-    spaces: &Spaces,
+pub fn curve_regularity<E: Radial>(
+    shape: &Shape<E>,
+    spaces: &Spaces<E>,
     options: &Options,
-) -> Result<CurveRegularity, CurveRegularityError> {
+) -> Result<CurveRegularity<E>, CurveRegularityError> {
     let curve = Curve::new(shape, spaces)?;
     let (mut families, mut chords) = curve.first()?;
     let mut found = CurveRegularity {
@@ -217,7 +217,7 @@ pub fn curve_regularity(
     Ok(found)
 }
 
-impl CurveOrder {
+impl<E> CurveOrder<E> {
     /// An upper bound of the radius of the operators of derivatives of this order on their differences: the differences of control
     /// polygons converge at every rate above it.
     #[must_use]

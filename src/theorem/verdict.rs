@@ -363,10 +363,12 @@ pub struct Certified<E: Scalar = Rational> {
     pub similarities: Option<super::similarity::Similarities<E>>,
     /// The cones that prove G¹ of a curve with entries in a number field.
     pub cones: Option<ConesOver<E>>,
+    /// Order 1 of a curve with entries in a number field that is a graph over its parameter (Theorem 12), where no cones were found.
+    pub graph: Option<Box<super::smoothness::CurveOrder<E>>>,
     /// What is known of every point of a curve (Theorem 6).
     pub everywhere: Option<super::everywhere::Everywhere>,
     /// What is known of a curve in its uniform parameter (Theorem E).
-    pub parameter: Option<super::parameter::Parameter>,
+    pub parameter: Option<super::parameter::Parameter<E>>,
     /// What is found of a surface; the points are then listed there.
     pub surface: Option<super::surface::Surface>,
 }
@@ -398,6 +400,7 @@ impl<E: Scalar> Certified<E> {
             polygon_weights: None,
             similarities: None,
             cones: None,
+            graph: None,
             everywhere: None,
             parameter: None,
             surface: None,

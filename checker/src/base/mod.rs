@@ -21,7 +21,7 @@ pub use matrix::{Matrix, primitive};
 pub use number::{Q, bits, charge, longest, spend, total, whole};
 pub use poly::{Enclosed, Field, Interval, MAX_DEGREE, has_root_near, products, roots_in_disc, values};
 pub use surd::{Ground, Surd};
-pub use whole::{Fraction, Whole, absolute, ceiling, largest};
+pub use whole::{Fraction, Whole, absolute, ceiling, fraction, largest};
 
 /// Longest word of a certificate or address of a case.
 pub const MAX_LETTERS: usize = 1_000;

@@ -106,15 +106,30 @@ fn derivative(p: &Matrix) -> Matrix {
 
 /// Whether a polynomial of degree `n ≥ 1` (a row) is seen to have a root within `error ≥ 0` of a point `z` of the plane: some root
 /// is nearer than `n |p(z)/p'(z)|`, as `p'/p = Σ 1/(z − root)`. A polynomial of degree 0 has no root: its sum is empty.
-pub fn has_root_near(p: &Matrix, z: &[Q], error: &Q) -> Checked<bool> {
+pub fn has_root_near<T: Whole>(p: &Matrix<T>, z: &[Q], error: &Q) -> Checked<bool> {
     if p.cols < 2 || p.data[p.cols - 1].vanishes() || error.is_negative() {
         return Ok(false);
     }
-    let [re, im] = values(&p.stack(&derivative(p)), &point(&z[0]), &point(&z[1]))?;
-    let square = |k: usize| &re.lo.data[k] * &re.lo.data[k] + &im.lo.data[k] * &im.lo.data[k];
-    let (far, degree) = (error.numer(), error.denom() * (p.cols - 1));
+    let z = Matrix::new(1, 2, z);
+    let long = (p.bits() + z.bits()).saturating_mul(p.cols as u64);
+    spend(16 * p.cols, long)?;
+    // p(z) and p'(z) times the same number.
+    let square = |coefficients: &[T]| {
+        let (mut re, mut im, mut scale) = (T::integer(BigInt::zero()), T::integer(BigInt::zero()), BigInt::one());
+        for c in coefficients.iter().rev() {
+            let next = re.multiple(&z.data[0]).minus(&im.multiple(&z.data[1])).plus(&c.multiple(&scale));
+            im = re.multiple(&z.data[1]).plus(&im.multiple(&z.data[0]));
+            re = next;
+            scale *= &z.den;
+        }
+        re.times(&re).plus(&im.times(&im))
+    };
+    let derivative: Vec<T> = p.data.iter().enumerate().skip(1).map(|(k, c)| c.multiple(&k.into())).collect();
+    // The derivative has one power of the denominator less.
+    let (far, near) = (error.numer() * &z.den, error.denom() * (p.cols - 1));
+    let (value, slope) = (square(&p.data), square(&derivative));
     // Where the derivative is 0, this says that z is a root.
-    Ok(square(0) * &degree * &degree <= square(1) * far * far)
+    Ok(slope.multiple(&(&far * &far)).minus(&value.multiple(&(&near * &near))).sgn() >= 0)
 }
 
 /// `Q[x]/(m)` with a real root `θ` of `m`: the only one in an interval. A vector over it is a matrix with one row of
@@ -379,6 +394,6 @@ mod tests {
         // 0 · |1| ≤ e · |0| holds anywhere, but constants have no roots; nor has a product of size 0 x 0 eigenvalues.
         let constant = Matrix::new(1, 1, &[whole(1)]);
         assert!(!has_root_near(&constant, &[whole(5), whole(0)], &whole(100)).unwrap());
-        assert!(!has_root_near(&Matrix::identity(0).characteristic().unwrap(), &z, &whole(1)).unwrap());
+        assert!(!has_root_near(&Matrix::<BigInt>::identity(0).characteristic().unwrap(), &z, &whole(1)).unwrap());
     }
 }

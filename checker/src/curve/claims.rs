@@ -4,6 +4,7 @@ use super::{Address, Case, End, Germ, Kind, Model, Piece, Place, Point, Root, Wa
 use super::{arcs, close, complete, components, everywhere, frames, positive_definite, read_address};
 use crate::base::{Accepted, Checked, Matrix, Node, Surd, Verdict, Whole, need, together};
 use crate::claim::{Claim, Decided, Joints, Subject};
+use crate::regularity::graph;
 use num_bigint::BigInt;
 
 /// The question whether the curve is G¹, answered by cones or by a point.
@@ -22,10 +23,8 @@ const TURNS: [&str; 5] = [EVERY, DERIVATIVE, SHARES, ARCS, COMPONENTS];
 /// The question about the joints whose lines are not killed, beside joints that are not all proved.
 const NOT_KILLED: &str = "joints not killed";
 
-/// Entries over which the derivatives of a curve are checked, or refused.
+/// Entries over which some rules are checked, or refused.
 pub trait Derived: Whole {
-    /// Theorem 12 in the uniform parameter, or in one with given shares.
-    fn graph(model: &Model<'_, Self>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()>;
     /// Theorem 6″.
     fn arcs(model: &Model<'_, Self>, degree: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict>;
     /// Theorem 13.
@@ -33,10 +32,6 @@ pub trait Derived: Whole {
 }
 
 impl Derived for BigInt {
-    fn graph(model: &Model<'_>, shares: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
-        crate::regularity::graph(model, shares, radius)
-    }
-
     fn arcs(model: &Model<'_>, degree: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict> {
         arcs::check(model, degree, arcs)
     }
@@ -47,10 +42,6 @@ impl Derived for BigInt {
 }
 
 impl Derived for Surd {
-    fn graph(_: &Model<'_, Self>, _: Option<&Node<'_>>, radius: &Node<'_>) -> Checked<()> {
-        radius.reject("graph", "derivatives are checked over the rational numbers only")
-    }
-
     fn arcs(_: &Model<'_, Self>, _: &Node<'_>, arcs: &Node<'_>) -> Checked<Verdict> {
         arcs.reject("arc", "arcs are checked over the rational numbers only")
     }
@@ -113,12 +104,12 @@ fn every_point<T: Derived>(model: &Model<'_, T>, points: &[Point<T>], node: &Nod
         EVERY => return everywhere::check(model, points, node),
         DERIVATIVE => {
             let [_, _, radius] = node.fields("question verdict radius")?;
-            radius.at(T::graph(model, None, &radius))?;
+            radius.at(graph(model, None, &radius))?;
             Verdict::Proved
         }
         SHARES => {
             let [_, _, shares, radius] = node.fields("question verdict shares radius")?;
-            radius.at(T::graph(model, Some(&shares), &radius))?;
+            radius.at(graph(model, Some(&shares), &radius))?;
             Verdict::Proved
         }
         ARCS => {

@@ -350,7 +350,7 @@ impl Model {
         let letters = modulo(&self.nets.times(triples)?.transpose(), &self.operators)?;
         let dims = vec![letters[0].rows];
         let arrows = letters.into_iter().map(|m| (0, 0, m)).collect();
-        let found = bounds(&System { name: String::new(), dims, arrows }, radius)?;
+        let found = bounds(&System { name: String::new(), dims, arrows }, &(), radius)?;
         let bound = num_traits::pow(Q::new(1.into(), 2.into()), order);
         radius.need(found.upper < bound, "orders", "the radius is not below the bound of this order")?;
         Ok(found.blocks)

@@ -46,7 +46,7 @@ fn proved(mask: &Mask, node: &Node<'_>) -> Checked<Proved> {
     let letters = node.at(window.quotient())?;
     let dims = vec![letters[0].rows];
     let arrows = letters.into_iter().map(|m| (0, 0, m)).collect();
-    let found = bounds(&System { name: String::new(), dims, arrows }, &radius)?;
+    let found = bounds(&System { name: String::new(), dims, arrows }, &(), &radius)?;
     let size = Size { low: found.lower, high: found.upper, mask };
     let stable = !shifts.is_null();
     if stable {

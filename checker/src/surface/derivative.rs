@@ -146,7 +146,7 @@ impl<'a> Patch<'a> {
             arrows.push((place(e)?, place(d)?, self.step(e, i, d)?.scaled(&self.share)));
         }
         let dims = reachable.iter().map(|&e| self.families[e].rows).collect();
-        Ok(bounds(&System { name: String::new(), dims, arrows }, node)?.upper)
+        Ok(bounds(&System { name: String::new(), dims, arrows }, &(), node)?.upper)
     }
 
     /// The derivative there, one row after the other: that of the cycle is the fixed one in `c + F`.

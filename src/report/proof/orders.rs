@@ -4,6 +4,7 @@ use super::super::document::{Block, Line, Table, formula, line, words};
 use super::super::math::Math;
 use super::super::radius::interval;
 use super::super::regularity;
+use super::super::reported::Reported;
 use super::super::words::mark;
 use super::Quoted;
 use super::evidence::Evidence;
@@ -15,7 +16,7 @@ use crate::statement::Statement;
 use crate::theorem::smoothness::{CurveOrder, CurveRegularity};
 use crate::theorem::{Certified, Measure, Parameter};
 
-pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn section<E: Reported>(case: &Case<E>, found: &Certified<E>, seen: &mut Quoted) -> Vec<Block> {
     let orders = match &found.parameter {
         Some(Parameter::Orders(orders)) => orders,
         _ => return Vec::new(),
@@ -37,7 +38,7 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
 }
 
 /// What the control polygons do, in the orders that hold.
-fn polygons(case: &Case, orders: &CurveRegularity, seen: &mut Quoted) -> Vec<Block> {
+fn polygons<E: Reported>(case: &Case<E>, orders: &CurveRegularity<E>, seen: &mut Quoted) -> Vec<Block> {
     let known = orders.orders.iter().filter(|o| o.polygons.is_some());
     let notes: Vec<Line> = known
         .filter_map(|o| Some(words(format!("Order {}: {}.", o.order, regularity::polygons(&case.shape, o)?))))
@@ -52,7 +53,7 @@ fn polygons(case: &Case, orders: &CurveRegularity, seen: &mut Quoted) -> Vec<Blo
 }
 
 /// What Theorem 10 says of data that are interpolated, by its own numbers.
-fn matching(case: &Case, orders: &CurveRegularity, seen: &mut Quoted) -> Vec<Block> {
+fn matching<E: Reported>(case: &Case<E>, orders: &CurveRegularity<E>, seen: &mut Quoted) -> Vec<Block> {
     let Some(Origin::Interpolation(data)) = &case.scheme else { return Vec::new() };
     let rows: Vec<(usize, Matching)> = (1..orders.orders.len()).filter_map(|k| Some((k, data.matching(k)?))).collect();
     if rows.is_empty() {
@@ -83,7 +84,7 @@ fn matching(case: &Case, orders: &CurveRegularity, seen: &mut Quoted) -> Vec<Blo
     vec![seen.once(Statement::Theorem10), proof.block(), Block::Table(table)]
 }
 
-fn evidence(orders: &CurveRegularity) -> Evidence {
+fn evidence<E>(orders: &CurveRegularity<E>) -> Evidence {
     let uniform =
         "every state that leads back to itself has $N=@$ pieces; they meet, and the system contracts, as shown above.";
     let shares =
@@ -100,8 +101,8 @@ fn evidence(orders: &CurveRegularity) -> Evidence {
     )
 }
 
-fn table(orders: &CurveRegularity) -> Block {
-    let row = |o: &CurveOrder| {
+fn table<E>(orders: &CurveRegularity<E>) -> Block {
+    let row = |o: &CurveOrder<E>| {
         let dims: Vec<String> = o.dims.iter().map(ToString::to_string).collect();
         let verdict = match o.smooth() {
             Some(true) => Verdict::Proved,

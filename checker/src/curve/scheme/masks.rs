@@ -117,21 +117,24 @@ pub fn given(node: &Node<'_>, form: &str) -> Checked<Mask> {
     if form == "symbol" {
         return Mask::new(node, arity, value.at(symbol::read(value.text()?))?);
     }
-    let mut entries = value.each(|x| number(x))?;
-    if form == "filter" {
-        let factor = match node.field("normalisation")?.text()? {
-            "arity" => 1,
-            "one" => arity,
-            // a = √m h, and h is given as a multiple of √m where this is irrational.
-            "root" => match (1..=arity).find(|r| r * r == arity) {
-                Some(root) => root,
-                None => arity,
-            },
-            _ => return node.reject("format", "a normalisation is arity, one or root"),
-        };
-        entries.iter_mut().for_each(|h| *h *= whole(factor as i64));
+    let entries = value.each(|x| number(x))?;
+    if form == "mask" {
+        return Mask::new(node, arity, entries);
     }
-    Mask::new(node, arity, entries)
+    // a = √m h, and h is given as a multiple of √m where this is irrational.
+    let root = match (1..=arity).find(|r| r * r == arity) {
+        Some(root) => root,
+        None => arity,
+    };
+    let named = match node.field("normalisation")?.text()? {
+        "arity" => 1,
+        "one" => arity,
+        "root" => root,
+        _ => return node.reject("format", "a normalisation is arity, one or root"),
+    };
+    // The sums of a mask leave no choice.
+    let scaled = |factor: usize| Mask::new(node, arity, entries.iter().map(|h| h * whole(factor as i64)).collect());
+    [1, arity, root].into_iter().fold(scaled(named), |found, factor| found.or_else(|why| scaled(factor).or(Err(why))))
 }
 
 impl Mask {
