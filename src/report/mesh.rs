@@ -161,10 +161,13 @@ fn checked(again: Again<'_>) -> String {
         None => "The independent checker was not asked: what is decided here was proved once, not twice.".to_owned(),
         Some(Err(why)) => format!("What is decided here was proved once, not twice: {why}."),
         Some(Ok(certificate)) if certificate.left_out().is_empty() => {
-            "The independent checker proved again what is decided here, from the file itself.".to_owned()
+            "The independent checker proved the claims again, from the file itself, and the limits up to rounding; what is said of the \
+             curvature was proved once."
+                .to_owned()
         }
         Some(Ok(certificate)) => format!(
-            "The independent checker proved again, from the file itself, what is decided here, but for this: {}.",
+            "The independent checker proved again, from the file itself, what its certificate has, but not this: {}; nor what is said of \
+             the curvature.",
             left_out(certificate)
         ),
     }
