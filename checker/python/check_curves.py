@@ -301,6 +301,35 @@ def no_duplicates(pairs):
     return dict(pairs)
 
 
+def written_out(pieces):
+    """The maps g f, where maps of finite order generate the group of the g, and the f are the other maps of a set."""
+    maps, one = [op for _, op, _ in pieces], identity(len(pieces[0][1]))
+
+    def finite(op):
+        power = op
+        for _ in range(12):
+            if power == one:
+                return True
+            power = mul(power, op)
+        return False
+
+    turns, others = [op for op in maps if finite(op)], [op for op in maps if not finite(op)]
+    if not turns or not others:
+        return pieces
+    group = [one]
+    for g in group:
+        for product in (mul(turn, g) for turn in turns):
+            if product not in group:
+                group.append(product)
+        if len(group) > 48:
+            return pieces
+    products = []
+    for product in (mul(g, f) for g in group for f in others):
+        if product not in products:
+            products.append(product)
+    return [(0, op, False) for op in products] if len(products) <= 64 else pieces
+
+
 class Case:
     def __init__(self, text):
         case = tomllib.loads(text, parse_float=lambda s: Q(s))
@@ -315,7 +344,7 @@ class Case:
                 a, s = matrix(m["linear"]), [number(x) for x in m["shift"]]
                 columns = [s] + [[s[i] + a[i][j] for i in range(len(s))] for j in range(len(s))]
                 pieces.append((0, transpose([[1 - sum(c)] + c for c in columns]), m.get("reversed", False)))
-            self.states = [(kind, pieces)]
+            self.states = [(kind, written_out(pieces) if kind == "set" else pieces)]
         elif "pieces" in case:
             backwards = case.get("reversed", [])
             self.states = [(kind, [(0, operator(m), k in backwards) for k, m in enumerate(case["pieces"])])]

@@ -1,53 +1,76 @@
 (** Common cones (Theorem 6): both half-tangents at every point, and they are opposite except where two addresses meet.
 
-    Positive matrices shrink the cones by Doeblin's condition on the normalised rays; no metric of Hilbert is needed. *)
-From Coq Require Import Reals Lra Lia List FunctionalExtensionality.
+    Positive matrices shrink the cones by Doeblin's condition on the normalised rays; no metric of Hilbert is needed. Pieces may
+    run backwards. *)
+From Coq Require Import Reals Lra Lia List Bool FunctionalExtensionality.
 From Coquelicot Require Import Coquelicot.
-From Secant Require Export Convex.
+From Secant Require Export Convex Order.
 From Secant Require Import Vec Automaton Leading Germ.
 Open Scope R_scope.
+
+(** The hypotheses of Theorem 6: rays, positive matrices with entries of bounded ratio, the start and the end of each state and
+    the chord between them, and pieces that meet. *)
+Record common_cones (A : automaton) (rev : nat -> nat -> bool) (rays : nat -> nat) (ray : nat -> nat -> vec)
+  (B : nat -> nat -> nat -> nat -> R) (kappa : R) (first last : nat -> vec) (weight : nat -> nat -> R) : Prop := {
+  some_ray : forall e, (e < states A)%nat -> (0 < rays e)%nat;
+  ratio_ok : 0 < kappa <= 1;
+  positive : forall e i l j, (e < states A)%nat -> (i < deg A e)%nat -> (l < rays e)%nat ->
+    (j < rays (dst A e i))%nat -> 0 < B e i l j;
+  bounded_ratio : forall e i l j j', (e < states A)%nat -> (i < deg A e)%nat -> (l < rays e)%nat ->
+    (j < rays (dst A e i))%nat -> (j' < rays (dst A e i))%nat -> kappa * B e i l j' <= B e i l j;
+  images : forall e i j, (e < states A)%nat -> (i < deg A e)%nat -> (j < rays (dst A e i))%nat ->
+    scl (orient (rev e i)) (act (N A) (mat A e i) (ray (dst A e i) j)) = comb (rays e) (fun l => B e i l j) (ray e);
+  start_point : forall e, (e < states A)%nat -> bary (N A) (dim A e) (first e) /\ enters A rev first last e 0 = first e;
+  end_point : forall e, (e < states A)%nat ->
+    bary (N A) (dim A e) (last e) /\ leaves A rev first last e (deg A e - 1) = last e;
+  pieces_meet : forall e i, (e < states A)%nat -> (S i < deg A e)%nat ->
+    leaves A rev first last e i = enters A rev first last e (S i);
+  weights : forall e j, (e < states A)%nat -> (j < rays e)%nat -> 0 <= weight e j;
+  some_weight : forall e, (e < states A)%nat -> exists j, (j < rays e)%nat /\ 0 < weight e j;
+  chord_in_cone : forall e, (e < states A)%nat -> sub (last e) (first e) = comb (rays e) (weight e) (ray e)
+}.
 
 Section Cones.
 Variable A : automaton.
 Notation N := (N A).
 Notation T e i := (act N (mat A e i)).
 Hypothesis sys : contracting A.
-
-(** Rays, positive matrices with entries of bounded ratio, chords from the start to the end, and pieces that meet. *)
-Variables (rays : nat -> nat) (ray : nat -> nat -> vec) (B : nat -> nat -> nat -> nat -> R) (kappa : R).
+Variables (rev : nat -> nat -> bool) (rays : nat -> nat) (ray : nat -> nat -> vec) (B : nat -> nat -> nat -> nat -> R) (kappa : R).
 Variables (first last : nat -> vec) (weight : nat -> nat -> R).
-Hypothesis rays_pos : forall e, (e < states A)%nat -> (0 < rays e)%nat.
-Hypothesis kappa_ok : 0 < kappa <= 1.
-Hypothesis B_pos : forall e i l j, (e < states A)%nat -> (i < deg A e)%nat -> (l < rays e)%nat ->
-  (j < rays (dst A e i))%nat -> 0 < B e i l j.
-Hypothesis B_ratio : forall e i l j j', (e < states A)%nat -> (i < deg A e)%nat -> (l < rays e)%nat ->
-  (j < rays (dst A e i))%nat -> (j' < rays (dst A e i))%nat -> kappa * B e i l j' <= B e i l j.
-Hypothesis B_ok : forall e i j, (e < states A)%nat -> (i < deg A e)%nat -> (j < rays (dst A e i))%nat ->
-  T e i (ray (dst A e i) j) = comb (rays e) (fun l => B e i l j) (ray e).
-Hypothesis first_ok : forall e, (e < states A)%nat -> bary N (dim A e) (first e) /\ T e 0 (first (dst A e 0)) = first e.
-Hypothesis last_ok : forall e, (e < states A)%nat -> bary N (dim A e) (last e) /\ T e (deg A e - 1) (last (dst A e (deg A e - 1))) = last e.
-Hypothesis meet : forall e i, (e < states A)%nat -> (S i < deg A e)%nat ->
-  T e i (last (dst A e i)) = T e (S i) (first (dst A e (S i))).
-Hypothesis weight_ok : forall e j, (e < states A)%nat -> (j < rays e)%nat -> 0 <= weight e j.
-Hypothesis chord : forall e, (e < states A)%nat -> sub (last e) (first e) = comb (rays e) (weight e) (ray e).
+Hypothesis common : common_cones A rev rays ray B kappa first last weight.
+Notation enters := (enters A rev first last).
+Notation leaves := (leaves A rev first last).
+Let rays_pos := some_ray _ _ _ _ _ _ _ _ _ common.
+Let kappa_ok := ratio_ok _ _ _ _ _ _ _ _ _ common.
+Let B_pos := positive _ _ _ _ _ _ _ _ _ common.
+Let B_ratio := bounded_ratio _ _ _ _ _ _ _ _ _ common.
+Let B_ok := images _ _ _ _ _ _ _ _ _ common.
+Let first_ok := start_point _ _ _ _ _ _ _ _ _ common.
+Let last_ok := end_point _ _ _ _ _ _ _ _ _ common.
+Let meet := pieces_meet _ _ _ _ _ _ _ _ _ common.
+Let weight_ok := weights _ _ _ _ _ _ _ _ _ common.
+Let chord := chord_in_cone _ _ _ _ _ _ _ _ _ common.
 
 Notation inC e := (in_cone (rays e) (ray e)).
 
 Lemma dst_ok' e i : (e < states A)%nat -> (i < deg A e)%nat -> (dst A e i < states A)%nat.
 Proof. intros He Hi. apply (wf A sys e He); auto. Qed.
 
-(** Operators map cones into cones. *)
-Lemma T_cone e i x : (e < states A)%nat -> (i < deg A e)%nat -> inC (dst A e i) x -> inC e (T e i x).
+(** Operators, with their signs, map cones into cones. *)
+Lemma T_cone e i x : (e < states A)%nat -> (i < deg A e)%nat -> inC (dst A e i) x -> inC e (scl (orient (rev e i)) (T e i x)).
 Proof.
-  intros He Hi Hx D HD Hr. apply (Hx (fun x => D (T e i x))); [apply preimage_T; auto|].
-  intros j Hj. rewrite B_ok by auto. apply comb_closed; auto. intros l Hl. left. apply B_pos; auto.
+  intros He Hi Hx D HD Hr. apply (Hx (fun x => D (scl (orient (rev e i)) (T e i x)))).
+  - apply (preimage_T A (fun y => D (scl (orient (rev e i)) y))). apply preimage_scl; auto.
+  - intros j Hj. rewrite B_ok by auto. apply comb_closed; auto. intros l Hl. left. apply B_pos; auto.
 Qed.
 
-Lemma W_cone k : forall e s x, (e < states A)%nat -> adm A e s -> inC (st A e s k) x -> inC e (W A e s k x).
+(** What a piece makes of a difference, directed forward. *)
+Lemma T_forward e i x y : (e < states A)%nat -> (i < deg A e)%nat ->
+  (if rev e i then inC (dst A e i) (sub x y) else inC (dst A e i) (sub y x)) -> inC e (sub (T e i y) (T e i x)).
 Proof.
-  induction k; simpl; intros e s x He Hs Hx; auto. apply T_cone; auto; [apply (Hs O)|]. apply IHk; auto.
-  - apply dst_ok'; auto. apply (Hs O).
-  - apply adm_tl; auto.
+  intros He Hi H. destruct (rev e i) eqn:E; apply T_cone in H; auto; rewrite E in H; unfold orient in H; rewrite act_sub in H.
+  - replace (sub (T e i y) (T e i x)) with (scl (-1) (sub (T e i x) (T e i y))); auto. extensionality k; unfold sub, scl; ring.
+  - replace (sub (T e i y) (T e i x)) with (scl 1 (sub (T e i y) (T e i x))); auto. extensionality k; unfold sub, scl; ring.
 Qed.
 
 Lemma chord_cone e : (e < states A)%nat -> inC e (sub (last e) (first e)).
@@ -59,110 +82,88 @@ Proof. apply (proj1 (proj2 (in_cone_closed (rays e) (ray e)))). Qed.
 Lemma cone_0 e : inC e (fun _ => 0).
 Proof. apply (in_cone_closed (rays e) (ray e)). Qed.
 
-(** From the start of one piece to the start of a later one, and to the end of it. *)
-Lemma starts e i n : (e < states A)%nat -> (i + n < deg A e)%nat ->
-  inC e (sub (T e (i + n) (first (dst A e (i + n)))) (T e i (first (dst A e i)))).
+Lemma cone_same e x : inC e (sub x x).
+Proof. replace (sub x x) with (fun _ : nat => 0) by (extensionality k; unfold sub; ring). apply cone_0. Qed.
+
+(** One forward difference after the other. *)
+Lemma cone_chain e y x z : inC e (sub y x) -> inC e (sub z y) -> inC e (sub z x).
 Proof.
-  intros He. induction n; intros Hn.
-  - rewrite Nat.add_0_r. replace (sub _ _) with (fun _ : nat => 0) by (extensionality k; unfold sub; ring). apply cone_0.
-  - replace (sub (T e (i + S n) (first (dst A e (i + S n)))) (T e i (first (dst A e i))))
-      with (add (T e (i + n) (sub (last (dst A e (i + n))) (first (dst A e (i + n)))))
-                (sub (T e (i + n) (first (dst A e (i + n)))) (T e i (first (dst A e i))))).
-    + apply cone_add; [apply T_cone; auto; [lia|apply chord_cone, dst_ok'; auto; lia]|apply IHn; lia].
-    + rewrite act_sub, meet by (auto; lia). rewrite Nat.add_succ_r. extensionality k; unfold add, sub; ring.
+  intros H1 H2. replace (sub z x) with (add (sub z y) (sub y x)) by (extensionality k; unfold add, sub; ring). apply cone_add; auto.
 Qed.
 
-Lemma from_first e i : (e < states A)%nat -> (i < deg A e)%nat -> inC e (sub (T e i (first (dst A e i))) (first e)).
+Lemma through e i : (e < states A)%nat -> (i < deg A e)%nat -> inC e (sub (leaves e i) (enters e i)).
 Proof.
-  intros He Hi. rewrite <- (proj2 (first_ok e He)). apply (starts e 0 i); auto.
+  intros He Hi. unfold Order.leaves, Order.enters. apply T_forward; auto. destruct (rev e i); apply chord_cone, dst_ok'; auto.
 Qed.
 
-Lemma ends e i n : (e < states A)%nat -> (i + n < deg A e)%nat ->
-  inC e (sub (T e (i + n) (last (dst A e (i + n)))) (T e i (last (dst A e i)))).
+(** From the start of one piece to the start of a later one. *)
+Lemma starts e i n : (e < states A)%nat -> (i + n < deg A e)%nat -> inC e (sub (enters e (i + n)) (enters e i)).
 Proof.
-  intros He Hn.
-  replace (sub (T e (i + n) (last (dst A e (i + n)))) (T e i (last (dst A e i)))) with
-    (add (T e (i + n) (sub (last (dst A e (i + n))) (first (dst A e (i + n)))))
-         (sub (T e (i + n) (first (dst A e (i + n)))) (T e i (last (dst A e i)))))
-    by (rewrite act_sub; extensionality k; unfold add, sub; ring).
-  destruct n.
-  - rewrite Nat.add_0_r.
-    replace (add _ _) with (fun _ : nat => 0); [apply cone_0|]. rewrite act_sub. extensionality k; unfold add, sub; ring.
-  - apply cone_add; [apply T_cone; auto; apply chord_cone, dst_ok'; auto|].
-    rewrite meet by (auto; lia). replace (i + S n)%nat with (S i + n)%nat by lia. apply starts; auto. lia.
-Qed.
-
-Lemma to_last e i : (e < states A)%nat -> (i < deg A e)%nat -> inC e (sub (last e) (T e i (last (dst A e i)))).
-Proof.
-  intros He Hi. rewrite <- (proj2 (last_ok e He)). pose proof (ends e i (deg A e - 1 - i) He) as H.
-  replace (i + (deg A e - 1 - i))%nat with (deg A e - 1)%nat in H by lia. apply H. lia.
+  intros He. induction n; intros Hn; [rewrite Nat.add_0_r; apply cone_same|].
+  apply cone_chain with (y := enters e (i + n)); [apply IHn; lia|].
+  rewrite Nat.add_succ_r, <- meet by (auto; lia). apply through; auto; lia.
 Qed.
 
 Lemma deg_pos e : (e < states A)%nat -> (0 < deg A e)%nat.
 Proof. intros He. apply (wf A sys e He). Qed.
 
-Lemma after_first e s : (e < states A)%nat -> adm A e s -> inC e (sub (phi A e s) (first e)).
+Lemma from_first e i : (e < states A)%nat -> (i < deg A e)%nat -> inC e (sub (enters e i) (first e)).
+Proof. intros He Hi. rewrite <- (proj2 (first_ok e He)). apply (starts e 0 i); auto. Qed.
+
+Lemma to_last e i : (e < states A)%nat -> (i < deg A e)%nat -> inC e (sub (last e) (leaves e i)).
 Proof.
-  intros He Hs.
-  assert (H : forall k e s, (e < states A)%nat -> adm A e s -> inC e (sub (W A e s k (first (st A e s k))) (first e))).
-  { clear e s He Hs. induction k; simpl; intros e s He Hs.
-    - replace (sub _ _) with (fun _ : nat => 0) by (extensionality i; unfold sub; ring). apply cone_0.
-    - pose proof (Hs O) as Hs0. pose proof (dst_ok' e (s O) He Hs0) as Hd.
-      replace (sub (T e (s O) (W A (dst A e (s O)) (tl s) k (first (st A (dst A e (s O)) (tl s) k)))) (first e)) with
-        (add (T e (s O) (sub (W A (dst A e (s O)) (tl s) k (first (st A (dst A e (s O)) (tl s) k))) (first (dst A e (s O)))))
-             (sub (T e (s O) (first (dst A e (s O)))) (first e)))
-        by (rewrite act_sub; extensionality i; unfold add, sub; ring).
-      apply cone_add; [apply T_cone; auto; apply IHk; auto; apply adm_tl; auto|apply from_first; auto]. }
-  destruct (in_cone_closed (rays e) (ray e)) as (_ & _ & _ & Hl).
-  apply (Hl (fun k => sub (W A e s k (first (st A e s k))) (first e))); [intros; apply H; auto|].
-  intros i. unfold sub. apply (is_lim_seq_minus' _ (fun _ => first e i)); [|apply is_lim_seq_const].
-  apply (phi_from A sys); auto. intros; apply first_ok; auto.
+  intros He Hi. rewrite <- (proj2 (last_ok e He)). destruct (Nat.eq_dec i (deg A e - 1)) as [->|Hne]; [apply cone_same|].
+  apply cone_chain with (y := enters e (deg A e - 1)); [|apply through; auto; lia].
+  rewrite meet by (auto; lia). pose proof (starts e (S i) (deg A e - 1 - S i) He) as H.
+  replace (S i + (deg A e - 1 - S i))%nat with (deg A e - 1)%nat in H by lia. apply H. lia.
 Qed.
 
-Lemma before_last e s : (e < states A)%nat -> adm A e s -> inC e (sub (last e) (phi A e s)).
+(** Every point of a cell comes after its start and before its end. *)
+Lemma between e s : (e < states A)%nat -> adm A e s ->
+  inC e (sub (phi A e s) (first e)) /\ inC e (sub (last e) (phi A e s)).
 Proof.
   intros He Hs.
-  assert (H : forall k e s, (e < states A)%nat -> adm A e s -> inC e (sub (last e) (W A e s k (last (st A e s k))))).
-  { clear e s He Hs. induction k; simpl; intros e s He Hs.
-    - replace (sub _ _) with (fun _ : nat => 0) by (extensionality i; unfold sub; ring). apply cone_0.
-    - pose proof (Hs O) as Hs0. pose proof (dst_ok' e (s O) He Hs0) as Hd.
-      replace (sub (last e) (T e (s O) (W A (dst A e (s O)) (tl s) k (last (st A (dst A e (s O)) (tl s) k))))) with
-        (add (T e (s O) (sub (last (dst A e (s O))) (W A (dst A e (s O)) (tl s) k (last (st A (dst A e (s O)) (tl s) k)))))
-             (sub (last e) (T e (s O) (last (dst A e (s O))))))
-        by (rewrite act_sub; extensionality i; unfold add, sub; ring).
-      apply cone_add; [apply T_cone; auto; apply IHk; auto; apply adm_tl; auto|apply to_last; auto]. }
+  assert (H : forall k e s, (e < states A)%nat -> adm A e s ->
+    inC e (sub (W A e s k (first (st A e s k))) (first e)) /\ inC e (sub (last e) (W A e s k (first (st A e s k))))).
+  { clear e s He Hs. induction k; simpl; intros e s He Hs; [split; [apply cone_same|apply chord_cone; auto]|].
+    pose proof (Hs O) as Hs0. simpl in Hs0. pose proof (dst_ok' e (s O) He Hs0) as Hd.
+    destruct (IHk (dst A e (s O)) (tl s) Hd (adm_tl A e s Hs)) as [H1 H2]. split.
+    - apply cone_chain with (y := enters e (s O)); [apply from_first; auto|]. unfold Order.enters. apply T_forward; auto.
+      destruct (rev e (s O)); auto.
+    - apply cone_chain with (y := leaves e (s O)); [|apply to_last; auto]. unfold Order.leaves. apply T_forward; auto.
+      destruct (rev e (s O)); auto. }
   destruct (in_cone_closed (rays e) (ray e)) as (_ & _ & _ & Hl).
-  apply (Hl (fun k => sub (last e) (W A e s k (last (st A e s k))))); [intros; apply H; auto|].
-  intros i. unfold sub. apply (is_lim_seq_minus' (fun _ => last e i)); [apply is_lim_seq_const|].
-  apply (phi_from A sys); auto. intros; apply last_ok; auto.
+  assert (Hlim : forall i, is_lim_seq (fun k => W A e s k (first (st A e s k)) i) (phi A e s i)).
+  { intros i. apply (phi_from A sys); auto. intros; apply first_ok; auto. }
+  split.
+  - apply (Hl (fun k => sub (W A e s k (first (st A e s k))) (first e))); [intros; apply H; auto|].
+    intros i. unfold sub. apply (is_lim_seq_minus' _ (fun _ => first e i)); [auto|apply is_lim_seq_const].
+  - apply (Hl (fun k => sub (last e) (W A e s k (first (st A e s k))))); [intros; apply H; auto|].
+    intros i. unfold sub. apply (is_lim_seq_minus' (fun _ => last e i)); [apply is_lim_seq_const|auto].
 Qed.
 
 (** Secants, directed forward, lie in the cone. *)
-Lemma forward k : forall e s t, (e < states A)%nat -> adm A e s -> adm A e t ->
-  (forall j, (j < k)%nat -> s j = t j) -> (s k < t k)%nat -> inC e (sub (phi A e t) (phi A e s)).
+Lemma forward k : forall e s t, (e < states A)%nat -> adm A e s -> adm A e t -> (forall j, (j < k)%nat -> s j = t j) ->
+  (if turned A rev e s k then (t k < s k)%nat else (s k < t k)%nat) -> inC e (sub (phi A e t) (phi A e s)).
 Proof.
   destruct sys as (Hwf & K & th & c & r & Q1 & Q2 & Q3 & Q4).
-  induction k; intros e s t He Hs Ht Heq Hlt.
-  - rewrite (phi_step A Hwf K th c r Q1 Q4 e s He Hs), (phi_step A Hwf K th c r Q1 Q4 e t He Ht).
-    pose proof (Hs O) as Hs0. pose proof (Ht O) as Ht0. simpl in Hs0, Ht0.
-    pose proof (dst_ok' e (s O) He Hs0) as Hd. pose proof (dst_ok' e (t O) He Ht0) as Hd'.
-    assert (Hgap : inC e (sub (T e (t O) (first (dst A e (t O)))) (T e (s O) (last (dst A e (s O)))))).
+  induction k; intros e s t He Hs Ht Heq Hlt;
+    rewrite (phi_step A Hwf K th c r Q1 Q4 e s He Hs), (phi_step A Hwf K th c r Q1 Q4 e t He Ht);
+    pose proof (Hs O) as Hs0; pose proof (Ht O) as Ht0; simpl in Hs0, Ht0;
+    pose proof (dst_ok' e (s O) He Hs0) as Hd; pose proof (dst_ok' e (t O) He Ht0) as Hd'.
+  - simpl in Hlt. apply cone_chain with (y := leaves e (s O)).
+    { unfold Order.leaves. apply T_forward; auto. destruct (between _ _ Hd (adm_tl A e s Hs)). destruct (rev e (s O)); auto. }
+    apply cone_chain with (y := enters e (t O)).
     { rewrite meet by (auto; lia). pose proof (starts e (S (s O)) (t O - S (s O)) He) as H.
       replace (S (s O) + (t O - S (s O)))%nat with (t O) in H by lia. apply H. auto. }
-    replace (sub (T e (t O) (phi A (dst A e (t O)) (tl t))) (T e (s O) (phi A (dst A e (s O)) (tl s)))) with
-      (add (T e (t O) (sub (phi A (dst A e (t O)) (tl t)) (first (dst A e (t O)))))
-        (add (sub (T e (t O) (first (dst A e (t O)))) (T e (s O) (last (dst A e (s O)))))
-             (T e (s O) (sub (last (dst A e (s O))) (phi A (dst A e (s O)) (tl s))))))
-      by (rewrite !act_sub; extensionality i; unfold add, sub; ring).
-    apply cone_add; [apply T_cone; auto; apply after_first; auto; apply adm_tl; auto|].
-    apply cone_add; auto. apply T_cone; auto. apply before_last; auto. apply adm_tl; auto.
-  - rewrite (phi_step A Hwf K th c r Q1 Q4 e s He Hs), (phi_step A Hwf K th c r Q1 Q4 e t He Ht).
-    pose proof (Hs O) as Hs0. simpl in Hs0. rewrite <- (Heq O) by lia. rewrite <- act_sub. apply T_cone; auto.
-    apply IHk; auto.
-    + apply dst_ok'; auto.
-    + apply adm_tl; auto.
-    + rewrite (Heq O) by lia. apply adm_tl; auto.
-    + intros j Hj. apply (Heq (S j)). lia.
+    unfold Order.enters. apply T_forward; auto. destruct (between _ _ Hd' (adm_tl A e t Ht)). destruct (rev e (t O)); auto.
+  - simpl in Hlt. rewrite <- (Heq O) in * by lia. apply T_forward; auto.
+    assert (Htl : forall j, (j < k)%nat -> tl s j = tl t j) by (intros j Hj; apply (Heq (S j)); lia).
+    assert (Ht' : adm A (dst A e (s O)) (tl t)) by (rewrite (Heq O) by lia; apply adm_tl; auto).
+    pose proof (adm_tl A e s Hs) as Hs'. destruct (rev e (s O)).
+    + apply IHk; auto; [intros; symmetry; auto|]. rewrite <- (turned_same A rev k _ (tl s) (tl t)) by auto.
+      destruct (turned A rev (dst A e (s O)) (tl s) k); exact Hlt.
+    + apply IHk; auto. destruct (turned A rev (dst A e (s O)) (tl s) k); exact Hlt.
 Qed.
 
 (** The cones along one address, seen through control points on which a functional is positive. *)
@@ -172,7 +173,10 @@ Hypothesis s_ok : adm A start s.
 Hypothesis view : forall j, (j < rays start)%nat -> 0 < dot N h (act N P (ray start j)).
 
 Notation f k := (st A start s k).
-Definition gen (k j : nat) : vec := act N P (W A start s k (ray (f k) j)).
+Notation up k := (orient (turned A rev start s k)).
+(** The cell of [k] letters, with its sign. *)
+Definition cell (k : nat) (x : vec) : vec := scl (up k) (W A start s k x).
+Definition gen (k j : nat) : vec := act N P (cell k (ray (f k) j)).
 Definition hgt (k j : nat) : R := dot N h (gen k j).
 Definition unit_ray (k j : nat) : vec := scl (/ hgt k j) (gen k j).
 
@@ -190,11 +194,26 @@ Proof.
   rewrite drop_nth, Nat.add_0_r. reflexivity.
 Qed.
 
+Lemma cell_last k x : cell (S k) x = cell k (scl (orient (rev (f k) (s k))) (T (f k) (s k) x)).
+Proof.
+  unfold cell. rewrite W_last, W_scl. replace (S k) with (k + 1)%nat by lia. rewrite turned_plus. simpl.
+  rewrite drop_nth, Nat.add_0_r, xorb_false_r, orient_xorb. extensionality i; unfold scl; ring.
+Qed.
+
+Lemma cell_0 x : cell 0 x = x.
+Proof. unfold cell, orient. simpl. extensionality i; unfold scl; ring. Qed.
+
+Lemma cell_add k x y : cell k (add x y) = add (cell k x) (cell k y).
+Proof. unfold cell. rewrite W_add. extensionality i; unfold add, scl; ring. Qed.
+
+Lemma cell_scl k a x : cell k (scl a x) = scl a (cell k x).
+Proof. unfold cell. rewrite W_scl. extensionality i; unfold scl; ring. Qed.
+
 Lemma gen_step k j : (j < rays (f (S k)))%nat -> gen (S k) j = comb (rays (f k)) (fun l => B (f k) (s k) l j) (gen k).
 Proof.
-  intros Hj. destruct (f_step k) as [Hf Hs]. unfold gen. rewrite Hf in Hj |- *. rewrite W_last.
+  intros Hj. destruct (f_step k) as [Hf Hs]. unfold gen. rewrite Hf in Hj |- *. rewrite cell_last.
   rewrite B_ok by (auto; apply f_ok).
-  rewrite (comb_linear (W A start s k) _ _ _ (W_add A k start s) (W_scl A k start s)).
+  rewrite (comb_linear (cell k) _ _ _ (cell_add k) (cell_scl k)).
   rewrite (comb_linear (act N P) _ _ _ (act_add N P) (act_scl N P)). reflexivity.
 Qed.
 
@@ -210,7 +229,7 @@ Proof. intros Hl Hj Hj'. destruct (f_step k) as [Hf Hs]. rewrite Hf in *. apply 
 
 Lemma hgt_pos k : forall j, (j < rays (f k))%nat -> 0 < hgt k j.
 Proof.
-  induction k; intros j Hj; [apply view; auto|]. rewrite hgt_step by auto. apply sum_pos; [apply rays_pos, f_ok|].
+  induction k; intros j Hj; [unfold hgt, gen; rewrite cell_0; apply view; auto|]. rewrite hgt_step by auto. apply sum_pos; [apply rays_pos, f_ok|].
   intros l Hl. apply Rmult_lt_0_compat; [apply B_at; auto|auto].
 Qed.
 
@@ -256,7 +275,7 @@ Definition shrink : R := 1 - kappa * kappa.
 Definition wide : R := sum (rays start) (fun j => sum (rays start) (fun j' => nrm N (sub (unit_ray 0 j) (unit_ray 0 j')))).
 
 Lemma shrink_ok : 0 <= shrink < 1.
-Proof. unfold shrink. nra. Qed.
+Proof. unfold shrink. pose proof kappa_ok. nra. Qed.
 
 Lemma wide_ge0 : 0 <= wide.
 Proof. apply sum_nonneg; intros; apply sum_nonneg; intros; apply nrm_ge0. Qed.
@@ -384,7 +403,7 @@ Proof.
     + apply (is_lim_seq_scal_l _ eps (dot N h (act N P y))). auto.
 Qed.
 
-Lemma narrow_rays eps : 0 < eps -> exists m, forall j, (j < rays (f m))%nat -> narrow eps (W A start s m (ray (f m) j)).
+Lemma narrow_rays eps : 0 < eps -> exists m, forall j, (j < rays (f m))%nat -> narrow eps (cell m (ray (f m) j)).
 Proof.
   intros He. pose proof shrink_ok as Hsh. pose proof wide_ge0 as Hw.
   destruct (pow_lt_1_zero shrink) with (y := eps / (wide + 1)) as (m & Hm).
@@ -425,34 +444,50 @@ Qed.
 (** Theorem 6, the tangent at every point: the secants to both sides of the point of an address, directed forward, tend to one
     and the same ray, uniformly. *)
 Theorem tangent_everywhere : 0 < nrm N tangent /\ forall eps, 0 < eps -> exists m, forall t, adm A start t ->
-  (forall j, (j < m)%nat -> s j = t j) -> forall x, (before s t /\ x = act N P (sub (phi A start t) (phi A start s))) \/
-    (before t s /\ x = act N P (sub (phi A start s) (phi A start t))) ->
+  (forall j, (j < m)%nat -> s j = t j) -> forall x, (ahead A rev start s t /\ x = act N P (sub (phi A start t) (phi A start s))) \/
+    (ahead A rev start t s /\ x = act N P (sub (phi A start s) (phi A start t))) ->
   0 < nrm N x -> exists c, 0 < c /\ nrm N (sub x (scl c tangent)) <= eps * nrm N x.
 Proof.
   split; [apply tangent_pos|]. intros eps He. destruct (narrow_direction eps He) as (e2 & He2 & Hdir).
   destruct (narrow_rays e2 He2) as (m & Hm). exists m. intros t Ht Heq x Hx Hpos.
-  assert (Hcone : forall y, inC (f m) y -> narrow e2 (W A start s m y)).
-  { intros y Hy. apply (Hy (fun y => narrow e2 (W A start s m y))); auto. apply preimage_W, narrow_closed. }
   destruct sys as (Hwf & K & th & c & r & Q1 & Q2 & Q3 & Q4).
   destruct (W_same A m start s t (phi A (f m) (drop m t)) Heq) as [HW Hst].
   assert (Hs' : adm A (f m) (drop m s)) by (apply adm_drop; auto).
   assert (Ht' : adm A (f m) (drop m t)) by (rewrite Hst; apply adm_drop; auto).
-  assert (E : sub (phi A start t) (phi A start s) = W A start s m (sub (phi A (f m) (drop m t)) (phi A (f m) (drop m s)))).
-  { rewrite W_sub, HW, <- (phi_W A Hwf K th c r Q1 Q4 m start s start_ok s_ok). f_equal.
-    rewrite Hst. apply (phi_W A Hwf K th c r Q1 Q4 m start t start_ok Ht). }
-  assert (Hlate : forall k a b, (forall j, (j < k)%nat -> a j = b j) -> (a k < b k)%nat ->
-    (forall j, (j < m)%nat -> a j = b j) -> (m <= k)%nat /\ (forall j, (j < k - m)%nat -> drop m a j = drop m b j) /\
-    (drop m a (k - m)%nat < drop m b (k - m)%nat)%nat).
-  { intros k a b H1 H2 H3. assert (m <= k)%nat by (destruct (Nat.lt_ge_cases k m); [rewrite H3 in H2; lia|auto]).
-    split; auto. split; [intros j Hj; rewrite !drop_nth; apply H1; lia|].
-    rewrite !drop_nth. replace (m + (k - m))%nat with k by lia. auto. }
-  destruct Hx as [[(k & Hk1 & Hk2) ->]|[(k & Hk1 & Hk2) ->]].
-  - destruct (Hlate k s t Hk1 Hk2 Heq) as (Hmk & Hj & Hl). apply Hdir; auto. rewrite E. apply Hcone.
-    apply (forward (k - m) (f m) (drop m s) (drop m t)); auto. apply f_ok.
-  - assert (Heq' : forall j, (j < m)%nat -> t j = s j) by (intros; symmetry; auto).
-    destruct (Hlate k t s Hk1 Hk2 Heq') as (Hmk & Hj & Hl). apply Hdir; auto.
-    replace (sub (phi A start s) (phi A start t)) with (W A start s m (sub (phi A (f m) (drop m s)) (phi A (f m) (drop m t)))).
-    + apply Hcone. apply (forward (k - m) (f m) (drop m t) (drop m s)); auto. apply f_ok.
-    + rewrite !W_sub in *. extensionality i. apply (f_equal (fun v => v i)) in E. unfold sub in *. lra.
+  set (ps := phi A (f m) (drop m s)) in *. set (pt := phi A (f m) (drop m t)) in *.
+  assert (Es : phi A start s = W A start s m ps) by apply (phi_W A Hwf K th c r Q1 Q4 m start s start_ok s_ok).
+  assert (Et : phi A start t = W A start s m pt).
+  { rewrite HW. unfold pt. rewrite Hst. apply (phi_W A Hwf K th c r Q1 Q4 m start t start_ok Ht). }
+  (* What is ahead in the cell of [m] letters, or, where the cell runs backwards, behind. *)
+  assert (Hin : forall a b pa pb, adm A (f m) (drop m a) -> adm A (f m) (drop m b) -> phi A (f m) (drop m a) = pa ->
+    phi A (f m) (drop m b) = pb -> (forall j, (j < m)%nat -> s j = a j) -> (forall j, (j < m)%nat -> a j = b j) ->
+    ahead A rev start a b -> narrow e2 (sub (W A start s m pb) (W A start s m pa))).
+  { intros a b pa pb Ha Hb <- <- Hsa Hab (k & Hk1 & Hk2).
+    assert (Hmk : (m <= k)%nat).
+    { destruct (Nat.lt_ge_cases k m) as [Hlt|]; auto. rewrite (Hab k Hlt) in Hk2. destruct (turned A rev start a k); lia. }
+    assert (Hj : forall j, (j < k - m)%nat -> drop m a j = drop m b j).
+    { intros j Hj. rewrite !drop_nth. apply Hk1. lia. }
+    replace k with (m + (k - m))%nat in Hk2 by lia. rewrite turned_plus in Hk2.
+    rewrite (turned_same A rev m start a s) in Hk2 by (intros; symmetry; auto).
+    destruct (W_same A m start s a (fun _ => 0) Hsa) as [_ Hsta]. rewrite <- Hsta in Hk2.
+    rewrite <- (drop_nth m a), <- (drop_nth m b) in Hk2.
+    assert (Hcone : forall y, inC (f m) y -> narrow e2 (cell m y)).
+    { intros y Hy. apply (Hy (fun y => narrow e2 (cell m y))); auto. unfold cell.
+      apply (preimage_W A m (fun y => narrow e2 (scl (up m) y))). apply preimage_scl, narrow_closed. }
+    rewrite <- W_sub. destruct (turned A rev start s m) eqn:E.
+    - replace (W A start s m (sub (phi A (f m) (drop m b)) (phi A (f m) (drop m a))))
+        with (cell m (sub (phi A (f m) (drop m a)) (phi A (f m) (drop m b)))).
+      + apply Hcone. apply (forward (k - m)); auto; [apply f_ok|intros; symmetry; auto|].
+        rewrite <- (turned_same A rev (k - m) _ (drop m a)) by auto.
+        destruct (turned A rev (f m) (drop m a) (k - m)); exact Hk2.
+      + unfold cell. rewrite E, !W_sub. extensionality i; unfold sub, scl, orient; ring.
+    - replace (W A start s m (sub (phi A (f m) (drop m b)) (phi A (f m) (drop m a))))
+        with (cell m (sub (phi A (f m) (drop m b)) (phi A (f m) (drop m a)))).
+      + apply Hcone. apply (forward (k - m)); auto; [apply f_ok|].
+        destruct (turned A rev (f m) (drop m a) (k - m)); exact Hk2.
+      + unfold cell. rewrite E. extensionality i; unfold scl, orient; ring. }
+  destruct Hx as [[Hk ->]|[Hk ->]]; apply Hdir; auto; rewrite Es, Et.
+  - apply (Hin s t); auto.
+  - apply (Hin t s); auto. intros; symmetry; auto.
 Qed.
 End Cones.

@@ -112,6 +112,16 @@ Proof.
     apply (is_lim_seq_scal_l (fun n => y n j) (mat A e i k j) (z j)). apply Hz.
 Qed.
 
+Lemma preimage_scl D a : closed_cone D -> closed_cone (fun x => D (scl a x)).
+Proof.
+  intros (H0 & H1 & H2 & H3). split; [|split; [|split]].
+  - replace (scl a (fun _ => 0)) with (fun _ : nat => 0); auto. extensionality k. unfold scl; ring.
+  - intros y z Hy Hz. replace (scl a (add y z)) with (add (scl a y) (scl a z)) by (extensionality k; unfold add, scl; ring). auto.
+  - intros b y Hb Hy. replace (scl a (scl b y)) with (scl b (scl a y)) by (extensionality k; unfold scl; ring). auto.
+  - intros y z Hy Hz. apply (H3 (fun k => scl a (y k))); auto. intros k. unfold scl.
+    apply (is_lim_seq_scal_l (fun n => y n k) a (z k)). apply Hz.
+Qed.
+
 Lemma preimage_W k : forall D e s, closed_cone D -> closed_cone (fun x => D (W A e s k x)).
 Proof.
   induction k; simpl; intros D e s HD; auto.

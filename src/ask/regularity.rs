@@ -400,7 +400,7 @@ pub fn certified_regularity(
     }
     if !what.ends_with(".toml") && !Path::new(what).is_file() {
         return Err(Problem::new("secant::regularity", format!("{what} is no case file, which a certificate is about"))
-            .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; wavelets have no certificates"));
+            .with_help("write the case first: `secant schemes NAME > FILE.toml`, or `secant expand`; of wavelets db2 and db3 are written so, the others have no certificates"));
     }
     let source = match parameters {
         [] => SourceText::read(Path::new(what))?,

@@ -312,21 +312,13 @@ impl Case {
     }
 
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
-    /// symmetries among its maps, or states that name schemes or are
-    /// chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
+    /// or states that name schemes or are chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {
         let built = matches!(
             self.scheme,
-            Some(
-                Origin::Mesh { .. }
-                    | Origin::Lattice
-                    | Origin::Polygon(_)
-                    | Origin::Graphs
-                    | Origin::Symmetric { .. }
-                    | Origin::States
-            )
+            Some(Origin::Mesh { .. } | Origin::Lattice | Origin::Polygon(_) | Origin::Graphs | Origin::States)
         );
         let member = member::is_member(&self.text.text);
         (built || member).then(|| if built { self.expanded() } else { self.text.text.to_string() })

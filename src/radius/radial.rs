@@ -71,7 +71,7 @@ impl Radial for Rational {
 }
 
 impl Radial for Real {
-    const PRODUCT: u64 = 100;
+    const PRODUCT: u64 = 300;
 
     fn largest(product: &Matrix<Self>) -> Option<Root> {
         if let Some(entries) = product.entries().iter().map(Self::rational).collect::<Option<Vec<_>>>() {

@@ -28,11 +28,15 @@ pub(super) struct Own {
     pub evidence: Evidence,
 }
 
-/// Theorem 5: the joints; what is seen of each state; and that the control points and all operators show as much, by matrices
-/// that make each of the other.
-pub(super) struct Levels {
-    pub joints: Vec<OwnJoint>,
+/// The joints of all states, and what is seen of each state.
+pub(super) struct Joints {
+    pub all: Vec<OwnJoint>,
     pub views: Vec<Matrix>,
+}
+
+/// Theorem 5: that the control points and all operators show as much as is seen of each state, by matrices that make each of the
+/// other.
+pub(super) struct Levels {
     pub pairs: Vec<Vec<(Matrix, Matrix)>>,
     pub net: (Matrix, Matrix),
     /// By state in the order of the file, a word that leads to a state with a joint.
@@ -41,6 +45,8 @@ pub(super) struct Levels {
 
 /// Theorem 6, by state in the order of the file.
 pub(super) struct Cones {
+    /// The pieces that run backwards.
+    pub backwards: Vec<Vec<bool>>,
     pub rays: Vec<Matrix>,
     pub maps: Vec<Vec<Matrix>>,
     pub firsts: Vec<Vec<Rational>>,
@@ -50,20 +56,36 @@ pub(super) struct Cones {
     pub seen_by: Vec<Rational>,
 }
 
-/// The joints of all levels, or why they are not stated.
-pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoTheorem> {
+/// Theorem 6 with the joints: functionals on what is seen of the states, and matrices that make of it what the start sees, and
+/// what is seen of the states around.
+pub(super) struct Sights {
+    pub own_rows: Vec<Vec<Rational>>,
+    pub into_start: Matrix,
+    pub into_state: Vec<Vec<Matrix>>,
+}
+
+/// The joints of all states in their own states, or why they are not stated.
+pub(super) fn joints(model: &Model<'_>, found: &Certified) -> Result<Joints, NoTheorem> {
     let none = |what: &str| NoTheorem { what: what.to_owned(), place: "the joints of all levels".to_owned() };
     let dense = found.dense.as_ref().ok_or_else(|| none("a shape that is no curve"))?;
     if found.dense_claim().is_none_or(|c| c.verdict() != Verdict::Proved) {
         return Err(none("joints that are not all proved to have tangents"));
     }
+    if dense.joints.is_empty() {
+        return Err(none("a curve without joints"));
+    }
+    let all = dense.joints.iter().map(|k| own(model, &found.points[*k])).collect::<Result<Vec<_>, _>>()?;
+    Ok(Joints { all, views: model.states.iter().map(|e| view(model, *e)).collect() })
+}
+
+/// The joints of all levels, or why they are not stated.
+pub(super) fn levels(model: &Model<'_>, joints: &Result<Joints, NoTheorem>) -> Result<Levels, NoTheorem> {
+    let joints = &joints.as_ref().map_err(Clone::clone)?.all;
+    let none = |what: &str| NoTheorem { what: what.to_owned(), place: "the joints of all levels".to_owned() };
     let start = model.shape.start;
     let shown = |e: usize, seen: &Matrix| {
         let basis = &model.spaces.of(e).basis;
-        Some((
-            through(&(&view(model, e) * basis), &(seen * basis))?,
-            through(&(seen * basis), &(&view(model, e) * basis))?,
-        ))
+        Some((covered(model, e, seen)?, through(&(seen * basis), &(&view(model, e) * basis))?))
     };
     let net = shown(start, &model.net).ok_or_else(|| none("control points that are not injective"))?;
     let of = |e: &usize| {
@@ -72,14 +94,65 @@ pub(super) fn levels(model: &Model<'_>, found: &Certified) -> Result<Levels, NoT
     };
     let pairs = model.states.iter().map(of).collect::<Option<Vec<_>>>();
     let pairs = pairs.ok_or_else(|| none("operators that are not injective"))?;
-    if dense.joints.is_empty() {
-        return Err(none("a curve without joints"));
-    }
-    let joints = dense.joints.iter().map(|k| own(model, &found.points[*k])).collect::<Result<Vec<_>, _>>()?;
-    let views = model.states.iter().map(|e| view(model, *e)).collect();
-    let ways = model.states.iter().map(|e| way(model, *e, &joints)).collect::<Option<Vec<_>>>();
+    let ways = model.states.iter().map(|e| way(model, *e, joints)).collect::<Option<Vec<_>>>();
     let ways = ways.ok_or_else(|| none("a state from which no joint is reached"))?;
-    Ok(Levels { joints, views, pairs, net, ways })
+    Ok(Levels { pairs, net, ways })
+}
+
+/// A matrix that makes of what is seen of a state what another matrix shows of it.
+fn covered(model: &Model<'_>, state: usize, shown: &Matrix) -> Option<Matrix> {
+    let basis = &model.spaces.of(state).basis;
+    through(&(&view(model, state) * basis), &(shown * basis))
+}
+
+/// What shows that the curve is G¹, or why that is not stated.
+pub(super) fn smooth(
+    model: &Model<'_>,
+    joints: &Result<Joints, NoTheorem>,
+    cones: &Result<Cones, NoTheorem>,
+) -> Result<Sights, NoTheorem> {
+    let none = |what: &str| NoTheorem { what: what.to_owned(), place: "every point".to_owned() };
+    let cones = cones.as_ref().map_err(Clone::clone)?;
+    let joints = &joints.as_ref().map_err(Clone::clone)?.all;
+    if joints.iter().any(|j| j.cusp) {
+        return Err(none("a joint that is a cusp"));
+    }
+    let known = |e: usize, left: usize| joints.iter().any(|j| j.state == e && j.pieces == (left, left + 1));
+    if !model.states.iter().all(|&e| (1..model.shape.states[e].pieces.len()).all(|i| known(e, i - 1))) {
+        return Err(none("a joint that is not listed"));
+    }
+    let hidden = || none("what is seen of a state");
+    let rows = seen_rows(model, &cones.seen_by);
+    let own = |e: &usize| {
+        let (_, row) = rows.iter().find(|(known, _)| known == e)?;
+        Some(covered(model, *e, &Matrix::from_rows(row.len(), vec![row.clone()]))?.row(0).to_vec())
+    };
+    let around = |e: &usize| {
+        let pieces = model.shape.states[*e].pieces.iter();
+        pieces.map(|p| covered(model, p.target, &(&view(model, *e) * &p.op))).collect::<Option<Vec<_>>>()
+    };
+    Ok(Sights {
+        own_rows: model.states.iter().map(own).collect::<Option<_>>().ok_or_else(hidden)?,
+        into_start: covered(model, model.shape.start, &model.net).ok_or_else(hidden)?,
+        into_state: model.states.iter().map(around).collect::<Option<_>>().ok_or_else(hidden)?,
+    })
+}
+
+/// The functional of the start as it sees each state through some word, with the sign of the word.
+fn seen_rows(model: &Model<'_>, functional: &[Rational]) -> Vec<(usize, Vec<Rational>)> {
+    let mut rows = vec![(model.shape.start, model.net.apply_left(functional))];
+    let mut next = 0;
+    while let Some((e, row)) = rows.get(next).cloned() {
+        for piece in &model.shape.states[e].pieces {
+            if rows.iter().all(|(known, _)| *known != piece.target) {
+                let seen = piece.op.apply_left(&row);
+                let signed = if piece.reversed { seen.iter().map(|x| -x).collect() } else { seen };
+                rows.push((piece.target, signed));
+            }
+        }
+        next += 1;
+    }
+    rows
 }
 
 /// A shortest word from a state to one with a joint.
@@ -169,10 +242,9 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     if cone.window != 1 || !cone.slow.is_empty() {
         return Err(none("cones that shrink slowly"));
     }
-    if !model.forward() {
-        return Err(none("pieces that run backwards"));
-    }
     let missing = || none("a state without a cone");
+    let turned = |e: &usize| model.shape.states[*e].pieces.iter().map(|p| p.reversed).collect();
+    let backwards = model.states.iter().map(turned).collect();
     let (mut rays, mut maps, mut firsts) = (Vec::new(), Vec::new(), Vec::new());
     let (mut lasts, mut chords, mut ratio) = (Vec::new(), Vec::new(), Rational::from(1));
     for e in &model.states {
@@ -204,5 +276,5 @@ pub(super) fn cones(model: &Model<'_>, found: &Certified) -> Result<Cones, NoThe
     let start = cone.cones.iter().find(|c| c.state == model.shape.start).ok_or_else(missing)?;
     let own = || model.shape.control.is_none().then(|| start.functional.clone());
     let seen_by = cone.view.clone().or_else(own).ok_or_else(|| none("cones that the control points do not show"))?;
-    Ok(Cones { rays, maps, firsts, lasts, chords, ratio, seen_by })
+    Ok(Cones { backwards, rays, maps, firsts, lasts, chords, ratio, seen_by })
 }

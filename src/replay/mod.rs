@@ -6,7 +6,9 @@
 mod curve;
 mod evidence;
 mod field;
+mod hulls;
 mod refuted;
+mod whole;
 mod write;
 
 use crate::arith::Rational;
@@ -16,6 +18,7 @@ use crate::shape::{Address, CellKind, Contraction, Shape, Spaces, word_text};
 use crate::theorem::{BranchReport, Certified, Direction, Kind, PointReport, Role, Verdict};
 use evidence::{Balls, Evidence, Given, Mode};
 use field::{Field, Pairs};
+use hulls::Hulls;
 use refuted::Refuted;
 use thiserror::Error;
 
@@ -66,8 +69,19 @@ struct Stated {
 
 /// What is stated of a whole curve, or why it is not.
 struct Whole {
+    joints: Result<curve::Joints, NoTheorem>,
     levels: Result<curve::Levels, NoTheorem>,
     cones: Result<curve::Cones, NoTheorem>,
+    /// With the joints and the cones, that the curve is G¹.
+    smooth: Result<curve::Sights, NoTheorem>,
+}
+
+/// What shows that the pieces contract.
+enum Shrinks {
+    /// The bound of all words of a code, and the length of the longest.
+    Words { constant: Rational, length: usize },
+    /// Polytopes that the pieces map into one another.
+    Hulls(Hulls),
 }
 
 /// The reachable part of a shape, with the numbers that its states have in the file, and what encloses its attractors.
@@ -82,17 +96,12 @@ struct Model<'a> {
     net: Matrix,
     /// Coordinates that are enough for all.
     ambient: usize,
-    /// Bound of all words of the code, and the length of the longest.
-    constant: Rational,
-    length: usize,
+    shrinks: Shrinks,
 }
 
 impl<'a> Model<'a> {
     fn of(case: &'a Case, found: &Certified) -> Result<Self, NoTheorem> {
         let shape = &case.shape;
-        let Contraction::Proved(code) = &found.contraction else {
-            return none("contraction that is not proved by words (Lemma 1)", "contraction");
-        };
         let states: Vec<usize> = found.states.iter().map(|s| s.state).collect();
         if states.iter().any(|e| matches!(shape.states[*e].kind, CellKind::Face)) {
             return none("a surface", case.name.clone());
@@ -103,11 +112,22 @@ impl<'a> Model<'a> {
             balls.centre[s.state].clone_from(&s.base);
             balls.radius[s.state].clone_from(&s.radius);
         }
+        let shrinks = match &found.contraction {
+            Contraction::Proved(code) => Shrinks::Words { constant: code.constant.clone(), length: code.length },
+            Contraction::Polytopes(polytopes) => {
+                for e in &states {
+                    balls.radius[*e] = hulls::radius(&balls.centre[*e], &polytopes.vertices[*e]);
+                }
+                let hulls = Hulls::new(shape, &states, polytopes);
+                Shrinks::Hulls(hulls.ok_or(()).or_else(|()| none("polytopes without interior", "contraction"))?)
+            }
+            _ => return none("contraction that is not proved by words or polytopes", "contraction"),
+        };
         let Some(spaces) = Spaces::new(shape) else { return none("base points that are not unique", "contraction") };
         let net = shape.control.clone().unwrap_or_else(|| Matrix::identity(shape.states[shape.start].dim));
         let dims = states.iter().map(|e| shape.states[*e].dim);
         let ambient = dims.chain([net.rows()]).max().unwrap_or(0);
-        Ok(Self { shape, states, balls, spaces, net, ambient, constant: code.constant.clone(), length: code.length })
+        Ok(Self { shape, states, balls, spaces, net, ambient, shrinks })
     }
 
     fn given(&self) -> Given<'_> {
@@ -150,7 +170,9 @@ pub fn coq(case: &Case, found: &Certified) -> Result<String, NoTheorem> {
     if theorems.is_empty() || found.verdict == Verdict::Undetermined {
         return none("an undetermined verdict", case.name.clone());
     }
-    let whole = Whole { levels: curve::levels(&model, found), cones: curve::cones(&model, found) };
+    let (joints, cones) = (curve::joints(&model, found), curve::cones(&model, found));
+    let (levels, smooth) = (curve::levels(&model, &joints), curve::smooth(&model, &joints, &cones));
+    let whole = Whole { joints, levels, cones, smooth };
     Ok(write::file(case, found, &model, &theorems, &whole))
 }
 

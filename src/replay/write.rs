@@ -1,10 +1,9 @@
 //! The text of the file.
 
-use super::curve::{Cones, Levels, Own, OwnJoint};
 use super::evidence::{Chart, Evidence, Top};
 use super::field::{Field, Pair, Pairs};
 use super::refuted::{Limit, Refuted, Spiral};
-use super::{Model, Replayed, Stated, Statement, Whole};
+use super::{Model, NoTheorem, Replayed, Shrinks, Stated, Statement, Whole, whole};
 use crate::arith::Rational;
 use crate::case::Case;
 use crate::linalg::Matrix;
@@ -12,28 +11,28 @@ use crate::shape::Address;
 use crate::theorem::{Certified, Kind};
 use std::fmt::Write;
 
-fn number(x: &Rational) -> String {
+pub(super) fn number(x: &Rational) -> String {
     x.to_string().replace('/', "#")
 }
 
-fn list<T>(items: impl IntoIterator<Item = T>, text: impl Fn(T) -> String) -> String {
+pub(super) fn list<T>(items: impl IntoIterator<Item = T>, text: impl Fn(T) -> String) -> String {
     let items: Vec<String> = items.into_iter().map(text).collect();
     format!("[{}]", items.join("; "))
 }
 
-fn vector(v: &[Rational]) -> String {
+pub(super) fn vector(v: &[Rational]) -> String {
     list(v, number)
 }
 
-fn matrix(m: &Matrix) -> String {
+pub(super) fn matrix(m: &Matrix) -> String {
     list(0..m.rows(), |i| vector(m.row(i)))
 }
 
-fn word(w: &[usize]) -> String {
+pub(super) fn word(w: &[usize]) -> String {
     list(w, |letter| format!("{letter}%nat"))
 }
 
-fn branch(prefix: &[usize], cycle: &[usize]) -> String {
+pub(super) fn branch(prefix: &[usize], cycle: &[usize]) -> String {
     format!("{{| prefix := {}; cycle := {} |}}", word(prefix), word(cycle))
 }
 
@@ -42,14 +41,14 @@ fn plain(text: &str) -> String {
     text.replace("(*", "( *").replace("*)", "* )").replace('"', "'")
 }
 
-const ABOUT: &str = "(automaton_of case) (qm net) start";
-const GIVEN: &str = "case centres radii spaces net start";
-const BY_COMPUTATION: &str = "[exact contracts|vm_compute; reflexivity]";
+pub(super) const ABOUT: &str = "(automaton_of case) (qm net) start";
+pub(super) const GIVEN: &str = "case centres radii spaces net start";
+pub(super) const BY_COMPUTATION: &str = "[exact contracts|vm_compute; reflexivity]";
 
 /// The file: definitions, theorems, and one theorem that holds them all.
-pub(super) fn file(case: &Case, found: &Certified, model: &Model<'_>, theorems: &[Stated], whole: &Whole) -> String {
+pub(super) fn file(case: &Case, found: &Certified, model: &Model<'_>, theorems: &[Stated], curve: &Whole) -> String {
     let mut out = String::new();
-    heading(&mut out, case, found, whole);
+    heading(&mut out, case, found, curve);
     definitions(&mut out, model);
     let mut names = Vec::new();
     for theorem in theorems {
@@ -58,13 +57,7 @@ pub(super) fn file(case: &Case, found: &Certified, model: &Model<'_>, theorems: 
         finished(&mut out, &theorem.name, &claim, &proof);
         names.push(theorem.name.clone());
     }
-    if let Ok(levels) = &whole.levels {
-        all_levels(&mut out, model, levels, &mut names);
-    }
-    if let Ok(cones) = &whole.cones {
-        every_point(&mut out, cones);
-        names.push("every_point".to_owned());
-    }
+    whole::write(&mut out, model, curve, &mut names);
     let all = names.iter().map(|n| format!("{n}_statement")).collect::<Vec<_>>().join(" /\\\n  ");
     let mut proof = String::new();
     for (k, name) in names.iter().enumerate() {
@@ -75,26 +68,26 @@ pub(super) fn file(case: &Case, found: &Certified, model: &Model<'_>, theorems: 
     out
 }
 
-fn heading(out: &mut String, case: &Case, found: &Certified, whole: &Whole) {
-    let levels = match &whole.levels {
-        Ok(_) => "Stated as well: the joints of all levels.".to_owned(),
-        Err(why) => format!("Not stated: the joints of all levels ({}).", why.what),
+fn heading(out: &mut String, case: &Case, found: &Certified, curve: &Whole) {
+    let said = |stated: Option<&NoTheorem>, what: &str| match stated {
+        None => format!("Stated as well: {what}."),
+        Some(why) => format!("Not stated: {what} ({}).", why.what),
     };
-    let cones = match &whole.cones {
-        Ok(_) => "Stated as well: one ray for both sides at every address.".to_owned(),
-        Err(why) => format!("Not stated: every point ({}).", why.what),
-    };
+    let levels = said(curve.levels.as_ref().err(), "the joints of all levels");
+    let cones = said(curve.cones.as_ref().err(), "one ray for both sides at every address");
+    let smooth = said(curve.smooth.as_ref().err(), "the curve is G¹");
     let _ = write!(
         out,
-        "(* Case {}: {}\n   secant's verdict: {}. This file states and proves what it says of single points: rays and lines of the\n   branches below.\n   {}\n   {}\n   Exponents and rates are never stated. Every number is checked by computation; the theorems are those of proofs/\n   (see proofs/README.md): coqc -Q proofs/theories Secant FILE.v *)\n",
+        "(* Case {}: {}\n   secant's verdict: {}. This file states and proves what it says of single points: rays and lines of the\n   branches below.\n   {}\n   {}\n   {}\n   Exponents and rates are never stated. Every number is checked by computation; the theorems are those of proofs/\n   (see proofs/README.md): coqc -Q proofs/theories Secant FILE.v *)\n",
         plain(&case.name),
         plain(&case.title),
         found.verdict.word(),
         plain(&levels),
         plain(&cones),
+        plain(&smooth),
     );
     out.push_str(
-        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Quadratic Everywhere.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
+        "From Coq Require Import List QArith.\nFrom Secant Require Import Replay Dense Refute Spiral Quadratic Everywhere Hulls.\nImport ListNotations.\nOpen Scope Q_scope.\nOpen Scope list_scope.\n\n",
     );
 }
 
@@ -114,7 +107,10 @@ fn definitions(out: &mut String, model: &Model<'_>) {
     let _ = writeln!(out, "(* The control points, one a column; the identity where the case has none. *)");
     let _ = writeln!(out, "Definition net : qmat := {}.", matrix(&model.net));
     let _ = writeln!(out, "Definition start : nat := {}.\n", model.number(model.shape.start));
-    let _ = writeln!(out, "(* Balls that hold the attractors, and contraction by words (Lemma 1). *)");
+    let _ = writeln!(
+        out,
+        "(* Balls that hold the attractors, and contraction by words (Lemma 1) or polytopes (Lemma 1′). *)"
+    );
     let centres = list(&model.states, |e| vector(&model.balls.centre[*e]));
     let radii = list(&model.states, |e| number(&model.balls.radius[*e]));
     let space = |e: &usize| &model.spaces.of(*e).basis * &model.spaces.of(*e).coordinates;
@@ -125,13 +121,30 @@ fn definitions(out: &mut String, model: &Model<'_>) {
         "(* Spaces of the differences of the attractors: the vectors that these matrices do not change. *)"
     );
     let _ = writeln!(out, "Definition spaces : list qmat := {spaces}.");
+    let applied = match &model.shrinks {
+        Shrinks::Words { constant, length } => {
+            format!("controlled_ok case centres radii spaces ({}) {length}", number(constant))
+        }
+        Shrinks::Hulls(hulls) => {
+            let vectors = |of: &Vec<Vec<Rational>>| list(of, |v| vector(v));
+            let _ = writeln!(
+                out,
+                "(* Polytopes by state: vertices, their images as combinations by piece, the weights that all images have in common, and coordinates in the vertices. *)"
+            );
+            let _ = writeln!(
+                out,
+                "Definition polytopes : hulls := {{|\n  corners := {};\n  images_of := {};\n  shared := {};\n  inverses := {};\n  shrink_by := {} |}}.",
+                list(&hulls.corners, vectors),
+                list(&hulls.images, |of| list(of, vectors)),
+                list(&hulls.shared, vectors),
+                list(&hulls.inverses, matrix),
+                number(&hulls.constant),
+            );
+            "controlled_hulls case centres radii spaces polytopes".to_owned()
+        }
+    };
     let _ = writeln!(out, "Lemma contracts : controlled case centres radii spaces.");
-    let _ = writeln!(
-        out,
-        "Proof. apply (controlled_ok case centres radii spaces ({}) {}); vm_compute; reflexivity. Qed.\n",
-        number(&model.constant),
-        model.length
-    );
+    let _ = writeln!(out, "Proof. apply ({applied}); vm_compute; reflexivity. Qed.\n");
 }
 
 fn top(t: &Top) -> String {
@@ -147,18 +160,18 @@ fn pair(x: &Pair) -> String {
 }
 
 /// A vector, or the pair of its parts where numbers are irrational.
-fn coordinates(field: &Field, v: &Pairs) -> String {
+pub(super) fn coordinates(field: &Field, v: &Pairs) -> String {
     if field.is_rational() { vector(&v.plain) } else { format!("({}, {})", vector(&v.plain), vector(&v.rooted)) }
 }
 
 /// The real vector that a statement is about.
-fn real(name: &str, field: &Field, v: &Pairs) -> String {
+pub(super) fn real(name: &str, field: &Field, v: &Pairs) -> String {
     let coordinates = coordinates(field, v);
     if field.is_rational() { format!("(qv {coordinates})") } else { format!("(vval {name}_root {coordinates})") }
 }
 
 /// What is put before the names of theorems, and of fields of evidence.
-fn words(field: &Field) -> (&'static str, &'static str) {
+pub(super) fn words(field: &Field) -> (&'static str, &'static str) {
     if field.is_rational() { ("", "") } else { ("quadratic_", "q_") }
 }
 
@@ -167,7 +180,7 @@ fn chart(c: &Chart) -> String {
     format!("{{| coordinates := {coordinates}; turn := {turn}; seen := {seen} |}}")
 }
 
-fn evidence(out: &mut String, name: &str, e: &Evidence) {
+pub(super) fn evidence(out: &mut String, name: &str, e: &Evidence) {
     let field = &e.field;
     let lead = if field.is_rational() {
         format!("lead := {}", top(&e.top))
@@ -200,7 +213,7 @@ fn evidence(out: &mut String, name: &str, e: &Evidence) {
     );
 }
 
-fn finished(out: &mut String, name: &str, claim: &str, proof: &str) {
+pub(super) fn finished(out: &mut String, name: &str, claim: &str, proof: &str) {
     let _ = writeln!(
         out,
         "Definition {name}_statement : Prop :=\n  {claim}.\nTheorem {name} : {name}_statement.\nProof.\n  {proof}\nQed.\n"
@@ -340,86 +353,4 @@ fn spiral(out: &mut String, name: &str, s: &Spiral) {
         s.minor.0,
         s.minor.1,
     );
-}
-
-/// Theorem 5: every joint in its own state, and in all copies of the state.
-fn all_levels(out: &mut String, model: &Model<'_>, levels: &Levels, names: &mut Vec<String>) {
-    let pair = |(c, d): &(Matrix, Matrix)| format!("({}, {})", matrix(c), matrix(d));
-    let (views, pairs) = (list(&levels.views, matrix), list(&levels.pairs, |of| list(of, pair)));
-    let _ = writeln!(
-        out,
-        "(* The joints of all levels (Theorem 5): what is seen of each state, and that the control points and all operators show as much. *)"
-    );
-    let _ = writeln!(out, "Definition views : list qmat := {views}.");
-    let _ = writeln!(out, "Definition pairs : list (list (qmat * qmat)) := {pairs}.");
-    let _ = writeln!(out, "Definition net_pair : qmat * qmat := {}.\n", pair(&levels.net));
-    for joint in &levels.joints {
-        let state = model.number(joint.state);
-        let OwnJoint { pieces, before, after, cusp, point, lift, .. } = joint;
-        let name = format!("levels_{state}_{}_{}", pieces.0, pieces.1);
-        evidence(out, &format!("{name}_before"), &before.evidence);
-        evidence(out, &format!("{name}_after"), &after.evidence);
-        let of = |b: &Own| branch(&b.prefix, &b.cycle);
-        let field = &after.evidence.field;
-        let (theorem, q) = words(field);
-        let (b1, b2, d) = (of(before), of(after), coordinates(field, &after.direction));
-        let named = format!("{name}_after");
-        let (r, lifted) = (real(&named, field, &after.direction), real(&named, field, lift));
-        let seen = if field.is_rational() {
-            format!("lift_ok case spaces {state} views {} {d}", vector(&lift.plain))
-        } else {
-            format!("lift_pair_ok case spaces {state} views {named}_root {} {d}", coordinates(field, lift))
-        };
-        let word = if *cusp { "cusp" } else { "regular" };
-        let values = format!("({q}value {name}_before) ({q}value {name}_after)");
-        let claim = format!(
-            "forall u, admw (automaton_of case) start u -> stw (automaton_of case) start u = {state}%nat ->\n  {word} {ABOUT}\n    (inside u {b1})\n    (inside u {b2})\n    (act (ambient case) (qm net) (Ww (automaton_of case) start u {lifted}))"
-        );
-        let proof = format!(
-            "refine ({word}_levels {GIVEN} {state} views pairs net_pair _ _ {values} {lifted} {r} _ _ _ _); [exact contracts|vm_compute; reflexivity|apply ({seen}); vm_compute; reflexivity|].\n  apply ({theorem}{word}_ok case centres radii spaces (view_of views {state}) {state} _ _ {name}_before {name}_after {} {d}); {BY_COMPUTATION}.",
-            vector(point)
-        );
-        finished(out, &name, &claim, &proof);
-        names.push(name);
-    }
-    everywhere_dense(out, model, levels);
-    names.push("dense".to_owned());
-}
-
-/// That the joints of all levels come near every point.
-fn everywhere_dense(out: &mut String, model: &Model<'_>, levels: &Levels) {
-    let joints = list(&levels.joints, |joint| {
-        let state = model.number(joint.state);
-        let (_, q) = words(&joint.before.evidence.field);
-        let named = format!("levels_{state}_{}_{}_before", joint.pieces.0, joint.pieces.1);
-        format!("({state}%nat, ({}, {q}value {named}))", branch(&joint.before.prefix, &joint.before.cycle))
-    });
-    let _ = writeln!(
-        out,
-        "(* They come as near as one likes to every point: a word from each state to one with a joint. *)"
-    );
-    let _ = writeln!(out, "Definition joints : list (nat * (branch * qvec)) := {joints}.");
-    let _ = writeln!(out, "Definition ways : list (list nat) := {}.", list(&levels.ways, |w| word(w)));
-    let proof = format!("apply (joints_dense_ok case centres radii spaces net start joints ways); {BY_COMPUTATION}.");
-    finished(out, "dense", "joints_dense case net start joints", &proof);
-}
-
-/// Theorem 6.
-fn every_point(out: &mut String, cones: &Cones) {
-    let columns = |m: &Matrix| list(0..m.cols(), |j| vector(&m.column(j)));
-    let _ = writeln!(out, "(* Every point (Theorem 6): rays, their images, end points, chords. *)");
-    let _ = writeln!(
-        out,
-        "Definition common : cones := {{|\n  rays_of := {};\n  maps_of := {};\n  firsts := {};\n  lasts := {};\n  chords := {};\n  ratio := {}; seen_by := {} |}}.",
-        list(&cones.rays, columns),
-        list(&cones.maps, |of| list(of, matrix)),
-        list(&cones.firsts, |v| vector(v)),
-        list(&cones.lasts, |v| vector(v)),
-        list(&cones.chords, |v| vector(v)),
-        number(&cones.ratio),
-        vector(&cones.seen_by),
-    );
-    let claim = format!("tangent_at_every_address {ABOUT}");
-    let proof = format!("apply (cones_ok case centres radii spaces common net start); {BY_COMPUTATION}.");
-    finished(out, "every_point", &claim, &proof);
 }

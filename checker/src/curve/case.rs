@@ -254,6 +254,7 @@ impl<T: Whole> Reader<'_, T> {
         let mut states = Vec::new();
         for (e, head) in heads.iter().enumerate() {
             let pieces = self.pieces(e, &heads, form)?;
+            let pieces = if form == Form::Maps && kind == Kind::Set { written_out(pieces)? } else { pieces };
             if form == Form::States {
                 self.sides(e, &heads, &list[e])?;
             }
@@ -289,6 +290,51 @@ impl<T: Whole> Reader<'_, T> {
         case.need(given == dim, "case", why)?;
         Ok(Shape::new(states, start, view))
     }
+}
+
+/// Largest order of a map that does not contract, and largest group of such maps.
+const MAX_ORDER: usize = 12;
+const MAX_GROUP: usize = 48;
+
+/// The maps of a set, where some power of some of them is the identity: the products `g f` of the group that these generate with
+/// the other maps, group by group, each map once.
+fn written_out<T: Whole>(pieces: Vec<Piece<T>>) -> Checked<Vec<Piece<T>>> {
+    let Some(one) = pieces.first().map(|p| Matrix::identity(p.op.rows)) else { return Ok(pieces) };
+    let (mut turns, mut others) = (Vec::new(), Vec::new());
+    for piece in &pieces {
+        let (mut power, mut finite) = (piece.op.clone(), false);
+        for _ in 0..MAX_ORDER {
+            finite |= power == one;
+            power = power.times(&piece.op)?;
+        }
+        (if finite { &mut turns } else { &mut others }).push(piece.op.clone());
+    }
+    if turns.is_empty() || others.is_empty() {
+        return Ok(pieces);
+    }
+    let (mut group, mut next) = (vec![one], 0);
+    while next < group.len() {
+        for turn in &turns {
+            let product = turn.times(&group[next])?;
+            if !group.contains(&product) {
+                group.push(product);
+            }
+        }
+        if group.len() > MAX_GROUP {
+            return Ok(pieces);
+        }
+        next += 1;
+    }
+    let mut all: Vec<Piece<T>> = Vec::new();
+    for g in &group {
+        for f in &others {
+            let op = g.times(f)?;
+            if all.iter().all(|p| p.op != op) {
+                all.push(Piece { target: 0, op, reversed: false, share: None });
+            }
+        }
+    }
+    Ok(if all.len() <= MAX_PIECES { all } else { pieces })
 }
 
 /// Whether shares, where there are any, are those of all pieces of a curve, positive and of sum 1.
