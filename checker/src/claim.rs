@@ -83,6 +83,29 @@ pub enum Claim {
     SmoothAtVertex(usize),
     /// For almost all control points the surface has a tangent plane at vertices of this valence.
     PlaneAtVertex(usize),
+    /// For the points of a mesh the surface of a scheme is C¹ at its vertices, and in the middles of faces that become vertices.
+    MeshSmooth {
+        /// The scheme.
+        scheme: String,
+        /// At so many of them.
+        listed: usize,
+        /// How many there are.
+        all: usize,
+    },
+    /// The limit points and normals there are those that the certificate lists, but for small errors.
+    MeshLimits {
+        /// How many are listed.
+        listed: usize,
+        /// Points up to this power of 1/2 times the largest coordinate.
+        points: u32,
+        /// Normals up to this power of 1/2.
+        normals: u32,
+    },
+    /// The limit surface of a mesh is a regular C¹ surface.
+    MeshRegular {
+        /// The scheme.
+        scheme: String,
+    },
     /// The joint spectral radius is at least the first and at most the second number.
     Radius(Q, Q),
     /// A diagonal block of a system of matrices has a joint spectral radius of at most a number.
@@ -406,6 +429,23 @@ impl Display for Claim {
             Self::PlaneAtVertex(n) => {
                 write!(f, "for almost all control points it has a tangent plane at a vertex of valence {n}")
             }
+            Self::MeshSmooth { scheme, listed, all } if listed == all => {
+                write!(f, "the surface of this mesh by {scheme} is C¹ at every vertex, for these points")
+            }
+            Self::MeshSmooth { scheme, listed, all } => write!(
+                f,
+                "the surface of this mesh by {scheme} is C¹ at {listed} of its {all} vertices, those with a limit in the certificate, \
+                 for these points"
+            ),
+            Self::MeshLimits { listed, points, normals } => write!(
+                f,
+                "{listed} limit points, up to 2^-{points} of the largest coordinate, and unit normals, up to 2^-{normals}, are those \
+                 of the certificate"
+            ),
+            Self::MeshRegular { scheme } => write!(
+                f,
+                "the limit surface of this mesh by {scheme} is a regular C¹ surface, immersed by its parametrisation"
+            ),
             Self::Radius(low, high) if low == high => write!(f, "the joint spectral radius is {low}"),
             Self::Radius(low, high) => write!(f, "the joint spectral radius is at least {low} and at most {high}"),
             Self::Block { dims, norm, bound } => {

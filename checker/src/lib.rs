@@ -9,6 +9,7 @@ mod curve;
 mod jsr;
 mod lattice;
 mod literal;
+mod mesh;
 pub mod reader;
 mod region;
 mod regularity;
@@ -83,6 +84,7 @@ fn checked(case: &str, certificate: &str) -> Checked<Accepted> {
         "lattice" => lattice::check(case, &proof)?,
         "surface" => surface::check(case, &proof)?,
         "vertex" => vertex::check(case, &proof)?,
+        "mesh" => mesh::check(case, &proof)?,
         _ => return kind.reject("format", "unknown kind of certificate"),
     };
     number::spend(0, 0)?;

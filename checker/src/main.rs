@@ -9,7 +9,7 @@ Proves the verdict of a secant certificate again, from the case file itself and 
 Usage: secant-check CASE CERTIFICATE.json
        secant-check --help | --version
 
-CASE         what the certificate is about: a case (TOML), a file of matrices, or a matrix in plain text
+CASE         what the certificate is about: a case (TOML), a mesh (OBJ, OFF, PLY), a file of matrices, or a matrix in plain text
 CERTIFICATE  what `secant certify CASE --certificate FILE` wrote (also `secant jsr`, `regularity`, `spectrum`, `solve`)
 
 Everything that is plain linear algebra, rational or over a real number field, is computed again from the case, a `[scheme]` of curves included; from the

@@ -3,16 +3,16 @@
 
 use crate::base::{Accepted, Checked, Node, Q, Verdict, file, need, reject, together};
 use crate::claim::Claim;
-mod ball;
+pub mod ball;
 mod case;
 mod cells;
 mod exact;
 mod factors;
 mod formula;
 mod limit;
-mod mesh;
+pub mod mesh;
 mod own;
-mod patch;
+pub mod patch;
 mod ring;
 mod rule;
 
@@ -29,6 +29,16 @@ use ring::Ring;
 pub const KEYS: &str = "name title source vertex expect";
 /// Rings on which a block may live.
 const MAX_RINGS: usize = 8;
+
+/// A scheme at one valence with its leading eigenvector.
+pub struct Leading {
+    /// The scheme.
+    pub mesh: Mesh,
+    /// The eigenvalue.
+    pub value: Ball,
+    /// The eigenvector.
+    pub net: Net,
+}
 
 /// Checks the proof of a certificate of the kind `vertex`.
 pub fn check(source: &str, proof: &Node<'_>) -> Checked<Accepted> {
@@ -70,6 +80,19 @@ impl Case {
         if node.get("value").is_some() {
             return self.exact(node, regular);
         }
+        self.simple(node, regular).map(|(leading, smooth, plane)| (leading.mesh.valence(), smooth, plane))
+    }
+
+    /// The leading eigenvector of a spline at a valence at which the certificate proves the surface C¹ by Theorem 7.
+    pub fn smooth(&self, node: &Node<'_>) -> Checked<Leading> {
+        let (leading, smooth, _) = self.simple(node, None)?;
+        let holds = smooth == Verdict::Proved && leading.net.frequency == 1;
+        node.need(holds, "theorem-7", "the scheme is not proved C¹ at this valence")?;
+        Ok(leading)
+    }
+
+    /// The leading eigenvalue, which is simple and alone, and what follows.
+    fn simple(&self, node: &Node<'_>, regular: Option<&Regular>) -> Checked<(Leading, Verdict, Verdict)> {
         let [valence, rule, frequency, turn, others, rings, vector, half_plane] = match regular {
             Some(_) => node.fields("valence rule frequency turn others rings vector half_plane")?,
             None => {
@@ -84,10 +107,10 @@ impl Case {
         let (mesh, last) = self.mesh(regular, powers(n, &pair(&turn)?)?)?;
         let near = vector.list()?.iter().map(pair).collect::<Checked<Vec<_>>>()?;
         let rings = if regular.is_some() { rings.index(MAX_RINGS + 1)? as i64 } else { 2 };
-        let net = top(&mesh, k, &near, &radius, [rings, last])?;
+        let (value, net) = top(&mesh, k, &near, &radius, [rings, last])?;
         let ring = self.ring(regular, &mesh, &net)?;
         let (smooth, plane) = judged(&ring, &rule, &half_plane, [n, k, 1])?;
-        Ok((n, smooth, plane))
+        Ok((Leading { mesh, value, net }, smooth, plane))
     }
 
     /// The same with rational weights and a rational leading eigenvalue, which may be one of several blocks or have Jordan blocks.
@@ -177,7 +200,7 @@ fn judged(
 
 /// Proves that the block `k` has exactly one eigenvalue of modulus `radius` or more but the 1 of block 0, that it is simple and smaller
 /// than 1, and that the other blocks have none; all on the first rings. It returns the eigenvector on as many rings as are asked for.
-fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q, [rings, last]: [i64; 2]) -> Checked<Net> {
+fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q, [rings, last]: [i64; 2]) -> Checked<(Ball, Net)> {
     let mut found = None;
     for other in 0..=mesh.valence() / 2 {
         let block = mesh.block(other, rings)?;
@@ -203,7 +226,8 @@ fn top(mesh: &Mesh, k: usize, near: &[(Q, Q)], radius: &Q, [rings, last]: [i64; 
     let places = mesh.places(rings);
     let centre = if vector.len() > places.len() { vector.remove(0) } else { Ball::zero() };
     let values = places.into_iter().zip(vector).collect();
-    mesh.continued(&value, Net { frequency: k, centre, values }, last.max(rings))
+    let net = mesh.continued(&value, Net { frequency: k, centre, values }, last.max(rings))?;
+    Ok((value, net))
 }
 
 #[cfg(test)]
@@ -256,7 +280,7 @@ mod tests {
             let radius = item.field("others").unwrap().rational().unwrap();
             let block = mesh.block(k, 2).unwrap();
             let (value, _) = leading(&block, &near, &radius).unwrap();
-            let net = top(&mesh, k, &near, &radius, [2, 3]).unwrap();
+            let (_, net) = top(&mesh, k, &near, &radius, [2, 3]).unwrap();
             let ring = patches(*spline, &mesh, &net).unwrap();
             let small = Q::one() / num_traits::pow(whole(2), 60);
             let (small_edge, outer) = (half(&edge(&ring)), boundary(*spline, &ring));
@@ -294,7 +318,7 @@ mod tests {
                 ((&x * &first.0 + &y * &first.1) / &size, (&y * &first.0 - &x * &first.1) / &size)
             };
             let near: Vec<_> = places.iter().map(near).collect();
-            let net = top(&mesh, 1, &near, &(whole(3) / whole(10)), [2, 3]).unwrap();
+            let (_, net) = top(&mesh, 1, &near, &(whole(3) / whole(10)), [2, 3]).unwrap();
             let ring = patches(spline, &mesh, &net).unwrap();
             assert!(one_sign(ring.iter().flat_map(Patch::jacobian).map(|c| c.0.imaginary_sign())), "{spline:?}");
             // The outer boundary begins at distance 2 on the first spoke.

@@ -5,7 +5,7 @@ use super::{Certificate, Doubt, Unsupported, number, unsupported};
 use crate::algebraic::sqrt_down;
 use crate::arith::{Rational, abs};
 use crate::case::{Valences, VertexCase};
-use crate::scheme::{Sector, sector_stencils};
+use crate::scheme::{MeshRule, Sector, sector_stencils};
 use crate::theorem::Verdict;
 use crate::vertex::field::{Enclosures, Field};
 use crate::vertex::regular::Regular;
@@ -71,10 +71,10 @@ fn unity(k: usize, n: usize) -> Complex {
 }
 
 /// The values on the first rings, in the order of the format.
-fn all_values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
+fn all_values(rule: &MeshRule, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
     // Splines have two rings in the format.
-    let rings = if by_stencils(case) { vector.rings } else { 2 };
-    let inside = |&(i, j): &(usize, usize)| match (case.rule.dual(), case.rule.sector()) {
+    let rings = if by_stencils(rule) { vector.rings } else { 2 };
+    let inside = |&(i, j): &(usize, usize)| match (rule.dual(), rule.sector()) {
         (true, _) => i < rings && j < rings,
         (false, Sector::Quads) => i > 0,
         (false, Sector::Triangles) => i > 0 && i + j <= rings,
@@ -90,12 +90,12 @@ fn all_values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<C
 }
 
 /// The same without the constant part in block 0.
-fn values(case: &VertexCase, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
-    let mut all = all_values(case, vector, n)?;
+fn values(rule: &MeshRule, vector: &Eigenvector, n: usize) -> Result<Vec<Complex>, Unsupported> {
+    let mut all = all_values(rule, vector, n)?;
     if vector.frequency == 0 {
         // ω = 1 there.
         let centre = (&vector.centre.0 + &vector.centre.1, Rational::from(0));
-        let own = if case.rule.dual() { all.remove(0) } else { centre };
+        let own = if rule.dual() { all.remove(0) } else { centre };
         all.iter_mut().for_each(|v| *v = (&v.0 - &own.0, &v.1 - &own.1));
     }
     Ok(all)
@@ -111,7 +111,7 @@ fn apart(top: &Top) -> bool {
     (&size - &top.others) << 24 > size
 }
 
-fn rule(ground: Ground, n: usize) -> Result<&'static str, Unsupported> {
+fn named(ground: Ground, n: usize) -> Result<&'static str, Unsupported> {
     Ok(match ground {
         Ground::Regular => "theorem-7",
         Ground::Winding(_) => "theorem-8-winding",
@@ -135,18 +135,18 @@ fn half_plane(found: &AtValence, vector: &Eigenvector, divisor: &Complex) -> Opt
 }
 
 /// Whether the checker has the operator on all sectors exactly, and it is not too large for a characteristic polynomial.
-fn has_exact_operator(case: &VertexCase, n: usize) -> bool {
-    let butterfly = case.rule.info().name == "butterfly";
-    let known = if by_stencils(case) { butterfly } else { true };
-    let stencils = sector_stencils(&case.rule, n, if butterfly { 3 } else { 2 });
+fn has_exact_operator(rule: &MeshRule, n: usize) -> bool {
+    let butterfly = rule.info().name == "butterfly";
+    let known = if by_stencils(rule) { butterfly } else { true };
+    let stencils = sector_stencils(rule, n, if butterfly { 3 } else { 2 });
     known && stencils.is_ok_and(|s| n * s.places.len() < MAX_EXACT)
 }
 
 /// The evidence where the leading eigenvalue is in several blocks, or has Jordan blocks: it is rational, and all weights are.
-fn tied(case: &VertexCase, found: &AtValence, top: &Top, ground: Ground) -> Result<Value, Unsupported> {
+fn tied(rule: &MeshRule, found: &AtValence, top: &Top, ground: Ground) -> Result<Value, Unsupported> {
     let n = found.valence;
     let alone = top.members.iter().all(|m| !m.negative);
-    let Some(value) = top.rational.as_ref().filter(|_| alone && has_exact_operator(case, n)) else {
+    let Some(value) = top.rational.as_ref().filter(|_| alone && has_exact_operator(rule, n)) else {
         let what = "irrational leading eigenvalues or weights, where several blocks or Jordan blocks have them";
         return unsupported(what, valence(n));
     };
@@ -157,7 +157,7 @@ fn tied(case: &VertexCase, found: &AtValence, top: &Top, ground: Ground) -> Resu
         let Some(vector) = &found.eigenvector else {
             return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
         };
-        let values = all_values(case, vector, n)?;
+        let values = all_values(rule, vector, n)?;
         let Some((index, largest)) = values.iter().enumerate().max_by_key(|(_, v)| square(v)) else {
             return unsupported("an eigenvector without values", valence(n));
         };
@@ -165,7 +165,7 @@ fn tied(case: &VertexCase, found: &AtValence, top: &Top, ground: Ground) -> Resu
     }
     Ok(json!({
         "valence": n,
-        "rule": rule(ground, n)?,
+        "rule": named(ground, n)?,
         "turn": written(&unity(1, n), PLACES),
         "value": number(value),
         "others": rounded(&bound, BOUND),
@@ -175,7 +175,7 @@ fn tied(case: &VertexCase, found: &AtValence, top: &Top, ground: Ground) -> Resu
 }
 
 /// The evidence for one valence.
-fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> {
+pub(super) fn evidence(rule: &MeshRule, found: &AtValence) -> Result<Value, Unsupported> {
     let n = found.valence;
     if found.border.is_some() {
         return unsupported("a vertex on the border", format!("{n} faces"));
@@ -183,7 +183,7 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     if n < 3 {
         return unsupported("a valence below 3", valence(n));
     }
-    if case.rule.own().is_some() && case.rule.steps() > 1 {
+    if rule.own().is_some() && rule.steps() > 1 {
         return unsupported("stencils of one's own for two steps that turn the mesh", valence(n));
     }
     let (Some(top), Some(ground)) = (&found.top, found.ground) else {
@@ -193,13 +193,13 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
         return unsupported("eigenvalues this close", valence(n));
     }
     if !matches!(top.members.as_slice(), [only] if only.blocks == [1]) {
-        return tied(case, found, top, ground);
+        return tied(rule, found, top, ground);
     }
-    let rule = rule(ground, n)?;
+    let name = named(ground, n)?;
     let Some(vector) = &found.eigenvector else {
         return unsupported("a verdict that does not rest on one leading eigenvector", valence(n));
     };
-    let values = values(case, vector, n)?;
+    let values = values(rule, vector, n)?;
     let Some(largest) = values.iter().max_by_key(|v| square(v)).filter(|v| square(v) > 0) else {
         return unsupported("an eigenvector that is 0", valence(n));
     };
@@ -207,12 +207,12 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
     let half_plane = half_plane(found, vector, largest);
     let mut evidence = json!({
         "valence": n,
-        "rule": rule,
+        "rule": name,
         "frequency": vector.frequency,
         "turn": written(&unity(1, n), PLACES),
         "others": rounded(&top.others, BOUND),
     });
-    if by_stencils(case) {
+    if by_stencils(rule) {
         evidence["rings"] = json!(vector.rings);
     }
     evidence["vector"] = values.iter().map(|v| written(&times(v, &inverse), PLACES)).collect();
@@ -221,13 +221,13 @@ fn evidence(case: &VertexCase, found: &AtValence) -> Result<Value, Unsupported> 
 }
 
 /// Whether the checker looks at the rule by its stencils, without patches.
-fn by_stencils(case: &VertexCase) -> bool {
-    case.rule.info().spline.is_none() || case.rule.own().is_some()
+fn by_stencils(rule: &MeshRule) -> bool {
+    rule.info().spline.is_none() || rule.own().is_some()
 }
 
 /// How second differences are seen to shrink where the checker does without patches; it computes itself how much.
 fn limits(case: &VertexCase) -> Result<Option<Value>, Unsupported> {
-    if !by_stencils(case) {
+    if !by_stencils(&case.rule) {
         return Ok(None);
     }
     let Some(regular) = Regular::of(&case.rule) else {
@@ -264,7 +264,7 @@ fn covered(case: &VertexCase, found: &[AtValence]) -> Result<Covered, Unsupporte
     let (mut claims, mut valences, mut left_out) = (Vec::new(), Vec::new(), Vec::new());
     for f in found {
         let decided = f.smooth != Verdict::Undetermined || f.plane != Verdict::Undetermined;
-        match evidence(case, f) {
+        match evidence(&case.rule, f) {
             Ok(evidence) => {
                 claims.push((f.valence, f.smooth));
                 valences.push(evidence);

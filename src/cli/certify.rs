@@ -167,7 +167,7 @@ fn check_arguments(args: &CertifyArgs) -> Result<(), Problem> {
             .find(|o| o.0 && !mesh)
     {
         return Err(Problem::new("secant::usage", format!("{} is for a mesh", option.1))
-            .with_help("a mesh is a file that ends in .obj or .off"));
+            .with_help("a mesh is a file that ends in .obj, .off or .ply"));
     }
     let files = [&args.report, &args.svg, &args.png, &args.certificate, &args.coq];
     let of_one_case = args.json || files.iter().any(|f| f.is_some());

@@ -192,7 +192,7 @@ struct CertifyArgs {
     /// For a case with a `[vertex]` table: the valences, from 2 to 1024, as in `5`, `3..32`, `3,5,8` or `all`.
     #[arg(long, value_name = "VALENCES", conflicts_with_all = ["address", "approx"])]
     valence: Option<String>,
-    /// For a mesh (.obj, .off): the scheme of its limit surface, catmull-clark, loop or loop-warren.
+    /// For a mesh (.obj, .off, .ply): the scheme of its limit surface, catmull-clark, loop or loop-warren.
     #[arg(long, value_name = "NAME")]
     scheme: Option<String>,
     /// For a mesh with a border: its rule, edge (a spline curve) or edge-and-corner (vertices with one face stay fixed). It goes

@@ -14,10 +14,12 @@
 //! ```
 #![deny(clippy::disallowed_methods)]
 
+mod binary;
 mod border;
 mod certify;
 mod disc;
 mod fan;
+mod formats;
 mod found;
 mod interval;
 mod limit;

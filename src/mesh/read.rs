@@ -1,5 +1,6 @@
-//! Meshes from OBJ and OFF files, with exact coordinates: a decimal is the rational number that it says.
+//! Meshes from OBJ, OFF and PLY files, with exact coordinates: a decimal, or a float, is the rational number that it says.
 
+use super::binary::binary;
 use super::tags::Tags;
 use super::topology::{Fault, Topology};
 use crate::arith::{Rational, parse_rational};
@@ -8,6 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 256 << 20;
@@ -34,22 +36,29 @@ pub struct Model {
     pub topology: Topology,
     /// What is sharp, and the rule of the border.
     pub tags: Tags,
+    /// Whether the file has tags of sharp edges or vertices.
+    pub sharp: bool,
+    /// The text of the file, where it is a text.
+    pub text: Option<Arc<str>>,
 }
 
-struct Raw {
-    points: Vec<Point>,
-    point_spans: Vec<Range<usize>>,
-    faces: Vec<Vec<u32>>,
-    face_spans: Vec<Range<usize>>,
+/// Points and faces with their places in the file.
+#[derive(Default)]
+pub(super) struct Raw {
+    pub points: Vec<Point>,
+    pub point_spans: Vec<Range<usize>>,
+    pub faces: Vec<Vec<u32>>,
+    pub face_spans: Vec<Range<usize>>,
 }
 
 /// A word of a line with its place in the file.
-type Word<'a> = (&'a str, Range<usize>);
+pub(super) type Word<'a> = (&'a str, Range<usize>);
 
-struct Reader<'a> {
-    source: &'a SourceText,
-    raw: Raw,
-    tags: Vec<(Range<usize>, Vec<Word<'a>>)>,
+/// A file while it is read.
+pub(super) struct Reader<'a> {
+    pub source: &'a SourceText,
+    pub raw: Raw,
+    pub tags: Vec<(Range<usize>, Vec<Word<'a>>)>,
 }
 
 fn problem(source: &SourceText, span: Range<usize>, code: &str, message: &str, note: &str, help: &str) -> Problem {
@@ -60,11 +69,11 @@ fn problem(source: &SourceText, span: Range<usize>, code: &str, message: &str, n
 #[must_use]
 pub fn is_mesh(path: &Path) -> bool {
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    matches!(ending.as_deref(), Some("obj" | "off"))
+    matches!(ending.as_deref(), Some("obj" | "off" | "ply"))
 }
 
 impl Model {
-    /// Reads an OBJ or OFF file, whichever its ending says.
+    /// Reads an OBJ, OFF or PLY file: an OFF file by its ending, a PLY file by its first word.
     ///
     /// # Errors
     /// A [`Problem`] with the line: for words that are no numbers or no vertices, faces that repeat a vertex or one another,
@@ -73,19 +82,29 @@ impl Model {
         let name = path.display().to_string();
         let unreadable = |e: &dyn std::fmt::Display| {
             Problem::new("secant::mesh::unreadable", format!("{name} cannot be read: {e}"))
-                .with_help("give the path of a mesh in the format OBJ or OFF, as text")
+                .with_help("give the path of a mesh in the format OBJ, OFF or PLY")
         };
         let file = std::fs::File::open(path).map_err(|e| unreadable(&e))?;
-        let mut text = String::new();
-        file.take(MAX_BYTES as u64 + 1).read_to_string(&mut text).map_err(|e| unreadable(&e))?;
-        if text.len() > MAX_BYTES {
+        let mut bytes = Vec::new();
+        file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(|e| unreadable(&e))?;
+        if bytes.len() > MAX_BYTES {
             return Err(unreadable(&format!("it has more than {MAX_BYTES} bytes")));
         }
+        if let Some(found) = binary(&name, &bytes) {
+            return found;
+        }
         let off = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("off"));
-        Self::parse(&SourceText::new(name.as_str(), text), off)
+        // Comments and names may be in any encoding; what is not the text of the file is not kept.
+        match String::from_utf8(bytes) {
+            Ok(text) => Self::parse(&SourceText::new(name.as_str(), text), off),
+            Err(other) => {
+                let text = String::from_utf8_lossy(other.as_bytes()).into_owned();
+                Ok(Self { text: None, ..Self::parse(&SourceText::new(name.as_str(), text), off)? })
+            }
+        }
     }
 
-    /// Reads the text of an OBJ file, or of an OFF file.
+    /// Reads the text of an OBJ file, of an OFF file, or of a PLY file, which begins with `ply`.
     ///
     /// # Errors
     /// As [`Model::read`].
@@ -105,141 +124,29 @@ impl Model {
     /// # Ok::<(), secant::diagnostic::Problem>(())
     /// ```
     pub fn parse(source: &SourceText, off: bool) -> Result<Self, Problem> {
-        let raw = Raw { points: Vec::new(), point_spans: Vec::new(), faces: Vec::new(), face_spans: Vec::new() };
-        let mut reader = Reader { source, raw, tags: Vec::new() };
-        if off {
-            reader.off()?
-        } else {
-            reader.obj()?
+        let mut reader = Reader { source, raw: Raw::default(), tags: Vec::new() };
+        match reader.first_word() {
+            Some("ply") => reader.ply()?,
+            _ if off => reader.off()?,
+            _ => reader.obj()?,
         }
         reader.finish()
     }
 }
 
 impl<'a> Reader<'a> {
-    /// The lines with their words, comments left out.
-    fn lines(&self) -> impl Iterator<Item = (Range<usize>, Vec<Word<'a>>)> + use<'a> {
-        let text: &'a str = &self.source.text;
-        // A byte order mark begins the first word.
-        let text = text.trim_start_matches('\u{feff}');
-        let mut at = self.source.text.len() - text.len();
-        text.split_inclusive('\n').filter_map(move |line| {
-            let start = at;
-            at += line.len();
-            let body = line.split('#').next()?;
-            let words: Vec<Word<'_>> = body
-                .split_ascii_whitespace()
-                .map(|w| {
-                    let from = start + (w.as_ptr() as usize - line.as_ptr() as usize);
-                    (w, from..from + w.len())
-                })
-                .collect();
-            let end = start + line.trim_end().len();
-            (!words.is_empty()).then_some((start..end, words))
-        })
-    }
-
-    fn fail(&self, span: &Range<usize>, code: &str, message: &str, note: &str, help: &str) -> Problem {
+    pub(super) fn fail(&self, span: &Range<usize>, code: &str, message: &str, note: &str, help: &str) -> Problem {
         problem(self.source, span.clone(), code, message, note, help)
     }
 
-    fn obj(&mut self) -> Result<(), Problem> {
-        let mut pending = Vec::new();
-        for (span, words) in self.lines() {
-            match words[0].0 {
-                "v" => self.point(&span, &words[1..])?,
-                "f" => pending.push((span, words, self.raw.points.len())),
-                // What has no bearing on the limit surface.
-                "vt" | "vn" | "vp" | "g" | "o" | "s" | "usemtl" | "mtllib" | "l" | "p" => {}
-                "curv" | "curv2" | "surf" | "cstype" | "deg" => {
-                    let help = "write the mesh as `v` and `f` lines";
-                    return Err(self.fail(&words[0].1, "line", "curves and surfaces are no mesh", "here", help));
-                }
-                "t" => self.tags.push((span, words)),
-                other => {
-                    let message = format!("`{other}` begins no line of a mesh");
-                    let help = "lines begin with v, f, t, vt, vn, g, o, s, usemtl or mtllib; `#` begins a comment";
-                    return Err(self.fail(&words[0].1, "line", &message, "here", help));
-                }
-            }
-        }
-        for (span, words, before) in pending {
-            let corners: Result<Vec<u32>, Problem> = words[1..].iter().map(|w| self.corner(w, before)).collect();
-            self.face(span, corners?)?;
-        }
-        Ok(())
-    }
-
-    /// A corner of a face: `7`, `7/2`, `7//3`, `7/2/3`, counted from 1, or back from the last point before the line.
-    fn corner(&self, (word, span): &Word<'_>, before: usize) -> Result<u32, Problem> {
-        let first = word.split('/').next().filter(|w| !w.is_empty());
-        let index: Option<i64> = first.and_then(|w| w.parse().ok());
-        let count = self.raw.points.len();
-        let zero_based = match index {
-            Some(k) if k > 0 => usize::try_from(k - 1).ok(),
-            Some(k) if k < 0 => usize::try_from(k.unsigned_abs()).ok().and_then(|k| before.checked_sub(k)),
-            _ => None,
-        };
-        zero_based.filter(|k| *k < count).and_then(|k| u32::try_from(k).ok()).ok_or_else(|| {
-            let message = format!("`{word}` names no vertex: the file has {count}");
-            self.fail(
-                span,
-                "index",
-                &message,
-                "this corner",
-                "vertices are counted from 1 in the order of the `v` lines",
-            )
-        })
-    }
-
-    fn off(&mut self) -> Result<(), Problem> {
-        let mut lines = self.lines();
-        let end = self.source.text.len()..self.source.text.len();
-        let help = "an OFF file has the line OFF, a line of three counts, the points, then the faces with their number of \
-                    corners before them";
-        let short = |this: &Self| this.fail(&end, "off", "the file ends too early", "here", help);
-        let (span, mut words) = lines.next().ok_or_else(|| short(self))?;
-        if words[0].0 != "OFF" {
-            return Err(self.fail(&span, "off", "the file does not begin with OFF", "here", help));
-        }
-        words.remove(0);
-        let (span, words) = if words.is_empty() { lines.next().ok_or_else(|| short(self))? } else { (span, words) };
-        let count = |k: usize| words.get(k).and_then(|w: &Word<'_>| w.0.parse::<usize>().ok());
-        let (Some(points), Some(faces)) = (count(0), count(1)) else {
-            return Err(self.fail(&span, "off", "the counts of points and faces are missing", "here", help));
-        };
-        for _ in 0..points {
-            let (span, words) = lines.next().ok_or_else(|| short(self))?;
-            self.point(&span, &words)?;
-        }
-        for _ in 0..faces {
-            let (span, words) = lines.next().ok_or_else(|| short(self))?;
-            let size: Option<usize> = words[0].0.parse().ok().filter(|n| words.len() > *n);
-            let Some(size) = size else {
-                return Err(self.fail(&span, "off", "the face has fewer corners than it says", "here", help));
-            };
-            let corner = |w: &Word<'_>| {
-                w.0.parse::<u32>().ok().filter(|k| (*k as usize) < points).ok_or_else(|| {
-                    let message = format!("`{}` names no vertex: the file has {points}", w.0);
-                    self.fail(&w.1, "index", &message, "this corner", "vertices are counted from 0 in an OFF file")
-                })
-            };
-            let corners: Result<Vec<u32>, Problem> = words[1..=size].iter().map(corner).collect();
-            self.face(span, corners?)?;
-        }
-        if let Some((span, _)) = lines.next() {
-            return Err(self.fail(&span, "off", "the file goes on after the last face", "here", help));
-        }
-        Ok(())
-    }
-
-    fn point(&mut self, span: &Range<usize>, words: &[Word<'_>]) -> Result<(), Problem> {
+    /// A point with its three coordinates, and whatever else stands in its line.
+    pub(super) fn point(&mut self, span: &Range<usize>, words: &[Word<'_>]) -> Result<(), Problem> {
         // A fourth number is a weight, which is 1 where nothing is rational in the projective sense; further ones are colours.
         if words.len() < 3 {
             let help = "a point has three coordinates";
             return Err(self.fail(span, "point", "the point has fewer than three coordinates", "here", help));
         }
-        if words.len() == 4 && parse_rational(words[3].0).is_ok_and(|w| w != 1) {
+        if words.len() == 4 && !parse_rational(words[3].0).is_ok_and(|w| w == 1) {
             let help = "rational surfaces are not covered; the weight has to be 1";
             return Err(self.fail(&words[3].1, "weight", "the point has a weight", "here", help));
         }
@@ -260,7 +167,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn face(&mut self, span: Range<usize>, corners: Vec<u32>) -> Result<(), Problem> {
+    /// A face of some corners.
+    pub(super) fn face(&mut self, span: Range<usize>, corners: Vec<u32>) -> Result<(), Problem> {
         if corners.len() < 3 {
             let help = "a face has three corners at least";
             return Err(self.fail(&span, "face", "the face has fewer than three corners", "here", help));
@@ -280,7 +188,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn finish(self) -> Result<Model, Problem> {
+    /// The mesh, if it is one.
+    pub(super) fn finish(self) -> Result<Model, Problem> {
         let (source, raw) = (self.source, self.raw);
         if raw.faces.is_empty() {
             return Err(Problem::new("secant::mesh::empty", format!("{} has no faces", source.name))
@@ -310,6 +219,8 @@ impl<'a> Reader<'a> {
             points: raw.points,
             topology,
             tags: Tags::default(),
+            sharp: self.tags.iter().any(|(_, words)| matches!(words.get(1), Some(("crease" | "corner", _)))),
+            text: Some(Arc::clone(&source.text)),
         };
         model.tags = tags(source, &self.tags, &model)?;
         Ok(model)
@@ -412,6 +323,7 @@ mod tests {
             ("v 1e9999999 0 0", "number", 6),
             ("v 1 2", "point", 6),
             ("v 1 2 3 2", "weight", 6),
+            ("v 1 2 3 x", "weight", 6),
             ("f 1 2 3\nt crease 2/1/0 0 3 10", "crease", 7),
             ("f 1 2 3\nt crease 2/1/0 0 9 10", "index", 7),
             ("f 1 2 3\nt crease 2/1/0 0 1 nan", "number", 7),
@@ -432,6 +344,15 @@ mod tests {
             assert!(problem.remedy().is_some());
         }
         assert_eq!(parse("v 0 0 0\n").unwrap_err().id(), "secant::mesh::empty");
+    }
+
+    #[test]
+    fn lines_go_on_after_a_backslash() {
+        let text = "v 0 0 \\\n  0\nv 1 0 0\nv 0 1 0\nf 1 \\\r\n2 \\\n3\n# a comment \\\nf 1 2 x\n";
+        let problem = parse(text).unwrap_err();
+        assert_eq!(problem.position(), Some((9, 7)));
+        let model = parse(&text.replace("f 1 2 x", "")).unwrap();
+        assert_eq!((model.points.len(), model.face_lines[0]), (3, 5));
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::document::{Block, Document, Inline, Line, Table, code, words};
 use super::vertex_reasons;
 use super::words::{count, mark};
 use crate::answer::Verdict;
+use crate::certificate::{Certificate, Unsupported};
 use crate::mesh::{AtVertex, Bad, Boundary, Found, Ground, Kind, Model, Number, Reason, Regular, Rings, Spot};
 use crate::picture::mesh::svg;
 use crate::vertex::decimal;
@@ -96,7 +97,7 @@ fn patch(b: &Bad) -> String {
 
 /// The document of a terminal or of a report; `whole` adds the picture and longer lists.
 #[must_use]
-pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Document {
+pub fn document(model: &Model, scheme: &str, found: &Found, again: Again<'_>, whole: bool) -> Document {
     let most = LISTED[usize::from(whole)];
     let mut blocks = vec![Block::Paragraph(words(format!(
         "{}: {}, {}, scheme {scheme}; {}.",
@@ -144,10 +145,32 @@ pub fn document(model: &Model, scheme: &str, found: &Found, whole: bool) -> Docu
         blocks.push(Block::heading(2, "Statements"));
         blocks.extend(found.statements().into_iter().map(Block::Statement));
     }
-    blocks.push(Block::Paragraph(words(
-        "The certificate format has no rule for meshes: what is decided here was proved once, not twice.",
-    )));
+    blocks.push(Block::Paragraph(words(checked(again))));
     Document { title: format!("{} by {scheme}", model.name), blocks }
+}
+
+/// What the independent checker said; `None` where it was not asked.
+pub type Again<'a> = Option<&'a Result<Certificate, Unsupported>>;
+
+fn checked(again: Again<'_>) -> String {
+    let left_out = |certificate: &Certificate| {
+        let all: Vec<&str> = certificate.left_out().iter().map(|why| why.what.as_str()).collect();
+        all.join("; ")
+    };
+    match again {
+        None => "The independent checker was not asked: what is decided here was proved once, not twice.".to_owned(),
+        Some(Err(why)) => format!("What is decided here was proved once, not twice: {why}."),
+        Some(Ok(certificate)) if certificate.left_out().is_empty() => {
+            "The independent checker proved the claims again, from the file itself, and the limits up to rounding; what is said of the \
+             curvature was proved once."
+                .to_owned()
+        }
+        Some(Ok(certificate)) => format!(
+            "The independent checker proved again, from the file itself, what its certificate has, but not this: {}; nor what is said of \
+             the curvature.",
+            left_out(certificate)
+        ),
+    }
 }
 
 fn rest(all: usize, most: usize) -> Option<Block> {
@@ -304,7 +327,7 @@ fn tuple(all: &[Number; 3]) -> String {
 
 /// Everything as data.
 #[must_use]
-pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
+pub fn json(model: &Model, scheme: &str, found: &Found, again: Again<'_>) -> Value {
     let vertex = |v: &AtVertex| {
         let limit = v.limit.as_ref();
         let exact = |all: &[Number; 3]| json!(all.iter().map(Number::display).collect::<Vec<_>>());
@@ -345,7 +368,18 @@ pub fn json(model: &Model, scheme: &str, found: &Found) -> Value {
         "two_sided": found.parts,
         "smooth": found.smooth().word(),
         "regular": found.regular().word(),
-        "certificate": Value::Null,
+        "certificate": {
+            "checked": again.is_some_and(|a| a.as_ref().is_ok_and(|c| c.left_out().is_empty())),
+            "why": match again {
+                None => Some("the checker was not asked".to_owned()),
+                Some(Err(why)) => Some(why.to_string()),
+                Some(Ok(_)) => None,
+            },
+            "left_out": match again {
+                Some(Ok(certificate)) => certificate.left_out().iter().map(ToString::to_string).collect(),
+                _ => Vec::new(),
+            },
+        },
         "statements": found.statements().iter().map(|s| s.id()).collect::<Vec<_>>(),
         "patches": {"tested": p.tested, "by_floats": p.by_floats, "exactly": p.exactly, "bad": p.bad.iter().map(bad).collect::<Vec<_>>()},
         "numbers": "t = 2cos(2π/n) at valence n, n = 2k at a border vertex with k faces; a is the positive root of a² = (2 + t)a + 8 + 4t",

@@ -164,7 +164,7 @@ impl Kept {
     fn report(&self) -> Document {
         match (&self.asked, &self.found) {
             (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => {
-                mesh_report::document(model, scheme.name(), found, true)
+                mesh_report::document(model, scheme.name(), found, None, true)
             }
             (_, What::Case(answered)) => findings::proof(&answered.findings),
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
@@ -173,7 +173,9 @@ impl Kept {
 
     fn data(&self) -> Value {
         match (&self.asked, &self.found) {
-            (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => mesh_report::json(model, scheme.name(), found),
+            (Asked::Mesh { model, scheme, .. }, What::Mesh(found)) => {
+                mesh_report::json(model, scheme.name(), found, None)
+            }
             (_, What::Case(answered)) => answered.json(&Required::default(), false),
             (Asked::Case(_), What::Mesh(_)) => unreachable!("a mesh is found of a mesh only"),
         }
@@ -327,7 +329,7 @@ fn vertices(answered: &Answered) -> Value {
 }
 
 fn mesh(model: &Model, scheme: Scheme, found: &Found) -> Value {
-    let data = mesh_report::json(model, scheme.name(), found);
+    let data = mesh_report::json(model, scheme.name(), found, None);
     let whole = |about: &str, verdict: Verdict, text: &str| json!({ "about": about, "verdict": verdict.word(), "text": text, "reason": null, "theorem": null });
     let points = found.vertices.iter().map(|v| {
         let limit = v.limit.as_ref();

@@ -95,6 +95,15 @@ impl Case {
     }
 }
 
+impl Case {
+    /// The case of a mesh by a named scheme without parameters.
+    pub fn of_mesh(scheme: &str) -> Checked<Self> {
+        let table = Json::Object(vec![("mesh".to_owned(), Json::Text(scheme.to_owned()))]);
+        let (scheme, _) = spline(&Node { value: &table, place: String::new() })?;
+        Ok(Self { name: "mesh".to_owned(), scheme, asked: None })
+    }
+}
+
 /// Whether a weight is a table by valence, or a formula in it.
 fn is_formula(node: &Node<'_>) -> bool {
     match node.value {

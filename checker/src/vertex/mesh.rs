@@ -197,7 +197,7 @@ impl Mesh {
 
     /// The old points of a new point, with their weights; `None` is the centre. The mesh is regular around all points but the
     /// centre, so the mask holds in the lattice continued over the spokes.
-    fn stencil(&self, (i, j): Place) -> Checked<Terms> {
+    pub fn stencil(&self, (i, j): Place) -> Checked<Terms> {
         match &self.around {
             Around::Spline(spline, _) => {
                 let term = |(q, weight): (Place, Q)| (self.locate(q), Ball::real(&weight));
@@ -251,6 +251,15 @@ impl Mesh {
                 dot(&weights, (0..n).map(|j| self.power((j * k) as i64)))
             }
             _ => Ball::zero(),
+        }
+    }
+
+    /// The weights at the centre of a spline on a vertex: its own, and those of all neighbours and of all opposite corners together.
+    pub fn at_centre(&self) -> [Ball; 3] {
+        match &self.around {
+            Around::Spline(_, centre) => self.vertex(centre),
+            // Nothing is made of them.
+            Around::Stencils(_) => [Ball::zero(), Ball::zero(), Ball::zero()],
         }
     }
 

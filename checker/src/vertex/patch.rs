@@ -71,7 +71,7 @@ fn averaged(net: &Lattice, n: i64, along: Place) -> Lattice {
 }
 
 /// For the control points of the triangle `(0, 0), (1, 0), (0, 1)`, by rows, the lattice points and 24 times their weights.
-fn quartic() -> Vec<Vec<(Place, i64)>> {
+pub fn quartic() -> Vec<Vec<(Place, i64)>> {
     let spline = box_spline();
     let around = || (-2..=3).flat_map(|a| (-2..=3).map(move |b| (a, b)));
     let control = |(i, j): Place| {

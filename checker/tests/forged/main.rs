@@ -5,6 +5,7 @@
 mod curves;
 mod empty;
 mod lattices;
+mod meshes;
 mod radii;
 mod solutions;
 mod spectra;
