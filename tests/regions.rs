@@ -399,6 +399,9 @@ fn takagi_and_okamoto() {
     expect_claim(&takagi, G1, &[(250_000_001, small, Refuted), (249_999_999, small, Refuted), (-3, 5, Refuted)]);
     expect_claim(&takagi, Joints, &[(1, 4, Proved), (1, 3, Refuted), (1, 8, Refuted)]);
     expect_claim(&takagi, Ends, &[(1, 4, Proved), (1, 3, Proved), (-1, 3, Proved)]);
+    // Cusps above 1/2; below -1/2 the leading coefficient, of a negative eigenvalue, changes its sign.
+    expect_claim(&takagi, Ends, &[(3, 4, Proved), (17, 20, Proved), (-3, 4, Refuted), (-17, 20, Refuted)]);
+    expect_claim(&takagi, Joints, &[(3, 4, Proved), (17, 20, Proved), (-3, 4, Refuted)]);
     assert!(compare_members(&takagi, 18) > 40);
     let okamoto = curve("okamoto.toml", &[]);
     expect_claim(&okamoto, G1, &[(1, 3, Proved), (1, 4, Refuted), (2, 5, Refuted), (1, 2, Refuted), (3, 5, Refuted)]);

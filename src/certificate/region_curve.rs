@@ -53,6 +53,8 @@ fn fact(fact: &Fact) -> Value {
         Why::Spiral(end) => ("spiral", vec![number(*end)]),
         Why::Alternates(end) => ("alternates", vec![number(*end)]),
         Why::Segment => ("segment", Vec::new()),
+        Why::Cells { .. } => ("cells", Vec::new()),
+        Why::SignChange(end) => ("sign-change", vec![number(*end)]),
         Why::Jumps(_) => ("jumps", own.place.iter().flat_map(|p| [p.0, p.1]).collect()),
     };
     let values: Vec<Value> = own.values.iter().map(|v| v.as_ref().map_or(Value::Null, poly)).collect();

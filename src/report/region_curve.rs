@@ -61,7 +61,7 @@ fn because(found: &CurveRegions, part: &CurvePart) -> String {
         Basis::Irrational => "an irrational value, at which no argument was found".to_owned(),
         Basis::Search => gap(found.radius.ended).to_owned(),
         Basis::Gap => {
-            "no cone and no direction that refutes was found; secant certify answers single values".to_owned()
+            "no cone, no cover of the rings and no direction that refutes was found; secant certify answers single values".to_owned()
         }
         Basis::Argument(why) => argument(why),
     }
@@ -78,6 +78,13 @@ pub(super) fn argument(why: &Why) -> String {
         Why::Alternates(end) => format!("{}: the leading eigenvalue is negative, two rays", end_name(*end)),
         Why::Cusp(k) => format!("the joint between the pieces {k} and {}: both sides have one ray", k + 1),
         Why::Segment => "all pieces lie on one line and go forwards".to_owned(),
+        Why::Cells { .. } => "the leading coefficients have one sign on cells that cover the rings".to_owned(),
+        Why::SignChange(end) => {
+            format!(
+                "{}: the leading coefficient takes both signs on the ring, which does not meet the point",
+                end_name(*end)
+            )
+        }
         Why::Jumps(word) => format!("the tangents of joints do not tend to that of ({})", word_text(word)),
     }
 }
@@ -100,6 +107,9 @@ pub(super) fn argument_statement(why: &Why) -> Statement {
         Why::Corner(_) => Statement::LowerBounds,
         Why::Spiral(_) | Why::Alternates(_) | Why::Cusp(_) => Statement::Corollary,
         Why::Jumps(_) => Statement::TangentsJump,
+        Why::Cells { longer: false } => Statement::Theorem2,
+        Why::Cells { longer: true } => Statement::Theorem3,
+        Why::SignChange(_) => Statement::Theorem4Sign,
     }
 }
 

@@ -25,6 +25,8 @@ struct Word<P> {
 pub(super) struct Leading<P> {
     pub value: P,
     pub positive: bool,
+    /// Whether its block has the length 2.
+    pub longer: bool,
     pub projection: Matrix<P>,
 }
 
@@ -38,6 +40,8 @@ pub(super) enum EndGerm<P> {
         positive: bool,
         row: Vec<P>,
         forward: i32,
+        /// Whether the eigenvalue has a block of length 2.
+        longer: bool,
     },
     /// A plane.
     Plane,
@@ -53,6 +57,8 @@ pub(super) struct Joint<P> {
 /// The arguments about one family; products of words are kept.
 pub(super) struct Arguments<'a, P> {
     pub family: &'a CurveFamily<P>,
+    /// Whether rings are covered by cells, which takes longer.
+    pub cells: bool,
     /// Searches for constant rays that are left.
     pub searches: Cell<usize>,
     /// Whether something was used that certificates of regions have no form for.
@@ -61,8 +67,8 @@ pub(super) struct Arguments<'a, P> {
 }
 
 impl<'a, P: Symbol> Arguments<'a, P> {
-    pub fn new(family: &'a CurveFamily<P>) -> Self {
-        Self { family, searches: Cell::new(SEARCHES), beyond: Cell::new(false), words: RefCell::default() }
+    pub fn new(family: &'a CurveFamily<P>, cells: bool) -> Self {
+        Self { family, cells, searches: Cell::new(SEARCHES), beyond: Cell::new(false), words: RefCell::default() }
     }
 
     /// What is decided at a value. All of it rests on contraction.
@@ -86,6 +92,10 @@ impl<'a, P: Symbol> Arguments<'a, P> {
             let found = self.in_cone(&own, &rays, &chord, &germs, &joints);
             facts.extend(found.into_iter().filter(|f| !known(&facts, f.claim)).collect::<Vec<_>>());
         }
+        if self.cells && !known(&facts, CurveClaim::Ends) {
+            let found = self.by_cells(&at.clone(), &chord, &germs, &joints);
+            facts.extend(found.into_iter().filter(|f| !known(&facts, f.claim)).collect::<Vec<_>>());
+        }
         let value = |germ: &EndGerm<P>| match germ {
             EndGerm::Line { value, .. } => Some(value.clone()),
             EndGerm::Plane | EndGerm::Unknown => None,
@@ -93,7 +103,7 @@ impl<'a, P: Symbol> Arguments<'a, P> {
         for fact in &mut facts {
             fact.evidence.span.clone_from(&span);
             fact.evidence.values = germs.each_ref().map(value);
-            fact.evidence.beyond = self.beyond.get();
+            fact.evidence.beyond |= self.beyond.get();
         }
         facts
     }
@@ -197,7 +207,7 @@ impl<'a, P: Symbol> Arguments<'a, P> {
             return None;
         }
         self.beyond.set(self.beyond.get() || chain);
-        Some(Leading { value: value.clone(), positive: sign > 0, projection })
+        Some(Leading { value: value.clone(), positive: sign > 0, longer: chain, projection })
     }
 
     /// Differences from an end to points of the curve.
@@ -232,7 +242,7 @@ impl<'a, P: Symbol> Arguments<'a, P> {
             return match at.primitive(&apply(&through, &local)) {
                 Some(ray) => {
                     let forward = if germ.at_start { 1 } else { -1 };
-                    EndGerm::Line { value: lead.value, ray, positive: lead.positive, row, forward }
+                    EndGerm::Line { value: lead.value, ray, positive: lead.positive, row, forward, longer: lead.longer }
                 }
                 None => EndGerm::Unknown,
             };

@@ -43,6 +43,13 @@ pub enum Why {
     Jumps(Vec<usize>),
     /// All pieces lie on the line of the chord and go forwards.
     Segment,
+    /// The leading coefficients are positive on cells that cover the rings of the ends.
+    Cells {
+        /// Whether a block of length 2 leads.
+        longer: bool,
+    },
+    /// The leading coefficient changes its sign on the ring of an end, which is isolated.
+    SignChange(CurveEnd),
 }
 
 /// An end of the curve.
@@ -84,8 +91,8 @@ pub struct Evidence<P = Poly> {
     pub cycles: Vec<(Vec<usize>, P)>,
     /// The joint and the side of it (0: left) whose tangents jump.
     pub place: Option<(usize, usize)>,
-    /// Whether it rests on a longer Jordan chain, or on less than the space of all differences, for which certificates of regions have
-    /// no form.
+    /// Whether it rests on a longer Jordan chain, on cells, or on less than the space of all differences, for which certificates of
+    /// regions have no form.
     pub beyond: bool,
 }
 

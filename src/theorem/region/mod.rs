@@ -7,6 +7,7 @@
 //! further sum rule holds, the member itself is asked.
 
 mod argue;
+mod cells;
 mod cones;
 mod curve;
 mod fact;

@@ -160,7 +160,7 @@ impl CurveFamily<Two> {
 
 impl<'a> Covering<'a> {
     fn new(family: &'a CurveFamily<Two>) -> Self {
-        Self { arguments: Arguments::new(family), ledger: Ledger::new(family), looks: LOOKS }
+        Self { arguments: Arguments::new(family, false), ledger: Ledger::new(family), looks: LOOKS }
     }
 
     /// Some boxes with what is known of them; new arguments are looked for in those that are left.

@@ -145,7 +145,7 @@ impl CurveFamily {
         let mut covering = Covering {
             family: self,
             range: range.clone(),
-            arguments: Arguments::new(self),
+            arguments: Arguments::new(self, true),
             radius,
             known: Vec::new(),
             failed: Vec::new(),
