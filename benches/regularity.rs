@@ -4,7 +4,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use secant::radius::Options;
 use secant::scheme::dubuc_deslauriers;
 use secant::theorem::regularity::regularity;
-use secant::theorem::wavelet::wavelet;
+use secant::theorem::wavelet::{Family, wavelet};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -21,7 +21,9 @@ fn benches(c: &mut Criterion) {
     let mut group = c.benchmark_group("Daubechies");
     group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
     for moments in [4, 8, 9, 12] {
-        group.bench_function(moments.to_string(), |b| b.iter(|| black_box(wavelet(moments, &Options::default()))));
+        group.bench_function(moments.to_string(), |b| {
+            b.iter(|| black_box(wavelet(Family::Daubechies, moments, &Options::default())))
+        });
     }
     group.finish();
 }

@@ -8,6 +8,7 @@ use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file
 use secant::shape::{CellKind, Shape, Spaces};
 use secant::theorem::cone::{CommonCone, Cone, ConeAnswer, ConeMap, common_cone};
 use secant::theorem::regularity::{Attained, digits, regularity};
+use secant::theorem::wavelet::{Family, wavelet};
 use secant::theorem::{Verdict, certify};
 
 fn rational(text: &str) -> Rational {
@@ -297,7 +298,7 @@ fn the_four_point_scheme_has_a_common_cone() {
 #[test]
 fn exponents_of_scaling_functions() {
     for (moments, exponent) in [(2, 0.550_015_686_523_504_2), (3, 1.087_833_926_271_246), (5, 1.968_963_530_239_063)] {
-        let w = secant::theorem::wavelet::wavelet(moments, &Options::default()).unwrap();
+        let w = wavelet(Family::Daubechies, moments, &Options::default()).unwrap();
         let (lo, hi) = (to_f64(&w.exponent.lo), to_f64(&w.exponent.hi));
         assert!(lo <= exponent + 1e-12 && hi >= exponent - 1e-12 && hi - lo < 1e-9, "{moments}: [{lo}, {hi}]");
     }

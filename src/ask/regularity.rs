@@ -18,7 +18,7 @@ use crate::theorem::enclosed::enclosed;
 use crate::theorem::filter::{Filter, FilterError, Understood, understood};
 use crate::theorem::regularity as theorem_regularity;
 use crate::theorem::smoothness::{CurveRegularity, curve_regularity};
-use crate::theorem::wavelet::{MAX_MOMENTS, wavelet};
+use crate::theorem::wavelet::{Family, MAX_MOMENTS, wavelet};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -26,7 +26,7 @@ use toml::de::{DeTable, DeValue};
 
 /// What is asked about.
 enum Subject {
-    Wavelet(usize),
+    Wavelet(Family, usize),
     /// A mask, and whether it comes with control points, which it is not about.
     Mask(Understood, bool),
     Curve(Box<Shape>),
@@ -130,11 +130,15 @@ fn no_mask(place: &str, error: FilterError) -> Problem {
 fn answer(what: &str, subject: &Subject) -> Result<Smooth, Problem> {
     let options = Options::default();
     match subject {
-        Subject::Wavelet(moments) => {
-            let found = wavelet(*moments, &options);
-            let found = found.ok_or_else(|| wrong(format!("no bounds were found for db{moments}")))?;
+        Subject::Wavelet(family, moments) => {
+            let found = wavelet(*family, *moments, &options);
+            let found = found.ok_or_else(|| wrong(format!("no bounds were found for {}{moments}", family.prefix())))?;
+            let kind = match family {
+                Family::Daubechies => "",
+                Family::LeastAsymmetric => "least asymmetric ",
+            };
             let title = format!(
-                "Daubechies' scaling function with {moments} vanishing moments: a(z) = (1+z)^{moments} b(z), b = 2^{} q",
+                "Daubechies' {kind}scaling function with {moments} vanishing moments: a(z) = (1+z)^{moments} b(z), b = 2^{} q",
                 1 - i64::try_from(*moments).map_err(|e| wrong(e.to_string()))?
             );
             let text = report::enclosed(&title, &found, Meaning::Limit);
@@ -219,11 +223,11 @@ fn subject(what: &str, parameters: &[String], arity: usize) -> Result<Subject, P
     let mask = |texts: &[String], arity, scale| {
         understood(texts, arity, scale).map(|m| Subject::Mask(m, false)).map_err(|e| no_mask("", e))
     };
-    if let Some(moments) = scheme::moments(what).filter(|n| *n != 1) {
+    if let Some((family, moments)) = Family::named(what).filter(|(_, n)| *n != 1) {
         if (2..=MAX_MOMENTS).contains(&moments) {
-            return Ok(Subject::Wavelet(moments));
+            return Ok(Subject::Wavelet(family, moments));
         }
-        return Err(wrong(format!("{what} is not known: db1 to db{MAX_MOMENTS} are")));
+        return Err(wrong(format!("{what} is not known: db1 to db{MAX_MOMENTS} and sym2 to sym{MAX_MOMENTS} are")));
     }
     if let Some(texts) = scheme::wavelet_mask(what) {
         return mask(&texts, 2, None);

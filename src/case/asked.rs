@@ -268,7 +268,7 @@ pub fn nothing(text: &str) -> Problem {
     let order = |prefix: &str| small.strip_prefix(prefix).and_then(|n| n.parse::<usize>().ok());
     let filter = ["sym", "coif", "bior", "rbio", "dmey"].iter().any(|family| small.starts_with(family));
     let help = match near(name) {
-        _ if order("db").is_some_and(|n| (2..=20).contains(&n)) => {
+        _ if ["db", "sym"].into_iter().filter_map(order).any(|n| (2..=20).contains(&n)) => {
             format!("the coefficients of {small} are irrational: `secant regularity {small}` bounds its smoothness")
         }
         _ if filter => format!(
