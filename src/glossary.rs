@@ -37,7 +37,7 @@ pub fn word(text: &str) -> Option<&'static Word> {
 }
 
 fn plain(text: &str) -> String {
-    text.trim().to_lowercase().replace(['-', '_'], " ").replace('¹', "1")
+    text.trim().to_lowercase().replace(['-', '_'], " ").replace('¹', "1").replace('τ', "tau")
 }
 
 /// Every section of the page is a word.

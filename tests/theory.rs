@@ -118,6 +118,15 @@ fn explain_knows_the_words() {
         let output = assert_cmd::Command::cargo_bin("secant").unwrap().args(["explain", &word.name]).output().unwrap();
         assert!(output.status.success(), "{}", word.name);
     }
+    let data = |name: &str| {
+        let output =
+            assert_cmd::Command::cargo_bin("secant").unwrap().args(["explain", "--json", name]).output().unwrap();
+        serde_json::from_slice::<serde_json::Value>(&output.stdout).unwrap()
+    };
+    assert_eq!(data("τ")["word"], "tau");
+    let names =
+        data("theorem-6")["hypotheses"].as_array().unwrap().iter().map(|h| h["name"].clone()).collect::<Vec<_>>();
+    assert_eq!(names, ["meet", "cones", "chords", "positive", "view"]);
     let output = assert_cmd::Command::cargo_bin("secant").unwrap().args(["explain", "theorm-2"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8(output.stderr).unwrap().contains("theorem-2"));

@@ -6,9 +6,22 @@ use crate::diagnostic::Problem;
 use crate::glossary;
 use crate::report::document::{Block, Document, Inline, Line, line, words};
 use crate::statement::Statement;
+use serde_json::{Value, json};
 
-/// Prints one statement, or the list of their names.
-pub fn run(name: Option<&str>) -> u8 {
+/// Prints one statement or word, or the list of their names, as text or as data.
+pub fn run(name: Option<&str>, json: bool) -> u8 {
+    if json {
+        return match data(name) {
+            Ok(found) => {
+                print(&format!("{found:#}\n"));
+                PROVED
+            }
+            Err(problem) => {
+                complain(&problem);
+                BAD_INPUT
+            }
+        };
+    }
     let Some(name) = name else {
         let items = Statement::ALL.iter().map(|s| (s.id().to_owned(), words(s.name())));
         let names: Vec<&str> = glossary::words().iter().map(|w| w.name.as_str()).collect();
@@ -34,6 +47,31 @@ pub fn run(name: Option<&str>) -> u8 {
     blocks.push(Block::Paragraph(headed("Symbols.", symbols)));
     show(&text.name, blocks);
     PROVED
+}
+
+/// A statement or a word as data (docs/json.md), or the names of all.
+fn data(name: Option<&str>) -> Result<Value, Problem> {
+    let Some(name) = name else {
+        let statements = Statement::ALL.iter().map(|s| json!({"id": s.id(), "name": s.name()}));
+        let names = glossary::words().iter().map(|w| w.name.as_str());
+        return Ok(json!({"statements": statements.collect::<Vec<_>>(), "words": names.collect::<Vec<_>>()}));
+    };
+    if let Some(statement) = Statement::named(name) {
+        let text = statement.text();
+        let hypotheses = text.hypotheses.iter().map(|h| json!({"name": h.name, "text": h.text}));
+        return Ok(json!({
+            "id": statement.id(),
+            "name": text.name,
+            "hypotheses": hypotheses.collect::<Vec<_>>(),
+            "statement": text.body,
+            "proof": text.proof,
+            "reference": text.reference,
+        }));
+    }
+    match glossary::word(name) {
+        Some(word) => Ok(json!({"word": word.name, "text": word.text})),
+        None => Err(unknown(name)),
+    }
 }
 
 /// A paragraph after a word that stands out.

@@ -127,6 +127,9 @@ enum Command {
     Explain {
         /// Its name, such as `theorem-2`; without it the names are listed.
         theorem: Option<String>,
+        /// Print it as JSON (docs/json.md).
+        #[arg(long)]
+        json: bool,
     },
     /// Print the JSON Schema of case files, for completion and checks in editors.
     Schema,
@@ -349,8 +352,8 @@ struct SolveArgs {
 
 #[derive(Debug, Args)]
 struct RegularityArgs {
-    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet (haar, db1 to db20, bior2.2, rbio2.2, …), a
-    /// mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4". In two variables: a symbol
+    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet (haar, db1 to db20, sym2 to
+    /// sym20, bior2.2, rbio2.2, …), a mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4". In two variables: a symbol
     /// such as "(1+x)^2*(1+y)^2/4", a file with a `[mask]`, box-spline, butterfly, four-eight, loop, sqrt3 or tensor.
     #[arg(allow_hyphen_values = true, value_name = "CASE")]
     what: String,
@@ -466,7 +469,7 @@ fn run(command: Command) -> u8 {
         Command::Solve(args) => solve::run(&args),
         Command::Junction(args) => junction::run(&args),
         Command::Refine(args) => refine::run(&args),
-        Command::Explain { theorem } => explain::run(theorem.as_deref()),
+        Command::Explain { theorem, json } => explain::run(theorem.as_deref(), json),
         Command::Schema => {
             output::print(&format!("{:#}\n", crate::case::schema()));
             PROVED
