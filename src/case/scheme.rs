@@ -373,7 +373,16 @@ pub(super) fn refused(table: &Table<'_>, node: &Node<'_>, error: &SchemeError, k
     match error {
         SchemeError::Unknown { name, .. } => {
             let message = format!("there is no scheme `{}`", clipped(name));
-            let help = format!("{}; `secant schemes` describes them", suggest(name, known, "the schemes are"));
+            let help = match super::asked::unaliased(name) {
+                // Files have one name for each scheme; a checker reads them too.
+                Some(own) => {
+                    let mut parts = own.split_whitespace();
+                    let scheme = parts.next().unwrap_or_default();
+                    let settings = parts.filter_map(|p| p.split_once('=')).map(|(k, v)| format!("  {k} = \"{v}\""));
+                    format!("write  name = \"{scheme}\"{}", settings.collect::<String>())
+                }
+                None => format!("{}; `secant schemes` describes them", suggest(name, known, "the schemes are")),
+            };
             node.problem("scheme", message, "not a known name").with_help(help)
         }
         SchemeError::Parameter { parameter, .. } => {
