@@ -4,6 +4,7 @@ use super::ball::Ball;
 use super::mesh::{Mesh, Net, Place, Spline};
 use crate::base::{Checked, whole};
 use std::collections::BTreeMap;
+use std::sync::LazyLock;
 
 /// Control points: `rows[j][i]`. A quadrangle has rows of one length; in a triangle they get shorter by one, and `i`, `j` are the
 /// exponents of the second and the third barycentric coordinate.
@@ -71,7 +72,12 @@ fn averaged(net: &Lattice, n: i64, along: Place) -> Lattice {
 }
 
 /// For the control points of the triangle `(0, 0), (1, 0), (0, 1)`, by rows, the lattice points and 24 times their weights.
-pub fn quartic() -> Vec<Vec<(Place, i64)>> {
+pub fn quartic() -> &'static [Vec<(Place, i64)>] {
+    static MASKS: LazyLock<Vec<Vec<(Place, i64)>>> = LazyLock::new(control_points);
+    &MASKS
+}
+
+fn control_points() -> Vec<Vec<(Place, i64)>> {
     let spline = box_spline();
     let around = || (-2..=3).flat_map(|a| (-2..=3).map(move |b| (a, b)));
     let control = |(i, j): Place| {
@@ -236,7 +242,7 @@ mod tests {
 
     /// 24 times the control points of a net of one point, by rows.
     fn patch(net: &dyn Fn(Place) -> i64) -> Vec<Vec<i64>> {
-        let mut points = quartic().into_iter().map(|mask| mask.iter().map(|(p, w)| net(*p) * w).sum());
+        let mut points = quartic().iter().map(|mask| mask.iter().map(|(p, w)| net(*p) * w).sum());
         (0..5).map(|r| points.by_ref().take(5 - r).collect()).collect()
     }
 
