@@ -10,8 +10,8 @@ use std::sync::OnceLock;
 
 /// A case of each kind: cusp, oscillating, complex pair, Jordan block, null component, joints that disagree, undetermined,
 /// space, projected, affine maps, similarities, reversed pieces, interpolation, irrational, automaton, set; surfaces with a
-/// tensor product, a null component, a complex pair, extraordinary faces; cones that shrink slowly.
-const KINDS: [&str; 24] = [
+/// tensor product, a null component, a complex pair, extraordinary faces; cones that shrink slowly; irrational entries.
+const KINDS: [&str; 30] = [
     "thesis/half-tangent",
     "counterexamples/cycle-twice",
     "classical/levy",
@@ -36,6 +36,12 @@ const KINDS: [&str; 24] = [
     "surfaces/double-real",
     "faces/catmull-clark-5",
     "control/cubic-null",
+    "fif/vector",
+    "fields/koch-sqrt3",
+    "fields/db2",
+    "fields/de-rham-golden",
+    "fields/de-rham-tie",
+    "fields/cosine-set",
 ];
 
 /// Cases about vertices: proved, not C¹ by winding, by a line, by Jordan blocks, no spline.
@@ -204,6 +210,37 @@ fn citations(text: &str) -> Vec<String> {
         }
     }
     cited
+}
+
+#[test]
+fn what_the_case_gives_is_shown_as_it_was_given() {
+    let text = |name: &str| {
+        let found = all_reports().iter().find(|(n, _)| *n == name);
+        markdown::render(&found.expect("the report is made").1)
+    };
+    let data = text("fif/vector");
+    // The second factor is 1/7, the third polynomial goes through (1, 1/2, 2).
+    assert!(data.contains("The case gives the points") && data.contains("They are made of these data."), "{data}");
+    assert!(data.contains(r"\begin{pmatrix} \frac{1}{7} & 0 \\ 0 & \frac{1}{7} \end{pmatrix}"), "{data}");
+    let maps = text("fields/koch-sqrt3");
+    assert!(
+        maps.contains("The maps:")
+            && maps.contains(r"map 0: $x \mapsto \begin{pmatrix} \frac{1}{3} & 0 \\ 0 & \frac{1}{3}")
+    );
+    assert!(text("thesis/half-tangent").contains("The case gives them in this form."));
+}
+
+#[test]
+fn reports_over_a_field_are_proofs() {
+    let headings = ["## Contraction", "## The cycles", "## The points", "## References"];
+    for (name, document) in all_reports().iter().filter(|(name, _)| name.starts_with("fields/")) {
+        let text = markdown::render(document);
+        for heading in headings {
+            assert!(text.contains(heading), "{name}: {heading}");
+        }
+        assert!(text.contains("its entries lie in Q(α), α = "), "{name}");
+        assert!(!text.contains("is not confirmed by the code words"), "{name}");
+    }
 }
 
 #[test]

@@ -6,6 +6,7 @@ use super::projection::{Projection, floats};
 use super::svg::Anchor;
 use super::trace::Tracer;
 use crate::arith::Rational;
+use crate::jordan::Scalar;
 use crate::linalg::Matrix;
 use crate::shape::Shape;
 use crate::theorem::{BranchReport, Outcome, Rate};
@@ -15,6 +16,8 @@ use nalgebra::{DMatrix, DVector};
 const TURNS: [usize; 4] = [0, 2, 4, 6];
 /// Most points of a panel and branch.
 const MAX_POINTS: usize = 260;
+/// Binary digits of what is drawn.
+const BITS: u64 = 200;
 /// Turns over which angles are measured.
 const MEASURED: usize = 12;
 /// About so many points of the ring are followed.
@@ -25,17 +28,17 @@ const SAMPLES: usize = 300;
 ///
 /// `None` where nothing finite results.
 #[must_use]
-pub fn zoom(
-    shape: &Shape,
-    at: &[Rational],
-    branches: &[&BranchReport],
+pub fn zoom<E: Scalar>(
+    (shape, drawn): (&Shape<E>, &Shape),
+    at: &[E],
+    branches: &[&BranchReport<E>],
     tangent: Option<&[f64]>,
     title: &str,
 ) -> Option<Drawing> {
     const PANEL: f64 = 156.0;
     const RADIUS: f64 = 66.0;
-    let tracer = Tracer::new(shape)?;
-    let projection = Projection::of(shape);
+    let tracer = Tracer::new(drawn)?;
+    let projection = Projection::of(drawn);
     let mut sheet = Sheet::new(TURNS.len() as f64 * PANEL, PANEL + 22.0);
     let line = tangent.map(|t| projection.direction(t)).filter(|d| d[0].hypot(d[1]) > 1e-9);
     for (k, &turns) in TURNS.iter().enumerate() {
@@ -63,19 +66,24 @@ pub fn zoom(
     Some(sheet.finish(title))
 }
 
+/// Rational entries nearby.
+fn near<E: Scalar>(m: &Matrix<E>) -> Matrix {
+    m.map(|x| x.enclosure(BITS).mid())
+}
+
 /// The points of `T_u M^m A` minus the point, in the plane of the drawing.
-fn around(
-    shape: &Shape,
+fn around<E: Scalar>(
+    shape: &Shape<E>,
     tracer: &Tracer,
     projection: &Projection,
-    at: &[Rational],
-    branch: &BranchReport,
+    at: &[E],
+    branch: &BranchReport<E>,
     turns: usize,
 ) -> Vec<[f64; 2]> {
     let (prefix, _) = shape.product(shape.start, &branch.address.prefix);
     let cell = (0..turns).fold(prefix, |m, _| &m * &branch.cycle_operator);
     // The subtraction is exact, so that small cells keep their digits.
-    let offset = Matrix::from_fn(cell.rows(), cell.cols(), |i, j| &cell[(i, j)] - &at[i]);
+    let offset = near(&Matrix::from_fn(cell.rows(), cell.cols(), |i, j| cell[(i, j)].minus(&at[i])));
     let largest = (0..offset.rows()).flat_map(|i| offset.row(i)).map(crate::arith::abs).max();
     let scale = largest.filter(|x| *x > 0).unwrap_or_else(|| Rational::from(1));
     let unit = Matrix::from_fn(offset.rows(), offset.cols(), |i, j| &offset[(i, j)] / &scale);
@@ -88,16 +96,17 @@ fn around(
 ///
 /// `None` where the branch has no tangent line or nothing to measure.
 #[must_use]
-pub fn turning(shape: &Shape, branch: &BranchReport, name: &str) -> Option<Turning> {
+pub fn turning<E: Scalar>(shape: &Shape, branch: &BranchReport<E>, name: &str) -> Option<Turning> {
     let Outcome::Line { direction, rate, proof: Some(_), .. } = &branch.outcome else { return None };
     let axis = DVector::from_vec(direction.to_f64()).normalize();
     let tracer = Tracer::new(shape)?;
-    let (chart, linear, view) = (floats(&branch.chart), floats(&branch.linear), floats(&branch.view));
-    let fixed = floats(&Matrix::from_fn(branch.fixed.len(), 1, |i, _| branch.fixed[i].clone()));
+    let (chart, linear, view) =
+        (floats(&near(&branch.chart)), floats(&near(&branch.linear)), floats(&near(&branch.view)));
+    let fixed = floats(&near(&Matrix::from_fn(branch.fixed.len(), 1, |i, _| branch.fixed[i].clone())));
     let mut points: Vec<DVector<f64>> = Vec::new();
     let kept: Vec<_> = branch.ring.iter().filter(|p| !p.collapses).collect();
     for piece in &kept {
-        for x in tracer.spread(piece.end, &floats(&piece.op), SAMPLES / kept.len().max(1)) {
+        for x in tracer.spread(piece.end, &floats(&near(&piece.op)), SAMPLES / kept.len().max(1)) {
             points.push((&chart * (x - &fixed)).column(0).into_owned());
         }
     }

@@ -85,6 +85,7 @@ impl Projection {
         };
         let (plane, words) = match control.rows() {
             1 => (DMatrix::from_row_slice(2, 1, &[1.0, 0.0]), "The points lie on a line."),
+            2 if shape.frame == Frame::Affine => (DMatrix::identity(2, 2), "Drawn in its plane."),
             2 => (DMatrix::identity(2, 2), "Drawn in the plane of the control points."),
             d => match view {
                 Some(view) => {

@@ -8,7 +8,7 @@ use super::words::{addresses, count, listed, point_name};
 use crate::algebraic::{Elem, Root};
 use crate::arith::{Rational, to_f64};
 use crate::case::Case;
-use crate::jordan::Spectrum;
+use crate::jordan::{Eigenvalue, Spectral};
 use crate::picture::{self, Arrow, CellBox, Dot, Drawing, Mark, MarkStyle, Picture};
 use crate::shape::{CellKind, Shape, word_text};
 use crate::theorem::{
@@ -48,7 +48,7 @@ const MAX_STATES: usize = 14;
 
 /// The automaton as a graph, where there is more than one state.
 #[must_use]
-pub fn automaton(shape: &Shape) -> Option<Block> {
+pub fn automaton<E: Reported>(shape: &Shape<E>) -> Option<Block> {
     let names: Vec<String> = shape.states.iter().map(|s| s.name.clone()).collect();
     if !(2..=MAX_STATES).contains(&names.len()) {
         return None;
@@ -76,17 +76,17 @@ const MAX_LABELS: usize = 8;
 
 /// The eigenvalues of a cycle in the complex plane.
 #[must_use]
-pub fn spectrum(spectrum: &Spectrum) -> Option<Block> {
-    let rational = |member| spectrum.factor(member).poly.degree() == Some(1);
-    if spectrum.classes.iter().flat_map(|c| &c.members).all(|m| rational(*m)) {
+pub fn spectrum<S: Spectral>(spectrum: &S) -> Option<Block> {
+    let rational = |m: &Eigenvalue| spectrum.value(*m).rational().is_some();
+    if spectrum.classes().iter().flat_map(|c| &c.members).all(rational) {
         return None;
     }
     let members: Vec<_> =
-        spectrum.classes.iter().enumerate().flat_map(|(k, c)| c.members.iter().map(move |m| (k, *m))).collect();
+        spectrum.classes().iter().enumerate().flat_map(|(k, c)| c.members.iter().map(move |m| (k, *m))).collect();
     let mut dots = Vec::new();
     let mut told = Vec::new();
     for &(class, member) in &members {
-        let root = spectrum.root(member);
+        let root = spectrum.value(member);
         let (re, im) = root.enclosure(60);
         let text = math_line(&root_math(root));
         let short = if text.chars().count() <= 14 {
@@ -124,7 +124,7 @@ pub fn cones(case: &Case, found: &Certified) -> Option<Block> {
 
 /// The interval of parameters of a cell of an edge state.
 #[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
-fn parameters(shape: &Shape, state: usize, word: &[usize]) -> (f64, f64) {
+fn parameters<E: Reported>(shape: &Shape<E>, state: usize, word: &[usize]) -> (f64, f64) {
     let (mut from, mut width, mut back, mut at) = (0.0, 1.0, false, state);
     for &letter in word {
         let state = &shape.states[at];
@@ -139,7 +139,7 @@ fn parameters(shape: &Shape, state: usize, word: &[usize]) -> (f64, f64) {
 
 /// The values of a functional on points as floats: its row, and its value at `q`.
 #[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
-fn float_row(row: &[Elem], root: Option<&Root>, branch: &BranchReport) -> (Vec<f64>, f64) {
+fn float_row<E: Reported>(row: &[Elem], root: Option<&Root>, branch: &BranchReport<E>) -> (Vec<f64>, f64) {
     let entry = |e: &Elem| match (e.is_rational(), root) {
         (Some(x), _) => to_f64(&x),
         (None, Some(root)) => to_f64(&e.enclosure(root, 64).0.mid()),
@@ -147,9 +147,9 @@ fn float_row(row: &[Elem], root: Option<&Root>, branch: &BranchReport) -> (Vec<f
     };
     let on_y: Vec<f64> = row.iter().map(entry).collect();
     let row: Vec<f64> = (0..branch.chart.cols())
-        .map(|j| on_y.iter().enumerate().map(|(k, f)| f * to_f64(&branch.chart[(k, j)])).sum())
+        .map(|j| on_y.iter().enumerate().map(|(k, f)| f * to_f64(&branch.chart[(k, j)].near())).sum())
         .collect();
-    let at_q = row.iter().zip(&branch.fixed).map(|(a, x)| a * to_f64(x)).sum();
+    let at_q = row.iter().zip(&branch.fixed).map(|(a, x)| a * to_f64(&x.near())).sum();
     (row, at_q)
 }
 
@@ -166,7 +166,13 @@ fn drawn_scale(cells: &[Discharged]) -> Rational {
 /// The functional of a ring condition over the cells: the enclosures of a proof, or only its graph.
 #[must_use]
 #[allow(clippy::float_arithmetic, reason = "pictures decide nothing")]
-pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root, proof: Option<&RingProof>) -> Block {
+pub fn functional<E: Reported>(
+    case: &Case<E>,
+    branch: &BranchReport<E>,
+    row: &[Elem],
+    root: &Root,
+    proof: Option<&RingProof>,
+) -> Block {
     let shape = &case.shape;
     let curve = shape.states[branch.state].kind == CellKind::Edge;
     let cells = proof.map(|p| p.discharged.as_slice()).unwrap_or_default();
@@ -188,7 +194,7 @@ pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root,
     let (profile, spot) = if curve {
         let (row, at_q) = float_row(&row, Some(root), branch);
         let turns = branch.address.cycle.repeat(60 / branch.address.cycle.len().max(1) + 1);
-        (picture::profile(shape, branch.state, &row, at_q), Some(parameters(shape, branch.state, &turns).0))
+        (picture::profile(&E::drawn(shape), branch.state, &row, at_q), Some(parameters(shape, branch.state, &turns).0))
     } else {
         (Vec::new(), None)
     };
@@ -216,15 +222,21 @@ pub fn functional(case: &Case, branch: &BranchReport, row: &[Elem], root: &Root,
 
 /// A point closer and closer, and how fast the secants turn there.
 #[must_use]
-pub fn germ(case: &Case, point: &PointReport) -> Vec<Block> {
+pub fn germ<E: Reported>(case: &Case<E>, point: &PointReport<E>) -> Vec<Block> {
     let mut out = Vec::new();
-    let branches: Vec<&BranchReport> =
+    let branches: Vec<&BranchReport<E>> =
         point.branches.iter().filter(|b| !matches!(b.outcome, Outcome::NoGerm { .. })).collect();
     if branches.is_empty() {
         return out;
     }
     let tangent = point.tangent.as_ref().map(|t| t.to_f64());
-    if let Some(drawing) = picture::zoom(&case.shape, &point.position, &branches, tangent.as_deref(), "Zoom series") {
+    if let Some(drawing) = picture::zoom(
+        (&case.shape, &E::drawn(&case.shape)),
+        &point.position,
+        &branches,
+        tangent.as_deref(),
+        "Zoom series",
+    ) {
         let what = if tangent.is_some() { " and the tangent line" } else { "" };
         let alt =
             format!("Four enlargements of the shape around the point{what}, after 0, 2, 4 and 6 turns of the cycle.");
@@ -240,7 +252,7 @@ pub fn germ(case: &Case, point: &PointReport) -> Vec<Block> {
                 (_, 0) => "left",
                 _ => "right",
             };
-            picture::turning(&case.shape, b, name)
+            picture::turning(&E::drawn(&case.shape), b, name)
         })
         .filter(|t| !t.bound.is_empty())
         .collect();

@@ -20,9 +20,7 @@ pub fn proof(findings: &Findings) -> Document {
 pub fn proof_at(findings: &Findings, level: Level) -> Document {
     match findings {
         Findings::Tangents { case, found } => proof::document_at(case, found, level),
-        Findings::OverField { case, found } => {
-            summary::summary(case, found, &Required::default(), level != Level::Summary)
-        }
+        Findings::OverField { case, found } => proof::document_at(case, found, level),
         Findings::Vertices { case, found, every } => proof::vertex_document(case, found, every.as_ref()),
     }
 }

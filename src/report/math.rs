@@ -119,7 +119,7 @@ impl Math {
 }
 
 /// `base` to a positive power; the first power is not written.
-fn power(base: Math, degree: usize) -> Math {
+pub(super) fn power(base: Math, degree: usize) -> Math {
     if degree == 1 {
         return base;
     }

@@ -268,14 +268,6 @@ fn shape_facts<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Vec<(String
     facts
 }
 
-/// What was found at one point, with its branches; `None` where there is no such point.
-#[must_use]
-pub fn point_document<E: Reported>(case: &Case<E>, found: &Certified<E>, number: usize) -> Option<Document> {
-    let point = found.points.get(number)?;
-    let title = format!("{}: {}", case.title, point_name(&case.shape, point));
-    Some(Document { title, blocks: point_blocks(case, point, true, &[]) })
-}
-
 fn point_blocks<E: Reported>(case: &Case<E>, point: &PointReport<E>, verbose: bool, local: &[LocalSide]) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {

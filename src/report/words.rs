@@ -60,7 +60,7 @@ pub fn point_name<E: Reported>(shape: &Shape<E>, point: &PointReport<E>) -> Stri
 
 /// The same inside a sentence: `left end`, `joint of pieces 0 and 1`.
 #[must_use]
-pub fn point_phrase<E: Reported>(shape: &Shape<E>, point: &PointReport<E>) -> String {
+pub fn point_phrase<S, E: Reported>(shape: &Shape<S>, point: &PointReport<E>) -> String {
     match &point.role {
         Role::LeftEnd => "left end".to_owned(),
         Role::RightEnd => "right end".to_owned(),

@@ -56,6 +56,30 @@ impl Interpolation {
         Ok(new)
     }
 
+    /// The abscissas, which increase.
+    #[must_use]
+    pub fn abscissas(&self) -> &[Rational] {
+        &self.abscissas
+    }
+
+    /// The values at the abscissas.
+    #[must_use]
+    pub fn values(&self) -> &[Vec<Rational>] {
+        &self.values
+    }
+
+    /// The factors `α_j`, one for each interval.
+    #[must_use]
+    pub fn factors(&self) -> &[Matrix] {
+        &self.factors
+    }
+
+    /// The polynomials `q_j`: by interval and coordinate of the values, their coefficients from degree 0 on.
+    #[must_use]
+    pub fn polynomials(&self) -> &[Vec<Vec<Rational>>] {
+        &self.polynomials
+    }
+
     /// The function with given polynomials: by interval and coordinate, coefficients from degree 0 on.
     ///
     /// # Errors

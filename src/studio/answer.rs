@@ -195,7 +195,7 @@ impl Kept {
         match &self.found {
             What::Case(answered) => match &answered.findings {
                 Findings::Tangents { case, found } => proof::point_document(case, found, number),
-                Findings::OverField { case, found } => summary::point_document(case, found, number),
+                Findings::OverField { case, found } => proof::point_document(case, found, number),
                 Findings::Vertices { .. } => None,
             },
             What::Mesh(_) => None,

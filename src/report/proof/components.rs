@@ -6,6 +6,7 @@ use super::super::values::lambda_math;
 use super::super::words::{count, root_of};
 use super::cycles::spectrum_blocks;
 use super::evidence::Evidence;
+use crate::arith::Rational;
 use crate::case::Case;
 use crate::statement::Statement;
 use crate::theorem::{Component, Components};
@@ -92,7 +93,7 @@ pub(super) fn loops(case: &Case, found: &Components) -> Vec<Block> {
                 [],
             ));
             blocks.push(super::matrix(Math::Letter('L'), &pull.linear));
-            blocks.extend(spectrum_blocks(&pull.spectrum));
+            blocks.extend(spectrum_blocks::<Rational>(&pull.spectrum));
         }
     }
     blocks

@@ -5,19 +5,21 @@ use super::super::math::Math;
 use super::super::words::{contraction, count, short_bound};
 use super::evidence::Evidence;
 use super::{Quoted, product};
-use crate::arith::Rational;
-use crate::shape::{
-    Balls, Contracting, ContractingWord, Contraction, Polytopes, Shape, Spaces, difference, norm1, word_text,
-};
+use crate::arith::{Rational, abs};
+use crate::report::reported::{Reported, vector};
+use crate::shape::{Contracting, ContractingWord, Contraction, Polytopes, Shape, difference, word_text};
 use crate::statement::Statement;
 use crate::theorem::surface::SurfaceBranch;
 use crate::theorem::{BranchReport, Certified, Outcome, StateReport, Witness};
+
+/// Binary digits of the enclosures of irrational numbers.
+const BITS: u64 = 300;
 
 /// Most code words that are listed.
 const MAX_WORDS: usize = 400;
 
 /// The section on contraction.
-pub(super) fn section(shape: &Shape, found: &Contraction, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn section<E: Reported>(shape: &Shape<E>, found: &Contraction, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = Vec::new();
     match found {
         Contraction::Product(proof) => {
@@ -76,13 +78,13 @@ fn polytope_evidence(proof: &Polytopes) -> Evidence {
 }
 
 /// `m` and `c` of every piece.
-fn shares(shape: &Shape, proof: &Polytopes) -> Block {
+fn shares<E: Reported>(shape: &Shape<E>, proof: &Polytopes) -> Block {
     let mut rows = Vec::new();
     for e in shape.reachable() {
         for i in 0..shape.states[e].pieces.len() {
             let name = vec![words(shape.states[e].name.clone()), words(i.to_string())];
             let values = match proof.share(e, i) {
-                Some((m, c)) => vec![formula(Math::number(&m)), formula(Math::vector(&c))],
+                Some((m, c)) => vec![formula(Math::number(&m)), formula(vector(&c))],
                 None => vec![words("–"), words("–")],
             };
             rows.push([name, values].concat());
@@ -107,7 +109,7 @@ pub(super) fn bounded(x: &Rational) -> Math {
 }
 
 /// The words of the code with their coefficients.
-fn code_words(shape: &Shape, proof: &Contracting) -> Block {
+fn code_words<E: Reported>(shape: &Shape<E>, proof: &Contracting) -> Block {
     let total: usize = proof.codes.iter().map(Vec::len).sum();
     let several = shape.states.len() > 1;
     let mut rows = Vec::new();
@@ -134,8 +136,8 @@ fn code_words(shape: &Shape, proof: &Contracting) -> Block {
 }
 
 /// Whether some proof of the report looks at the values of a functional on cells.
-pub(super) fn uses_enclosures(found: &Certified) -> bool {
-    let curve = |b: &BranchReport| match &b.outcome {
+pub(super) fn uses_enclosures<E: Reported>(found: &Certified<E>) -> bool {
+    let curve = |b: &BranchReport<E>| match &b.outcome {
         Outcome::Line { proof, .. } => proof.is_some(),
         Outcome::AtLeast { isolation, witness, .. } => {
             isolation.is_some() || matches!(witness, Some(Witness::Crossing { .. }))
@@ -151,10 +153,10 @@ pub(super) fn uses_enclosures(found: &Certified) -> bool {
 }
 
 /// The statement on enclosures with its evidence, and the polygons where some are used.
-pub(super) fn enclosures(
-    shape: &Shape,
+pub(super) fn enclosures<E: Reported>(
+    shape: &Shape<E>,
     found: &Contraction,
-    states: &[StateReport],
+    states: &[StateReport<E>],
     polygons: Vec<Block>,
     seen: &mut Quoted,
 ) -> Vec<Block> {
@@ -196,17 +198,28 @@ pub(super) fn enclosures(
 }
 
 /// The largest `‖T_w c_δ − c_e‖ + τ(T_w) r_δ` over the code words of a state; `None` where one of them cannot be computed.
-fn largest_sum(shape: &Shape, states: &[StateReport], proof: &Contracting, own: &StateReport) -> Option<Rational> {
+fn largest_sum<E: Reported>(
+    shape: &Shape<E>,
+    states: &[StateReport<E>],
+    proof: &Contracting,
+    own: &StateReport<E>,
+) -> Option<Rational> {
+    // Of an irrational number an upper bound.
+    let size = |x: &E| {
+        let enclosure = x.enclosure(BITS);
+        abs(&enclosure.lo).max(abs(&enclosure.hi))
+    };
     let sum = |word: &ContractingWord| {
         let target = states.iter().find(|s| s.state == word.end)?;
         let (op, _) = shape.product(own.state, &word.word);
-        Some(norm1(&difference(&op.apply(&target.base), &own.base)) + &word.tau * &target.radius)
+        let moved: Rational = difference(&op.apply(&target.base), &own.base).iter().map(size).sum();
+        Some(moved + &word.tau * &target.radius)
     };
     proof.codes.get(own.state)?.iter().map(sum).collect::<Option<Vec<_>>>()?.into_iter().max()
 }
 
 /// The polygons that hold the attractors, where a ring condition used them.
-pub(super) fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
+pub(super) fn polygons<E: Reported>(shape: &Shape<E>, found: &Certified<E>) -> Vec<Block> {
     if let Contraction::Polytopes(proof) = &found.contraction {
         let text = "The attractors lie inside the polytopes that prove contraction; a functional takes its extreme values at vertices.";
         let table = vertices(shape, |e| &proof.vertices[e]);
@@ -216,11 +229,8 @@ pub(super) fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
     if !found.points.iter().flat_map(|p| &p.branches).any(uses_polygons) {
         return Vec::new();
     }
-    let hulls = Spaces::new(shape).and_then(|spaces| {
-        Balls::of(shape, &spaces, &found.contraction).and_then(|balls| balls.with_hulls(shape, &spaces))
-    });
-    let Some(hulls) = hulls else { return Vec::new() };
-    let table = vertices(shape, |e| hulls.hull(e).unwrap_or_default());
+    let Some(hulls) = &found.polygons else { return Vec::new() };
+    let table = vertices(shape, |e| &hulls[e]);
     vec![
         Block::text(
             "Where a ring condition needs sharper enclosures, these convex polygons are used: every map sends polygon into polygon, which is \
@@ -232,14 +242,14 @@ pub(super) fn polygons(shape: &Shape, found: &Certified) -> Vec<Block> {
 }
 
 /// The vertices of all reachable states.
-pub(super) fn vertices<'a>(shape: &Shape, of: impl Fn(usize) -> &'a [Vec<crate::arith::Rational>]) -> Block {
-    let row = |(e, vertex): (usize, &Vec<_>)| vec![words(shape.states[e].name.clone()), formula(Math::vector(vertex))];
+pub(super) fn vertices<'a, E: Reported, X: Reported>(shape: &Shape<E>, of: impl Fn(usize) -> &'a [Vec<X>]) -> Block {
+    let row = |(e, vertex): (usize, &Vec<_>)| vec![words(shape.states[e].name.clone()), formula(vector(vertex))];
     let rows = shape.reachable().into_iter().flat_map(|e| of(e).iter().map(move |v| (e, v))).map(row).collect();
     let header = vec![words("state"), words("vertex")];
     Block::Table(by_state(shape, Table { caption: Line::new(), header, rows }).beside())
 }
 
-fn uses_polygons(branch: &BranchReport) -> bool {
+fn uses_polygons<E: Reported>(branch: &BranchReport<E>) -> bool {
     match &branch.outcome {
         Outcome::Line { proof, .. } => proof.as_ref().is_some_and(|p| p.polygons),
         Outcome::AtLeast { isolation, witness, .. } => {
@@ -251,7 +261,7 @@ fn uses_polygons(branch: &BranchReport) -> bool {
 }
 
 /// A table whose first column names states, without that column where there is one state only.
-pub(super) fn by_state(shape: &Shape, mut table: Table) -> Table {
+pub(super) fn by_state<E: Reported>(shape: &Shape<E>, mut table: Table) -> Table {
     if shape.states.len() == 1 {
         table.header.remove(0);
         table.rows.iter_mut().for_each(|row| drop(row.remove(0)));

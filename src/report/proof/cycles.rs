@@ -6,17 +6,18 @@ use super::super::values::{polynomial, root_math};
 use super::super::words::listed;
 use super::{Quoted, matrix, scheme, statements};
 use crate::case::Case;
-use crate::jordan::Spectrum;
+use crate::jordan::Spectral;
 use crate::linalg::Matrix;
 use crate::report::figures;
+use crate::report::reported::{Reported, vector};
 use crate::report::values::decimal_math;
 use crate::shape::{Spaces, word_text};
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Certified};
 
 /// One branch for each different analysis.
-pub(super) fn distinct(found: &Certified) -> Vec<&BranchReport> {
-    let mut out: Vec<&BranchReport> = Vec::new();
+pub(super) fn distinct<E: Reported>(found: &Certified<E>) -> Vec<&BranchReport<E>> {
+    let mut out: Vec<&BranchReport<E>> = Vec::new();
     for branch in found.points.iter().flat_map(|p| &p.branches) {
         if index_of(&out, branch).is_none() {
             out.push(branch);
@@ -26,7 +27,7 @@ pub(super) fn distinct(found: &Certified) -> Vec<&BranchReport> {
 }
 
 /// Which of the listed analyses is that of a branch.
-pub(super) fn index_of(listed: &[&BranchReport], branch: &BranchReport) -> Option<usize> {
+pub(super) fn index_of<E: Reported>(listed: &[&BranchReport<E>], branch: &BranchReport<E>) -> Option<usize> {
     listed.iter().position(|b| {
         b.state == branch.state
             && b.address.cycle == branch.address.cycle
@@ -38,7 +39,7 @@ pub(super) fn index_of(listed: &[&BranchReport], branch: &BranchReport) -> Optio
 }
 
 /// The name of the section of a cycle.
-pub(super) fn name(case: &Case, branch: &BranchReport, k: usize) -> String {
+pub(super) fn name<E: Reported>(case: &Case<E>, branch: &BranchReport<E>, k: usize) -> String {
     let state = if case.shape.states.len() > 1 {
         format!(" at state {}", case.shape.states[branch.state].name)
     } else {
@@ -52,19 +53,22 @@ pub(super) fn name(case: &Case, branch: &BranchReport, k: usize) -> String {
     format!("Cycle {}: ({}){state}{quotient}", k + 1, word_text(&branch.address.cycle))
 }
 
-pub(super) fn section(case: &Case, spaces: &Spaces, branch: &BranchReport, k: usize, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn section<E: Reported>(
+    case: &Case<E>,
+    spaces: &Spaces<E>,
+    branch: &BranchReport<E>,
+    k: usize,
+    seen: &mut Quoted,
+) -> Vec<Block> {
     let mut blocks = vec![Block::Heading(3, words(name(case, branch, k)))];
     blocks.extend(cycle_operator(case, branch.state, &branch.address.cycle, &branch.cycle_operator));
-    blocks.push(Block::text(
-        "The fixed point is $q=@$: $M q=q$, with the coordinate sum 1.",
-        [Math::vector(&branch.fixed)],
-    ));
+    blocks.push(Block::text("The fixed point is $q=@$: $M q=q$, with the coordinate sum 1.", [vector(&branch.fixed)]));
     blocks.extend(space_blocks(spaces, branch));
     if branch.linear.rows() > 0 {
         let on = if branch.linear.rows() < branch.relevant { "$Y$" } else { "$V$" };
         blocks.push(Block::text(&format!("In these coordinates $M$ acts on {on} by"), []));
         blocks.push(matrix(Math::Letter('L'), &branch.linear));
-        blocks.extend(spectrum_blocks(&branch.spectrum));
+        blocks.extend(spectrum_blocks::<E>(&branch.spectrum));
         blocks.extend(figures::spectrum(&branch.spectrum));
         blocks.extend(ring_blocks(branch, seen));
     }
@@ -73,7 +77,7 @@ pub(super) fn section(case: &Case, spaces: &Spaces, branch: &BranchReport, k: us
 }
 
 /// `M` as a product of operators, with its entries unless it is one of them.
-pub(super) fn cycle_operator(case: &Case, state: usize, cycle: &[usize], m: &Matrix) -> Vec<Block> {
+pub(super) fn cycle_operator<E: Reported>(case: &Case<E>, state: usize, cycle: &[usize], m: &Matrix<E>) -> Vec<Block> {
     let shape = &case.shape;
     let mut at = state;
     let mut factors = Vec::new();
@@ -94,11 +98,11 @@ pub(super) fn cycle_operator(case: &Case, state: usize, cycle: &[usize], m: &Mat
 /// Most operators whose product is written out.
 const MAX_FACTORS: usize = 8;
 
-fn space_blocks(spaces: &Spaces, branch: &BranchReport) -> Vec<Block> {
+fn space_blocks<E: Reported>(spaces: &Spaces<E>, branch: &BranchReport<E>) -> Vec<Block> {
     let basis = &spaces.of(branch.state).basis;
     let mut blocks = Vec::new();
     if basis.cols() > 0 {
-        let columns = (0..basis.cols()).map(|j| Math::vector(&basis.column(j))).collect::<Vec<_>>();
+        let columns = (0..basis.cols()).map(|j| vector(&basis.column(j))).collect::<Vec<_>>();
         let mut text = line("$V$ has the dimension $@$ and the basis ", [Math::count(branch.relevant)]);
         for (j, column) in columns.into_iter().enumerate() {
             if j > 0 {
@@ -125,21 +129,21 @@ fn space_blocks(spaces: &Spaces, branch: &BranchReport) -> Vec<Block> {
     blocks
 }
 
-pub(super) fn spectrum_blocks(spectrum: &Spectrum) -> Vec<Block> {
+pub(super) fn spectrum_blocks<E: Reported>(spectrum: &E::Spectrum) -> Vec<Block> {
     let mut blocks = vec![Block::text(
         "The characteristic polynomial of $L$ is $χ(x)=@$. The eigenvalues by descending modulus:",
-        [polynomial(&spectrum.char_poly, 'x')],
+        [E::characteristic_math(spectrum)],
     )];
     let mut rows = Vec::new();
-    for (k, class) in spectrum.classes.iter().enumerate() {
+    for (k, class) in spectrum.classes().iter().enumerate() {
         for member in &class.members {
-            let factor = spectrum.factor(*member);
-            let root = spectrum.root(*member);
+            let factor = spectrum.part(member.factor);
+            let root = spectrum.value(*member);
             rows.push(vec![
                 formula(Math::parse("ρ_@", &mut std::iter::once(Math::count(k + 1)))),
                 formula(root_math(root)),
                 formula(decimal_math(&root.modulus(60).mid(), 6)),
-                formula(polynomial(&factor.poly, 'x')),
+                formula(polynomial(factor.minpoly, 'x')),
                 formula(Math::count(factor.multiplicity)),
                 words(listed(&factor.blocks.iter().map(ToString::to_string).collect::<Vec<_>>())),
             ]);
@@ -157,9 +161,9 @@ pub(super) fn spectrum_blocks(spectrum: &Spectrum) -> Vec<Block> {
     blocks
 }
 
-fn ring_blocks(branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
+fn ring_blocks<E: Reported>(branch: &BranchReport<E>, seen: &mut Quoted) -> Vec<Block> {
     // Lemma 2 is for maps that are not nilpotent; otherwise all pieces count.
-    let nilpotent = branch.spectrum.classes.first().is_some_and(|c| branch.spectrum.root(c.members[0]).is_zero());
+    let nilpotent = branch.spectrum.classes().first().is_some_and(|c| branch.spectrum.value(c.members[0]).is_zero());
     let cells = |collapsing: bool| -> Vec<String> {
         let pieces = branch.ring.iter().filter(|p| (p.collapses && !nilpotent) == collapsing);
         pieces.map(|p| format!("`{}`", word_text(&p.word))).collect()

@@ -2,6 +2,7 @@
 
 use super::super::claims;
 use super::super::document::{Block, Inline, Line, Tone, line, words};
+use super::super::reported::Reported;
 use super::super::values::direction_math;
 use super::super::words::{mark, point_name, point_phrase, tone};
 use super::evidence::Evidence;
@@ -9,7 +10,7 @@ use super::{Quoted, quoted};
 use crate::case::Case;
 use crate::theorem::{Assertion, Certified, DenseSet, Statement, Verdict};
 
-pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn section<E: Reported>(case: &Case<E>, found: &Certified<E>, seen: &mut Quoted) -> Vec<Block> {
     let Some(dense) = &found.dense else { return Vec::new() };
     let Some(claim) = found.dense_claim() else { return Vec::new() };
     let projected = claim.what == Assertion::ProjectedJoints;
@@ -48,7 +49,13 @@ pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<
 }
 
 /// What was found about the hypotheses of Theorem 5 or 5′.
-fn evidence(case: &Case, found: &Certified, dense: &DenseSet, statement: Statement, proved: bool) -> Evidence {
+fn evidence<E: Reported>(
+    case: &Case<E>,
+    found: &Certified<E>,
+    dense: &DenseSet<E>,
+    statement: Statement,
+    proved: bool,
+) -> Evidence {
     let shape = &case.shape;
     let projected = statement == Statement::Theorem5Projected;
     let mut evidence = Evidence::of(statement);

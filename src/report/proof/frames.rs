@@ -1,13 +1,13 @@
 //! What was verified of the frames of a shape that starts somewhere.
 
 use super::super::document::{Check, Tone, line, words};
-use super::super::math::Math;
+use super::super::reported::{Reported, entries, vector};
 use super::super::words::{mark, point_phrase, tone};
 use crate::case::Case;
 use crate::shape::word_text;
 use crate::theorem::{FrameKind, FrameReport, Frames};
 
-pub(super) fn checks(case: &Case, frames: &Frames) -> Vec<Check> {
+pub(super) fn checks<E: Reported>(case: &Case<E>, frames: &Frames) -> Vec<Check> {
     let mut checks = Vec::new();
     for frame in &frames.frames {
         checks.push(Check { tone: Tone::Good, text: words(named(case, frame)) });
@@ -23,19 +23,18 @@ pub(super) fn checks(case: &Case, frames: &Frames) -> Vec<Check> {
         }
         if let Some(found) = &frame.cones {
             let rows = &frame.seen.rows;
-            checks
-                .push(Check { tone: Tone::Good, text: line("the rows of the frame are $Q=@$", [Math::matrix(rows)]) });
+            checks.push(Check { tone: Tone::Good, text: line("the rows of the frame are $Q=@$", [entries(rows)]) });
             for cone in &found.cone.cones {
                 let mut text =
                     words(format!("cone of state {}: rays, the columns of ", case.shape.states[cone.state].name));
-                text.extend(line("$G=@$", [Math::matrix(&cone.rays)]));
+                text.extend(line("$G=@$", [entries(&cone.rays)]));
                 checks.push(Check { tone: Tone::Good, text });
             }
             for map in &found.cone.maps {
                 let name = &case.shape.states[map.state].name;
                 let mut text = words(format!("piece {} of state {name}: ", map.letter));
                 let images = "$ε T G_δ=G B$ with $B=@$, not negative and without a zero column";
-                text.extend(line(images, [Math::matrix(&map.matrix)]));
+                text.extend(line(images, [entries(&map.matrix)]));
                 checks.push(Check { tone: Tone::Good, text });
             }
             for (word, functional) in &found.code {
@@ -44,7 +43,7 @@ pub(super) fn checks(case: &Case, frames: &Frames) -> Vec<Check> {
                 let text = format!(
                     "{below} the functional $h=@$ on the rows $Q$ of the frame is positive on the cone as it is seen"
                 );
-                checks.push(Check { tone: Tone::Good, text: line(&text, [Math::vector(functional)]) });
+                checks.push(Check { tone: Tone::Good, text: line(&text, [vector(functional)]) });
             }
         } else if frame.kind == FrameKind::Folded {
             let (tone, text) = if frame.spans {
@@ -62,7 +61,7 @@ pub(super) fn checks(case: &Case, frames: &Frames) -> Vec<Check> {
 }
 
 /// The frame in words.
-fn named(case: &Case, frame: &FrameReport) -> String {
+fn named<E: Reported>(case: &Case<E>, frame: &FrameReport) -> String {
     let name = |e: usize| case.shape.states[e].name.as_str();
     let place = if frame.path.is_empty() {
         "the start".to_owned()

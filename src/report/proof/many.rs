@@ -6,29 +6,31 @@ use super::super::words::witness;
 use super::Quoted;
 use super::evidence::Evidence;
 use super::functionals::{
-    cell_table, chain_of, eigenvector_blocks, functional_block, functional_list, names, on_cells, one_of,
+    cell_table, chain_of, eigen, eigenvector_blocks, functional_block, functional_list, names, on_cells, one_of,
 };
 use super::statements::nilpotent_check;
 use crate::case::Case;
+use crate::jordan::Spectral;
 use crate::report::figures;
+use crate::report::reported::Reported;
 use crate::shape::CellKind;
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Outcome, RingProof, Witness};
 
 /// The statement that is applied: a zero that is only known to exist has a corollary of its own.
-fn applied(statement: Statement, found: Option<&Witness>) -> Statement {
+fn applied<E: Reported>(statement: Statement, found: Option<&Witness<E>>) -> Statement {
     match (statement, found) {
         (Statement::Theorem4, Some(Witness::SignChange { .. })) => Statement::NullExists,
         _ => statement,
     }
 }
 
-pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn blocks<E: Reported>(case: &Case<E>, branch: &BranchReport<E>, seen: &mut Quoted) -> Vec<Block> {
     let Outcome::AtLeast { dimension, statement, eigenvalues, isolation, witness: found } = &branch.outcome else {
         return Vec::new();
     };
     let Some(&(f, r)) = eigenvalues.first() else { return Vec::new() };
-    let factor = &branch.spectrum.factors[f];
+    let (factor, _, place) = eigen(&branch.spectrum, (f, r));
     let block = factor.blocks[0];
     let statement = applied(*statement, found.as_ref());
     let mut blocks = vec![seen.once(statement)];
@@ -41,12 +43,17 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
     }
     top.extend(words("."));
     blocks.push(Block::Paragraph(top));
-    blocks.extend(eigenvector_blocks(&branch.spectrum, eigenvalues, block));
-    if let (Some(_), Some(chain)) = (found, chain_of(&factor.left, block)) {
+    blocks.extend(eigenvector_blocks::<E>(&branch.spectrum, eigenvalues, block));
+    if let (Some(_), Some(chain)) = (found, chain_of(factor.left, block)) {
         let functional = &chain.vectors[0];
-        blocks.push(functional_block("The functional that reads the leading coefficient is", functional, branch));
+        blocks.push(functional_block(
+            "The functional that reads the leading coefficient is",
+            functional,
+            branch,
+            (f, r),
+        ));
         if case.shape.states[branch.state].kind == CellKind::Edge {
-            blocks.push(figures::functional(case, branch, functional, &factor.roots[r], None));
+            blocks.push(figures::functional(case, branch, functional, place, None));
         }
     }
     if let Some(proof) = isolation.as_ref().filter(|_| statement != Statement::Section6) {
@@ -68,12 +75,12 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
 }
 
 /// What was verified, hypothesis by hypothesis.
-fn evidence(
-    branch: &BranchReport,
+fn evidence<E: Reported>(
+    branch: &BranchReport<E>,
     statement: Statement,
     block: usize,
     isolation: Option<&RingProof>,
-    found: Option<&Witness>,
+    found: Option<&Witness<E>>,
 ) -> Evidence {
     let isolated = |evidence: Evidence| match isolation {
         Some(proof) => evidence.holds(
@@ -113,7 +120,7 @@ fn evidence(
 }
 
 /// The hypotheses of Theorem 4′, but for the change of sign.
-fn theorem_4_sign(branch: &BranchReport, block: usize, isolation: Option<&RingProof>) -> Evidence {
+fn theorem_4_sign<E: Reported>(branch: &BranchReport<E>, block: usize, isolation: Option<&RingProof>) -> Evidence {
     let mut evidence = Evidence::of(Statement::Theorem4Sign).holds(
         "leading",
         "the largest modulus has exactly one longest Jordan block, of one real eigenvalue, of size $ℓ+1=@$.",
@@ -135,10 +142,10 @@ fn theorem_4_sign(branch: &BranchReport, block: usize, isolation: Option<&RingPr
 }
 
 /// The hypotheses of the criterion of §6.
-fn section_6(branch: &BranchReport, found: Option<&Witness>) -> Evidence {
+fn section_6<E: Reported>(branch: &BranchReport<E>, found: Option<&Witness<E>>) -> Evidence {
     let evidence = Evidence::of(Statement::Section6);
     let Some(Witness::Crossing { sign, positive, negative, cover, .. }) = found else { return evidence };
-    let members = branch.spectrum.classes.first().map_or(0, |c| c.members.len());
+    let members = branch.spectrum.classes().first().map_or(0, |c| c.members.len());
     let positive_or = if *sign > 0 { "positive" } else { "negative" };
     evidence
         .holds("block", "the largest modulus has @ eigenvalue, real, with one Jordan block of length 2.", [Math::count(members)])
@@ -155,8 +162,8 @@ fn section_6(branch: &BranchReport, found: Option<&Witness>) -> Evidence {
 }
 
 /// What the largest modulus looks like, in the words of the thesis's cases.
-fn pattern(branch: &BranchReport, eigenvalues: &[(usize, usize)]) -> &'static str {
-    let roots: Vec<_> = eigenvalues.iter().map(|&(f, r)| &branch.spectrum.factors[f].roots[r]).collect();
+fn pattern<E: Reported>(branch: &BranchReport<E>, eigenvalues: &[(usize, usize)]) -> &'static str {
+    let roots: Vec<_> = eigenvalues.iter().map(|&e| eigen(&branch.spectrum, e).1).collect();
     let real = roots.iter().filter(|r| r.is_real()).count();
     let same = eigenvalues.windows(2).all(|w| w[0] == w[1]);
     match (real, roots.len()) {
@@ -168,7 +175,7 @@ fn pattern(branch: &BranchReport, eigenvalues: &[(usize, usize)]) -> &'static st
 }
 
 /// The conclusion of a refutation: what is known on the branch, and why it is not lost on the way to the point.
-fn why(branch: &BranchReport, dimension: usize, statement: Statement) -> Line {
+fn why<E: Reported>(branch: &BranchReport<E>, dimension: usize, statement: Statement) -> Line {
     let (rank, of) = (branch.view.rank(), branch.view.cols());
     let values = [Math::count(dimension), Math::count(rank)];
     let text = match (statement, rank == of) {

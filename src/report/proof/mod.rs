@@ -2,6 +2,7 @@
 //! checked by hand.
 
 mod components;
+mod cones;
 mod contracts;
 mod cycles;
 mod dense;
@@ -10,6 +11,7 @@ mod every_plane;
 mod evidence;
 mod frames;
 mod functionals;
+mod given;
 mod many;
 mod orders;
 mod points;
@@ -21,6 +23,7 @@ mod surface;
 mod surface_cycle;
 mod vertex;
 
+pub(super) use every::{of_curve as every_section, over_field as cones_section};
 pub use results::parameter;
 pub(super) use results::table as results_table;
 pub use vertex::vertex_document;
@@ -28,6 +31,7 @@ pub use vertex::vertex_document;
 use super::document::{Block, Document, Inline, Line, line, words};
 use super::figures;
 use super::math::Math;
+use super::reported::{Reported, entries};
 use super::summary::{claim_line, mask_line, overall_line, shape_line};
 use super::text::plain;
 use crate::case::Case;
@@ -54,7 +58,7 @@ pub enum Level {
 
 /// The whole proof as a document.
 #[must_use]
-pub fn document(case: &Case, found: &Certified) -> Document {
+pub fn document<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Document {
     document_at(case, found, Level::Proof)
 }
 
@@ -73,7 +77,7 @@ fn unfolded(blocks: Vec<Block>) -> Vec<Block> {
 
 /// The proof, or its first page, as a document.
 #[must_use]
-pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
+pub fn document_at<E: Reported>(case: &Case<E>, found: &Certified<E>, level: Level) -> Document {
     let mut blocks = opening(case, found);
     blocks.extend(certificate_section(case, found));
     if level == Level::Summary {
@@ -94,11 +98,10 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
     }
     if let Some(surface) = &found.surface {
         blocks.extend(definitions(start, surface.unparametrised.is_none()));
-        blocks.extend(surface::section(case, surface, &mut seen));
-        blocks.extend(every_plane::section(case, surface, &mut seen));
+        blocks.extend(E::surface_section(case, surface, true, &mut seen));
     }
     blocks.extend(dense::section(case, found, &mut seen));
-    blocks.extend(every::section(case, found, &mut seen));
+    blocks.extend(E::every_section(case, found, &mut seen));
     blocks.extend(orders::section(case, found, &mut seen));
     blocks.extend(references(&seen));
     let blocks = if level == Level::Full { unfolded(blocks) } else { blocks };
@@ -110,7 +113,7 @@ pub fn document_at(case: &Case, found: &Certified, level: Level) -> Document {
 /// What the proof says of one examined point, by its number: its cycles, and what follows at the point; `None` where there is no
 /// such point.
 #[must_use]
-pub fn point_document(case: &Case, found: &Certified, number: usize) -> Option<Document> {
+pub fn point_document<E: Reported>(case: &Case<E>, found: &Certified<E>, number: usize) -> Option<Document> {
     let mut seen = Quoted::default();
     let start = case.shape.states[case.shape.start].kind;
     let (title, mut blocks, parametrised) = match &found.surface {
@@ -118,7 +121,7 @@ pub fn point_document(case: &Case, found: &Certified, number: usize) -> Option<D
             let point = surface.points.get(number)?;
             let one = Surface { points: vec![point.clone()], ..surface.clone() };
             let title = plain(&super::surface::head(point));
-            (title, surface::section(case, &one, &mut seen), surface.unparametrised.is_none())
+            (title, E::surface_section(case, &one, false, &mut seen), surface.unparametrised.is_none())
         }
         None => {
             let point = found.points.get(number)?;
@@ -139,7 +142,7 @@ pub fn point_document(case: &Case, found: &Certified, number: usize) -> Option<D
 
 /// The statements quoted so far, in order: each is quoted in full where it is first used.
 #[derive(Default)]
-struct Quoted(Vec<Statement>);
+pub struct Quoted(Vec<Statement>);
 
 impl Quoted {
     /// Whether the statement was not quoted before; from now on it was.
@@ -163,6 +166,15 @@ impl Quoted {
     fn once_id(&mut self, statement: Statement) -> Option<Block> {
         self.is_new(statement).then(|| quoted(statement))
     }
+}
+
+/// The sections about the points of a surface, with `whole` also about every point.
+pub(super) fn surface_section(case: &Case, surface: &Surface, whole: bool, seen: &mut Quoted) -> Vec<Block> {
+    let mut blocks = surface::section(case, surface, seen);
+    if whole {
+        blocks.extend(every_plane::section(case, surface, seen));
+    }
+    blocks
 }
 
 /// The words that the statements use.
@@ -217,7 +229,7 @@ fn definitions(start: CellKind, parametrised: bool) -> Vec<Block> {
     vec![Block::heading(2, "Definitions"), Block::List(items.iter().map(|t| line(t, [])).collect())]
 }
 
-fn opening(case: &Case, found: &Certified) -> Vec<Block> {
+fn opening<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Statement")];
     let mut shape = line("Let $A$ be the shape of the case ", []);
     shape.push(Inline::Code(case.name.clone()));
@@ -226,6 +238,9 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     if let Some(mask) = mask_line(case) {
         shape.extend(words(", made of the "));
         shape.extend(mask);
+    }
+    if let Some(field) = E::field_text(&case.shape) {
+        shape.extend(words(format!("; its entries lie in {field}")));
     }
     shape.extend(words("."));
     blocks.push(Block::Paragraph(shape));
@@ -259,9 +274,9 @@ fn opening(case: &Case, found: &Certified) -> Vec<Block> {
     blocks
 }
 
-fn has_long_numbers(case: &Case) -> bool {
+fn has_long_numbers<E: Reported>(case: &Case<E>) -> bool {
     let pieces = case.shape.states.iter().flat_map(|s| &s.pieces);
-    pieces.map(|p| &p.op).any(|m| crate::report::math::is_shortened(&Math::matrix(m)))
+    pieces.map(|p| &p.op).any(|m| crate::report::math::is_shortened(&entries(m)))
 }
 
 /// A statement, quoted.
@@ -270,10 +285,10 @@ fn quoted(statement: Statement) -> Block {
 }
 
 /// What identifies the case and its certificate.
-fn certificate_section(case: &Case, found: &Certified) -> Vec<Block> {
+fn certificate_section<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Vec<Block> {
     let digest = |text: &str| Line::from([Inline::Code(crate::certificate::sha256(text))]);
     let mut facts = vec![("case file, SHA-256".to_owned(), digest(&case.text.text))];
-    match crate::certificate::certificate(case, found) {
+    match E::certificate(case, found) {
         Ok(certificate) => {
             facts.push(("certificate, SHA-256".to_owned(), digest(&certificate.text())));
             facts.push((
@@ -314,7 +329,7 @@ fn references(seen: &Quoted) -> Vec<Block> {
 }
 
 /// The statement applied at a branch.
-fn applied(branch: &BranchReport) -> Option<crate::theorem::Statement> {
+fn applied<E: Reported>(branch: &BranchReport<E>) -> Option<crate::theorem::Statement> {
     use crate::theorem::Outcome;
     match &branch.outcome {
         Outcome::Line { statement, .. } | Outcome::AtLeast { statement, .. } => Some(*statement),
@@ -323,8 +338,8 @@ fn applied(branch: &BranchReport) -> Option<crate::theorem::Statement> {
 }
 
 /// `name = matrix` as a formula in a line of its own, folded where it is large.
-fn matrix(name: Math, m: &Matrix) -> Block {
-    let block = Block::Formula(Math::parse("@=@", &mut [name.clone(), Math::matrix(m)].into_iter()));
+fn matrix<E: Reported>(name: Math, m: &Matrix<E>) -> Block {
+    let block = Block::Formula(Math::parse("@=@", &mut [name.clone(), entries(m)].into_iter()));
     if m.rows().max(m.cols()) <= LARGE {
         return block;
     }

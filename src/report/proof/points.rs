@@ -2,6 +2,7 @@
 
 use super::super::document::{Block, Inline, Line, Table, Tone, code, formula, line, words};
 use super::super::math::Math;
+use super::super::reported::{Reported, vector};
 use super::super::words::{addresses, dimension, direction, kind_meaning, mark, point_name, ray_line};
 use super::evidence::Evidence;
 use super::{Quoted, cycles, matrix};
@@ -18,7 +19,12 @@ const MAX_PICTURED: usize = 5;
 /// So many points are shown in full where there are many of them.
 const MAX_FULL: usize = 8;
 
-pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn section<E: Reported>(
+    case: &Case<E>,
+    found: &Certified<E>,
+    listed: &[&BranchReport<E>],
+    seen: &mut Quoted,
+) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "The points")];
     let moved = found.points.iter().flat_map(|p| &p.branches).any(|b| b.view.cols() > 0);
     if moved {
@@ -51,7 +57,7 @@ pub(super) fn section(case: &Case, found: &Certified, listed: &[&BranchReport], 
 }
 
 /// Points in a table: addresses, place, lines of the branches, and what follows.
-fn in_short(points: &[&PointReport]) -> Block {
+fn in_short<E: Reported>(points: &[&PointReport<E>]) -> Block {
     let rows = points.iter().map(|point| {
         let lines: Vec<&Direction> = point.branches.iter().filter_map(tangent_of).collect();
         let mut shown = Line::new();
@@ -66,7 +72,7 @@ fn in_short(points: &[&PointReport]) -> Block {
             result.extend(words(format!(", {}", point.kind.word())));
         }
         let place = point.image.as_ref().unwrap_or(&point.position);
-        vec![code(addresses(point).join(" = ")), formula(Math::vector(place)), shown, result]
+        vec![code(addresses(point).join(" = ")), formula(vector(place)), shown, result]
     });
     Block::Table(Table {
         caption: Line::new(),
@@ -76,14 +82,20 @@ fn in_short(points: &[&PointReport]) -> Block {
 }
 
 /// The direction of the tangent line of a branch, where it has one.
-fn tangent_of(branch: &BranchReport) -> Option<&Direction> {
+fn tangent_of<E: Reported>(branch: &BranchReport<E>) -> Option<&Direction> {
     match &branch.outcome {
         Outcome::Line { direction, .. } => Some(direction),
         _ => None,
     }
 }
 
-fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: bool, seen: &mut Quoted) -> Vec<Block> {
+fn one<E: Reported>(
+    case: &Case<E>,
+    point: &PointReport<E>,
+    listed: &[&BranchReport<E>],
+    pictured: bool,
+    seen: &mut Quoted,
+) -> Vec<Block> {
     let mut head = words(format!("{}, address ", point_name(&case.shape, point)));
     for (k, address) in addresses(point).into_iter().enumerate() {
         if k > 0 {
@@ -93,8 +105,8 @@ fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: boo
     }
     let mut blocks = vec![Block::Heading(3, head)];
     let place = match &point.image {
-        Some(image) => line("The point is $p=@$, that is $@$.", [Math::vector(&point.position), Math::vector(image)]),
-        None => line("The point is $p=@$.", [Math::vector(&point.position)]),
+        Some(image) => line("The point is $p=@$, that is $@$.", [vector(&point.position), vector(image)]),
+        None => line("The point is $p=@$.", [vector(&point.position)]),
     };
     blocks.push(Block::Paragraph(place));
     for branch in &point.branches {
@@ -109,7 +121,7 @@ fn one(case: &Case, point: &PointReport, listed: &[&BranchReport], pictured: boo
     blocks
 }
 
-fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -> Vec<Block> {
+fn branch_blocks<E: Reported>(case: &Case<E>, branch: &BranchReport<E>, listed: &[&BranchReport<E>]) -> Vec<Block> {
     let side = match branch.side {
         Side::Left => "Left branch",
         Side::Right => "Right branch",
@@ -173,7 +185,7 @@ fn branch_blocks(case: &Case, branch: &BranchReport, listed: &[&BranchReport]) -
 }
 
 /// What the branches of a point give together: the rule for joints where both are lines, lower bounds where these refute.
-fn together(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
+fn together<E: Reported>(point: &PointReport<E>, seen: &mut Quoted) -> Vec<Block> {
     let lines: Vec<_> = point.branches.iter().filter_map(tangent_of).collect();
     if let ([left, right], 2) = (lines.as_slice(), point.branches.len()) {
         let mut blocks: Vec<Block> = seen.once_id(Statement::Joint).into_iter().collect();
@@ -223,7 +235,7 @@ fn together(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
 }
 
 /// Why the germ of the branch is that of the set.
-fn of_shape(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
+fn of_shape<E: Reported>(point: &PointReport<E>, seen: &mut Quoted) -> Vec<Block> {
     if point.role != Role::SetPoint || point.verdict != Verdict::Proved || point.about() != About::Shape {
         return Vec::new();
     }
@@ -243,7 +255,7 @@ fn of_shape(point: &PointReport, seen: &mut Quoted) -> Vec<Block> {
 }
 
 /// A direction that the tangent subspace of a branch is known to contain.
-fn contained(branch: &BranchReport) -> Option<&Direction> {
+fn contained<E: Reported>(branch: &BranchReport<E>) -> Option<&Direction> {
     match &branch.outcome {
         Outcome::Line { direction, .. } => Some(direction),
         Outcome::Open { direction, .. } => direction.as_ref(),
@@ -251,7 +263,7 @@ fn contained(branch: &BranchReport) -> Option<&Direction> {
     }
 }
 
-fn conclusion(point: &PointReport) -> Line {
+fn conclusion<E: Reported>(point: &PointReport<E>) -> Line {
     let no_germ = point.branches.iter().all(|b| matches!(b.outcome, Outcome::NoGerm { .. }));
     let mut out = line("**Conclusion.** ", []);
     out.push(mark(point.verdict));

@@ -2,6 +2,7 @@
 
 use super::super::document::{Block, Line, Table, code, formula, line, words};
 use super::super::math::Math;
+use super::super::reported::{Reported, vector};
 use super::super::surface::{point_name as surface_point_name, span};
 use super::super::words::{addresses, count, direction, mark, point_name};
 use crate::arith::Rational;
@@ -17,7 +18,7 @@ const MAX_ROWS: usize = 16;
 const LONGEST: usize = 8;
 
 /// One row for every examined point.
-pub(in crate::report) fn table(case: &Case, found: &Certified) -> Option<Block> {
+pub(in crate::report) fn table<E: Reported>(case: &Case<E>, found: &Certified<E>) -> Option<Block> {
     let (header, mut rows) = match &found.surface {
         Some(surface) => (["point", "address", "parameters", "found", "tangent plane"], surface_rows(surface)),
         None => (
@@ -38,7 +39,7 @@ pub(in crate::report) fn table(case: &Case, found: &Certified) -> Option<Block> 
     Some(Block::Table(Table { caption, header: header.map(words).to_vec(), rows }))
 }
 
-fn row(case: &Case, point: &PointReport) -> Vec<Line> {
+fn row<E: Reported>(case: &Case<E>, point: &PointReport<E>) -> Vec<Line> {
     let parameter = point.branches.first().and_then(|b| parameter(&case.shape, &b.address));
     let mut result = vec![mark(point.verdict)];
     if point.kind.has_rays() {
@@ -59,7 +60,7 @@ fn surface_rows(surface: &Surface) -> Vec<Vec<Line>> {
         vec![
             words(surface_point_name(point)),
             code(address),
-            point.parameter.as_ref().map_or_else(|| words("–"), |t| line("$@$", [Math::vector(t)])),
+            point.parameter.as_ref().map_or_else(|| words("–"), |t| line("$@$", [vector(t)])),
             vec![mark(point.verdict)],
             point.tangent.as_ref().filter(|s| !s.generators.is_empty()).map_or_else(|| words("–"), short),
         ]

@@ -2,20 +2,22 @@
 
 use super::super::document::{Block, Line, Table, formula, line, words};
 use super::super::math::Math;
+use super::super::reported::{Reported, entries, vector};
 use super::super::words::{count, listed};
 use super::contracts::{self, bounded, by_state};
 use super::evidence::Evidence;
-use super::{Quoted, matrix};
-use crate::case::{Case, Convention};
+use super::{Quoted, given, matrix};
+use crate::case::{Case, Convention, Origin};
 use crate::report::figures;
 use crate::shape::{CellKind, End, Frame, Shape};
 use crate::statement::Statement;
 use crate::theorem::Certified;
 
 /// The sections on the operators, contraction, identities and relevant spaces.
-pub(super) fn section(case: &Case, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn section<E: Reported>(case: &Case<E>, found: &Certified<E>, seen: &mut Quoted) -> Vec<Block> {
     let shape = &case.shape;
     let mut blocks = vec![Block::heading(2, "The scheme")];
+    blocks.extend(given::blocks(case));
     blocks.push(Block::Paragraph(convention(case)));
     blocks.extend(figures::automaton(shape));
     for (e, state) in shape.states.iter().enumerate() {
@@ -55,12 +57,17 @@ pub(super) fn operator(letter: usize, state: Option<&str>) -> Math {
     Math::parse(notation, &mut values.into_iter())
 }
 
-fn convention(case: &Case) -> Line {
+fn convention<E: Reported>(case: &Case<E>) -> Line {
     let mut out = match case.convention {
-        Convention::Columns => line(
-            "The operators act on columns of barycentric coordinates; every column sums to 1. The case gives them in this form.",
-            [],
-        ),
+        Convention::Columns => {
+            let mut text = words("The operators act on columns of barycentric coordinates; every column sums to 1.");
+            text.extend(words(match (&case.scheme, &case.flat) {
+                (None, None) => " The case gives them in this form.",
+                (Some(Origin::Interpolation(_)), _) => " They are made of these data.",
+                _ => " They are made of what the case gives.",
+            }));
+            text
+        }
         Convention::Rows => line(
             "The case gives subdivision matrices $S$ that act on rows of control points, with row sums 1; the operators on columns of \
              barycentric coordinates are the transposes, with column sums 1.",
@@ -85,7 +92,7 @@ fn convention(case: &Case) -> Line {
     out
 }
 
-fn state_line(shape: &Shape, e: usize) -> Line {
+fn state_line<E: Reported>(shape: &Shape<E>, e: usize) -> Line {
     let state = &shape.states[e];
     let kind = match state.kind {
         CellKind::Vertex => "a vertex",
@@ -113,7 +120,7 @@ fn state_line(shape: &Shape, e: usize) -> Line {
 }
 
 /// The end points and the meeting points of neighbouring pieces.
-fn identities(shape: &Shape) -> Vec<Block> {
+fn identities<E: Reported>(shape: &Shape<E>) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Identities of the curve")];
     blocks.push(Block::text(
         "Every piece begins where the one before ends (checked below); so the attractors of the edge states are curves, and their cells are \
@@ -127,9 +134,9 @@ fn identities(shape: &Shape) -> Vec<Block> {
         if state.kind != CellKind::Edge {
             continue;
         }
-        let mut push = |what: String, point: Option<Vec<crate::arith::Rational>>| {
+        let mut push = |what: String, point: Option<Vec<E>>| {
             if let Some(point) = point {
-                rows.push(vec![words(what), formula(Math::vector(&point))]);
+                rows.push(vec![words(what), formula(vector(&point))]);
             }
         };
         let of = if several { format!(" of state {}", state.name) } else { String::new() };
@@ -146,7 +153,7 @@ fn identities(shape: &Shape) -> Vec<Block> {
     blocks
 }
 
-fn spaces(shape: &Shape, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
+fn spaces<E: Reported>(shape: &Shape<E>, found: &Certified<E>, seen: &mut Quoted) -> Vec<Block> {
     let mut blocks = vec![Block::heading(2, "Relevant spaces and enclosures")];
     let hidden = found.states.iter().any(|s| s.visible < s.relevant);
     let part = if hidden {
@@ -175,11 +182,8 @@ fn spaces(shape: &Shape, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
         ));
     }
     let rows = found.states.iter().map(|s| {
-        let mut row = vec![
-            words(shape.states[s.state].name.clone()),
-            formula(Math::count(s.relevant)),
-            formula(Math::vector(&s.base)),
-        ];
+        let mut row =
+            vec![words(shape.states[s.state].name.clone()), formula(Math::count(s.relevant)), formula(vector(&s.base))];
         if enclosed {
             row.push(formula(bounded(&s.radius)));
         }
@@ -208,7 +212,7 @@ fn spaces(shape: &Shape, found: &Certified, seen: &mut Quoted) -> Vec<Block> {
                 "similar",
                 "the linear parts $L_i$ of the maps $T_i$, in the basis of $V$ given below with the cycles, satisfy $L_i^T Q L_i=c_i Q$ with the \
                  positive definite matrix of a scalar product $Q=@$ and the squared ratios $c=@$.",
-                [Math::matrix(&similar.gram), Math::vector(&similar.squared_ratios)],
+                [entries(&similar.gram), vector(&similar.squared_ratios)],
             )
             .holds("dimension", "$\\dim V=@$, and there is one state.", [Math::count(similar.gram.rows())]);
         blocks.push(evidence.block());

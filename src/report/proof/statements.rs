@@ -2,22 +2,23 @@
 
 use super::super::document::{Block, Line, Tone, line, words};
 use super::super::math::Math;
-use super::super::values::{elem_math, lambda_math, polynomial, root_math};
+use super::super::values::{lambda_math, polynomial, root_math};
 use super::super::words::{cell, holder, listed, rate, root_of};
 use super::evidence::Evidence;
-use super::functionals::{cell_table, chain_of, elems, functional_block, on_cells};
+use super::functionals::{cell_table, chain_of, eigen, elems, functional_block, on_cells};
 use super::{Quoted, many};
 use crate::algebraic::{Elem, Root};
 use crate::case::Case;
-use crate::jordan::Factor;
+use crate::jordan::{Part as Factor, Spectral};
 use crate::report::figures;
 use crate::report::reasons;
+use crate::report::reported::Reported;
 use crate::shape::CellKind;
 use crate::statement::Statement;
 use crate::theorem::{BranchReport, Outcome, Position, Rate, RingProof};
 
 /// The part of a cycle's section that applies a statement.
-pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> Vec<Block> {
+pub(super) fn blocks<E: Reported>(case: &Case<E>, branch: &BranchReport<E>, seen: &mut Quoted) -> Vec<Block> {
     match &branch.outcome {
         Outcome::Line { statement, .. } => {
             let mut blocks = vec![seen.once(*statement)];
@@ -56,9 +57,9 @@ pub(super) fn blocks(case: &Case, branch: &BranchReport, seen: &mut Quoted) -> V
 }
 
 /// The finding that `L` is not nilpotent: an eigenvalue of the largest modulus.
-pub(super) fn nilpotent_check(statement: Statement, branch: &BranchReport) -> Evidence {
+pub(super) fn nilpotent_check<E: Reported>(statement: Statement, branch: &BranchReport<E>) -> Evidence {
     let evidence = Evidence::of(statement);
-    match branch.spectrum.classes.first().map(|c| branch.spectrum.root(c.members[0])).filter(|r| !r.is_zero()) {
+    match branch.spectrum.classes().first().map(|c| branch.spectrum.value(c.members[0])).filter(|r| !r.is_zero()) {
         Some(root) => {
             evidence.holds("not-nilpotent", "$@$ is an eigenvalue of $L$, and it is not 0.", [lambda_math(root)])
         }
@@ -67,14 +68,14 @@ pub(super) fn nilpotent_check(statement: Statement, branch: &BranchReport) -> Ev
 }
 
 /// What was verified of the hypotheses of a statement that gives a line.
-fn line_evidence(
-    branch: &BranchReport,
+fn line_evidence<E: Reported>(
+    branch: &BranchReport<E>,
     statement: Statement,
     root: &Root,
     block: usize,
     proof: Option<&RingProof>,
 ) -> Evidence {
-    let next = branch.spectrum.classes.get(1).map(|c| branch.spectrum.root(c.members[0]));
+    let next = branch.spectrum.classes().get(1).map(|c| branch.spectrum.value(c.members[0]));
     let rest = if next.is_some() { " The next modulus is that of $@$, which is smaller." } else { "" };
     let ring = |evidence: Evidence| match proof {
         Some(proof) => evidence.holds(
@@ -107,26 +108,31 @@ fn line_evidence(
     }
 }
 
-fn line_blocks(case: &Case, branch: &BranchReport, statement: Statement, seen: &mut Quoted) -> Vec<Block> {
-    let Outcome::Line { eigenvalue: (f, r), block, functional, proof, .. } = &branch.outcome else {
+fn line_blocks<E: Reported>(
+    case: &Case<E>,
+    branch: &BranchReport<E>,
+    statement: Statement,
+    seen: &mut Quoted,
+) -> Vec<Block> {
+    let Outcome::Line { eigenvalue, block, functional, proof, .. } = &branch.outcome else {
         return Vec::new();
     };
-    let factor = &branch.spectrum.factors[*f];
-    let root = &factor.roots[*r];
+    let (factor, root, place) = eigen(&branch.spectrum, *eigenvalue);
     let mut blocks = vec![line_evidence(branch, statement, root, *block, proof.as_ref()).block()];
     if root.rational().is_none() {
         let mut text = line("Here $@$ is a root of $@$.", [lambda_math(root), polynomial(root.minpoly(), 'x')]);
-        text.extend(words(" Coordinates that contain λ are polynomials in it."));
+        let chains = chain_of(factor.right, *block).into_iter().flat_map(|c| c.vectors.iter().flatten());
+        text.extend(E::letters(factor, place, &chains.chain(functional).collect::<Vec<_>>()));
         blocks.push(Block::Paragraph(text));
     }
-    blocks.extend(vector_blocks(branch, factor, *block, functional));
+    blocks.extend(vector_blocks(branch, *eigenvalue, *block, functional));
     let on = if branch.linear.rows() < branch.relevant { " of the image germ in $Y$" } else { "" };
     let conclusion = format!("**Conclusion.** The tangent subspace $D^*${on} is the line of $v$.");
     if let Some(proof) = proof {
-        blocks.push(figures::functional(case, branch, functional, root, Some(proof)));
+        blocks.push(figures::functional(case, branch, functional, place, Some(proof)));
         blocks.push(cell_table(proof, "g"));
         blocks.push(Block::text(&conclusion, []));
-        blocks.extend(ray_blocks(case, branch, (factor, root, *block, functional), proof, seen));
+        blocks.extend(ray_blocks(case, branch, *eigenvalue, (*block, functional), proof, seen));
         blocks.extend(rate_blocks(case, branch, *block, seen));
     } else {
         blocks
@@ -136,7 +142,7 @@ fn line_blocks(case: &Case, branch: &BranchReport, statement: Statement, seen: &
 }
 
 /// How fast the secants turn, and the exponent of a curve.
-fn rate_blocks(case: &Case, branch: &BranchReport, block: usize, seen: &mut Quoted) -> Vec<Block> {
+fn rate_blocks<E: Reported>(case: &Case<E>, branch: &BranchReport<E>, block: usize, seen: &mut Quoted) -> Vec<Block> {
     let Outcome::Line { rate: speed, holder: exponent, .. } = &branch.outcome else { return Vec::new() };
     let mut blocks = Vec::new();
     let mut text = words("The angular deviation of the secants is ");
@@ -177,26 +183,35 @@ fn rate_blocks(case: &Case, branch: &BranchReport, block: usize, seen: &mut Quot
 }
 
 /// `g` on the last vector of the chain of the eigenvector.
-fn pairing(factor: &Factor, block: usize, functional: &[Elem]) -> Option<Elem> {
-    let last = chain_of(&factor.right, block)?.vectors.get(block.checked_sub(1)?)?;
-    Some(functional.iter().zip(last).fold(Elem::zero(), |s, (a, b)| s.add(&a.mul(b, &factor.poly))))
+fn pairing(factor: &Factor<'_>, block: usize, functional: &[Elem]) -> Option<Elem> {
+    let last = chain_of(factor.right, block)?.vectors.get(block.checked_sub(1)?)?;
+    Some(functional.iter().zip(last).fold(Elem::zero(), |s, (a, b)| s.add(&a.mul(b, factor.over.modulus))))
 }
 
 /// The eigenvector, its chain, and the functional that reads the leading coefficient.
-fn vector_blocks(branch: &BranchReport, factor: &Factor, block: usize, functional: &[Elem]) -> Vec<Block> {
+fn vector_blocks<E: Reported>(
+    branch: &BranchReport<E>,
+    eigenvalue: (usize, usize),
+    block: usize,
+    functional: &[Elem],
+) -> Vec<Block> {
     let mut blocks = Vec::new();
-    let Some((chain, value)) = chain_of(&factor.right, block).zip(pairing(factor, block, functional)) else {
+    let (factor, _, place) = eigen(&branch.spectrum, eigenvalue);
+    let Some((chain, value)) = chain_of(factor.right, block).zip(pairing(&factor, block, functional)) else {
         return blocks;
     };
-    blocks.push(Block::text("The right eigenvector, in the coordinates of $L$, is $v=@$.", [elems(&chain.vectors[0])]));
+    blocks.push(Block::text(
+        "The right eigenvector, in the coordinates of $L$, is $v=@$.",
+        [elems::<E>(&chain.vectors[0], place)],
+    ));
     if block > 1 {
-        blocks.push(Block::Paragraph(chain_line(&chain.vectors)));
+        blocks.push(Block::Paragraph(chain_line::<E>(&chain.vectors, place)));
     }
-    blocks.push(functional_block("The left functional is", functional, branch));
+    blocks.push(functional_block("The left functional is", functional, branch, eigenvalue));
     blocks.push(if block == 1 {
-        Block::text("Since $g(v)=@$, the component of $x$ along $v$ is $c(x)=g(x)/g(v)$.", [elem_math(&value)])
+        Block::text("Since $g(v)=@$, the component of $x$ along $v$ is $c(x)=g(x)/g(v)$.", [E::element(&value, place)])
     } else {
-        let values = [Math::count(block), elem_math(&value), Math::count(block - 1)];
+        let values = [Math::count(block), E::element(&value, place), Math::count(block - 1)];
         Block::text(
             "On the last vector $w_@$ of the chain $g$ has the value $g_0=@$, so that the leading coefficient is $u(x)=c(x) v$ with \
              $c(x)=λ^{-@} g(x)/g_0$.",
@@ -207,7 +222,7 @@ fn vector_blocks(branch: &BranchReport, factor: &Factor, block: usize, functiona
 }
 
 /// The generalised eigenvectors `w_2, w_3, …` above the eigenvector `v` of a chain.
-fn chain_line(chain: &[Vec<Elem>]) -> Line {
+fn chain_line<E: Reported>(chain: &[Vec<Elem>], place: &Root) -> Line {
     let mut out = line("It ends a Jordan chain of length $@$: $(L-λ)w_2=v$", [Math::count(chain.len())]);
     for k in 3..=chain.len() {
         out.extend(line("$, (L-λ)w_@=w_@$", [Math::count(k), Math::count(k - 1)]));
@@ -215,17 +230,18 @@ fn chain_line(chain: &[Vec<Elem>]) -> Line {
     out.extend(words(" with "));
     for (k, vector) in chain.iter().enumerate().skip(1) {
         let comma = if k > 1 { "$, w_@=@$" } else { "$w_@=@$" };
-        out.extend(line(comma, [Math::count(k + 1), elems(vector)]));
+        out.extend(line(comma, [Math::count(k + 1), elems::<E>(vector, place)]));
     }
     out.extend(words("."));
     out
 }
 
 /// The data of the rule for rays: the sign of `λ`, the orientation, and the signs of `c` on the parts of the ring.
-fn ray_blocks(
-    case: &Case,
-    branch: &BranchReport,
-    (factor, root, block, functional): (&Factor, &Root, usize, &[Elem]),
+fn ray_blocks<E: Reported>(
+    case: &Case<E>,
+    branch: &BranchReport<E>,
+    eigenvalue: (usize, usize),
+    (block, functional): (usize, &[Elem]),
     proof: &RingProof,
     seen: &mut Quoted,
 ) -> Vec<Block> {
@@ -233,9 +249,10 @@ fn ray_blocks(
     let mut blocks: Vec<Block> = seen.once_id(Statement::Rays).into_iter().collect();
     let mut evidence = Evidence::of(Statement::Rays).holds("line", "as concluded above.", []);
     // c is g divided by its value on the last vector of the chain and by λ^ℓ.
-    let Some(value) = pairing(factor, block, functional) else { return blocks };
+    let (factor, root, place) = eigen(&branch.spectrum, eigenvalue);
+    let Some(value) = pairing(&factor, block, functional) else { return blocks };
     let turns = if block % 2 == 0 { root.sign() } else { 1 };
-    let flip = value.sign(root) * turns;
+    let flip = value.sign(place) * turns;
     let on = |wanted: Position| -> Option<&'static str> {
         let mut signs = proof.discharged.iter().filter(|d| d.position == wanted).map(|d| d.sign);
         let first = signs.next()?;

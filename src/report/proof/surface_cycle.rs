@@ -46,7 +46,7 @@ pub(super) fn section(case: &Case, branch: &SurfaceBranch, k: usize, quotes: &mu
         summary: line("Coordinates of a point $x$ of the attractor are $C(x-q)$, and $M$ acts on them by $L$:", []),
         blocks: vec![matrix(Math::Letter('C'), &branch.chart), matrix(Math::Letter('L'), &branch.linear)],
     });
-    blocks.extend(spectrum_blocks(&branch.spectrum));
+    blocks.extend(spectrum_blocks::<Rational>(&branch.spectrum));
     blocks.extend(figures::spectrum(&branch.spectrum));
     blocks.extend(ring(branch, quotes));
     for (statement, evidence) in applied(branch) {
@@ -58,7 +58,7 @@ pub(super) fn section(case: &Case, branch: &SurfaceBranch, k: usize, quotes: &mu
     }
     blocks.extend(own_coefficients(branch));
     if let Some((block, eigenvalues)) = longest(&branch.spectrum) {
-        blocks.extend(eigenvector_blocks(&branch.spectrum, &eigenvalues, block));
+        blocks.extend(eigenvector_blocks::<Rational>(&branch.spectrum, &eigenvalues, block));
     }
     blocks.extend(evidence(branch));
     blocks.push(Block::Paragraph(conclusion(&branch.outcome)));
@@ -297,7 +297,7 @@ fn own_coefficients(branch: &SurfaceBranch) -> Option<Block> {
                 .collect();
             out.extend(line(
                 ", ended by the eigenvector $@$ in the coordinates of $L$, $@$",
-                [elems(&vector), lambda_math(&factor.roots[r])],
+                [elems::<Rational>(&vector, &factor.roots[r]), lambda_math(&factor.roots[r])],
             ));
         }
         out.extend(words("."));

@@ -34,6 +34,8 @@ pub struct Part<'a> {
     pub blocks: &'a [usize],
     /// The eigenvalues.
     pub roots: &'a [Root],
+    /// An eigenvalue as a polynomial in `θ`; `None` where `θ` is the eigenvalue itself.
+    pub lambda: Option<&'a Elem>,
     /// The values of `θ` that belong to them.
     pub places: &'a [Root],
     /// The right chains, one for each block.
@@ -73,6 +75,7 @@ impl Spectral for Spectrum {
             multiplicity: f.multiplicity,
             blocks: &f.blocks,
             roots: &f.roots,
+            lambda: None,
             places: &f.roots,
             right: &f.right,
             left: &f.left,
@@ -97,6 +100,7 @@ impl Spectral for FieldSpectrum {
             multiplicity: f.multiplicity,
             blocks: &f.blocks,
             roots: &f.roots,
+            lambda: Some(&f.lambda),
             places: &f.generators,
             right: &f.right,
             left: &f.left,
