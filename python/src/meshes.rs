@@ -70,13 +70,17 @@ impl MeshFindings {
     /// The results as `html`, `latex` or `markdown`.
     fn report(&self, py: Python<'_>, format: String) -> PyResult<String> {
         let whole = Arc::clone(&self.0);
-        outside(py, move || Ok(rendered(&report::document(&whole.model, whole.scheme, &whole.found, true), &format)))
+        outside(py, move || {
+            Ok(rendered(&report::document(&whole.model, whole.scheme, &whole.found, None, true), &format))
+        })
     }
 
     /// What the program prints.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
         let whole = Arc::clone(&self.0);
-        outside(py, move || Ok(text::render(&report::document(&whole.model, whole.scheme, &whole.found, false), false)))
+        outside(py, move || {
+            Ok(text::render(&report::document(&whole.model, whole.scheme, &whole.found, None, false), false))
+        })
     }
 
     /// The mesh with its verdicts, where it can be drawn.
@@ -98,7 +102,7 @@ pub fn mesh(py: Python<'_>, asked: AskedMesh) -> PyResult<(MeshFindings, String)
     outside(py, move || {
         let (scheme, budget, model) = (asked.scheme()?, asked.budget()?, asked.model()?);
         let found = certify(&model, scheme, &budget, &|| {})?;
-        let data = report::json(&model, scheme.name(), &found).to_string();
+        let data = report::json(&model, scheme.name(), &found, None).to_string();
         Ok((MeshFindings(Arc::new(Whole { model, scheme: scheme.name(), found })), data))
     })
 }
