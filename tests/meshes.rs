@@ -434,6 +434,8 @@ fn ply_files() {
     moved[1][2] = f64::NAN;
     let mut beyond = faces.clone();
     beyond[2][1] = 4;
+    let without_values = "ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n\
+        element face 0\nproperty list uchar int vertex_indices\nelement nothing 1000000000000000\nend_header\n";
     for (bytes, line, words) in [
         (good[..good.len() - 3].to_vec(), 9, "face 3"),
         (binary_ply(&moved, &faces, true), 4, "vertex 1"),
@@ -443,6 +445,8 @@ fn ply_files() {
         (ascii.replace("3 1 3 2\r\n", "").into_bytes(), 17, "too early"),
         (ascii.replace("float x", "float w").into_bytes(), 17, "no x, y, z"),
         (ascii.replace("ascii 1.0", "ascii 2.0").into_bytes(), 2, "no part of a header"),
+        // Nothing to read, ten to the fifteenth times.
+        (without_values.as_bytes().to_vec(), 1, "has no properties"),
     ] {
         let problem = read("bad.ply", &bytes).unwrap_err();
         let at = problem.position().map(|p| p.0);

@@ -255,6 +255,8 @@ impl Header {
         let coordinates = ["x", "y", "z"].iter().all(|name| self.elements[vertex].place(name, false).is_some());
         match self.format.as_str() {
             _ if !self.ended => Some("the header does not end"),
+            // As many of them as one likes take no room in a file.
+            _ if self.elements.iter().any(|e| e.properties.is_empty()) => Some("an element has no properties"),
             "ascii" | "binary_little_endian" | "binary_big_endian" if !coordinates => Some("a point has no x, y, z"),
             "ascii" | "binary_little_endian" | "binary_big_endian" => {
                 let corners = |name: &&str| self.elements[face].place(name, true).is_some();
