@@ -73,10 +73,11 @@ impl<P: Symbol> Arguments<'_, P> {
         joints: &[Joint<P>],
     ) -> Vec<Fact<P>> {
         let sides = [CurveEnd::Start, CurveEnd::Finish];
+        let rings = self.family.germs.each_ref().map(|germ| Ring::new(germ, chord, letters, bounds));
         let mut facts = Vec::new();
-        for ((germ, own), end) in self.family.germs.iter().zip(germs).zip(sides) {
+        for (((germ, ring), own), end) in self.family.germs.iter().zip(&rings).zip(germs).zip(sides) {
             let apart = at.clone();
-            if self.changes_sign(&apart, letters, bounds, chord, (germ, own)) {
+            if self.changes_sign(&apart, ring, germ, own) {
                 let refuted = |claim| Fact::of(&apart, claim, Verdict::Refuted, Why::SignChange(end));
                 facts.extend([CurveClaim::Ends, CurveClaim::G1].into_iter().filter_map(refuted));
                 if self.is_at_a_joint(&apart, end) {
@@ -86,8 +87,7 @@ impl<P: Symbol> Arguments<'_, P> {
             }
         }
         let cover = at.clone();
-        let covered = |(germ, own): (&Germ, &EndGerm<P>)| self.keeps_sign(&cover, letters, bounds, chord, germ, own);
-        if !self.family.germs.iter().zip(germs).all(covered) {
+        if !rings.iter().zip(germs).all(|(ring, own)| keeps_sign(&cover, ring, own)) {
             return Vec::new();
         }
         let longer = germs.iter().any(|g| matches!(g, EndGerm::Line { longer: true, .. }));
@@ -129,49 +129,20 @@ impl<P: Symbol> Arguments<'_, P> {
         None
     }
 
-    /// Whether the leading coefficient is positive on the whole ring of an end.
-    fn keeps_sign(
-        &self,
-        at: &impl Signs<P>,
-        letters: &[Map<P>],
-        bounds: &Bounds<Rational>,
-        chord: &[P],
-        germ: &Germ,
-        own: &EndGerm<P>,
-    ) -> bool {
-        let EndGerm::Line { row, .. } = own else { return false };
-        let functionals = [row.clone()];
-        let base = base(germ, chord);
-        let cells = cover(at, &ring(letters, germ), letters, bounds, &functionals, &base);
-        cells.is_some_and(|cells| {
-            cells.iter().all(|c| c.sign > 0 && is_strict(at, c, bounds, &functionals[c.functional], &base))
-        })
-    }
-
     /// Whether the leading coefficient changes its sign on the ring of an end that is isolated (Theorem 4′): the cycle and what
     /// leads from it to the end are injective, and the ring does not meet the end.
-    fn changes_sign(
-        &self,
-        at: &impl Signs<P>,
-        letters: &[Map<P>],
-        bounds: &Bounds<Rational>,
-        chord: &[P],
-        (germ, own): (&Germ, &EndGerm<P>),
-    ) -> bool {
+    fn changes_sign(&self, at: &impl Signs<P>, ring: &Ring<'_, P>, germ: &Germ, own: &EndGerm<P>) -> bool {
         let EndGerm::Line { row, .. } = own else { return false };
-        let base = base(germ, chord);
-        let ring = ring(letters, germ);
-        let value = |cell: &Map<P>| dot(row, &difference(&cell.shift, &base));
-        let Some((up, down)) = opposite(at, &ring, letters, value) else { return false };
+        let value = |cell: &Map<P>| dot(row, &difference(&cell.shift, &ring.base));
+        let Some((up, down)) = opposite(at, &ring.cells, ring.letters, value) else { return false };
         let injective = [&germ.cycle, &germ.prefix].map(|w| determinant(&self.family.product(w)));
         if injective.iter().any(|d| at.sign(d) == 0) || at.sign(&value(&up)) <= 0 || at.sign(&value(&down)) >= 0 {
             return false;
         }
-        let unit =
-            |k: usize| -> Vec<P> { (0..chord.len()).map(|i| P::number(Rational::from(u64::from(i == k)))).collect() };
-        let functionals: Vec<Vec<P>> = std::iter::once(row.clone()).chain((0..chord.len()).map(unit)).collect();
-        let cells = cover(at, &ring, letters, bounds, &functionals, &base);
-        cells.is_some_and(|cells| cells.iter().all(|c| is_strict(at, c, bounds, &functionals[c.functional], &base)))
+        let n = ring.base.len();
+        let unit = |k: usize| -> Vec<P> { (0..n).map(|i| P::number(Rational::from(u64::from(i == k)))).collect() };
+        let functionals: Vec<Vec<P>> = std::iter::once(row.clone()).chain((0..n).map(unit)).collect();
+        ring.is_covered(at, &functionals)
     }
 
     /// Whether an end is carried to a side of a joint by a piece that is injective.
@@ -187,6 +158,36 @@ impl<P: Symbol> Arguments<'_, P> {
     }
 }
 
+/// The ring of an end, with the box that holds the curve.
+struct Ring<'a, P> {
+    cells: Vec<Map<P>>,
+    letters: &'a [Map<P>],
+    bounds: &'a Bounds<Rational>,
+    /// The end as a difference from the start.
+    base: Vec<P>,
+}
+
+impl<'a, P: Symbol> Ring<'a, P> {
+    fn new(germ: &Germ, chord: &[P], letters: &'a [Map<P>], bounds: &'a Bounds<Rational>) -> Self {
+        let base = if germ.at_start { vec![P::nought(); chord.len()] } else { chord.to_vec() };
+        Self { cells: ring(letters, germ), letters, bounds, base }
+    }
+
+    /// Whether cells cover the ring, on each of which one of the functionals has one sign; of a single functional it is positive.
+    fn is_covered(&self, at: &impl Signs<P>, functionals: &[Vec<P>]) -> bool {
+        let cells = cover(at, self, functionals);
+        cells.is_some_and(|cells| {
+            cells.iter().all(|c| is_strict(at, c, self.bounds, &functionals[c.functional], &self.base))
+        })
+    }
+}
+
+/// Whether the leading coefficient is positive on the whole ring of an end.
+fn keeps_sign<P: Symbol>(at: &impl Signs<P>, ring: &Ring<'_, P>, own: &EndGerm<P>) -> bool {
+    let EndGerm::Line { row, .. } = own else { return false };
+    ring.is_covered(at, std::slice::from_ref(row))
+}
+
 /// Facts for which certificates of regions have no form.
 fn marked<P>(facts: Vec<Fact<P>>) -> Vec<Fact<P>> {
     facts
@@ -196,11 +197,6 @@ fn marked<P>(facts: Vec<Fact<P>>) -> Vec<Fact<P>> {
             fact
         })
         .collect()
-}
-
-/// The end as a difference from the start.
-fn base<P: Symbol>(germ: &Germ, chord: &[P]) -> Vec<P> {
-    if germ.at_start { vec![P::nought(); chord.len()] } else { chord.to_vec() }
 }
 
 fn difference<P: Symbol>(a: &[P], b: &[P]) -> Vec<P> {
@@ -281,62 +277,54 @@ fn proposed<P: Symbol>(at: &impl Signs<P>, code: &[Map<P>], slack: [f64; 2]) -> 
     let n = code.first()?.shift.len();
     let maps: Vec<(Vec<f64>, Vec<Vec<f64>>)> =
         code.iter().map(|m| (near(at, &m.shift), (0..n).map(|i| near(at, m.linear.row(i))).collect())).collect();
-    let mut own = Bounds { low: vec![0.0; n], high: vec![0.0; n] };
-    let settled = |change: f64, size: f64| change <= 1e-9 * size;
-    let mut done = false;
-    for _ in 0..STEPS {
-        let mut change = 0.0_f64;
-        let before = own.clone();
-        for (shift, linear) in &maps {
-            for i in 0..n {
-                let (least, most) = float_range(&linear[i], &before);
-                own.low[i] = own.low[i].min(shift[i] + least);
-                own.high[i] = own.high[i].max(shift[i] + most);
-            }
-        }
-        let size = (0..n).map(|i| own.high[i] - own.low[i]).fold(0.0, f64::max);
-        for i in 0..n {
-            change = change.max(before.low[i] - own.low[i]).max(own.high[i] - before.high[i]);
-        }
-        if !size.is_finite() || size > 1e9 {
-            return None;
-        }
-        if settled(change, size) {
-            done = true;
-            break;
-        }
+    let start = Bounds { low: vec![0.0; n], high: vec![0.0; n] };
+    let least = closed(&maps, start, &vec![[0.0; 2]; n])?;
+    let size = largest_side(&least);
+    if size <= 0.0 {
+        return None;
     }
-    let size = (0..n).map(|i| own.high[i] - own.low[i]).fold(0.0, f64::max);
-    let add: Vec<[f64; 2]> = (0..n).map(|i| slack.map(|s| s * (own.high[i] - own.low[i]).max(size / 64.0))).collect();
-    let mut done = done && size > 0.0;
-    for step in 0..STEPS {
-        let before = own.clone();
-        let mut change = 0.0_f64;
-        for i in 0..n {
-            let ranges = maps.iter().map(|(shift, linear)| {
-                let (least, most) = float_range(&linear[i], &before);
-                (shift[i] + least, shift[i] + most)
-            });
-            let (least, most) = ranges.fold((0.0_f64, 0.0_f64), |(a, b), (l, m)| (a.min(l), b.max(m)));
-            own.low[i] = before.low[i].min(least - add[i][0]);
-            own.high[i] = before.high[i].max(most + add[i][1]);
-            change = change.max(before.low[i] - own.low[i]).max(own.high[i] - before.high[i]);
-        }
-        if own.low.iter().chain(&own.high).any(|x| !x.is_finite() || x.abs() > 1e9) {
-            return None;
-        }
-        if settled(change, size) {
-            break;
-        }
-        done = done && step + 1 < STEPS;
-    }
+    let add: Vec<[f64; 2]> =
+        (0..n).map(|i| slack.map(|s| s * (least.high[i] - least.low[i]).max(size / 64.0))).collect();
+    let own = closed(&maps, least, &add)?;
     // Half of what was added is left for rounding.
     let finest = add.iter().flatten().fold(size, |a, b| a.min(*b));
     let grid = f64::exp2(4.0 - finest.log2().floor());
     let rational = |x: f64| Some(Rational::try_from((x * grid).round()).ok()? / Rational::try_from(grid).ok()?);
     let low = (0..n).map(|i| rational(own.low[i])).collect::<Option<_>>()?;
     let high = (0..n).map(|i| rational(own.high[i])).collect::<Option<_>>()?;
-    done.then_some(Bounds { low, high })
+    Some(Bounds { low, high })
+}
+
+/// The smallest box that holds one with the start, and its images with so much beside them; `None` where it is not found.
+#[allow(clippy::float_arithmetic, reason = "a proposal")]
+fn closed(maps: &[(Vec<f64>, Vec<Vec<f64>>)], mut own: Bounds<f64>, add: &[[f64; 2]]) -> Option<Bounds<f64>> {
+    for _ in 0..STEPS {
+        let before = own.clone();
+        let mut change = 0.0_f64;
+        for (i, [below, above]) in add.iter().enumerate() {
+            let ranges = maps.iter().map(|(shift, linear)| {
+                let (least, most) = float_range(&linear[i], &before);
+                (shift[i] + least, shift[i] + most)
+            });
+            let (least, most) = ranges.fold((0.0_f64, 0.0_f64), |(a, b), (l, m)| (a.min(l), b.max(m)));
+            own.low[i] = before.low[i].min(least - below);
+            own.high[i] = before.high[i].max(most + above);
+            change = change.max(before.low[i] - own.low[i]).max(own.high[i] - before.high[i]);
+        }
+        let size = largest_side(&own);
+        if !size.is_finite() || size > 1e9 {
+            return None;
+        }
+        if change <= 1e-9 * size {
+            return Some(own);
+        }
+    }
+    None
+}
+
+#[allow(clippy::float_arithmetic, reason = "a proposal")]
+fn largest_side(own: &Bounds<f64>) -> f64 {
+    own.low.iter().zip(&own.high).map(|(a, b)| b - a).fold(0.0, f64::max)
 }
 
 #[allow(clippy::float_arithmetic, reason = "a proposal")]
@@ -352,19 +340,12 @@ fn float_range(row: &[f64], bounds: &Bounds<f64>) -> (f64, f64) {
 
 /// Cells that cover a ring, each with a functional that seems to have one sign there.
 #[allow(clippy::float_arithmetic, reason = "a proposal; signs of polynomials decide")]
-fn cover<P: Symbol>(
-    at: &impl Signs<P>,
-    ring: &[Map<P>],
-    letters: &[Map<P>],
-    bounds: &Bounds<Rational>,
-    functionals: &[Vec<P>],
-    base: &[P],
-) -> Option<Vec<Signed<P>>> {
-    let box_near =
-        Bounds { low: bounds.low.iter().map(to_f64).collect(), high: bounds.high.iter().map(to_f64).collect() };
+fn cover<P: Symbol>(at: &impl Signs<P>, ring: &Ring<'_, P>, functionals: &[Vec<P>]) -> Option<Vec<Signed<P>>> {
+    let [low, high] = [&ring.bounds.low, &ring.bounds.high].map(|v| v.iter().map(to_f64).collect());
+    let box_near = Bounds { low, high };
     let rows: Vec<Vec<f64>> = functionals.iter().map(|f| near(at, f)).collect();
-    let end = near(at, base);
-    let mut queue = ring.to_vec();
+    let end = near(at, &ring.base);
+    let mut queue = ring.cells.clone();
     let mut out = Vec::new();
     while let Some(cell) = queue.pop() {
         let shift = near(at, &cell.shift);
@@ -381,11 +362,10 @@ fn cover<P: Symbol>(
             }
         });
         match signed {
-            // Of one functional only the positive sign serves.
             Some((_, -1)) if rows.len() == 1 => return None,
             Some((functional, sign)) => out.push(Signed { cell, functional, sign }),
             None if cell.word.len() >= MAX_LENGTH => return None,
-            None => queue.extend(letters.iter().map(|l| then(&cell, l))),
+            None => queue.extend(ring.letters.iter().map(|l| then(&cell, l))),
         }
         if out.len() + queue.len() > MAX_CELLS {
             return None;
