@@ -2,9 +2,9 @@
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use secant::radius::Options;
-use secant::scheme::dubuc_deslauriers;
+use secant::scheme::{Family, dubuc_deslauriers};
 use secant::theorem::regularity::regularity;
-use secant::theorem::wavelet::{Family, wavelet};
+use secant::theorem::wavelet::wavelet;
 use std::hint::black_box;
 use std::time::Duration;
 

@@ -5,10 +5,11 @@ use secant::budget::Budget;
 use secant::certificate::radius_certificate;
 use secant::linalg::Matrix;
 use secant::radius::{Growth, JointRadius, Options, Polytope, Proof, System, file, joint_radius};
+use secant::scheme::Family;
 use secant::shape::{CellKind, Shape, Spaces};
 use secant::theorem::cone::{CommonCone, Cone, ConeAnswer, ConeMap, common_cone};
 use secant::theorem::regularity::{Attained, digits, regularity};
-use secant::theorem::wavelet::{Family, wavelet};
+use secant::theorem::wavelet::wavelet;
 use secant::theorem::{Verdict, certify};
 
 fn rational(text: &str) -> Rational {

@@ -91,7 +91,7 @@ pub(super) fn text_of(text: &str) -> Option<Result<String, Problem>> {
         let list: Vec<String> = mask.iter().map(|c| quoted(c)).collect();
         return Some(Ok(case(text, text, &format!("\n[scheme]\nmask = [{}]", list.join(", ")))));
     }
-    if let Some(moments) = scheme::moments(text).filter(|n| *n > 3) {
+    if let Some((scheme::Family::Daubechies, moments @ 4..)) = scheme::Family::named(text) {
         let message = format!("the filter of db{moments} lies in no field that is small enough here");
         let help = "`secant regularity` bounds its smoothness; db2 and db3 are curves over number fields";
         return Some(Err(Problem::new("secant::usage::wavelet", message).with_help(help)));
@@ -265,10 +265,9 @@ pub fn nothing(text: &str) -> Problem {
         format!("`{shown}` is no file, no scheme and no wavelet that is known"),
     );
     let small = name.to_lowercase();
-    let order = |prefix: &str| small.strip_prefix(prefix).and_then(|n| n.parse::<usize>().ok());
     let filter = ["sym", "coif", "bior", "rbio", "dmey"].iter().any(|family| small.starts_with(family));
     let help = match near(name) {
-        _ if ["db", "sym"].into_iter().filter_map(order).any(|n| (2..=20).contains(&n)) => {
+        _ if scheme::Family::named(&small).is_some_and(|(_, n)| (2..=20).contains(&n)) => {
             format!("the coefficients of {small} are irrational: `secant regularity {small}` bounds its smoothness")
         }
         _ if filter => format!(

@@ -59,4 +59,4 @@ pub use univariate::{
     MAX_DEGREE, bspline, dubuc_deslauriers, four_point, hormann_sabin, ternary_four_point, ternary_three_point,
 };
 pub use vertex::{LocalMatrix, MAX_POINTS, MAX_VALENCE, local_matrix, local_matrix_of};
-pub use wavelets::{moments, wavelet_mask, wavelet_names};
+pub use wavelets::{Family, wavelet_mask, wavelet_names};

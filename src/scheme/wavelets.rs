@@ -43,10 +43,31 @@ pub fn wavelet_mask(name: &str) -> Option<Vec<String>> {
     }
 }
 
-/// The number `n` of vanishing moments in the name `dbn` of a filter of Daubechies.
-#[must_use]
-pub fn moments(name: &str) -> Option<usize> {
-    name.strip_prefix("db")?.parse().ok()
+/// The orthonormal filters of Daubechies, by the roots that they take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Family {
+    /// `dbN`: those outside the unit circle (extremal phase).
+    Daubechies,
+    /// `symN`: those of the least asymmetric filters, as tables have them.
+    LeastAsymmetric,
+}
+
+impl Family {
+    /// The family and the number of vanishing moments that a name such as `db4` or `sym8` stands for.
+    #[must_use]
+    pub fn named(name: &str) -> Option<(Self, usize)> {
+        let of = |family: Self| Some((family, name.strip_prefix(family.prefix())?.parse::<usize>().ok()?));
+        of(Self::Daubechies).or_else(|| of(Self::LeastAsymmetric))
+    }
+
+    /// The letters before the number.
+    #[must_use]
+    pub fn prefix(self) -> &'static str {
+        match self {
+            Self::Daubechies => "db",
+            Self::LeastAsymmetric => "sym",
+        }
+    }
 }
 
 /// `2 ((1+z)/2)^p`.

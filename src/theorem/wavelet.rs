@@ -7,43 +7,17 @@ use crate::algebraic::roots;
 use crate::arith::{Integer, Interval, Rational, to_f64};
 use crate::poly::{Poly, factor};
 use crate::radius::Options;
+use crate::scheme::Family;
 
 /// Largest `N` handled.
 pub const MAX_MOMENTS: usize = 20;
 
-/// Which roots a filter takes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Family {
-    /// `dbN`: those outside the unit circle (extremal phase).
-    Daubechies,
-    /// `symN`: those of the least asymmetric filters, as tables have them.
-    LeastAsymmetric,
-}
-
-impl Family {
-    /// The family and the number of vanishing moments that a name such as `db4` or `sym8` stands for.
-    #[must_use]
-    pub fn named(name: &str) -> Option<(Self, usize)> {
-        let of = |prefix, family| Some((family, name.strip_prefix(prefix)?.parse::<usize>().ok()?));
-        of("db", Self::Daubechies).or_else(|| of("sym", Self::LeastAsymmetric))
-    }
-
-    /// The letters before the number.
-    #[must_use]
-    pub fn prefix(self) -> &'static str {
-        match self {
-            Self::Daubechies => "db",
-            Self::LeastAsymmetric => "sym",
-        }
-    }
-
-    /// Bit `i` says whether the roots inside the circle are taken of the group `i`: groups `r, 1/r` and their conjugates, in the order of
-    /// the angle of `y` at them, from 0 to π.
-    fn inside(self, moments: usize) -> u32 {
-        match self {
-            Self::Daubechies => 0,
-            Self::LeastAsymmetric => SYMLETS[moments - 2],
-        }
+/// Bit `i` says whether the roots inside the circle are taken of the group `i`: groups `r, 1/r` and their conjugates, in the order of
+/// the angle of `y` at them, from 0 to π.
+fn inside(family: Family, moments: usize) -> u32 {
+    match family {
+        Family::Daubechies => 0,
+        Family::LeastAsymmetric => SYMLETS[moments - 2],
     }
 }
 
@@ -59,7 +33,7 @@ const SYMLETS: [u32; MAX_MOMENTS - 1] = [0, 0, 1, 1, 2, 3, 5, 6, 10, 12, 21, 14,
 ///
 /// # Examples
 /// ```
-/// use secant::{radius::Options, theorem::wavelet::{Family, wavelet}};
+/// use secant::{radius::Options, scheme::Family, theorem::wavelet::wavelet};
 /// let found = wavelet(Family::LeastAsymmetric, 4, &Options::default()).expect("bounds");
 /// assert!(found.exponent.lo > 1);
 /// ```
@@ -97,7 +71,7 @@ fn coefficients(family: Family, moments: usize) -> Option<Vec<Interval>> {
         });
         all.extend(places.flat_map(|place| std::iter::repeat_n(place, multiplicity)));
     }
-    let inside = family.inside(moments);
+    let inside = inside(family, moments);
     for ((outside, (re, im)), group) in all.iter().zip(groups(&all)?) {
         if *outside != (inside >> group & 1 == 1) {
             q = times_linear(&q, re, im);
