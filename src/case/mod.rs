@@ -312,7 +312,8 @@ impl Case {
     }
 
     /// [`Case::expanded`], where the case has a `[scheme]` on a mesh, a polygon of several spans, a product of functions that interpolate,
-    /// or states that name schemes or are chains, which the checker does not build; the text of a member of a case with parameters: a certificate is about this text,
+    /// or states that name schemes or are chains, which the checker does not build; the text of a member of a case with parameters: a
+    /// certificate is about this text,
     /// and it is written beside it.
     #[must_use]
     pub fn beside(&self) -> Option<String> {

@@ -352,9 +352,10 @@ struct SolveArgs {
 
 #[derive(Debug, Args)]
 struct RegularityArgs {
-    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet (haar, db1 to db20, sym2 to
-    /// sym20, bior2.2, rbio2.2, …), a mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4". In two variables: a symbol
-    /// such as "(1+x)^2*(1+y)^2/4", a file with a `[mask]`, box-spline, butterfly, four-eight, loop, sqrt3 or tensor.
+    /// A case file (with a `[scheme]` or any curve), the name of a scheme, a wavelet (haar, db1 to db20, sym2 to sym20, bior2.2,
+    /// rbio2.2, …), a mask such as "1/4,3/4,3/4,1/4", also with radicals or decimals, or a symbol such as "(1+z)^3/4". In two
+    /// variables: a symbol such as "(1+x)^2*(1+y)^2/4", a file with a `[mask]`, box-spline, butterfly, four-eight, loop, sqrt3 or
+    /// tensor.
     #[arg(allow_hyphen_values = true, value_name = "CASE")]
     what: String,
     /// Parameters of the scheme before, as in `w=1/16`, and further cases (after `--` also masks that begin with a minus sign).
